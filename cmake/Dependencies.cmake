@@ -1,0 +1,39 @@
+# Everything Plotscan builds on, found once. packages.txt names the Debian packages.
+find_package(Threads REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(tinyxml2 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(TBB REQUIRED)
+find_package(assimp REQUIRED)
+find_package(CGAL REQUIRED)
+find_package(benchmark REQUIRED)
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED)
+  find_package(sdformat12 REQUIRED)
+endif()
+
+# Embree 4 where the system has it (Debian 13, Ubuntu 24.04), else Embree 3 (Debian 12).
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+
+# Random123 is headers without a package config.
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+add_library(random123 INTERFACE IMPORTED)
+target_include_directories(random123 SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
+
+# PCL's config hands out variables; behind one target its flags reach only what links it.
+# pcl_io finds VTK, whose config warns about packages that PCL does not need: hence QUIET.
+find_package(PCL 1.12 QUIET REQUIRED COMPONENTS common io filters segmentation)
+add_library(pcl INTERFACE IMPORTED)
+target_include_directories(pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(pcl INTERFACE ${PCL_COMMON_LIBRARIES} ${PCL_IO_LIBRARIES}
+  ${PCL_FILTERS_LIBRARIES} ${PCL_SEGMENTATION_LIBRARIES})
+target_compile_definitions(pcl INTERFACE ${PCL_DEFINITIONS})

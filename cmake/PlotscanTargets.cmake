@@ -1,0 +1,43 @@
+# How every library, program and test of Plotscan is declared.
+function(plotscan_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    # GCC 12 sees overlapping copies in std::string where there are none (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    $<$<BOOL:${PLOTSCAN_WERROR}>:-Werror>)
+  if(PLOTSCAN_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE})
+  endif()
+endfunction()
+
+# plotscan_library(NAME ROOT dir SOURCES ... PUBLIC ... PRIVATE ...)
+# ROOT is the folder from which headers are included: "NAME/header.h" lies in ROOT/NAME/.
+function(plotscan_library name)
+  cmake_parse_arguments(ARG "" "ROOT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_include_directories(${name} PUBLIC ${ARG_ROOT})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  plotscan_compile_options(${name})
+endfunction()
+
+# plotscan_program(NAME SOURCES ... LIBRARIES ...)
+function(plotscan_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} program)
+  plotscan_compile_options(${name})
+endfunction()
+
+# plotscan_test(NAME SOURCES ... LIBRARIES ...): one GoogleTest program, its cases found by CTest.
+function(plotscan_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    PLOTSCAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    PLOTSCAN_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
+  plotscan_compile_options(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+include(GoogleTest)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/plot_box.h"
+
+namespace plotscan::estimate {
+
+// One plot as found in, or measured from, a cloud.
+struct PlotEstimate {
+  std::uint32_t id = 0;  // from 1
+  int row = 0;           // from 1; 0 when the method has no grid
+  int column = 0;        // from 1; 0 when the method has no grid
+  PlotBox box;
+  std::size_t points = 0;  // cloud points the heights were taken from
+  std::map<std::string, double>
+      heights_m;  // by name, e.g. "raw-p99"; absent where it could not be measured
+};
+
+// What a method says of a whole field.
+struct Estimate {
+  std::string method;  // "dhami2020"
+  std::vector<PlotEstimate> plots;
+  nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
+};
+
+// Writes plots.geojson and heights.csv (docs/formats.md) into an existing folder.
+void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
+
+// Reads an estimate folder's plots.geojson; heights are its properties named height_<name>_m.
+// Throws InputError as read_plot_features does.
+Estimate read_estimate(const std::filesystem::path& folder);
+
+}  // namespace plotscan::estimate

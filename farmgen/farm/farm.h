@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/plot_box.h"
+#include "farm/mesh.h"
+#include "farm/terrain.h"
+
+namespace plotscan::farm {
+
+// A plant mesh that is placed many times. Its frame: metres, z up, origin at the stem's base.
+struct PlantModel {
+  std::string
+      name;  // unique in the farm; letters, digits, '-', '_', '.'; names its folder below models/
+  Mesh mesh;
+  double height_m = 0;  // highest vertex over the origin, measured from the mesh
+};
+
+// One placed plant: world_from_model = translation(position) * rotation * scale.
+struct Plant {
+  std::uint32_t id = 0;                                // from 1, in the order of truth/plants.csv
+  std::uint32_t plot = 0;                              // Plot::id, 0 for a plant outside every plot
+  std::uint32_t model = 0;                             // index into Farm::models
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the stem's base, world frame
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  double height_m = 0;  // highest vertex of the placed mesh minus terrain height at the stem's base
+};
+
+// The named truths of a plot's height, metres, over its plants' heights (docs/formats.md).
+struct PlotHeights {
+  double mean = 0;
+  double max = 0;
+  double p50 = 0;
+  double p90 = 0;
+  double p95 = 0;
+  double p99 = 0;
+  double hand3 = 0;  // mean of 3 plants drawn at random: the paper's field protocol
+};
+
+struct Plot {
+  std::uint32_t id = 0;  // from 1
+  int row = 0;           // from 1
+  int column = 0;        // from 1, along the row
+  PlotBox box;           // bounds the sown area
+  std::uint32_t plant_count = 0;
+  PlotHeights heights;  // all zero without plants
+};
+
+// A virtual phenotyping farm, world frame: ENU, metres, z up, origin at the farm's centre.
+struct Farm {
+  std::string name;
+  std::uint64_t seed = 0;
+  Terrain terrain;
+  std::vector<PlantModel> models;
+  std::vector<Plot> plots;
+  std::vector<Plant> plants;
+};
+
+// Reads a farm folder (docs/formats.md) from its truth/ and models/. Throws InputError when a file
+// is missing or broken, a number is not finite, or a path leaves the folder.
+Farm read_farm(const std::filesystem::path& folder);
+
+}  // namespace plotscan::farm

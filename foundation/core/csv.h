@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plotscan {
+
+// The shortest text that reads back as the same number ("0.1", "1e-07"); "" for NaN.
+std::string format_number(double value);
+
+// One line of a table while it is read: its fields by column, each error naming file, line and
+// column.
+class CsvRow {
+ public:
+  CsvRow(const std::filesystem::path& file, std::size_t line,
+         const std::vector<std::string>& columns, const std::vector<std::string_view>& fields)
+      : file_(file), line_(line), columns_(columns), fields_(fields) {}
+
+  std::string_view text(std::size_t column) const { return fields_[column]; }
+  // A finite number, or InputError.
+  double number(std::size_t column) const;
+  // A whole number in [low, high], or InputError.
+  long long integer(std::size_t column, long long low, long long high) const;
+  // InputError naming file, line and the column's name.
+  [[noreturn]] void fail(std::size_t column, const std::string& what) const;
+
+ private:
+  const std::filesystem::path& file_;
+  std::size_t line_;
+  const std::vector<std::string>& columns_;
+  const std::vector<std::string_view>& fields_;
+};
+
+// A comma-separated table with a header line, without quoted fields; '#' lines and empty lines are
+// passed over. Calls `row` for each line with its fields in the order of `columns` (then of
+// `optional_columns`, whose fields are
+// "" where the table lacks them), whatever their order in the file. Throws InputError on a missing
+// file or column, an unknown column, or a line with another number of fields.
+void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
+              const std::vector<std::string>& optional_columns,
+              const std::function<void(const CsvRow&)>& row);
+
+}  // namespace plotscan

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/manifest.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include <xxhash.h>
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::string version() { return PLOTSCAN_VERSION; }
+
+std::string file_hash(const fs::path& path) {
+  require_file(path);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                       &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::ifstream in(path, std::ios::binary);
+  std::vector<char> buffer(1 << 20);
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+    XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
+  }
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : canonical.digest) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+void write_manifest(const fs::path& folder, const Manifest& manifest) {
+  nlohmann::ordered_json document;
+  document["plotscan"] = version();
+  document["command"] = manifest.command;
+  document["seed"] = manifest.seed;
+  document["options"] = manifest.options;
+  document["results"] = manifest.results;
+  document["hash"] = "xxh128";
+  document["inputs"] = nlohmann::json::array();
+  for (const fs::path& input : manifest.inputs) {
+    document["inputs"].push_back({{"file", input.filename().string()}, {"hash", file_hash(input)}});
+  }
+  document["outputs"] = nlohmann::json::array();
+  for (const fs::path& file : files_below(folder)) {
+    document["outputs"].push_back(
+        {{"file", file.generic_string()}, {"hash", file_hash(folder / file)}});
+  }
+  std::ofstream out(folder / "manifest.json");
+  out << document.dump(1) << '\n';
+  if (!out.flush()) throw InputError(folder / "manifest.json", "cannot be written");
+}
+
+nlohmann::json read_manifest(const fs::path& folder) {
+  const fs::path path = folder / "manifest.json";
+  if (!fs::exists(path))
+    throw InputError(folder, "not a folder written by plotscan (it has no manifest.json)");
+  try {
+    return nlohmann::json::parse(read_text(path));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path, std::string("not JSON: ") + error.what());
+  }
+}
+
+}  // namespace plotscan

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace plotscan {
+
+// The version of Plotscan, "major.minor.patch".
+std::string version();
+
+// XXH3 128-bit hash of a file's bytes as 32 hexadecimal digits: what `xxh128sum FILE` prints.
+std::string file_hash(const std::filesystem::path& path);
+
+// What a run was made of, so that it can be repeated. Nothing in it depends on the clock, the
+// machine or the number of threads: the same input gives the same manifest.
+struct Manifest {
+  std::string command;  // "farmgen generate"
+  std::uint64_t seed = 0;
+  nlohmann::json options = nlohmann::json::object();
+  std::vector<std::filesystem::path> inputs;  // files read, hashed when the manifest is written
+  nlohmann::json results =
+      nlohmann::json::object();  // counts worth knowing without opening the files
+};
+
+// Writes folder/manifest.json with version, command, seed, options, the inputs' names and hashes,
+// and the hash of every file in `folder`.
+void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+
+// Throws InputError when the folder has no manifest.json that can be parsed.
+nlohmann::json read_manifest(const std::filesystem::path& folder);
+
+}  // namespace plotscan

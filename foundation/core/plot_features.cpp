@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plot_features.h"
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegrees = std::numbers::pi / 180;
+// A polygon whose opposite sides differ by more than this share of their length is not a plot's
+// rectangle.
+constexpr double kRectangleTolerance = 0.05;
+
+json ring_of(const PlotBox& box) {
+  json ring = json::array();
+  for (const Eigen::Vector2d& corner : box.corners()) ring.push_back({corner.x(), corner.y()});
+  ring.push_back(ring.front());
+  return ring;
+}
+
+json feature_of(const PlotFeature& plot) {
+  json properties = plot.properties;
+  properties["center_x_m"] = plot.box.center.x();
+  properties["center_y_m"] = plot.box.center.y();
+  properties["width_m"] = plot.box.width_m;
+  properties["length_m"] = plot.box.length_m;
+  properties["heading_deg"] = plot.box.heading_rad / kDegrees;
+  return {{"type", "Feature"},
+          {"geometry", {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box)})}}},
+          {"properties", properties}};
+}
+
+bool has_exact_box(const json& properties) {
+  for (const char* name : {"center_x_m", "center_y_m", "width_m", "length_m", "heading_deg"}) {
+    if (!properties.contains(name) || !properties[name].is_number()) return false;
+  }
+  return true;
+}
+
+PlotBox exact_box(const json& properties) {
+  return {
+      .center = {properties["center_x_m"].get<double>(), properties["center_y_m"].get<double>()},
+      .width_m = properties["width_m"].get<double>(),
+      .length_m = properties["length_m"].get<double>(),
+      .heading_rad = properties["heading_deg"].get<double>() * kDegrees};
+}
+
+bool nearly_equal(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a - b).norm() <= kRectangleTolerance * std::max(a.norm(), b.norm());
+}
+
+PlotBox rectangle_of(const json& ring, const std::string& which) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const json& position : ring)
+    corners.emplace_back(position.at(0).get<double>(), position.at(1).get<double>());
+  if (corners.size() == 5 && corners.front() == corners.back()) corners.pop_back();
+  if (corners.size() != 4)
+    throw InputError(which + " has " + std::to_string(corners.size()) + " corners; a plot has 4");
+  const Eigen::Vector2d side = corners[1] - corners[0];
+  const Eigen::Vector2d other = corners[2] - corners[1];
+  const bool square_corners =
+      std::abs(side.dot(other)) <= kRectangleTolerance * side.norm() * other.norm();
+  if (!square_corners || !nearly_equal(side, corners[2] - corners[3]) ||
+      !nearly_equal(other, corners[3] - corners[0])) {
+    throw InputError(which + " is not a rectangle");
+  }
+  const bool side_is_length = side.norm() >= other.norm();
+  const Eigen::Vector2d length = side_is_length ? side : other;
+  const Eigen::Vector2d width = side_is_length ? other : side;
+  return {.center = (corners[0] + corners[1] + corners[2] + corners[3]) / 4,
+          .width_m = width.norm(),
+          .length_m = length.norm(),
+          .heading_rad = wrap_heading(std::atan2(length.y(), length.x()))};
+}
+
+void require_sound(const PlotBox& box, const std::string& which) {
+  const bool finite = box.center.allFinite() && std::isfinite(box.width_m) &&
+                      std::isfinite(box.length_m) && std::isfinite(box.heading_rad);
+  if (!finite || box.width_m <= 0 || box.length_m <= 0) {
+    throw InputError(which + " has no finite box of positive width and length");
+  }
+}
+
+PlotFeature read_feature(const json& feature, const std::string& which) {
+  PlotFeature plot;
+  if (feature.contains("properties") && feature["properties"].is_object())
+    plot.properties = feature["properties"];
+  plot.box = has_exact_box(plot.properties)
+                 ? exact_box(plot.properties)
+                 : rectangle_of(feature.at("geometry").at("coordinates").at(0), which);
+  require_sound(plot.box, which);
+  return plot;
+}
+
+}  // namespace
+
+void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots) {
+  json features = json::array();
+  for (const PlotFeature& plot : plots) features.push_back(feature_of(plot));
+  const json document = {{"type", "FeatureCollection"},
+                         {"coordinate_system", "local metres, x east, y north; not WGS84"},
+                         {"features", features}};
+  std::ofstream out(path);
+  out << document.dump(1) << '\n';
+  if (!out.flush()) throw InputError(path, "cannot be written");
+}
+
+std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
+  try {
+    const json document = json::parse(read_text(path));
+    std::vector<PlotFeature> plots;
+    for (const json& feature : document.at("features")) {
+      plots.push_back(
+          read_feature(feature, path.string() + ": feature " + std::to_string(plots.size() + 1)));
+    }
+    return plots;
+  } catch (const json::exception& error) {
+    throw InputError(path,
+                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+  }
+}
+
+}  // namespace plotscan

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/plot_box.h"
+
+namespace plotscan {
+
+// One plot of a plots.geojson: its box and its attributes. `properties` holds what the writer knows
+// of the plot beyond the box: "plot" (id, from 1), "row", "column" (from 1), heights such as
+// "height_max_m".
+struct PlotFeature {
+  PlotBox box;
+  nlohmann::json properties = nlohmann::json::object();
+};
+
+// GeoJSON (RFC 7946 layout) FeatureCollection, one Polygon a plot, in local metres: the file says
+// so in a "coordinate_system" member, as RFC 7946 section 4 allows by prior arrangement. Each
+// feature also carries its box exactly: center_x_m, center_y_m, width_m, length_m, heading_deg.
+void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots);
+
+// Reads what write_plot_features writes, and any FeatureCollection of four-cornered polygons (from
+// QGIS, say): there the box is the rectangle with the polygon's centroid and mean side lengths,
+// length the longer side. Throws InputError on a missing file, broken JSON, a polygon that is no
+// near-rectangle, a non-finite number.
+std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path);
+
+}  // namespace plotscan

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/progress.h"
+
+namespace plotscan {
+
+// The options that every command of every program takes.
+struct CommonOptions {
+  std::uint64_t seed = 1;  // --seed
+  int threads = 0;  // -j/--threads; set to the machine's number of processors before a command runs
+  int verbosity = 0;  // -v: 1 and more, -q: -1
+  bool json = false;  // --json: one JSON document on stdout in place of text
+};
+
+// One command-line program with sub-commands. A program's main.cpp declares its commands, each of
+// which calls one function of a library:
+//
+//   int main(int argc, char** argv) {
+//     Program program("farmgen", "Generate virtual phenotyping farms.");
+//     GenerateArguments arguments;
+//     CLI::App& generate = program.command("generate", "Generate a farm.", [&] {
+//     run_generate(program, arguments); }); generate.add_option("FARM", arguments.farm, "farm
+//     description (YAML)")->required(); return program.run(argc, argv);
+//   }
+//
+// Exit codes: 0 done, 2 bad input or usage (InputError, CLI11's parse errors), 1 anything else.
+class Program {
+ public:
+  Program(std::string name, const std::string& description);
+
+  // Adds a sub-command with the common options; `run` is called when it is chosen.
+  CLI::App& command(const std::string& name, const std::string& description,
+                    std::function<void()> run);
+
+  int run(int argc, char** argv);
+
+  const CommonOptions& common() const { return common_; }
+
+  // A line for the person at the terminal, on stdout; silent with --json or -q.
+  void say(const std::string& line) const;
+  // What --json prints: the command's whole result. Call it once.
+  void result(const nlohmann::json& document) const;
+  // A progress bar with the time left on stderr, when that is a terminal and -q and --json are
+  // absent; else an empty report.
+  ProgressReport progress(const std::string& label) const;
+
+ private:
+  int guarded_run(int argc, char** argv);
+
+  std::string name_;
+  CLI::App app_;
+  CommonOptions common_;
+  int quiet_ = 0;
+};
+
+}  // namespace plotscan

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace plotscan::scan {
+
+// Receives a cloud's positions piece by piece, in the file's order, world frame, metres.
+using PositionSink = std::function<void(std::span<const Eigen::Vector3d>)>;
+
+// What was read.
+struct CloudSummary {
+  std::size_t points = 0;      // handed to the sink
+  std::size_t not_finite = 0;  // left out: a coordinate was NaN or infinite
+};
+
+// Streams the x, y, z of a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary) cloud,
+// whatever other fields it has. Nothing but positions is handed on, so that an estimator cannot see
+// labels. Binary PCD is read in constant memory. Throws InputError (file, what is wrong) on a
+// missing, foreign, truncated or empty cloud.
+CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink);
+
+}  // namespace plotscan::scan

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/csv.h"
+
+#include <cmath>
+
+#include "temporary_folder.h"
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+using testing::message_of;
+
+TEST(Csv, FindsColumnsByNameAndFillsOptionalOnes) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("t.csv", "# note\nb,a\r\n 2 ,x\r\n\n-1.5e3,y\n");
+  std::vector<double> numbers;
+  std::string names;
+  read_csv(file, {"a", "b"}, {"c"}, [&](const CsvRow& row) {
+    names += row.text(0);
+    numbers.push_back(row.number(1));
+    EXPECT_EQ(row.text(2), "");
+  });
+  EXPECT_EQ(names, "xy");
+  EXPECT_EQ(numbers, (std::vector<double>{2, -1500}));
+}
+
+TEST(Csv, SaysWhichFileLineAndColumnIsWrong) {
+  const testing::TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    read_csv(folder.write("t.csv", text), {"a", "n"}, {},
+             [](const CsvRow& row) { row.integer(1, 0, 9); });
+  };
+  const auto message = [&](const std::string& text) {
+    return message_of<InputError>([&] { read(text); });
+  };
+  const std::string file = (folder.path() / "t.csv").string();
+  EXPECT_EQ(message("a,n\nx,1\nx,one\n"), file + ":3: n \"one\" is not a whole number");
+  EXPECT_EQ(message("a,n\nx,10\n"), file + ":2: n \"10\" is not in [0, 9]");
+  EXPECT_EQ(message("a,n\nx\n"), file + ":2: has 1 fields; the header names 2");
+  EXPECT_EQ(message("a,b\n"), file + ":1: column \"n\" is missing");
+  EXPECT_EQ(message("a,n,z\n"), file + ":1: unknown column \"z\"; known are a,n");
+  EXPECT_EQ(message(""), file + ": is empty; the header line a,n is expected");
+}
+
+TEST(Csv, RefusesNumbersThatAreNotFinite) {
+  const testing::TemporaryFolder folder;
+  for (const char* field : {"nan", "inf", "", "1x"}) {
+    const auto file = folder.write("t.csv", std::string("a,b\n1,") + field + "\n");
+    EXPECT_THROW(read_csv(file, {"a", "b"}, {}, [](const CsvRow& row) { row.number(1); }),
+                 InputError)
+        << field;
+  }
+}
+
+TEST(FormatNumber, ReadsBackTheSame) {
+  for (const double value : {0.1, -1.0 / 3, 1e-300, 123456789.123456789}) {
+    EXPECT_EQ(std::stod(format_number(value)), value);
+  }
+  EXPECT_EQ(format_number(std::nan("")), "");
+}
+
+}  // namespace
+}  // namespace plotscan

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/error.h"
+
+#include "temporary_folder.h"
+
+namespace plotscan {
+namespace {
+
+TEST(InputError, NamesFileAndLine) {
+  EXPECT_STREQ(InputError("farm.yaml", 7, "bad").what(), "farm.yaml:7: bad");
+}
+
+TEST(PathInside, RefusesToLeaveItsFolder) {
+  EXPECT_EQ(path_inside("farm", "models/a/../b", "x"), "farm/models/b");
+  EXPECT_THROW(path_inside("farm", "../secret", "x"), InputError);
+  EXPECT_THROW(path_inside("farm", "models/../../secret", "x"), InputError);
+  EXPECT_THROW(path_inside("farm", "/etc/passwd", "x"), InputError);
+  EXPECT_THROW(path_inside("farm", "", "x"), InputError);
+}
+
+TEST(ReadText, RefusesMissingFilesAndFolders) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EQ(read_text(folder.write("a.txt", "line\n")), "line\n");
+  EXPECT_THROW(read_text(folder.path() / "absent"), InputError);
+  EXPECT_THROW(read_text(folder.path()), InputError);
+}
+
+TEST(Check, ThrowsWhenFalse) {
+  EXPECT_NO_THROW(check(true, "fine"));
+  EXPECT_THROW(check(false, "broken"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace plotscan

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plot_features.h"
+
+#include "temporary_folder.h"
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+TEST(PlotFeatures, ComeBackAsWritten) {
+  const testing::TemporaryFolder folder;
+  const PlotFeature plot{
+      .box = {.center = {1.5, -2.25}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.7},
+      .properties = {{"plot", 7}, {"height_max_m", 0.61}}};
+  write_plot_features(folder.path() / "plots.geojson", {plot});
+  const auto read = read_plot_features(folder.path() / "plots.geojson");
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].box.center, plot.box.center);
+  EXPECT_NEAR(intersection_over_union(read[0].box, plot.box), 1, 1e-12);
+  EXPECT_EQ(read[0].properties["plot"], 7);
+  EXPECT_EQ(read[0].properties["height_max_m"], 0.61);
+}
+
+constexpr const char* kForeign =
+    R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": null,
+  "geometry": {"type": "Polygon", "coordinates": [[%s]]}}]})";
+
+std::string foreign(const std::string& ring) {
+  std::string text = kForeign;
+  return text.replace(text.find("%s"), 2, ring);
+}
+
+TEST(PlotFeatures, ReadsABareRectangle) {
+  const testing::TemporaryFolder folder;
+  const auto plots =
+      read_plot_features(folder.write("q.geojson", foreign("[0,0],[0,3],[-1,3],[-1,0],[0,0]")));
+  ASSERT_EQ(plots.size(), 1u);
+  EXPECT_NEAR(plots[0].box.length_m, 3, 1e-12);
+  EXPECT_NEAR(plots[0].box.width_m, 1, 1e-12);
+  EXPECT_NEAR(plots[0].box.heading_rad, std::acos(0.0), 1e-12);
+  EXPECT_NEAR(plots[0].box.center.x(), -0.5, 1e-12);
+}
+
+TEST(PlotFeatures, RefusesWhatIsNoPlot) {
+  const testing::TemporaryFolder folder;
+  const auto refused = [&](const std::string& text) {
+    EXPECT_THROW(read_plot_features(folder.write("bad.geojson", text)), InputError) << text;
+  };
+  refused("not json");
+  refused("{}");
+  refused(foreign("[0,0],[0,3],[-1,3],[0,0]"));
+  refused(foreign("[0,0],[1,3],[-1,3],[-1,0],[0,0]"));
+  refused(foreign("[0,0],[0,\"3\"],[-1,3],[-1,0],[0,0]"));
+  EXPECT_THROW(read_plot_features(folder.path() / "absent.geojson"), InputError);
+}
+
+}  // namespace
+}  // namespace plotscan
