@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scan/cloud_reader.h"
+
+#include <charconv>
+#include <sstream>
+
+#include "core/error.h"
+#include "scan/cloud_layout.h"
+
+namespace plotscan::scan {
+namespace {
+
+constexpr std::size_t kMaxHeaderLine = std::size_t{1} << 16;
+
+enum class CloudFormat { pcd, ply };
+
+// By content, since names lie: PLY begins with its name, PCD with a comment or a header entry.
+CloudFormat cloud_format(const std::filesystem::path& file) {
+  require_file(file);
+  std::ifstream in(file, std::ios::binary);
+  std::string start(7, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return CloudFormat::ply;
+  if (start.starts_with("#") || start.starts_with("VERSION") || start.starts_with("FIELDS") ||
+      start.starts_with("COLUMNS"))
+    return CloudFormat::pcd;
+  throw InputError(file, start.empty() ? "is empty; a PCD or PLY cloud is expected"
+                                       : "is neither a PCD nor a PLY cloud");
+}
+
+}  // namespace
+
+HeaderLines::HeaderLines(const std::filesystem::path& file)
+    : file_(file), in_(file, std::ios::binary) {}
+
+const std::vector<std::string>& HeaderLines::next() {
+  std::string text;
+  ++line_;
+  for (;;) {
+    const int c = in_.get();
+    if (c == std::ifstream::traits_type::eof()) fail("the file ends inside its header");
+    ++offset_;
+    if (c == '\n') break;
+    if (text.size() == kMaxHeaderLine) fail("a header line is too long; the header is broken");
+    text.push_back(static_cast<char>(c));
+  }
+  words_.clear();
+  std::istringstream in(text);
+  for (std::string word; in >> word;) words_.push_back(word);
+  return words_;
+}
+
+void HeaderLines::fail(const std::string& what) const { throw InputError(file_, line_, what); }
+
+std::uint64_t HeaderLines::whole_number(const std::string& word, std::uint64_t low,
+                                        std::uint64_t high) const {
+  std::uint64_t value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stopped, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stopped != end || value < low || value > high) {
+    fail("\"" + word + "\" must be a whole number in [" + std::to_string(low) + ", " +
+         std::to_string(high) + "]");
+  }
+  return value;
+}
+
+CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink) {
+  const CloudLayout layout =
+      cloud_format(cloud) == CloudFormat::ply ? read_ply_header(cloud) : read_pcd_header(cloud);
+  if (layout.points == 0) throw InputError(cloud, "the cloud is empty: its header says 0 points");
+  const CloudSummary summary = read_body(cloud, layout, sink);
+  if (summary.points == 0) throw InputError(cloud, "no point of the cloud has finite x, y and z");
+  return summary;
+}
+
+}  // namespace plotscan::scan

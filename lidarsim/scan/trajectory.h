@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace plotscan::scan {
+
+struct StampedPose {
+  double time_s = 0;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();          // world frame
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // world_from_body
+};
+
+// Where the body is at any time: linear in position, slerp in attitude (Shoemake 1985) between
+// stamped poses, the shorter way round.
+class Trajectory {
+ public:
+  // Normalises the attitudes. Throws InputError on fewer than two poses, times that do not strictly
+  // increase, a number that is not finite, or an attitude whose norm is not 1 within 0.01.
+  explicit Trajectory(std::vector<StampedPose> poses);
+
+  const std::vector<StampedPose>& poses() const { return poses_; }
+  double start_s() const { return poses_.front().time_s; }
+  double end_s() const { return poses_.back().time_s; }
+  // i such that poses()[i].time_s <= time_s < poses()[i + 1].time_s; the first or last segment
+  // outside the trajectory.
+  std::size_t segment(double time_s) const;
+  // Held at the first and last pose outside the trajectory.
+  Eigen::Isometry3d world_from_body(double time_s) const;
+
+ private:
+  std::vector<StampedPose> poses_;
+};
+
+// What is wrong with a pose that follows one at `previous_s` (-infinity for the first); "" when
+// nothing is.
+std::string pose_error(const StampedPose& pose, double previous_s);
+
+// Reads the TUM format (one "t x y z qx qy qz qw" a line, '#' comments; seconds, metres) or a
+// scan's trajectory.csv. Throws InputError naming file and line where the constructor above would.
+Trajectory read_trajectory(const std::filesystem::path& file);
+
+// Header t_s,x_m,y_m,z_m,qx,qy,qz,qw; every number reads back as the same double.
+void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory);
+
+}  // namespace plotscan::scan

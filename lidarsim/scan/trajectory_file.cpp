@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::scan {
+namespace {
+
+constexpr std::size_t kColumns = 8;
+
+const std::vector<std::string>& columns() {
+  static const std::vector<std::string> names = {"t_s", "x_m", "y_m", "z_m",
+                                                 "qx",  "qy",  "qz",  "qw"};
+  return names;
+}
+
+StampedPose pose_from(const std::array<double, kColumns>& v) {
+  return {.time_s = v[0],
+          .position_m = {v[1], v[2], v[3]},
+          .attitude = Eigen::Quaterniond(v[7], v[4], v[5], v[6])};
+}
+
+double parse_number(const std::filesystem::path& file, std::size_t line, const std::string& word) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const char* begin = word.starts_with('+') ? word.data() + 1 : word.data();
+  const auto [stopped, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stopped != end)
+    throw InputError(file, line, "\"" + word + "\" is not a number");
+  return value;
+}
+
+std::vector<StampedPose> read_tum(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<StampedPose> poses;
+  double previous_s = -std::numeric_limits<double>::infinity();
+  std::size_t line_number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++line_number;
+    std::istringstream words(line);
+    std::array<double, kColumns> values{};
+    std::size_t count = 0;
+    for (std::string word; words >> word; ++count) {
+      if (count == 0 && word.starts_with('#')) break;
+      if (count < kColumns) values[count] = parse_number(file, line_number, word);
+    }
+    if (count == 0) continue;
+    if (count != kColumns) {
+      throw InputError(
+          file, line_number,
+          "has " + std::to_string(count) + " numbers; the 8 of t x y z qx qy qz qw are expected");
+    }
+    const StampedPose pose = pose_from(values);
+    const std::string error = pose_error(pose, previous_s);
+    if (!error.empty()) throw InputError(file, line_number, error);
+    previous_s = pose.time_s;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+std::vector<StampedPose> read_trajectory_csv(const std::filesystem::path& file) {
+  std::vector<StampedPose> poses;
+  double previous_s = -std::numeric_limits<double>::infinity();
+  read_csv(file, columns(), {}, [&](const CsvRow& row) {
+    std::array<double, kColumns> values{};
+    for (std::size_t i = 0; i < kColumns; ++i) values[i] = row.number(i);
+    const StampedPose pose = pose_from(values);
+    const std::string error = pose_error(pose, previous_s);
+    if (!error.empty()) row.fail(0, ": " + error);
+    previous_s = pose.time_s;
+    poses.push_back(pose);
+  });
+  return poses;
+}
+
+// A trajectory.csv has commas; TUM text has none outside its comments.
+bool has_commas(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first != std::string::npos && line[first] != '#')
+      return line.find(',') != std::string::npos;
+  }
+  return false;
+}
+
+}  // namespace
+
+Trajectory read_trajectory(const std::filesystem::path& file) {
+  require_file(file);
+  std::vector<StampedPose> poses = has_commas(file) ? read_trajectory_csv(file) : read_tum(file);
+  if (poses.size() < 2)
+    throw InputError(file, "a trajectory needs at least two poses; the file has " +
+                               std::to_string(poses.size()));
+  return Trajectory(std::move(poses));
+}
+
+void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::ofstream out(file, std::ios::binary);
+  out << "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
+  for (const StampedPose& pose : trajectory.poses()) {
+    const Eigen::Vector3d& p = pose.position_m;
+    const Eigen::Quaterniond& q = pose.attitude;
+    const std::array<double, kColumns> values = {pose.time_s, p.x(), p.y(), p.z(),
+                                                 q.x(),       q.y(), q.z(), q.w()};
+    for (std::size_t i = 0; i < kColumns; ++i)
+      out << format_number(values[i]) << (i + 1 < kColumns ? ',' : '\n');
+  }
+  if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
+}
+
+}  // namespace plotscan::scan

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scan/cloud_reader.h"
+
+#include <limits>
+#include <vector>
+
+#include "temporary_folder.h"
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+#include <pcl/point_types.h>
+
+namespace plotscan::scan {
+namespace {
+
+using testing::TemporaryFolder;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Read {
+  CloudSummary summary;
+  std::vector<Eigen::Vector3d> positions;
+};
+
+Read read(const std::filesystem::path& file) {
+  Read result;
+  result.summary = read_positions(file, [&](std::span<const Eigen::Vector3d> piece) {
+    result.positions.insert(result.positions.end(), piece.begin(), piece.end());
+  });
+  return result;
+}
+
+// More points than one chunk holds, of a type with fields around x y z.
+template <class Point>
+pcl::PointCloud<Point> pcl_cloud(std::size_t size = 20001) {
+  pcl::PointCloud<Point> cloud;
+  for (std::size_t i = 0; i < size; ++i) {
+    Point point;
+    point.x = 0.25f * static_cast<float>(i);
+    point.y = -1.0f / static_cast<float>(i + 1);
+    point.z = static_cast<float>(i % 7);
+    cloud.push_back(point);
+  }
+  return cloud;
+}
+
+template <class Point>
+void expect_same(const Read& read, const pcl::PointCloud<Point>& cloud, double tolerance = 0) {
+  ASSERT_EQ(read.positions.size(), cloud.size());
+  EXPECT_EQ(read.summary.points, cloud.size());
+  EXPECT_EQ(read.summary.not_finite, 0u);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d expected = cloud[i].getVector3fMap().template cast<double>();
+    ASSERT_LE((read.positions[i] - expected).norm(), tolerance) << "point " << i;
+  }
+}
+
+TEST(CloudReader, ReadsPclsBinaryPcd) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.pcd";
+  const auto cloud = pcl_cloud<pcl::PointXYZINormal>();
+  pcl::io::savePCDFileBinary(file.string(), cloud);
+  expect_same(read(file), cloud);
+}
+
+TEST(CloudReader, ReadsPclsAsciiPcd) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.pcd";
+  const auto cloud = pcl_cloud<pcl::PointXYZI>();
+  pcl::PCDWriter().writeASCII(file.string(), cloud, 9);
+  expect_same(read(file), cloud, 1e-5);  // nine digits of up to 5000
+}
+
+TEST(CloudReader, ReadsPclsCompressedPcd) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.pcd";
+  const auto cloud = pcl_cloud<pcl::PointXYZRGBNormal>();
+  pcl::io::savePCDFileBinaryCompressed(file.string(), cloud);
+  expect_same(read(file), cloud);
+}
+
+TEST(CloudReader, ReadsPclsBinaryPly) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.ply";
+  const auto cloud = pcl_cloud<pcl::PointXYZINormal>();
+  pcl::PLYWriter().write(file.string(), cloud, true);
+  expect_same(read(file), cloud);
+}
+
+TEST(CloudReader, ReadsPclsAsciiPly) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.ply";
+  const auto cloud = pcl_cloud<pcl::PointXYZI>();
+  pcl::PLYWriter().write(file.string(), cloud, false);
+  expect_same(read(file), cloud, 1e-3);  // PCL writes six digits
+}
+
+TEST(CloudReader, GoesByContentNotByName) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cloud.pcd";
+  const auto cloud = pcl_cloud<pcl::PointXYZ>(10);
+  pcl::PLYWriter().write(file.string(), cloud, true);
+  expect_same(read(file), cloud);
+}
+
+// Doubles at odd offsets, behind a field of three elements and before a byte.
+TEST(CloudReader, ReadsDoublesAtAnyOffset) {
+  const TemporaryFolder folder;
+  std::string body;
+  const std::vector<Eigen::Vector3d> expected = {{1e6 + 1e-7, -2, 3}, {4, 5e-300, 6}};
+  for (const Eigen::Vector3d& p : expected) {
+    body += "abc";
+    for (const int axis : {2, 0, 1}) {
+      const double value = p[axis];
+      body.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    body += 'd';
+  }
+  const auto file =
+      folder.write("cloud.pcd",
+                   "VERSION .7\nFIELDS tag z x y end\nSIZE 1 8 8 8 1\nTYPE U F F F U\n"
+                   "COUNT 3 1 1 1 1\nWIDTH 1\nHEIGHT 2\nDATA binary\n" +
+                       body);
+  EXPECT_EQ(read(file).positions, expected);
+}
+
+TEST(CloudReader, ReadsBigEndianPly) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "cloud.ply",
+      std::string("ply\r\nformat binary_big_endian 1.0\r\ncomment one\r\nelement vertex 1\r\n"
+                  "property uchar r\r\nproperty float x\r\nproperty float y\r\n"
+                  "property double z\r\nelement face 0\r\n"
+                  "property list uchar int vertex_indices\r\nend_header\r\n") +
+          std::string("\x07\x3f\xc0\0\0\xc0\0\0\0\x40\x09\0\0\0\0\0\0", 17));
+  const Read result = read(file);
+  ASSERT_EQ(result.positions.size(), 1u);
+  EXPECT_EQ(result.positions[0], Eigen::Vector3d(1.5, -2.0, 3.125));
+}
+
+TEST(CloudReader, CountsPointsThatAreNotFinite) {
+  const TemporaryFolder folder;
+  auto cloud = pcl_cloud<pcl::PointXYZ>(5);
+  cloud[1].y = kNan;
+  cloud[3].z = std::numeric_limits<float>::infinity();
+  for (const bool binary : {true, false}) {
+    const auto file = folder.path() / "cloud.pcd";
+    pcl::io::savePCDFile(file.string(), cloud, binary);
+    const Read result = read(file);
+    EXPECT_EQ(result.summary.points, 3u);
+    EXPECT_EQ(result.summary.not_finite, 2u);
+    ASSERT_EQ(result.positions.size(), 3u);
+    EXPECT_EQ(result.positions[1].x(), cloud[2].x);
+  }
+}
+
+}  // namespace
+}  // namespace plotscan::scan

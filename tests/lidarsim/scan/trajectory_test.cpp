@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scan/trajectory.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace plotscan::scan {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+Eigen::Quaterniond about_z(double angle_rad) {
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()));
+}
+
+TEST(Trajectory, IsLinearInPositionAndTurnsEvenly) {
+  const Trajectory trajectory({{.time_s = 1, .position_m = {0, 0, 8}, .attitude = about_z(0.2)},
+                               {.time_s = 3, .position_m = {4, -2, 9}, .attitude = about_z(1.4)},
+                               {.time_s = 4, .position_m = {4, 0, 9}, .attitude = about_z(1.4)}});
+  for (const double share : {0.0, 0.1, 0.5, 0.75}) {
+    const Eigen::Isometry3d pose = trajectory.world_from_body(1 + 2 * share);
+    EXPECT_LT((pose.translation() - Eigen::Vector3d(4 * share, -2 * share, 8 + share)).norm(),
+              1e-12);
+    const double angle = 0.2 + 1.2 * share;  // slerp about one axis is even in the angle
+    EXPECT_LT((pose.linear() - about_z(angle).toRotationMatrix()).norm(), 1e-12);
+  }
+  EXPECT_LT((trajectory.world_from_body(3.5).translation() - Eigen::Vector3d(4, -1, 9)).norm(),
+            1e-12);
+}
+
+TEST(Trajectory, TurnsTheShorterWay) {
+  Eigen::Quaterniond opposite = about_z(0.4);
+  opposite.coeffs() *= -1;  // the same attitude by the other sign
+  const Trajectory trajectory({{.time_s = 0}, {.time_s = 1, .attitude = opposite}});
+  EXPECT_LT((trajectory.world_from_body(0.5).linear() - about_z(0.2).toRotationMatrix()).norm(),
+            1e-12);
+}
+
+TEST(Trajectory, IsHeldAtItsEnds) {
+  const Trajectory trajectory(
+      {{.time_s = 1, .position_m = {1, 0, 0}}, {.time_s = 2, .position_m = {2, 0, 0}}});
+  EXPECT_EQ(trajectory.world_from_body(-5).translation().x(), 1);
+  EXPECT_EQ(trajectory.world_from_body(50).translation().x(), 2);
+  EXPECT_EQ(trajectory.segment(-5), 0u);
+  EXPECT_EQ(trajectory.segment(2), 0u);
+}
+
+TEST(Trajectory, ReadsTum) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("flight.tum",
+                                 "# t x y z qx qy qz qw\n\n"
+                                 "0 1 2 3 0 0 0.70711 0.70711\n"
+                                 "  0.5\t-1 2e1 +3 0 0 0 1\r\n");
+  const Trajectory trajectory = read_trajectory(file);
+  ASSERT_EQ(trajectory.poses().size(), 2u);
+  EXPECT_EQ(trajectory.poses()[1].position_m, Eigen::Vector3d(-1, 20, 3));
+  const Eigen::Isometry3d first = trajectory.world_from_body(0);
+  EXPECT_LT((first.linear() - about_z(std::numbers::pi / 2).toRotationMatrix()).norm(), 1e-12);
+}
+
+TEST(Trajectory, WhatIsWrittenReadsBackTheSame) {
+  const TemporaryFolder folder;
+  const Trajectory written({{.time_s = 0.1, .position_m = {1.0 / 3, -1e-9, 1e5}},
+                            {.time_s = 0.11, .attitude = about_z(1)}});
+  const auto file = folder.path() / "trajectory.csv";
+  write_trajectory(file, written);
+  const Trajectory read = read_trajectory(file);
+  ASSERT_EQ(read.poses().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.poses()[i].time_s, written.poses()[i].time_s);
+    EXPECT_EQ(read.poses()[i].position_m, written.poses()[i].position_m);
+    EXPECT_LT((read.poses()[i].attitude.coeffs() - written.poses()[i].attitude.coeffs()).norm(),
+              1e-15);
+  }
+}
+
+std::string refusal(const std::string& text) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("flight", text);
+  return message_of<InputError>([&] { read_trajectory(file); });
+}
+
+TEST(Trajectory, BrokenFilesAreRefusedByLine) {
+  const std::string first = "0 0 0 8 0 0 0 1\n";
+  EXPECT_THAT(refusal(""), HasSubstr("at least two poses; the file has 0"));
+  EXPECT_THAT(refusal(first), HasSubstr("the file has 1"));
+  EXPECT_THAT(refusal(first + first), HasSubstr("flight:2: time 0 s is not after"));
+  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 1\n"), HasSubstr("flight:2: has 7 numbers"));
+  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 0 1 9\n"), HasSubstr("has 9 numbers"));
+  EXPECT_THAT(refusal(first + "1 0 0 up 0 0 0 1\n"), HasSubstr("\"up\" is not a number"));
+  EXPECT_THAT(refusal(first + "1 0 0 nan 0 0 0 1\n"), HasSubstr("not finite"));
+  EXPECT_THAT(refusal("inf 0 0 8 0 0 0 1\n"), HasSubstr("not finite"));
+  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 0 0\n"), HasSubstr("quaternion norm 0 is not 1"));
+  EXPECT_THAT(refusal(first + "1 0 0 8 1 0 0 1\n"), HasSubstr("flight:2: quaternion norm 1.41"));
+  const std::string header = "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
+  EXPECT_THAT(refusal(header + "0,0,0,8,0,0,0,1\n0,0,0,8,0,0,0,1\n"), HasSubstr("flight:3: "));
+  EXPECT_THAT(refusal(header + "0,0,0,8,0,0,0\n"), HasSubstr("flight:2: has 7 fields"));
+}
+
+TEST(Trajectory, BrokenPosesAreRefused) {
+  EXPECT_THROW(Trajectory(std::vector<StampedPose>(1)), InputError);
+  EXPECT_THROW(Trajectory({{.time_s = 1}, {.time_s = 0}}), InputError);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Trajectory({{.time_s = 0}, {.time_s = nan}}), InputError);
+  EXPECT_THROW(Trajectory({{.time_s = 0}, {.time_s = 1, .position_m = {0, nan, 0}}}), InputError);
+}
+
+}  // namespace
+}  // namespace plotscan::scan
