@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,20 +8,21 @@
 
 #include "core/plot_box.h"
 #include "core/progress.h"
+#include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::estimate {
 
-// Settings of the paper's pipeline (Dhami et al., IROS 2020, section IV), with the authors' values.
+// Settings of the paper's pipeline (Dhami et al., IROS 2020, section IV), with the authors' values
+// where the paper or their tool gives them (docs/methods.md).
 struct Dhami2020Options {
   int plots = 0;  // k of the k-means: how many plots lie in the crop box (or in learn_box)
-  std::optional<std::array<double, 4>>
-      crop_box;  // x0, y0, x1, y1 in metres; else the cloud's core is found
-  std::optional<std::array<double, 4>>
-      learn_box;               // x0, y0, x1, y1: learn box size and grid here, carry them on
-  std::vector<PlotBox> boxes;  // given boxes: no detection, heights only
-  double voxel_m = 0.05;       // edge of the voxel filter's cells
-  double min_height_m = 0.15;  // points above this z are crop
+  std::optional<Area> crop_box = {};   // else the scanned field is found (FieldFinder)
+  std::optional<Area> learn_box = {};  // learn box size and grid here, carry them over the crop box
+  std::vector<PlotBox> boxes = {};     // given boxes: no detection, heights only
+  bool level = true;                   // false: z = 0 is the ground already
+  double voxel_m = 0.05;               // edge of the voxel filter's cells
+  double min_height_m = 0.15;          // points above this z are crop
   double orientation_bin_rad = 0.3;
   double width_bin_m = 0.3;
   double length_bin_m = 0.5;
@@ -32,9 +32,19 @@ struct Dhami2020Options {
   int threads = 1;
 };
 
-// Heights "voxel-max", "raw-max" and "raw-p99" for every plot of a cloud (PCD or PLY).
-// Throws InputError on a broken cloud, options out of range, or a cloud in which no plot can be
-// found.
+// Throws InputError when an option is out of its range.
+void require_sound(const Dhami2020Options& options);
+
+// Heights "voxel-max", "raw-max" and "raw-p99" for every plot of a map: of the plots it finds, or
+// of the given boxes. One map serves several calls; crop_box limits the search for plots.
+// `diagnostics` says how each step went: cluster and vote counts, grid, ground level. Throws
+// InputError on options out of range or when no plot can be found.
+Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
+                   const ProgressReport& progress = {});
+
+// The same from a cloud (PCD or PLY), of which it reads what lies in crop_box; else, with given
+// boxes, in their surroundings; else in the field that it finds. Throws InputError on a broken
+// cloud, and as above.
 Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
                    const ProgressReport& progress = {});
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plot_box.h"
+#include "core/plot_features.h"
 
 namespace plotscan::estimate {
 
@@ -20,22 +21,27 @@ struct PlotEstimate {
   int column = 0;        // from 1; 0 when the method has no grid
   PlotBox box;
   std::size_t points = 0;  // cloud points the heights were taken from
-  std::map<std::string, double>
-      heights_m;  // by name, e.g. "raw-p99"; absent where it could not be measured
+  std::map<std::string, double> heights_m =
+      {};  // by name, e.g. "raw-p99"; absent where it could not be measured
 };
 
 // What a method says of a whole field.
 struct Estimate {
   std::string method;  // "dhami2020"
-  std::vector<PlotEstimate> plots;
+  std::vector<PlotEstimate> plots = {};
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
 };
 
-// Writes plots.geojson and heights.csv (docs/formats.md) into an existing folder.
+// Writes plots.geojson and heights.csv (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
-// Reads an estimate folder's plots.geojson; heights are its properties named height_<name>_m.
-// Throws InputError as read_plot_features does.
+// Reads an estimate folder's plots.geojson, Plotscan's or anyone's: heights are its numeric
+// properties named height_<name>_m; plots without a number get their place in the file. The method
+// is the one that manifest.json names, "" without a manifest. Throws InputError as
+// read_plot_features does, and when there is no plot or no height at all.
 Estimate read_estimate(const std::filesystem::path& folder);
+
+// What one feature of a plots.geojson says; `number` is its place in the file, from 1.
+PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);
 
 }  // namespace plotscan::estimate

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/cloud_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "estimate/field_finder.h"
+#include "scan/cloud_reader.h"
+
+namespace plotscan::estimate {
+namespace {
+
+// float32 relative to the area's centre resolves 0.5 mm at 5 km.
+constexpr double kLongestSide_m = 10000;
+
+std::string text_of(const Area& area) {
+  return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
+         "," + format_number(area[3]);
+}
+
+}  // namespace
+
+void require_area(const Area& area, const std::string& option) {
+  const bool finite = std::ranges::all_of(area, [](double value) { return std::isfinite(value); });
+  if (!finite || area[0] >= area[2] || area[1] >= area[3]) {
+    throw InputError(option + " " + text_of(area) +
+                     " is no rectangle; it is x0,y0,x1,y1 in metres with x0 < x1 and y0 < y1");
+  }
+  if (std::max(area[2] - area[0], area[3] - area[1]) > kLongestSide_m) {
+    throw InputError(option + " " + text_of(area) + " is longer than 10 km on a side");
+  }
+}
+
+CloudMap::CloudMap(const Area& area) : area_(area) {
+  origin_.head<2>() << std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2);
+}
+
+void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
+  if (points_read_ == 0 && !world_points.empty()) {
+    origin_.z() = std::round(world_points.front().z());
+  }
+  points_read_ += world_points.size();
+  for (const Eigen::Vector3d& point : world_points) {
+    if (point.x() < area_[0] || point.x() > area_[2] || point.y() < area_[1] ||
+        point.y() > area_[3]) {
+      continue;
+    }
+    points_.emplace_back((point - origin_).cast<float>());
+  }
+}
+
+CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,
+                  const ProgressReport& progress) {
+  Area field{};
+  if (area) {
+    require_area(*area, "crop box");
+    field = *area;
+  } else {
+    FieldFinder finder;
+    scan::read_positions(cloud, [&](auto points) { finder.add(points); });
+    field = finder.field();
+    require_area(field, cloud.string() + ": the scanned field");
+  }
+  if (progress) progress(0.2);
+  CloudMap map(field);
+  scan::read_positions(cloud, [&](auto points) { map.add(points); });
+  if (map.points().empty()) {
+    throw InputError(cloud, "none of its " + std::to_string(map.points_read()) +
+                                " points lies in the crop box " + text_of(field));
+  }
+  if (progress) progress(0.4);
+  return map;
+}
+
+}  // namespace plotscan::estimate

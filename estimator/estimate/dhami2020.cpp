@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/dhami2020.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "estimate/ground_level.h"
+#include "estimate/k_means.h"
+#include "estimate/lattice.h"
+#include "estimate/oriented_box.h"
+#include "estimate/plot_grid.h"
+#include "estimate/plot_heights.h"
+#include "estimate/voting.h"
+#include "estimate/voxel_filter.h"
+
+namespace plotscan::estimate {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+using nlohmann::json;
+
+constexpr double kDegrees = std::numbers::pi / 180;
+constexpr int kMostPlots = 100000;
+constexpr int kMostThreads = 1024;
+
+// The z filter: what stands more than min_height_m above the levelled ground.
+Points canopy_of(const Points& voxels, const GroundLevel& level, double min_height_m) {
+  Points canopy;
+  std::ranges::copy_if(voxels, std::back_inserter(canopy), [&](const Eigen::Vector3f& point) {
+    return level.height_of(point) > min_height_m;
+  });
+  return canopy;
+}
+
+// The points in an area given in the world frame.
+Points inside(const Points& points, const Area& area, const Eigen::Vector3d& origin) {
+  Points kept;
+  std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
+    const Eigen::Vector3d world = origin + point.cast<double>();
+    return world.x() >= area[0] && world.x() <= area[2] && world.y() >= area[1] &&
+           world.y() <= area[3];
+  });
+  return kept;
+}
+
+Clustering cluster(const Points& canopy, std::size_t voxels, const Dhami2020Options& options) {
+  if (canopy.size() < static_cast<std::size_t>(options.plots)) {
+    throw InputError("only " + std::to_string(canopy.size()) + " of the map's " +
+                     std::to_string(voxels) + " voxels lie in the searched area and more than " +
+                     format_number(options.min_height_m) + " m above its ground, too few for " +
+                     std::to_string(options.plots) +
+                     " plots; check the crop box, the minimum height and the number of plots");
+  }
+  return k_means(canopy,
+                 {.clusters = options.plots, .seed = options.seed, .threads = options.threads});
+}
+
+// Each cluster flattened and boxed.
+std::vector<PlotBox> cluster_boxes(const Points& canopy, const Clustering& clustering) {
+  std::vector<std::vector<Eigen::Vector2d>> flat(clustering.centers.size());
+  for (std::size_t i = 0; i < canopy.size(); ++i) {
+    flat[clustering.cluster_of[i]].emplace_back(canopy[i].head<2>().cast<double>());
+  }
+  std::vector<PlotBox> boxes;
+  for (std::vector<Eigen::Vector2d>& points : flat) {
+    const PlotBox box = minimum_area_box(std::move(points));
+    if (box.width_m > 0) boxes.push_back(box);
+  }
+  if (boxes.empty()) {
+    throw InputError("no cluster of the points above the ground has an area; " +
+                     std::string("is the number of plots right?"));
+  }
+  return boxes;
+}
+
+// The plot's heading, width and length, each voted by the clusters' boxes.
+PlotBox voted_box(const std::vector<PlotBox>& boxes, const Dhami2020Options& options,
+                  json& diagnostics) {
+  std::vector<double> headings, widths, lengths;
+  for (const PlotBox& box : boxes) {
+    headings.push_back(box.heading_rad);
+    widths.push_back(box.width_m);
+    lengths.push_back(box.length_m);
+  }
+  const Vote heading = vote_heading(headings, options.orientation_bin_rad);
+  const Vote width = vote(widths, options.width_bin_m);
+  const Vote length = vote(lengths, options.length_bin_m);
+  diagnostics["votes"] = {{"clusters", boxes.size()},
+                          {"heading", heading.votes},
+                          {"width", width.votes},
+                          {"length", length.votes}};
+  diagnostics["plot"] = {{"heading_deg", heading.value / kDegrees},
+                         {"width_m", width.value},
+                         {"length_m", length.value}};
+  return {.width_m = width.value, .length_m = length.value, .heading_rad = heading.value};
+}
+
+json to_json(const Lattice& lattice) {
+  json document = {{"agreeing_clusters", lattice.agreeing}, {"rms_m", lattice.rms_m}};
+  if (lattice.many_rows) document["row_step_m"] = lattice.steps.col(0).norm();
+  if (lattice.many_columns) document["column_step_m"] = lattice.steps.col(1).norm();
+  return document;
+}
+
+// Section IV-B: the plots of the map in its own frame.
+std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
+                                     const Dhami2020Options& options, json& diagnostics) {
+  const Area area = options.crop_box.value_or(map.area());
+  const GroundLevel level =
+      options.level ? fit_ground_level(voxels) : GroundLevel{.offset_m = -map.origin().z()};
+  const Points canopy = inside(canopy_of(voxels, level, options.min_height_m), area, map.origin());
+  const Points learnt =
+      options.learn_box ? inside(canopy, *options.learn_box, map.origin()) : canopy;
+  const Clustering clustering = cluster(learnt, voxels.size(), options);
+  const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
+  const PlotBox plot = voted_box(boxes, options, diagnostics);
+  std::vector<Eigen::Vector2d> centers;
+  for (const PlotBox& box : boxes) centers.push_back(box.center);
+  const std::optional<Lattice> lattice = fit_lattice(centers, plot);
+  diagnostics["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
+                                 {"slope_x", level.slope.x()},
+                                 {"slope_y", level.slope.y()}};
+  diagnostics["canopy_voxels"] = canopy.size();
+  diagnostics["canopy_share"] =
+      static_cast<double>(canopy.size()) / static_cast<double>(voxels.size());
+  diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
+                            {"iterations", clustering.iterations}};
+  if (!lattice) throw InputError("the clusters form no grid of plots");
+  diagnostics["grid"] = to_json(*lattice);
+  const std::size_t most = options.learn_box ? kMostPlots : options.plots;
+  return fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
+}
+
+std::vector<PlotEstimate> given_plots(const std::vector<PlotBox>& boxes,
+                                      const Eigen::Vector3d& origin) {
+  std::vector<PlotEstimate> plots;
+  for (const PlotBox& box : boxes) {
+    plots.push_back({.id = static_cast<std::uint32_t>(plots.size() + 1), .box = box});
+    plots.back().box.center -= origin.head<2>();
+  }
+  return plots;
+}
+
+// The area that given boxes need.
+Area surroundings(const std::vector<PlotBox>& boxes, double extend_m) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Area area{kFar, kFar, -kFar, -kFar};
+  for (PlotBox box : boxes) {
+    box.length_m += 2 * extend_m;
+    for (const Eigen::Vector2d& corner : box.corners()) {
+      area = {std::min(area[0], corner.x()), std::min(area[1], corner.y()),
+              std::max(area[2], corner.x()), std::max(area[3], corner.y())};
+    }
+  }
+  return area;
+}
+
+void require_range(double value, double low, double high, const std::string& name) {
+  if (value >= low && value <= high) return;
+  throw InputError(name + " is " + format_number(value) + "; it is " + format_number(low) + " to " +
+                   format_number(high));
+}
+
+void require_count(int count, int most, const std::string& name) {
+  if (count >= 1 && count <= most) return;
+  throw InputError(name + " is " + std::to_string(count) + "; it is 1 to " + std::to_string(most));
+}
+
+}  // namespace
+
+void require_sound(const Dhami2020Options& options) {
+  if (options.boxes.empty()) {
+    require_count(options.plots, kMostPlots, "the number of plots");
+  } else if (options.learn_box) {
+    throw InputError("a learn box and given boxes exclude each other");
+  }
+  if (options.crop_box) require_area(*options.crop_box, "crop box");
+  if (options.learn_box) require_area(*options.learn_box, "learn box");
+  require_range(options.voxel_m, 0.005, 1, "the voxel's edge in metres");
+  require_range(options.min_height_m, 0, 10, "the minimum height in metres");
+  require_range(options.orientation_bin_rad, 0.001, 1.5, "the orientation's bin in radians");
+  require_range(options.width_bin_m, 0.001, 100, "the width's bin in metres");
+  require_range(options.length_bin_m, 0.001, 100, "the length's bin in metres");
+  require_range(options.extend_m, 0, 10, "the boxes' extension in metres");
+  require_range(options.plane_tolerance_m, 0.001, 1, "the ground plane's tolerance in metres");
+  require_count(options.threads, kMostThreads, "the number of threads");
+}
+
+Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
+                   const ProgressReport& progress) {
+  require_sound(options);
+  Estimate estimate{.method = "dhami2020"};
+  const Points voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
+  estimate.diagnostics = {{"points_read", map.points_read()},
+                          {"points_in_area", map.points().size()},
+                          {"area_m", map.area()},
+                          {"voxels", voxels.size()}};
+  if (progress) progress(0.6);
+  estimate.plots = options.boxes.empty()
+                       ? find_plots(map, voxels, options, estimate.diagnostics)  // IV-B
+                       : given_plots(options.boxes, map.origin());
+  if (progress) progress(0.8);
+  measure_heights(estimate.plots, map.points(), voxels, options);  // IV-C
+  for (PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
+  if (progress) progress(1);
+  return estimate;
+}
+
+Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
+                   const ProgressReport& progress) {
+  require_sound(options);
+  std::optional<Area> area = options.crop_box;
+  if (!area && !options.boxes.empty()) area = surroundings(options.boxes, options.extend_m);
+  return dhami2020(read_map(cloud, area, progress), options, progress);
+}
+
+}  // namespace plotscan::estimate

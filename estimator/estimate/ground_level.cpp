@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/ground_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace plotscan::estimate {
+namespace {
+
+constexpr double kCell_m = 1.0;
+constexpr int kIterations = 50;
+// Residuals below it count as equally good; below the range noise, so that it decides nothing.
+constexpr double kSmallResidual_m = 0.005;
+
+std::vector<Eigen::Vector3d> lowest_by_cell(std::span<const Eigen::Vector3f> points) {
+  std::unordered_map<std::uint64_t, std::size_t> cell_index;
+  std::vector<Eigen::Vector3d> lowest;
+  for (const Eigen::Vector3f& point : points) {
+    const auto x = static_cast<std::int32_t>(std::floor(point.x() / kCell_m));
+    const auto y = static_cast<std::int32_t>(std::floor(point.y() / kCell_m));
+    const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
+                              static_cast<std::uint32_t>(y);
+    const auto [found, is_new] = cell_index.emplace(key, lowest.size());
+    if (is_new) {
+      lowest.emplace_back(point.cast<double>());
+    } else if (point.z() < lowest[found->second].z()) {
+      lowest[found->second] = point.cast<double>();
+    }
+  }
+  return lowest;
+}
+
+}  // namespace
+
+// Least absolute deviations by iteratively reweighted least squares.
+GroundLevel fit_ground_level(std::span<const Eigen::Vector3f> points) {
+  const std::vector<Eigen::Vector3d> lowest = lowest_by_cell(points);
+  std::vector<double> weights(lowest.size(), 1.0);
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    // A trace of ridge holds the slope at zero where the cells don't determine it.
+    Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < lowest.size(); ++i) {
+      const Eigen::Vector3d row(1, lowest[i].x(), lowest[i].y());
+      normal += weights[i] * row * row.transpose();
+      right += weights[i] * lowest[i].z() * row;
+    }
+    plane = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < lowest.size(); ++i) {
+      const double residual =
+          lowest[i].z() - plane.dot(Eigen::Vector3d(1, lowest[i].x(), lowest[i].y()));
+      weights[i] = 1 / std::max(std::abs(residual), kSmallResidual_m);
+    }
+  }
+  return {.offset_m = plane.x(), .slope = plane.tail<2>()};
+}
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plotscan::estimate {
+
+struct KMeansOptions {
+  int clusters = 0;                   // k, at most the number of points
+  int restarts = 10;                  // seedings, of which the tightest clustering is kept
+  int max_iterations = 300;           // of Lloyd's algorithm, for each restart
+  std::size_t sample_points = 20000;  // the restarts run on a random sample of this size (at least
+                                      // 100 points a cluster); the best of them goes on over all
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+
+struct Clustering {
+  std::vector<Eigen::Vector3f> centers;
+  std::vector<std::uint32_t> cluster_of;  // by point
+  double inertia_m2 = 0;                  // sum of squared distances to the centres
+  int iterations = 0;                     // over all points
+};
+
+// k-means by Lloyd's algorithm from k-means++ seeds (Arthur and Vassilvitskii, 2007). The same
+// points, options and seed give the same clustering for any number of threads. A cluster that loses
+// all its points takes the point farthest from its centre.
+Clustering k_means(std::span<const Eigen::Vector3f> points, const KMeansOptions& options);
+
+}  // namespace plotscan::estimate

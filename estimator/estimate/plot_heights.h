@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimate/dhami2020.h"
+#include "estimate/estimate.h"
+
+namespace plotscan::estimate {
+
+// The points inside each of the boxes, in the points' order; a point may lie in several boxes.
+std::vector<std::vector<Eigen::Vector3f>> points_in_boxes(std::span<const Eigen::Vector3f> points,
+                                                          const std::vector<PlotBox>& boxes);
+
+// Measures every plot (section IV-C): its `points` and its heights_m "voxel-max", "raw-max" and
+// "raw-p99" over the ground plane of its box, lengthened by extend_m at both ends. The plane comes
+// from the voxel-filtered points; heights are those of the points above it by more than the plane's
+// tolerance: voxel-filtered ones, or raw ones and voxel-filtered ones together. A plot without a
+// plane, or without a point above it, has no heights. Plots, raw and voxels share one frame.
+void measure_heights(std::vector<PlotEstimate>& plots, std::span<const Eigen::Vector3f> raw,
+                     std::span<const Eigen::Vector3f> voxels, const Dhami2020Options& options);
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/program.h"
+#include "estimate/run.h"
+
+namespace plotscan {
+namespace {
+
+struct RunArguments {
+  estimate::RunOptions options;
+  std::vector<double> crop_box;
+  std::vector<double> learn_box;
+  std::string boxes;
+  bool no_level = false;
+};
+
+std::string formatted(const char* format, auto... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::optional<estimate::Area> area_of(const std::vector<double>& corners) {
+  if (corners.empty()) return std::nullopt;
+  return estimate::Area{corners[0], corners[1], corners[2], corners[3]};
+}
+
+void say_how(const Program& program, const nlohmann::json& diagnostics) {
+  program.say(formatted("points     %zu read, %zu in the field, %zu voxels",
+                        diagnostics["points_read"].get<std::size_t>(),
+                        diagnostics["points_in_area"].get<std::size_t>(),
+                        diagnostics["voxels"].get<std::size_t>()));
+  const auto& area = diagnostics["area_m"];
+  program.say(formatted("field      x %.1f to %.1f m, y %.1f to %.1f m", area[0].get<double>(),
+                        area[2].get<double>(), area[1].get<double>(), area[3].get<double>()));
+  if (!diagnostics.contains("votes")) return;
+  const auto& plot = diagnostics["plot"];
+  const auto& votes = diagnostics["votes"];
+  program.say(formatted("plot size  %.2f x %.2f m, heading %.1f deg", plot["width_m"].get<double>(),
+                        plot["length_m"].get<double>(), plot["heading_deg"].get<double>()));
+  program.say(formatted("votes      of %zu clusters: width %zu, length %zu, heading %zu",
+                        votes["clusters"].get<std::size_t>(), votes["width"].get<std::size_t>(),
+                        votes["length"].get<std::size_t>(), votes["heading"].get<std::size_t>()));
+  const auto& grid = diagnostics["grid"];
+  std::string pitch;
+  if (grid.contains("column_step_m"))
+    pitch += formatted(", %.2f m along the width", grid["column_step_m"].get<double>());
+  if (grid.contains("row_step_m"))
+    pitch += formatted(", %.2f m along the length", grid["row_step_m"].get<double>());
+  program.say(formatted("grid       %zu clusters agree to %.2f m rms%s",
+                        grid["agreeing_clusters"].get<std::size_t>(), grid["rms_m"].get<double>(),
+                        pitch.c_str()));
+}
+
+void say_heights(const Program& program, const nlohmann::json& summary) {
+  for (const auto& [name, height] : summary.items()) {
+    program.say(formatted("%-10s median %.3f m, %.3f to %.3f m, %zu plots", name.c_str(),
+                          height["median_m"].get<double>(), height["min_m"].get<double>(),
+                          height["max_m"].get<double>(), height["plots"].get<std::size_t>()));
+  }
+}
+
+void run_estimate(const Program& program, RunArguments arguments) {
+  estimate::RunOptions& options = arguments.options;
+  options.dhami2020.crop_box = area_of(arguments.crop_box);
+  options.dhami2020.learn_box = area_of(arguments.learn_box);
+  options.dhami2020.level = !arguments.no_level;
+  options.dhami2020.seed = program.common().seed;
+  options.dhami2020.threads = program.common().threads;
+  if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
+  if (arguments.boxes.empty() && options.dhami2020.plots == 0) {
+    throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const estimate::Estimate estimate = estimate::run(options, program.progress("estimating"));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const nlohmann::json summary = estimate::height_summary(estimate);
+  say_how(program, estimate.diagnostics);
+  say_heights(program, summary);
+  program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
+                        options.output.c_str()));
+  program.result({{"output", options.output.string()},
+                  {"plots", estimate.plots.size()},
+                  {"heights", summary},
+                  {"diagnostics", estimate.diagnostics},
+                  {"seconds", seconds}});
+}
+
+void declare_run(Program& program, RunArguments& arguments) {
+  CLI::App& run =
+      program.command("run", "Find the plots of a cloud and measure their crop heights.",
+                      [&program, &arguments] { run_estimate(program, arguments); });
+  auto& options = arguments.options;
+  auto& method = options.dhami2020;
+  run.add_option("CLOUD", options.cloud, "PCD or PLY cloud, or a scan folder (its cloud.pcd)")
+      ->required();
+  run.add_option("-o,--output", options.output, "estimate folder to write")->required();
+  run.add_option("--method", options.method, "dhami2020: the paper's pipeline");
+  auto* plots = run.add_option("--plots", method.plots,
+                               "how many plots lie in the field, or in --learn-box (1 to 100000)");
+  run.add_option("--crop-box", arguments.crop_box,
+                 "x0,y0,x1,y1: use only the points in here, metres (default: the densely scanned "
+                 "field)")
+      ->delimiter(',')
+      ->expected(4);
+  auto* learn = run.add_option("--learn-box", arguments.learn_box,
+                               "x0,y0,x1,y1: learn box size and grid in here, where --plots plots "
+                               "lie, and carry the grid over the whole field, metres")
+                    ->delimiter(',')
+                    ->expected(4);
+  run.add_option("--boxes", arguments.boxes,
+                 "plots.geojson with the plots' boxes: measure heights in them, search none")
+      ->excludes(plots)
+      ->excludes(learn);
+  run.add_option("--voxel", method.voxel_m, "edge of the voxel filter's cells, metres");
+  run.add_option("--min-height", method.min_height_m,
+                 "points this far above the levelled ground are crop, metres");
+  run.add_flag("--no-level", arguments.no_level,
+               "take z = 0 for the ground instead of levelling the map");
+  run.add_option("--extend", method.extend_m,
+                 "lengthen each end of a box by this to show the ground, metres");
+  run.add_option("--plane-tolerance", method.plane_tolerance_m,
+                 "distance to the ground plane within which RANSAC takes a point for ground, "
+                 "metres");
+  run.add_flag("--force", options.replace, "replace an estimate folder that exists");
+}
+
+}  // namespace
+}  // namespace plotscan
+
+int main(int argc, char** argv) {
+  plotscan::Program program("estimator", "Find plots in point clouds and measure crop heights.");
+  plotscan::RunArguments run;
+  plotscan::declare_run(program, run);
+  return program.run(argc, argv);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/estimate.h"
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace plotscan::estimate {
+namespace {
+
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+Estimate two_plots() {
+  Estimate estimate{.method = "dhami2020"};
+  estimate.plots = {
+      {.id = 1,
+       .row = 1,
+       .column = 2,
+       .box = {.center = {500000.125, 1}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.5},
+       .points = 1234,
+       .heights_m = {{"raw-p99", 0.75}, {"voxel-max", 0.7}}},
+      {.id = 2, .box = {.center = {9, 9}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.5}}};
+  return estimate;
+}
+
+TEST(Estimate, ReadsWhatItWrites) {
+  const TemporaryFolder folder;
+  const Estimate written = two_plots();
+  write_estimate(folder.path(), written);
+  const Estimate read = read_estimate(folder.path());
+  ASSERT_EQ(read.plots.size(), 2u);
+  EXPECT_EQ(read.plots[0].id, 1u);
+  EXPECT_EQ(read.plots[0].row, 1);
+  EXPECT_EQ(read.plots[0].column, 2);
+  EXPECT_EQ(read.plots[0].points, 1234u);
+  EXPECT_EQ(read.plots[0].heights_m, written.plots[0].heights_m);
+  EXPECT_EQ(read.plots[0].box.center, written.plots[0].box.center);
+  EXPECT_NEAR(read.plots[0].box.heading_rad, 0.5, 1e-12);
+  EXPECT_TRUE(read.plots[1].heights_m.empty());
+}
+
+TEST(Estimate, WritesOneLineAPlot) {
+  const TemporaryFolder folder;
+  write_estimate(folder.path(), two_plots());
+  EXPECT_EQ(read_text(folder.path() / "heights.csv"),
+            "plot,row,column,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
+            "height_raw-p99_m,height_voxel-max_m\n"
+            "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7\n"
+            "2,0,0,9,9,1.5,4,28.64788975654116,0,,\n");
+}
+
+std::string geojson(const std::string& properties) {
+  return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":)" + properties +
+         R"(,"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2],[0,0]]]}}]})";
+}
+
+TEST(Estimate, ReadsPlotsOfOtherPrograms) {
+  const TemporaryFolder folder;
+  folder.write("plots.geojson",
+               geojson(R"({"height_mine_m":0.5,"height_x":1,"height__m":2,"height_no_m":null})"));
+  const Estimate read = read_estimate(folder.path());
+  EXPECT_EQ(read.method, "");
+  ASSERT_EQ(read.plots.size(), 1u);
+  EXPECT_EQ(read.plots[0].id, 1u);
+  EXPECT_EQ(read.plots[0].heights_m, (std::map<std::string, double>{{"mine", 0.5}}));
+}
+
+TEST(Estimate, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  const auto message = [&] {
+    return message_of<InputError>([&] { read_estimate(folder.path()); });
+  };
+  EXPECT_THAT(message(), HasSubstr("plots.geojson"));
+  folder.write("plots.geojson", geojson(R"({"plot":-7,"height":1})"));
+  EXPECT_THAT(message(), HasSubstr("no plot has a height"));
+  folder.write("plots.geojson", R"({"type":"FeatureCollection","features":[]})");
+  EXPECT_THAT(message(), HasSubstr("has no plots"));
+}
+
+}  // namespace
+}  // namespace plotscan::estimate
