@@ -20,6 +20,7 @@ class CsvRow {
          const std::vector<std::string>& columns, const std::vector<std::string_view>& fields)
       : file_(file), line_(line), columns_(columns), fields_(fields) {}
 
+  std::size_t line() const { return line_; }  // in the file, from 1
   std::string_view text(std::size_t column) const { return fields_[column]; }
   // A finite number, or InputError.
   double number(std::size_t column) const;

@@ -22,7 +22,8 @@ struct Manifest {
   std::string command;  // "farmgen generate"
   std::uint64_t seed = 0;
   nlohmann::json options = nlohmann::json::object();
-  std::vector<std::filesystem::path> inputs;  // files read, hashed when the manifest is written
+  // Files read, hashed when the manifest is written.
+  std::vector<std::filesystem::path> inputs = {};
   nlohmann::json results =
       nlohmann::json::object();  // counts worth knowing without opening the files
 };

@@ -74,13 +74,15 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
   CLI::App& command = *app_.add_subcommand(name, description);
   command.option_defaults()->always_capture_default();
   command.set_version_flag("--version", name_ + " " + version());
-  command.add_option("--seed", common_.seed, "seed of all random numbers");
+  const CLI::Option* seed =
+      command.add_option("--seed", common_.seed, "seed of all random numbers");
   command.add_option("-j,--threads", common_.threads, "threads; 0 is one for each processor")
       ->check(CLI::Range(0, 1024));
   command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
   command.add_flag("-q,--quiet", quiet_, "say nothing but errors");
   command.add_flag("--json", common_.json, "print the result as one JSON document");
-  command.callback([this, run = std::move(run)] {
+  command.callback([this, seed, run = std::move(run)] {
+    common_.seed_given = seed->count() > 0;
     if (common_.threads == 0)
       common_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     if (quiet_ > 0) common_.verbosity = -1;

@@ -14,7 +14,8 @@ namespace plotscan {
 
 // The options that every command of every program takes.
 struct CommonOptions {
-  std::uint64_t seed = 1;  // --seed
+  std::uint64_t seed = 1;   // --seed
+  bool seed_given = false;  // whether the user gave --seed
   int threads = 0;  // -j/--threads; set to the machine's number of processors before a command runs
   int verbosity = 0;  // -v: 1 and more, -q: -1
   bool json = false;  // --json: one JSON document on stdout in place of text

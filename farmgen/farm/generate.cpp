@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/generate.h"
+
+#include <unordered_map>
+
+#include "core/error.h"
+#include "farm/heights.h"
+#include "farm/plant_layout.h"
+#include "farm/plot_layout.h"
+#include "farm/plot_table.h"
+#include "farm/random_terrain.h"
+
+namespace plotscan::farm {
+namespace {
+
+Terrain make_terrain(const TerrainDescription& description, std::uint64_t seed) {
+  if (!description.mesh) {
+    return random_terrain(description.side_m, description.vertices, description.relief_m, seed);
+  }
+  const Mesh mesh = import_mesh(*description.mesh, description.mesh_options);
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const Eigen::Vector3f& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
+  try {
+    return {std::move(vertices), mesh.triangles};
+  } catch (const InputError& error) {
+    throw InputError(*description.mesh, error.what());
+  }
+}
+
+std::vector<PlantModel> import_models(const std::vector<ModelDescription>& descriptions) {
+  std::vector<PlantModel> models;
+  for (const ModelDescription& description : descriptions) {
+    Mesh mesh = import_mesh(description.mesh, description.options);
+    const double height_m = mesh_height(mesh);
+    if (height_m <= 0) {
+      throw InputError(description.mesh,
+                       "has no vertex above its origin; is z its up axis? (up: y, foot: lowest)");
+    }
+    models.push_back({description.name, std::move(mesh), height_m});
+  }
+  return models;
+}
+
+std::vector<Plot> make_plots(const FarmDescription& description) {
+  if (description.plots) return grid_plots(*description.plots);
+  if (description.layout->plots) return read_plot_boxes(*description.layout->plots);
+  return {};
+}
+
+std::vector<Plant> make_plants(const FarmDescription& description, const Farm& farm) {
+  if (description.layout) {
+    return table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+  }
+  return random_plants(*description.plants, farm.plots, farm.models, farm.terrain, farm.seed);
+}
+
+void measure_plots(Farm& farm) {
+  std::unordered_map<std::uint32_t, std::vector<double>> heights;
+  for (const Plant& plant : farm.plants) heights[plant.plot].push_back(plant.height_m);
+  for (Plot& plot : farm.plots) {
+    const std::vector<double>& own = heights[plot.id];
+    plot.plant_count = static_cast<std::uint32_t>(own.size());
+    plot.heights = plot_heights(own, farm.seed, plot.id);
+  }
+}
+
+}  // namespace
+
+Farm generate(const FarmDescription& description, std::uint64_t seed) {
+  Farm farm{.name = description.name,
+            .seed = seed,
+            .terrain = make_terrain(description.terrain, seed),
+            .models = import_models(description.models),
+            .plots = make_plots(description),
+            .plants = {}};
+  require_on_terrain(farm.plots, farm.terrain);
+  farm.plants = make_plants(description, farm);
+  measure_plots(farm);
+  return farm;
+}
+
+}  // namespace plotscan::farm

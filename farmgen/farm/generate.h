@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "farm/description.h"
+#include "farm/farm.h"
+
+namespace plotscan::farm {
+
+// Makes the farm that the description and the seed determine. Throws InputError when a mesh or
+// table cannot be read, a plot does not lie on the terrain, or a plant stands off it.
+Farm generate(const FarmDescription& description, std::uint64_t seed);
+
+}  // namespace plotscan::farm

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "farm/mesh.h"
+
+namespace plotscan::farm {
+
+enum class UpAxis { z, y };
+enum class MeshFoot {
+  origin,  // the file's origin is the stem's base
+  lowest,  // the mesh is moved along z until its lowest vertex is at 0
+};
+
+// How a file's coordinates become metres with z up.
+struct MeshImportOptions {
+  // Absent: what the file states (DAE, glTF: the format fixes it), else z up (OBJ, PLY, STL).
+  std::optional<UpAxis> up;
+  // Metres a unit of the file; for DAE and glTF, which state their unit, a further factor.
+  double unit_m = 1;
+  MeshFoot foot = MeshFoot::origin;
+};
+
+// Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are
+// triangulated, all objects joined, equal vertices shared, and triangles without area dropped.
+// Throws InputError when the file is missing or cannot be parsed, its format is another, a
+// coordinate is not finite, or no triangle with an area is left.
+Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {});
+
+}  // namespace plotscan::farm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "farm/description.h"
+#include "farm/farm.h"
+
+namespace plotscan::farm {
+
+// The plots of a grid, numbered row by row from 1, without plants. Each box's length axis is the
+// grid's y axis.
+std::vector<Plot> grid_plots(const PlotGridDescription& grid);
+
+// Throws InputError when a corner of a plot lies off the terrain, saying which, how far, and what
+// would fit.
+void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain);
+
+// Finds the plot that holds a point.
+class PlotFinder {
+ public:
+  // Keeps a reference to `plots`.
+  explicit PlotFinder(const std::vector<Plot>& plots);
+  // The id of the first plot whose box contains the point, 0 for none. Constant expected time.
+  std::uint32_t plot_at(const Eigen::Vector2d& point) const;
+
+ private:
+  const std::vector<Plot>& plots_;
+  std::optional<TriangleGrid> grid_;  // triangles 2 i and 2 i + 1 are the box of plot i
+};
+
+}  // namespace plotscan::farm

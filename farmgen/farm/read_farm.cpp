@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "farm/farm.h"
+#include "farm/heights.h"
+#include "farm/mesh_import.h"
+#include "farm/plant_table.h"
+#include "farm/plot_table.h"
+#include "farm/sdf.h"
+#include "farm/terrain_ply.h"
+
+namespace plotscan::farm {
+namespace fs = std::filesystem;
+namespace {
+
+// What the manifest says of the farm besides its files.
+struct FarmRecord {
+  std::string name;
+  std::uint64_t seed = 0;
+  std::vector<std::string> models;
+  std::size_t plots = 0;
+  std::size_t plants = 0;
+};
+
+FarmRecord read_record(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw InputError(folder, "no such farm folder");
+  const nlohmann::json manifest = read_manifest(folder);
+  try {
+    const nlohmann::json& results = manifest.at("results");
+    return {.name = results.at("name"),
+            .seed = manifest.at("seed"),
+            .models = results.at("models"),
+            .plots = results.at("plots"),
+            .plants = results.at("plants")};
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(folder / "manifest.json",
+                     std::string("is not the manifest of a farm: ") + error.what());
+  }
+}
+
+std::vector<PlantModel> read_models(const fs::path& folder, const std::vector<std::string>& names) {
+  std::vector<PlantModel> models;
+  for (const std::string& name : names) {
+    // A name that is no single folder name would lead out of models/.
+    path_inside(folder / "models", name, folder / "manifest.json");
+    Mesh mesh = import_mesh(path_inside(folder, model_mesh_path(name), folder / "manifest.json"));
+    const double height_m = mesh_height(mesh);
+    models.push_back({name, std::move(mesh), height_m});
+  }
+  return models;
+}
+
+void require_count(const fs::path& file, const std::string& what, std::size_t found,
+                   std::size_t expected) {
+  if (found == expected) return;
+  throw InputError(file, "has " + std::to_string(found) + " " + what + "; the farm has " +
+                             std::to_string(expected));
+}
+
+// Plants name plots that exist, and as many of them as the plots say.
+void require_consistent(const fs::path& truth, const Farm& farm) {
+  std::unordered_map<std::uint32_t, std::size_t> counts;
+  for (const Plot& plot : farm.plots) counts[plot.id] = 0;
+  for (const Plant& plant : farm.plants) {
+    if (plant.plot == 0) continue;
+    const auto count = counts.find(plant.plot);
+    if (count == counts.end()) {
+      throw InputError(truth / "plants.csv", "plant " + std::to_string(plant.id) + " is in plot " +
+                                                 std::to_string(plant.plot) +
+                                                 ", which plots.geojson lacks");
+    }
+    ++count->second;
+  }
+  for (const Plot& plot : farm.plots) {
+    require_count(truth / "plants.csv", "plants of plot " + std::to_string(plot.id),
+                  counts.at(plot.id), plot.plant_count);
+  }
+}
+
+}  // namespace
+
+Farm read_farm(const fs::path& folder) {
+  const FarmRecord record = read_record(folder);
+  const fs::path truth = folder / "truth";
+  Farm farm{.name = record.name,
+            .seed = record.seed,
+            .terrain = read_terrain(truth / "terrain.ply"),
+            .models = read_models(folder, record.models),
+            .plots = read_plots(truth / "plots.geojson"),
+            .plants = {}};
+  farm.plants = read_plants(truth / "plants.csv", farm.models);
+  require_count(truth / "plots.geojson", "plots", farm.plots.size(), record.plots);
+  require_count(truth / "plants.csv", "plants", farm.plants.size(), record.plants);
+  require_consistent(truth, farm);
+  return farm;
+}
+
+}  // namespace plotscan::farm

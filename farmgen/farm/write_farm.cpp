@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/write_farm.h"
+
+#include <utility>
+
+#include "core/output_folder.h"
+#include "farm/obj.h"
+#include "farm/plant_table.h"
+#include "farm/plot_table.h"
+#include "farm/sdf.h"
+#include "farm/terrain_ply.h"
+
+namespace plotscan::farm {
+namespace fs = std::filesystem;
+namespace {
+
+const Eigen::Vector3f kLeafGreen(0.24F, 0.46F, 0.16F);
+const Eigen::Vector3f kSoilBrown(0.45F, 0.34F, 0.24F);
+
+Mesh mesh_of(const Terrain& terrain) {
+  Mesh mesh;
+  for (const Eigen::Vector3d& vertex : terrain.vertices()) {
+    mesh.vertices.emplace_back(vertex.cast<float>());
+  }
+  mesh.triangles = terrain.triangles();
+  return mesh;
+}
+
+void write_model(const fs::path& folder, const std::string& name, const Mesh& mesh,
+                 const Eigen::Vector3f& colour, const std::string& text, bool with_collision) {
+  const fs::path path = folder / model_mesh_path(name);
+  fs::create_directories(path.parent_path());
+  write_coloured_obj(path, mesh, colour);
+  write_model_description(folder / "models", name, text, with_collision);
+}
+
+void write_models(const fs::path& folder, const Farm& farm) {
+  write_model(folder, kTerrainModel, mesh_of(farm.terrain), kSoilBrown,
+              "Terrain of the farm " + farm.name, true);
+  for (const PlantModel& model : farm.models) {
+    write_model(folder, model.name, model.mesh, kLeafGreen,
+                "Plant of the farm " + farm.name + ", foot at the origin", false);
+  }
+}
+
+void write_truth(const fs::path& folder, const Farm& farm) {
+  fs::create_directories(folder);
+  write_plots(folder / "plots.geojson", farm.plots);
+  write_plants(folder / "plants.csv", farm);
+  write_terrain(folder / "terrain.ply", farm.terrain);
+}
+
+nlohmann::json results_of(const Farm& farm) {
+  nlohmann::json models = nlohmann::json::array();
+  for (const PlantModel& model : farm.models) models.push_back(model.name);
+  return {{"name", farm.name},
+          {"models", models},
+          {"plots", farm.plots.size()},
+          {"plants", farm.plants.size()}};
+}
+
+}  // namespace
+
+void write_farm(const Farm& farm, const fs::path& folder, bool replace, Manifest origin) {
+  OutputFolder output(folder, replace);
+  write_models(output.path(), farm);
+  write_truth(output.path() / "truth", farm);
+  write_world(output.path() / "world.sdf", farm);
+  origin.seed = farm.seed;
+  origin.results = results_of(farm);
+  write_manifest(output.path(), origin);
+  output.commit();
+}
+
+}  // namespace plotscan::farm

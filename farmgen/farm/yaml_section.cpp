@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/yaml_section.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "core/csv.h"
+#include "core/error.h"
+
+namespace plotscan::farm {
+namespace {
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> steps;
+  for (std::size_t begin = 0;;) {
+    const auto dot = path.find('.', begin);
+    steps.push_back(path.substr(begin, dot - begin));
+    if (dot == std::string::npos) return steps;
+    begin = dot + 1;
+  }
+}
+
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return {};
+  return value;
+}
+
+std::string range_text(Range range) {
+  return "[" + format_number(range.low) + ", " + format_number(range.high) + "]";
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// The node's child of that name or index; a map's child is made where it is missing.
+YAML::Node child(YAML::Node node, const std::string& step, const std::string& assignment) {
+  if (node.IsSequence()) {
+    const auto index = parsed<std::size_t>(step);
+    if (!index || *index >= node.size()) {
+      throw InputError("--set " + assignment + ": \"" + step + "\" is not an index of a list of " +
+                       std::to_string(node.size()) + " entries (from 0)");
+    }
+    return node[*index];
+  }
+  if (node.IsScalar()) {
+    throw InputError("--set " + assignment + ": \"" + step + "\" names a part of the plain value " +
+                     node.Scalar());
+  }
+  return node[step];
+}
+
+void apply_override(const YAML::Node& root, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == 0 || equals == std::string::npos) {
+    throw InputError("--set " + assignment + ": expected key=value, as in terrain.relief_m=0.5");
+  }
+  YAML::Node node;
+  node.reset(root);
+  for (const std::string& step : split_path(assignment.substr(0, equals))) {
+    if (step.empty()) throw InputError("--set " + assignment + ": the key has an empty part");
+    node.reset(child(node, step, assignment));
+  }
+  try {
+    node = YAML::Load(assignment.substr(equals + 1));
+  } catch (const YAML::Exception& error) {
+    throw InputError("--set " + assignment + ": " + error.msg);
+  }
+}
+
+YAML::Node parse(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  try {
+    YAML::Node root = YAML::Load(text);
+    if (!root.IsMap()) throw InputError(file, 1, "is not a map of keys to values");
+    return root;
+  } catch (const YAML::Exception& error) {
+    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), "not YAML: " + error.msg);
+  }
+}
+
+}  // namespace
+
+void YamlOrigin::fail(const YAML::Mark& mark, const std::string& path,
+                      const std::string& message) const {
+  const std::string& text = path.empty() ? message : path + " " + message;
+  for (auto assignment = overrides_.rbegin(); assignment != overrides_.rend(); ++assignment) {
+    const std::string key = assignment->substr(0, assignment->find('='));
+    if (path == key || path.starts_with(key + ".")) {
+      throw InputError("--set " + *assignment + ": " + text);
+    }
+  }
+  throw InputError(file_, static_cast<std::size_t>(std::max(mark.line, 0) + 1), text);
+}
+
+YamlSection YamlSection::load(const std::filesystem::path& file,
+                              const std::vector<std::string>& overrides) {
+  const YAML::Node root = parse(file);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  return {std::make_shared<const YamlOrigin>(file, overrides), root, ""};
+}
+
+std::string YamlSection::path_of(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+void YamlSection::fail(const std::string& key, const std::string& message) const {
+  const YAML::Node value = node_[key];
+  origin_->fail(value ? value.Mark() : node_.Mark(), path_of(key), message);
+}
+
+void YamlSection::allow_only(const std::vector<std::string>& keys) const {
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(a list or map)";
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      origin_->fail(entry.first.Mark(), path_of(key),
+                    "is not a known key; known here are " + joined(keys));
+    }
+    if (!seen.insert(key).second) {
+      origin_->fail(entry.first.Mark(), path_of(key), "is given twice");
+    }
+  }
+}
+
+bool YamlSection::has(const std::string& key) const { return node_[key].IsDefined(); }
+
+std::optional<std::string> YamlSection::scalar(const std::string& key, bool required) const {
+  const YAML::Node value = node_[key];
+  if (!value.IsDefined()) {
+    if (required) fail(key, "is missing");
+    return {};
+  }
+  if (!value.IsScalar()) fail(key, "is not a single value");
+  return value.Scalar();
+}
+
+double YamlSection::number(const std::string& key, Range range,
+                           std::optional<double> fallback) const {
+  const auto text = scalar(key, !fallback);
+  if (!text) return *fallback;
+  const auto value = parsed<double>(*text);
+  if (!value) fail(key, "\"" + *text + "\" is not a number; allowed are " + range_text(range));
+  if (!(*value >= range.low && *value <= range.high)) {
+    fail(key, *text + " is not in " + range_text(range));
+  }
+  return *value;
+}
+
+std::int64_t YamlSection::integer(const std::string& key, std::int64_t low, std::int64_t high,
+                                  std::optional<std::int64_t> fallback) const {
+  const auto text = scalar(key, !fallback);
+  if (!text) return *fallback;
+  const std::string allowed = "[" + std::to_string(low) + ", " + std::to_string(high) + "]";
+  const auto value = parsed<std::int64_t>(*text);
+  if (!value) fail(key, "\"" + *text + "\" is not a whole number in " + allowed);
+  if (*value < low || *value > high) fail(key, *text + " is not in " + allowed);
+  return *value;
+}
+
+std::uint64_t YamlSection::unsigned_integer(const std::string& key) const {
+  const auto text = scalar(key, true);
+  const auto value = parsed<std::uint64_t>(*text);
+  if (!value) fail(key, "\"" + *text + "\" is not a whole number in [0, 18446744073709551615]");
+  return *value;
+}
+
+std::string YamlSection::text(const std::string& key,
+                              const std::optional<std::string>& fallback) const {
+  auto value = scalar(key, !fallback);
+  if (!value) return *fallback;
+  if (value->empty()) fail(key, "is empty");
+  return *value;
+}
+
+std::size_t YamlSection::choice(const std::string& key, const std::vector<std::string>& names,
+                                std::optional<std::size_t> fallback) const {
+  const auto text = scalar(key, !fallback);
+  if (!text) return *fallback;
+  const auto found = std::find(names.begin(), names.end(), *text);
+  if (found == names.end()) fail(key, "\"" + *text + "\" is not one of " + joined(names));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::pair<double, double> YamlSection::pair(
+    const std::string& key, Range range, std::optional<std::pair<double, double>> fallback) const {
+  const YAML::Node value = node_[key];
+  if (!value.IsDefined() && fallback) return *fallback;
+  if (!value.IsDefined()) fail(key, "is missing");
+  const bool is_pair =
+      value.IsSequence() && value.size() == 2 && value[0].IsScalar() && value[1].IsScalar();
+  if (!is_pair) fail(key, "is not a list of two numbers in " + range_text(range));
+  const auto first = parsed<double>(value[0].Scalar());
+  const auto second = parsed<double>(value[1].Scalar());
+  for (const auto& number : {first, second}) {
+    if (number && *number >= range.low && *number <= range.high) continue;
+    fail(key, "[" + value[0].Scalar() + ", " + value[1].Scalar() +
+                  "] is not a pair of numbers in " + range_text(range));
+  }
+  return {*first, *second};
+}
+
+YamlSection YamlSection::section(const std::string& key) const {
+  const YAML::Node value = node_[key];
+  if (!value.IsDefined()) fail(key, "is missing");
+  if (!value.IsMap()) fail(key, "is not a map of keys to values");
+  return {origin_, value, path_of(key)};
+}
+
+std::vector<YamlSection> YamlSection::list(const std::string& key, std::size_t longest,
+                                           const std::string& scalar_key) const {
+  const YAML::Node value = node_[key];
+  if (!value.IsDefined()) fail(key, "is missing");
+  if (!value.IsSequence() || value.size() == 0 || value.size() > longest) {
+    fail(key, "is not a list of 1 to " + std::to_string(longest) + " entries");
+  }
+  std::vector<YamlSection> entries;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const std::string index = std::to_string(i);
+    YAML::Node entry;
+    entry.reset(value[i]);
+    if (entry.IsScalar() && !scalar_key.empty()) {
+      YAML::Node wrapped(YAML::NodeType::Map);
+      wrapped[scalar_key] = entry;
+      entry.reset(wrapped);
+    }
+    if (!entry.IsMap()) {
+      origin_->fail(entry.Mark(), path_of(key) + "." + index, "is not a map of keys to values");
+    }
+    entries.push_back({origin_, entry, path_of(key) + "." + index});
+  }
+  return entries;
+}
+
+std::map<std::string, std::string> YamlSection::texts() const {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : node_) all[entry.first.Scalar()] = text(entry.first.Scalar());
+  return all;
+}
+
+}  // namespace plotscan::farm

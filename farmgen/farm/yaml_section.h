@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <yaml-cpp/yaml.h>
+
+namespace plotscan::farm {
+
+// The closed range of a number.
+struct Range {
+  double low;
+  double high;
+};
+
+// Where a value of a description comes from: a line of the file, or an override.
+class YamlOrigin {
+ public:
+  YamlOrigin(std::filesystem::path file, std::vector<std::string> overrides)
+      : file_(std::move(file)), overrides_(std::move(overrides)) {}
+
+  // Throws InputError: "file:line: message", or "--set key=value: message" where an override gave
+  // the value at `path` (or what holds it).
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& path,
+                         const std::string& message) const;
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::string> overrides_;  // "key=value"
+};
+
+// One map of a YAML document, read key by key. Every error is an InputError that names the place,
+// the key and what is allowed. Internal to the library's .cpp files (it holds yaml-cpp's types).
+class YamlSection {
+ public:
+  // Parses the file and applies the overrides ("dotted.path=value", list entries by index from 0;
+  // the value is YAML). The document must be a map.
+  static YamlSection load(const std::filesystem::path& file,
+                          const std::vector<std::string>& overrides);
+
+  // Throws when the section holds a key other than these, or one of them twice.
+  void allow_only(const std::vector<std::string>& keys) const;
+  bool has(const std::string& key) const;
+
+  // Readers of one key. Without a `fallback` the key is required.
+  double number(const std::string& key, Range range, std::optional<double> fallback = {}) const;
+  std::int64_t integer(const std::string& key, std::int64_t low, std::int64_t high,
+                       std::optional<std::int64_t> fallback = {}) const;
+  std::uint64_t unsigned_integer(const std::string& key) const;
+  std::string text(const std::string& key, const std::optional<std::string>& fallback = {}) const;
+  // One of the names; its index.
+  std::size_t choice(const std::string& key, const std::vector<std::string>& names,
+                     std::optional<std::size_t> fallback = {}) const;
+  // Two numbers: [first, second].
+  std::pair<double, double> pair(const std::string& key, Range range,
+                                 std::optional<std::pair<double, double>> fallback = {}) const;
+  YamlSection section(const std::string& key) const;
+  // The entries of a list, each of which is a map, or a scalar when `scalar_key` is given (then it
+  // reads as a map with that one key).
+  std::vector<YamlSection> list(const std::string& key, std::size_t longest,
+                                const std::string& scalar_key = "") const;
+  // Every key of the section with its text.
+  std::map<std::string, std::string> texts() const;
+
+  // Throws InputError about a key of this section (or, where it is missing, about the section).
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  const std::filesystem::path& file() const { return origin_->file(); }
+
+ private:
+  YamlSection(std::shared_ptr<const YamlOrigin> origin, const YAML::Node& node, std::string path)
+      : origin_(std::move(origin)), node_(node), path_(std::move(path)) {}
+
+  std::string path_of(const std::string& key) const;
+  // The scalar at the key; nothing where the key is missing and need not be there.
+  std::optional<std::string> scalar(const std::string& key, bool required) const;
+
+  std::shared_ptr<const YamlOrigin> origin_;
+  YAML::Node node_;
+  std::string path_;  // dotted, "" for the document
+};
+
+}  // namespace plotscan::farm

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/program.h"
+#include "farm/description.h"
+#include "farm/generate.h"
+#include "farm/heights.h"
+#include "farm/obj.h"
+#include "farm/soybean.h"
+#include "farm/summary.h"
+#include "farm/write_farm.h"
+
+namespace {
+
+using namespace plotscan;
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string input;
+  std::string output;
+  std::vector<std::string> assignments;  // --set
+  bool force = false;
+};
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+nlohmann::json json_of(const farm::Spread& spread) {
+  return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}};
+}
+
+nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary) {
+  return {{"name", made.name},
+          {"seed", made.seed},
+          {"terrain",
+           {{"size_m", {summary.terrain_size_m.x(), summary.terrain_size_m.y()}},
+            {"z_m", {summary.terrain_z_m.x(), summary.terrain_z_m.y()}},
+            {"triangles", summary.terrain_triangles}}},
+          {"models", summary.models},
+          {"plots", summary.plots},
+          {"field_size_m", {summary.field_size_m.x(), summary.field_size_m.y()}},
+          {"plants", summary.plants},
+          {"plant_triangles", summary.plant_triangles},
+          {"plant_height_m", json_of(summary.plant_height_m)},
+          {"plot_height_max_m", json_of(summary.plot_height_max_m)},
+          {"leaf_area_index", summary.leaf_area_index}};
+}
+
+void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
+  const auto say_spread = [&](const char* label, const farm::Spread& spread) {
+    program.say(format("%-15s %.3f / %.3f / %.3f m (min / mean / max)", label, spread.min,
+                       spread.mean, spread.max));
+  };
+  program.say(format("farm            %s, seed %llu", made.name.c_str(),
+                     static_cast<unsigned long long>(made.seed)));
+  program.say(format("terrain         %.1f x %.1f m, z %.2f to %.2f m, %zu triangles",
+                     summary.terrain_size_m.x(), summary.terrain_size_m.y(),
+                     summary.terrain_z_m.x(), summary.terrain_z_m.y(), summary.terrain_triangles));
+  program.say(format("plots           %zu in a field of %.1f x %.1f m", summary.plots,
+                     summary.field_size_m.x(), summary.field_size_m.y()));
+  program.say(format("plants          %zu of %zu models, %llu triangles when placed",
+                     summary.plants, summary.models,
+                     static_cast<unsigned long long>(summary.plant_triangles)));
+  say_spread("plant heights", summary.plant_height_m);
+  say_spread("plot maxima", summary.plot_height_max_m);
+  program.say(format("leaf area index %.2f (area of all plant triangles over the plots' area)",
+                     summary.leaf_area_index));
+}
+
+farm::Farm generate_from(const Program& program, const Arguments& arguments,
+                         farm::FarmDescription& description) {
+  description = farm::load_description(arguments.input, arguments.assignments);
+  const CommonOptions& common = program.common();
+  return farm::generate(description,
+                        common.seed_given ? common.seed : description.seed.value_or(common.seed));
+}
+
+void run_generate(const Program& program, const Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  farm::FarmDescription description;
+  const farm::Farm made = generate_from(program, arguments, description);
+  farm::write_farm(made, arguments.output, arguments.force,
+                   {.command = "farmgen generate",
+                    .options = {{"description", description.source.filename().string()},
+                                {"set", arguments.assignments}},
+                    .inputs = farm::input_files(description)});
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const farm::FarmSummary summary = farm::summarise(made);
+  nlohmann::json document = json_of(made, summary);
+  document["folder"] = arguments.output;
+  document["seconds"] = elapsed.count();
+  program.result(document);
+  program.say(format("%s: %zu plots, %zu plants on %.1f x %.1f m, seed %llu, in %.2f s",
+                     arguments.output.c_str(), summary.plots, summary.plants,
+                     summary.terrain_size_m.x(), summary.terrain_size_m.y(),
+                     static_cast<unsigned long long>(made.seed), elapsed.count()));
+}
+
+void run_info(const Program& program, const Arguments& arguments) {
+  const farm::Farm read = farm::read_farm(arguments.input);
+  const farm::FarmSummary summary = farm::summarise(read);
+  program.result(json_of(read, summary));
+  say_summary(program, read, summary);
+}
+
+void run_check(const Program& program, const Arguments& arguments) {
+  farm::FarmDescription description;
+  const farm::Farm made = generate_from(program, arguments, description);
+  const farm::FarmSummary summary = farm::summarise(made);
+  program.result(json_of(made, summary));
+  program.say(arguments.input + " is sound; it makes");
+  say_summary(program, made, summary);
+}
+
+void run_plant_soybean(const Program& program, const Arguments& arguments) {
+  const fs::path output = arguments.output;
+  if (output.extension() != ".obj") throw InputError(output, "does not end in .obj");
+  if (fs::exists(output) && !arguments.force)
+    throw InputError(output, "exists; --force replaces it");
+  const farm::Mesh mesh =
+      farm::soybean(farm::soybean_options(arguments.assignments), program.common().seed);
+  const fs::path partial = output.string() + ".partial";
+  farm::write_obj(partial, mesh);
+  fs::rename(partial, output);
+  const double height_m = farm::mesh_height(mesh);
+  const double area_m2 = farm::scaled_area(mesh, Eigen::Vector3d::Ones());
+  program.result({{"mesh", arguments.output},
+                  {"height_m", height_m},
+                  {"area_m2", area_m2},
+                  {"vertices", mesh.vertices.size()},
+                  {"triangles", mesh.triangles.size()}});
+  program.say(format("%s: height %.3f m, area %.3f m2, %zu triangles", arguments.output.c_str(),
+                     height_m, area_m2, mesh.triangles.size()));
+}
+
+void add_farm_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("FARM", arguments.input, "farm description (YAML)")->required();
+  command
+      .add_option("--set", arguments.assignments,
+                  "key=value in place of the description's, as in terrain.relief_m=0.5 or "
+                  "plots.rows.0.plots=5; may be repeated")
+      ->expected(1)
+      ->take_all();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("farmgen", "Generate virtual phenotyping farms with known truth.");
+  Arguments arguments;
+
+  CLI::App& generate =
+      program.command("generate", "Make a farm folder from a description and a seed.",
+                      [&] { run_generate(program, arguments); });
+  add_farm_options(generate, arguments);
+  generate.add_option("-o,--output", arguments.output, "farm folder to write")->required();
+  generate.add_flag("--force", arguments.force, "replace a farm that is already there");
+
+  CLI::App& info = program.command("info", "Print what a farm folder holds.",
+                                   [&] { run_info(program, arguments); });
+  info.add_option("FOLDER", arguments.input, "farm folder written by generate")->required();
+
+  CLI::App& check =
+      program.command("check", "Say whether a description is sound, and what it makes.",
+                      [&] { run_check(program, arguments); });
+  add_farm_options(check, arguments);
+
+  CLI::App& plant = program.command("plant", "Make a plant mesh from parameters and a seed.",
+                                    [&] { run_plant_soybean(program, arguments); });
+  plant.add_option("SPECIES", arguments.input, "soybean")
+      ->required()
+      ->check(CLI::IsMember({"soybean"}));
+  plant.add_option("--set", arguments.assignments, "key=value, see below; may be repeated")
+      ->expected(1)
+      ->take_all();
+  plant.add_option("-o,--output", arguments.output, "mesh to write (OBJ, metres, z up)")
+      ->required();
+  plant.add_flag("--force", arguments.force, "replace a mesh that is already there");
+  plant.footer("Keys of --set with their defaults:\n" + farm::soybean_options_help());
+  return program.run(argc, argv);
+}
