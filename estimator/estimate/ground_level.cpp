@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kCell_m = 1.0;
 constexpr int kIterations = 50;
+constexpr int kCenteringRounds = 5;
+constexpr double kGroundBand_m = 0.15;  // about the level: points that may be ground
 // Residuals below it count as equally good; below the range noise, so that it decides nothing.
 constexpr double kSmallResidual_m = 0.005;
 
@@ -35,11 +37,8 @@ std::vector<Eigen::Vector3d> lowest_by_cell(std::span<const Eigen::Vector3f> poi
   return lowest;
 }
 
-}  // namespace
-
 // Least absolute deviations by iteratively reweighted least squares.
-GroundLevel fit_ground_level(std::span<const Eigen::Vector3f> points) {
-  const std::vector<Eigen::Vector3d> lowest = lowest_by_cell(points);
+GroundLevel fit_plane(const std::vector<Eigen::Vector3d>& lowest) {
   std::vector<double> weights(lowest.size(), 1.0);
   Eigen::Vector3d plane = Eigen::Vector3d::Zero();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -59,6 +58,31 @@ GroundLevel fit_ground_level(std::span<const Eigen::Vector3f> points) {
     }
   }
   return {.offset_m = plane.x(), .slope = plane.tail<2>()};
+}
+
+// Lowest points lie below the ground by some deviations of the range noise: raises the level to the
+// mean of the points about it.
+void center_on_ground(std::span<const Eigen::Vector3f> points, GroundLevel& level) {
+  for (int round = 0; round < kCenteringRounds; ++round) {
+    double sum_m = 0;
+    std::size_t count = 0;
+    for (const Eigen::Vector3f& point : points) {
+      const double height_m = level.height_of(point);
+      if (std::abs(height_m) > kGroundBand_m) continue;
+      sum_m += height_m;
+      ++count;
+    }
+    if (count == 0) return;
+    level.offset_m += sum_m / static_cast<double>(count);
+  }
+}
+
+}  // namespace
+
+GroundLevel fit_ground_level(std::span<const Eigen::Vector3f> points) {
+  GroundLevel level = fit_plane(lowest_by_cell(points));
+  center_on_ground(points, level);
+  return level;
 }
 
 }  // namespace plotscan::estimate

@@ -19,7 +19,14 @@ using Points = std::span<const Eigen::Vector3f>;
 // Sums are taken chunk by chunk and added in the chunks' order, whichever thread did which.
 constexpr std::size_t kChunk = 8192;
 // Iterations end when no centre moves farther: well below a voxel.
-constexpr float kSettled_m = 1e-4f;
+constexpr float kSettled_m = 1e-3f;
+// Lloyd iterations by which a swap is judged.
+constexpr int kSwapIterations = 5;
+// A swap moves one of this many centres that cost least to remove.
+constexpr std::size_t kCheapestCenters = 5;
+// Bounds swaps x points x clusters of a restart: with a thousand clusters a swap takes 0.3 s.
+constexpr double kMostSwapWork = 2e8;
+constexpr std::size_t kSamplePointsPerCluster = 50;
 
 // The centres by coordinate: the search for the nearest of them then runs on vector units.
 struct CenterTable {
@@ -160,6 +167,52 @@ std::vector<Eigen::Vector3f> plus_plus_seeds(Points points, int clusters, Random
   return centers;
 }
 
+// How much each cluster's squares would grow if its points went to their second nearest centres.
+std::vector<double> removal_costs(Points points, const Clustering& clustering) {
+  const CenterTable table(clustering.centers);
+  std::vector<float> squared(clustering.centers.size());
+  std::vector<double> costs(clustering.centers.size(), 0);
+  for (const Eigen::Vector3f& point : points) {
+    const Nearest first = nearest_center(point, table, squared);
+    squared[first.center] = std::numeric_limits<float>::max();
+    costs[first.center] += *std::min_element(squared.begin(), squared.end()) - first.squared_m2;
+  }
+  return costs;
+}
+
+// A point drawn with probability proportional to its squared distance to its centre.
+const Eigen::Vector3f& far_point(Points points, const Clustering& clustering,
+                                 RandomStream& random) {
+  double left = random.uniform() * clustering.inertia_m2;
+  std::size_t chosen = 0;
+  for (; chosen + 1 < points.size(); ++chosen) {
+    left -= (points[chosen] - clustering.centers[clustering.cluster_of[chosen]]).squaredNorm();
+    if (left < 0) break;
+  }
+  return points[chosen];
+}
+
+Clustering improved_by_swaps(Points points, Clustering clustering, int swaps, RandomStream& random,
+                             tbb::task_arena& arena) {
+  const std::size_t clusters = clustering.centers.size();
+  const double work = static_cast<double>(points.size()) * static_cast<double>(clusters);
+  swaps = clusters < 2 ? 0 : static_cast<int>(std::min<double>(swaps, kMostSwapWork / work));
+  std::vector<std::size_t> order(clusters);
+  std::vector<double> costs = removal_costs(points, clustering);
+  for (int swap = 0; swap < swaps; ++swap) {
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t center) { return costs[center]; });
+    std::vector<Eigen::Vector3f> centers = clustering.centers;
+    centers[order[random.below(std::min(clusters, kCheapestCenters))]] =
+        far_point(points, clustering, random);
+    Clustering swapped = lloyd(points, std::move(centers), kSwapIterations, arena);
+    if (swapped.inertia_m2 >= clustering.inertia_m2) continue;
+    clustering = std::move(swapped);
+    costs = removal_costs(points, clustering);
+  }
+  return clustering;
+}
+
 // A sample without replacement: the first places of a Fisher-Yates shuffle.
 std::vector<Eigen::Vector3f> sample_of(Points points, std::size_t size, std::uint64_t seed) {
   std::vector<Eigen::Vector3f> sample(points.begin(), points.end());
@@ -179,16 +232,18 @@ Clustering k_means(Points points, const KMeansOptions& options) {
         "k-means has at least one cluster and as many points as clusters");
   tbb::task_arena arena(options.threads);
   const std::size_t sample_size =
-      std::max(options.sample_points, std::size_t{100} * options.clusters);
+      std::max(options.sample_points, kSamplePointsPerCluster * options.clusters);
   const std::vector<Eigen::Vector3f> sample = sample_of(points, sample_size, options.seed);
   Clustering best;
   for (int restart = 0; restart < options.restarts; ++restart) {
-    RandomStream random(options.seed, random_purpose("estimate/k-means seeds"), restart);
-    Clustering clustering = lloyd(sample, plus_plus_seeds(sample, options.clusters, random),
-                                  options.max_iterations, arena);
+    RandomStream random(options.seed, random_purpose("estimate/k-means"), restart);
+    Clustering clustering =
+        improved_by_swaps(sample,
+                          lloyd(sample, plus_plus_seeds(sample, options.clusters, random),
+                                options.max_iterations, arena),
+                          options.swaps, random, arena);
     if (restart == 0 || clustering.inertia_m2 < best.inertia_m2) best = std::move(clustering);
   }
-  if (sample.size() == points.size()) return best;
   return lloyd(points, std::move(best.centers), options.max_iterations, arena);
 }
 

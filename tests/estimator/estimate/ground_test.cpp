@@ -78,10 +78,20 @@ TEST(FitGroundLevel, LiesOnTheGroundUnderACanopy) {
   EXPECT_NEAR(level.slope.x(), kSlopeX, 2e-3);
   EXPECT_NEAR(level.slope.y(), kSlopeY, 2e-3);
   for (const double x : {-15.0, 0.0, 15.0}) {
-    // A cell's lowest point lies downhill of it, 0.15 m lower at most.
     const Eigen::Vector3d ground(x, 2, ground_z(x, 2));
-    EXPECT_NEAR(level.height_of(ground.cast<float>()), 0.075, 0.08);
+    EXPECT_NEAR(level.height_of(ground.cast<float>()), 0, 0.01);
   }
+}
+
+TEST(FitGroundLevel, IsNotDrawnBelowTheGroundByNoise) {
+  RandomStream random(4, random_purpose("test/noise"), 0);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100000; ++i) {
+    points.emplace_back(static_cast<float>(random.uniform(-10, 10)),
+                        static_cast<float>(random.uniform(-10, 10)),
+                        static_cast<float>(2 + 0.03 * random.normal()));
+  }
+  EXPECT_NEAR(fit_ground_level(points).offset_m, 2, 0.002);
 }
 
 TEST(FitGroundLevel, StandsASinglePoint) {
