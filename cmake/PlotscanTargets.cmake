@@ -28,8 +28,8 @@ function(plotscan_program name)
   plotscan_compile_options(${name})
 endfunction()
 
-# plotscan_test(NAME SOURCES ... LIBRARIES ...): one GoogleTest program, its cases found by CTest.
-function(plotscan_test name)
+# plotscan_test_program(NAME SOURCES ... LIBRARIES ...): one GoogleTest program, not yet a test.
+function(plotscan_test_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
@@ -38,6 +38,11 @@ function(plotscan_test name)
     PLOTSCAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PLOTSCAN_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
   plotscan_compile_options(${name})
+endfunction()
+
+# plotscan_test(NAME SOURCES ... LIBRARIES ...): the same, its cases found by CTest.
+function(plotscan_test name)
+  plotscan_test_program(${name} ${ARGN})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 include(GoogleTest)

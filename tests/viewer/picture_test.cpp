@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/picture.h"
+
+#include <array>
+#include <functional>
+
+#include "temporary_folder.h"
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include "core/error.h"
+
+namespace plotscan::view {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+// A flat square of 20 m with one plot of one upright, dark green slab.
+farm::Farm slab_farm() {
+  farm::Terrain terrain({{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}},
+                        {{0, 1, 2}, {0, 2, 3}});
+  farm::PlantModel slab{
+      .name = "slab", .mesh = {.vertices = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}}, .height_m = 1};
+  slab.mesh.vertices = {{-1, 0, 0}, {1, 0, 0}, {1, 0, 1}, {-1, 0, 1}};
+  const farm::Plot plot{.id = 1,
+                        .row = 1,
+                        .column = 1,
+                        .box = {.width_m = 2, .length_m = 4},
+                        .plant_count = 1,
+                        .heights = {}};
+  farm::Plant plant;
+  plant.id = 1;
+  plant.plot = 1;
+  plant.height_m = 1;
+  return {.name = "slab",
+          .seed = 1,
+          .terrain = terrain,
+          .models = {slab},
+          .plots = {plot},
+          .plants = {plant}};
+}
+
+std::filesystem::path small_cloud(const testing::TemporaryFolder& folder) {
+  std::string points;
+  int count = 0;
+  for (double x = -2; x <= 2; x += 0.05) {
+    for (double z = 0; z <= 1; z += 0.05, ++count) {
+      points += std::to_string(x) + " 0 " + std::to_string(z) + "\n";
+    }
+  }
+  const std::string size = std::to_string(count);
+  return folder.write(
+      "cloud.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + size +
+                       "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + size + "\nDATA ascii\n" +
+                       points);
+}
+
+// Pixels whose colour `wanted` holds, in the part [from, to) of the picture's width.
+int count_pixels(const std::filesystem::path& png, double from, double to,
+                 const std::function<bool(Colour)>& wanted) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(png.c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  const int* size = image.GetDimensions();
+  int count = 0;
+  for (int y = 0; y < size[1]; ++y) {
+    for (int x = static_cast<int>(from * size[0]); x < static_cast<int>(to * size[0]); ++x) {
+      Colour colour{};
+      for (int c = 0; c < 3; ++c)
+        colour[c] = static_cast<int>(image.GetScalarComponentAsDouble(x, y, 0, c));
+      count += wanted(colour);
+    }
+  }
+  return count;
+}
+
+bool red(Colour c) { return c[0] > 150 && c[1] < 90 && c[2] < 90; }
+bool green(Colour c) { return c[1] > c[0] + 25 && c[1] > c[2] + 25; }
+
+TEST(Picture, ShowsPlantsOnTheLeftAndCloudWithBoxesOnTheRight) {
+  const testing::TemporaryFolder folder;
+  const auto farm = slab_farm();
+  const PictureOptions options{.width_px = 600, .height_px = 300};
+  draw_picture(farm, small_cloud(folder), {farm.plots[0].box}, folder.path() / "with.png", options);
+  EXPECT_GT(count_pixels(folder.path() / "with.png", 0, 0.5, green), 50);
+  EXPECT_GT(count_pixels(folder.path() / "with.png", 0.5, 1, green), 50);
+  EXPECT_EQ(count_pixels(folder.path() / "with.png", 0, 0.5, red), 0);
+  EXPECT_GT(count_pixels(folder.path() / "with.png", 0.5, 1, red), 50);
+
+  draw_picture(farm, small_cloud(folder), {}, folder.path() / "without.png", options);
+  EXPECT_EQ(count_pixels(folder.path() / "without.png", 0, 1, red), 0);
+}
+
+TEST(Picture, OfAFarmAloneFillsThePicture) {
+  const testing::TemporaryFolder folder;
+  draw_picture(slab_farm(), std::nullopt, {}, folder.path() / "farm.png",
+               {.width_px = 300, .height_px = 300});
+  EXPECT_GT(count_pixels(folder.path() / "farm.png", 0, 1, green), 50);
+}
+
+TEST(Picture, RefusesImpossibleSizesAndPlaces) {
+  const testing::TemporaryFolder folder;
+  const auto draw = [&](const PictureOptions& options, const std::string& name) {
+    draw_picture(slab_farm(), std::nullopt, {}, folder.path() / name, options);
+  };
+  EXPECT_THROW(draw({.width_px = 1}, "a.png"), InputError);
+  EXPECT_THROW(draw({.elevation_deg = -3}, "a.png"), InputError);
+  EXPECT_THROW(draw({}, "absent/a.png"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.png"));
+}
+
+}  // namespace
+}  // namespace plotscan::view

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/actors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkClipPolyData.h>
+#include <vtkFloatArray.h>
+#include <vtkGlyph3DMapper.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkSmartPointer.h>
+#include <vtkTextProperty.h>
+
+#include "core/statistics.h"
+#include "scan/cloud_reader.h"
+
+namespace plotscan::view {
+namespace {
+
+constexpr double kBoxLift_m = 0.05;
+// The colour bar ends here: the share of points below, so that one stray point does not bleach all
+// others.
+constexpr double kTopShare = 0.999;
+
+vtkNew<vtkPolyData> poly_data_of(const farm::Mesh& mesh) {
+  vtkNew<vtkPoints> points;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    points->InsertNextPoint(vertex.x(), vertex.y(), vertex.z());
+  vtkNew<vtkCellArray> cells;
+  for (const auto& triangle : mesh.triangles) {
+    cells->InsertNextCell({triangle[0], triangle[1], triangle[2]});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  return data;
+}
+
+// One point a plant with its rotation (w, x, y, z) and scale, as vtkGlyph3DMapper wants them.
+vtkNew<vtkPolyData> placements_of(const farm::Farm& farm, std::uint32_t model) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> rotations;
+  rotations->SetName("rotation");
+  rotations->SetNumberOfComponents(4);
+  vtkNew<vtkFloatArray> scales;
+  scales->SetName("scale");
+  scales->SetNumberOfComponents(3);
+  for (const farm::Plant& plant : farm.plants) {
+    if (plant.model != model) continue;
+    points->InsertNextPoint(plant.position.data());
+    rotations->InsertNextTuple4(plant.rotation.w(), plant.rotation.x(), plant.rotation.y(),
+                                plant.rotation.z());
+    scales->InsertNextTuple(plant.scale.data());
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(rotations);
+  data->GetPointData()->AddArray(scales);
+  return data;
+}
+
+struct ColouredPoints {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<double> heights_m;
+};
+
+ColouredPoints points_in_field(const std::filesystem::path& cloud, const farm::Terrain& terrain,
+                               const Field& field) {
+  const Eigen::AlignedBox2d shown(field.min().head<2>(), field.max().head<2>());
+  ColouredPoints points;
+  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> positions) {
+    for (const Eigen::Vector3d& position : positions) {
+      if (!shown.contains(position.head<2>())) continue;
+      const auto ground = terrain.height(position.x(), position.y());
+      if (!ground) continue;
+      points.positions.push_back(position.cast<float>());
+      points.heights_m.push_back(position.z() - *ground);
+    }
+  });
+  return points;
+}
+
+vtkNew<vtkLookupTable> height_colours(double top_m) {
+  vtkNew<vtkLookupTable> table;
+  table->SetHueRange(0.12, 0.38);  // straw, over green, to a dark leaf green
+  table->SetSaturationRange(0.45, 1.0);
+  table->SetValueRange(0.92, 0.30);
+  table->SetRange(0, top_m);
+  table->Build();
+  return table;
+}
+
+void add_colour_bar(vtkRenderer& renderer, vtkLookupTable& colours) {
+  vtkNew<vtkScalarBarActor> bar;
+  bar->SetLookupTable(&colours);
+  bar->SetTitle("height (m)");
+  bar->SetNumberOfLabels(5);
+  bar->SetLabelFormat("%.2f");
+  bar->UnconstrainedFontSizeOn();
+  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
+    text->SetColor(0.1, 0.1, 0.1);
+    text->SetFontSize(14);
+    text->ItalicOff();
+    text->ShadowOff();
+  }
+  bar->SetPosition(0.90, 0.08);
+  bar->SetWidth(0.08);
+  bar->SetHeight(0.35);
+  renderer.AddActor2D(bar);
+}
+
+// The part of the surface on the inner side of one of the field's upright sides.
+vtkSmartPointer<vtkPolyData> behind_plane(vtkPolyData* surface, const Field& field, int axis,
+                                          int side) {
+  Eigen::Vector3d inward = Eigen::Vector3d::Zero();
+  inward[axis] = -side;
+  const Eigen::Vector3d& corner = side > 0 ? field.max() : field.min();
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(inward.x(), inward.y(), inward.z());
+  plane->SetOrigin(corner.x(), corner.y(), corner.z());
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(surface);
+  clip->SetClipFunction(plane);
+  clip->Update();
+  return clip->GetOutput();
+}
+
+}  // namespace
+
+Field field_of(const farm::Farm& farm, double margin_m) {
+  Eigen::AlignedBox2d extent;
+  for (const farm::Plot& plot : farm.plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) extent.extend(corner);
+  }
+  if (farm.plots.empty()) {
+    for (const Eigen::Vector3d& vertex : farm.terrain.vertices())
+      extent.extend(Eigen::Vector2d(vertex.head<2>()));
+  }
+  Eigen::AlignedBox1d heights;
+  for (const farm::Plant& plant : farm.plants) {
+    heights.extend(Eigen::Matrix<double, 1, 1>(plant.position.z()));
+    heights.extend(Eigen::Matrix<double, 1, 1>(plant.position.z() + plant.height_m));
+  }
+  if (heights.isEmpty()) {
+    for (const Eigen::Vector3d& vertex : farm.terrain.vertices())
+      heights.extend(Eigen::Matrix<double, 1, 1>(vertex.z()));
+  }
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  Field field;
+  field.extend((Eigen::Vector3d() << extent.min() - margin, heights.min()).finished());
+  field.extend((Eigen::Vector3d() << extent.max() + margin, heights.max()).finished());
+  return field;
+}
+
+void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Field& field) {
+  farm::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
+  for (const Eigen::Vector3d& vertex : terrain.vertices())
+    mesh.vertices.emplace_back(vertex.cast<float>());
+  const auto data = poly_data_of(mesh);
+  vtkSmartPointer<vtkPolyData> shown = data.GetPointer();
+  for (const int axis : {0, 1}) {
+    for (const int side : {-1, 1}) shown = behind_plane(shown, field, axis, side);
+  }
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(shown);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.72, 0.62, 0.48);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetAmbient(0.25);
+  renderer.AddActor(actor);
+}
+
+void add_plants(vtkRenderer& renderer, const farm::Farm& farm) {
+  for (std::uint32_t model = 0; model < farm.models.size(); ++model) {
+    const auto mesh = poly_data_of(farm.models[model].mesh);
+    const auto placements = placements_of(farm, model);
+    vtkNew<vtkGlyph3DMapper> mapper;
+    mapper->SetSourceData(mesh);
+    mapper->SetInputData(placements);
+    mapper->SetOrientationArray("rotation");
+    mapper->SetOrientationModeToQuaternion();
+    mapper->SetScaleArray("scale");
+    mapper->SetScaleModeToScaleByVectorComponents();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    const double shade = 0.08 * (model % 5);
+    actor->GetProperty()->SetColor(0.24 + shade, 0.52 + shade / 2, 0.18);
+    actor->GetProperty()->SetInterpolationToFlat();
+    actor->GetProperty()->SetAmbient(0.3);
+    renderer.AddActor(actor);
+  }
+}
+
+void add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
+               const farm::Terrain& terrain, const Field& field, std::size_t max_points) {
+  const ColouredPoints points = points_in_field(cloud, terrain, field);
+  const std::size_t stride = points.positions.size() / std::max<std::size_t>(1, max_points) + 1;
+  vtkNew<vtkPoints> positions;
+  vtkNew<vtkFloatArray> heights;
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i < points.positions.size(); i += stride) {
+    const vtkIdType id = positions->InsertNextPoint(points.positions[i].data());
+    heights->InsertNextValue(static_cast<float>(points.heights_m[i]));
+    cells->InsertNextCell({id});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(positions);
+  data->SetVerts(cells);
+  data->GetPointData()->SetScalars(heights);
+
+  const auto colours = height_colours(std::max(0.1, quantile(points.heights_m, kTopShare)));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->SetLookupTable(colours);
+  mapper->UseLookupTableScalarRangeOn();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetPointSize(1);
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+  add_colour_bar(renderer, *colours);
+}
+
+void add_boxes(vtkRenderer& renderer, const std::vector<PlotBox>& boxes,
+               const farm::Terrain& terrain) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (const PlotBox& box : boxes) {
+    const auto corners = box.corners();
+    lines->InsertNextCell(5);
+    const vtkIdType first = points->GetNumberOfPoints();
+    for (const Eigen::Vector2d& corner : corners) {
+      const double z = terrain.height(corner.x(), corner.y()).value_or(0.0) + kBoxLift_m;
+      points->InsertNextPoint(corner.x(), corner.y(), z);
+    }
+    for (const vtkIdType offset : {0, 1, 2, 3, 0}) lines->InsertCellPoint(first + offset);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.80, 0.10, 0.15);
+  actor->GetProperty()->SetLineWidth(2.5F);
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
+}  // namespace plotscan::view

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+#include "farm/farm.h"
+
+namespace plotscan::view {
+
+// What a picture of a farm shows. Every panel is seen from the same camera.
+struct PictureOptions {
+  int width_px = 1600;  // of the whole picture, 64 to 16384
+  int height_px = 800;
+  double azimuth_deg =
+      -60;  // where the camera stands: counter-clockwise from east, seen from the field's centre
+  double elevation_deg = 35;           // of the camera over the horizon, 5 to 90
+  double margin_m = 1.5;               // shown around the plots
+  std::size_t max_points = 3'000'000;  // of the cloud; evenly thinned beyond
+};
+
+// Draws the farm (terrain and plants) and, beside it, the cloud coloured by height over the terrain
+// with the boxes on it, and writes a PNG. `cloud` is a PCD or PLY; without it only the farm is
+// drawn. Rendered by VTK into an off-screen window, for which Debian's VTK needs an X display
+// (xvfb-run serves). Throws InputError on options out of range, a broken cloud, a file that cannot
+// be written, or a missing display.
+void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::path>& cloud,
+                  const std::vector<PlotBox>& boxes, const std::filesystem::path& png,
+                  const PictureOptions& options);
+
+}  // namespace plotscan::view
