@@ -115,10 +115,10 @@ class SoybeanBuilder {
   void grow_leaf(const Vector3d& node, double azimuth, double share, double vigour,
                  RandomStream& random) {
     const double petiole =
-        vary(options_.petiole_m, random) * vigour * profile(share, 0.7, 0.6, 0.3);
+        vary(options_.petiole_m, random) * vigour * profile(share, 0.7, 0.6, 0.4);
     const double angle = vary(options_.petiole_angle_deg, random) * profile(share, 1, 0.5, 0.8);
     const double size =
-        vary(options_.leaflet_length_m, random) * vigour * profile(share, 0.75, 0.5, 0.5);
+        vary(options_.leaflet_length_m, random) * vigour * profile(share, 0.75, 0.5, 0.65);
     const Vector3d end = node + petiole * direction(azimuth, (90 - angle) * kRadians);
     const double radius = options_.stem_radius_m * kPetioleRadiusShare;
     add_tube({node, end}, radius, radius / 2, kPetioleSides);
