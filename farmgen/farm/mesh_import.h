@@ -17,7 +17,7 @@ enum class MeshFoot {
 // How a file's coordinates become metres with z up.
 struct MeshImportOptions {
   // Absent: what the file states (DAE, glTF: the format fixes it), else z up (OBJ, PLY, STL).
-  std::optional<UpAxis> up;
+  std::optional<UpAxis> up = {};
   // Metres a unit of the file; for DAE and glTF, which state their unit, a further factor.
   double unit_m = 1;
   MeshFoot foot = MeshFoot::origin;

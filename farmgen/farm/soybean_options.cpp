@@ -6,6 +6,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "farm/range.h"
 #include "farm/soybean.h"
 
 namespace plotscan::farm {
@@ -14,34 +15,32 @@ namespace {
 struct Parameter {
   const char* name;
   double SoybeanOptions::*value;
-  double low;
-  double high;
+  Range range;
   bool whole;
 };
 
 constexpr std::array<Parameter, 17> kParameters = {{
-    {"nodes", &SoybeanOptions::nodes, 3, 30, true},
-    {"first_leaf_node", &SoybeanOptions::first_leaf_node, 1, 30, true},
-    {"internode_m", &SoybeanOptions::internode_m, 0.005, 0.2, false},
-    {"lean_deg", &SoybeanOptions::lean_deg, 0, 30, false},
-    {"zigzag_deg", &SoybeanOptions::zigzag_deg, 0, 30, false},
-    {"stem_radius_m", &SoybeanOptions::stem_radius_m, 0.0005, 0.02, false},
-    {"branches", &SoybeanOptions::branches, 0, 10, true},
-    {"branch_nodes", &SoybeanOptions::branch_nodes, 1, 15, true},
-    {"branch_angle_deg", &SoybeanOptions::branch_angle_deg, 0, 80, false},
-    {"phyllotaxis_deg", &SoybeanOptions::phyllotaxis_deg, 0, 360, false},
-    {"petiole_m", &SoybeanOptions::petiole_m, 0.01, 0.5, false},
-    {"petiole_angle_deg", &SoybeanOptions::petiole_angle_deg, 0, 90, false},
-    {"leaflet_length_m", &SoybeanOptions::leaflet_length_m, 0.01, 0.3, false},
-    {"leaflet_width_ratio", &SoybeanOptions::leaflet_width_ratio, 0.1, 1.5, false},
-    {"leaflet_bend_deg", &SoybeanOptions::leaflet_bend_deg, 0, 150, false},
-    {"leaflet_fold_deg", &SoybeanOptions::leaflet_fold_deg, 0, 60, false},
-    {"variation", &SoybeanOptions::variation, 0, 0.5, false},
+    {"nodes", &SoybeanOptions::nodes, {3, 30}, true},
+    {"first_leaf_node", &SoybeanOptions::first_leaf_node, {1, 30}, true},
+    {"internode_m", &SoybeanOptions::internode_m, {0.005, 0.2}, false},
+    {"lean_deg", &SoybeanOptions::lean_deg, {0, 30}, false},
+    {"zigzag_deg", &SoybeanOptions::zigzag_deg, {0, 30}, false},
+    {"stem_radius_m", &SoybeanOptions::stem_radius_m, {0.0005, 0.02}, false},
+    {"branches", &SoybeanOptions::branches, {0, 10}, true},
+    {"branch_nodes", &SoybeanOptions::branch_nodes, {1, 15}, true},
+    {"branch_angle_deg", &SoybeanOptions::branch_angle_deg, {0, 80}, false},
+    {"phyllotaxis_deg", &SoybeanOptions::phyllotaxis_deg, {0, 360}, false},
+    {"petiole_m", &SoybeanOptions::petiole_m, {0.01, 0.5}, false},
+    {"petiole_angle_deg", &SoybeanOptions::petiole_angle_deg, {0, 90}, false},
+    {"leaflet_length_m", &SoybeanOptions::leaflet_length_m, {0.01, 0.3}, false},
+    {"leaflet_width_ratio", &SoybeanOptions::leaflet_width_ratio, {0.1, 1.5}, false},
+    {"leaflet_bend_deg", &SoybeanOptions::leaflet_bend_deg, {0, 150}, false},
+    {"leaflet_fold_deg", &SoybeanOptions::leaflet_fold_deg, {0, 60}, false},
+    {"variation", &SoybeanOptions::variation, {0, 0.5}, false},
 }};
 
 std::string range_text(const Parameter& parameter) {
-  return std::string(parameter.whole ? "a whole number" : "a number") + " in [" +
-         format_number(parameter.low) + ", " + format_number(parameter.high) + "]";
+  return (parameter.whole ? "a whole number in " : "a number in ") + parameter.range.text();
 }
 
 const Parameter& parameter_named(const std::string& name, const std::string& assignment) {
@@ -65,7 +64,7 @@ SoybeanOptions soybean_options(const std::vector<std::string>& assignments) {
     double value = 0;
     const auto parsed = std::from_chars(begin, end, value);
     const bool number = parsed.ec == std::errc() && parsed.ptr == end;
-    if (!number || !(value >= parameter.low && value <= parameter.high) ||
+    if (!number || !parameter.range.contains(value) ||
         (parameter.whole && value != std::floor(value))) {
       throw InputError("--set " + assignment + ": " + parameter.name + " is to be " +
                        range_text(parameter));

@@ -7,7 +7,6 @@
 #include <set>
 #include <string_view>
 
-#include "core/csv.h"
 #include "core/error.h"
 
 namespace plotscan::farm {
@@ -29,10 +28,6 @@ std::optional<Number> parsed(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return {};
   return value;
-}
-
-std::string range_text(Range range) {
-  return "[" + format_number(range.low) + ", " + format_number(range.high) + "]";
 }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -148,9 +143,9 @@ double YamlSection::number(const std::string& key, Range range,
   const auto text = scalar(key, !fallback);
   if (!text) return *fallback;
   const auto value = parsed<double>(*text);
-  if (!value) fail(key, "\"" + *text + "\" is not a number; allowed are " + range_text(range));
-  if (!(*value >= range.low && *value <= range.high)) {
-    fail(key, *text + " is not in " + range_text(range));
+  if (!value) fail(key, "\"" + *text + "\" is not a number; allowed are " + range.text());
+  if (!range.contains(*value)) {
+    fail(key, *text + " is not in " + range.text());
   }
   return *value;
 }
@@ -197,13 +192,13 @@ std::pair<double, double> YamlSection::pair(
   if (!value.IsDefined()) fail(key, "is missing");
   const bool is_pair =
       value.IsSequence() && value.size() == 2 && value[0].IsScalar() && value[1].IsScalar();
-  if (!is_pair) fail(key, "is not a list of two numbers in " + range_text(range));
+  if (!is_pair) fail(key, "is not a list of two numbers in " + range.text());
   const auto first = parsed<double>(value[0].Scalar());
   const auto second = parsed<double>(value[1].Scalar());
   for (const auto& number : {first, second}) {
-    if (number && *number >= range.low && *number <= range.high) continue;
+    if (number && range.contains(*number)) continue;
     fail(key, "[" + value[0].Scalar() + ", " + value[1].Scalar() +
-                  "] is not a pair of numbers in " + range_text(range));
+                  "] is not a pair of numbers in " + range.text());
   }
   return {*first, *second};
 }

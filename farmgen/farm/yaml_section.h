@@ -12,13 +12,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-namespace plotscan::farm {
+#include "farm/range.h"
 
-// The closed range of a number.
-struct Range {
-  double low;
-  double high;
-};
+namespace plotscan::farm {
 
 // Where a value of a description comes from: a line of the file, or an override.
 class YamlOrigin {
