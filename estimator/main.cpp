@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <cstdio>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/program.h"
 #include "estimate/run.h"
+#include "score/run.h"
 
 namespace plotscan {
 namespace {
@@ -131,6 +133,59 @@ void declare_run(Program& program, RunArguments& arguments) {
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
 }
 
+void say_scores(const Program& program, const score::Scores& scores) {
+  const score::BoxScore& boxes = scores.boxes;
+  program.say(formatted("plots    %zu of %zu found, %zu missed, %zu extra", boxes.found,
+                        boxes.plots, boxes.missed, boxes.extra));
+  if (boxes.found == 0) return;
+  program.say(
+      formatted("boxes    IoU median %.3f, least %.3f; centre %.3f m rms, heading %.2f deg "
+                "rms",
+                boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
+                boxes.heading_rmse_rad * 180 / std::numbers::pi));
+  program.say("");
+  program.say(formatted("%-12s %-15s %5s %7s %7s %7s %7s %7s %7s %6s", "height", "truth", "plots",
+                        "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
+  for (const score::HeightScore& height : scores.heights) {
+    program.say(formatted("%-12s %-15s %5zu %7zu %7.2f %+7.2f %7.2f %7.2f %7.3f %6.3f",
+                          height.height.c_str(), height.truth.c_str(), height.plots, height.without,
+                          100 * height.rmse_m, 100 * height.bias_m, 100 * height.mae_m,
+                          100 * height.standard_error_m, height.r2, height.correlation2));
+  }
+  program.say(
+      "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
+      "found");
+}
+
+void score_estimate(const Program& program, score::RunOptions options, const std::string& output) {
+  if (!output.empty()) options.output = output;
+  const score::Scores scores = score::run(options);
+  say_scores(program, scores);
+  if (options.output) program.say("written to " + options.output->string());
+  program.result(score::to_json(scores));
+}
+
+void declare_score(Program& program, score::RunOptions& options, std::string& output) {
+  CLI::App& score =
+      program.command("score", "Compare an estimate with the truth.",
+                      [&program, &options, &output] { score_estimate(program, options, output); });
+  score
+      .add_option(
+          "EST", options.estimate,
+          "estimate folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+      ->required();
+  score
+      .add_option("--truth", options.truth,
+                  "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+      ->required();
+  score.add_option("-o,--output", output,
+                   "folder to write scores.json and plots.csv to (default: write nothing)");
+  score.add_option(
+      "--min-iou", options.score.min_iou,
+      "least overlap of a found plot's box with the true one, intersection over union");
+  score.add_flag("--force", options.replace, "replace a scores folder that exists");
+}
+
 }  // namespace
 }  // namespace plotscan
 
@@ -138,5 +193,8 @@ int main(int argc, char** argv) {
   plotscan::Program program("estimator", "Find plots in point clouds and measure crop heights.");
   plotscan::RunArguments run;
   plotscan::declare_run(program, run);
+  plotscan::score::RunOptions score;
+  std::string scores;
+  plotscan::declare_score(program, score, scores);
   return program.run(argc, argv);
 }

@@ -95,9 +95,10 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   write_heights(folder / "heights.csv", estimate.plots);
 }
 
-Estimate read_estimate(const fs::path& folder) {
-  const fs::path file = folder / "plots.geojson";
-  Estimate estimate{.method = method_of(folder)};
+Estimate read_estimate(const fs::path& path) {
+  const bool is_folder = fs::is_directory(path);
+  const fs::path file = is_folder ? path / "plots.geojson" : path;
+  Estimate estimate{.method = is_folder ? method_of(path) : ""};
   bool any_height = false;
   for (const PlotFeature& feature : read_plot_features(file)) {
     estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));

@@ -35,11 +35,11 @@ struct Estimate {
 // Writes plots.geojson and heights.csv (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
-// Reads an estimate folder's plots.geojson, Plotscan's or anyone's: heights are its numeric
-// properties named height_<name>_m; plots without a number get their place in the file. The method
-// is the one that manifest.json names, "" without a manifest. Throws InputError as
-// read_plot_features does, and when there is no plot or no height at all.
-Estimate read_estimate(const std::filesystem::path& folder);
+// Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
+// its numeric properties named height_<name>_m; plots without a number get their place in the file.
+// The method is the one that the folder's manifest.json names, "" without a manifest. Throws
+// InputError as read_plot_features does, and when there is no plot or no height at all.
+Estimate read_estimate(const std::filesystem::path& path);
 
 // What one feature of a plots.geojson says; `number` is its place in the file, from 1.
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);

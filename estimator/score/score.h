@@ -1,37 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
-#include "core/plot_features.h"
+#include "core/plot_box.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::score {
 
-// Which estimated plot is which true one.
-struct PlotMatch {
-  std::size_t truth = 0;     // index of the true plot
-  std::size_t estimate = 0;  // index of the estimated plot
-  double iou = 0;
+// One plot as it is.
+struct TruePlot {
+  std::uint32_t id = 0;  // from 1
+  int row = 0;           // from 1; 0 when unknown
+  int column = 0;        // from 1; 0 when unknown
+  PlotBox box;
+  std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m"
 };
 
-struct Matching {
-  std::vector<PlotMatch> matches;   // by true plot; one to one
-  std::vector<std::size_t> missed;  // true plots without an estimate
-  std::vector<std::size_t> extra;   // estimates without a true plot
+// Reads the true plots of a farm folder (its truth/plots.geojson), or of any GeoJSON file whose
+// plots carry numbers height_<name>_m, such as hand measurements. Throws InputError as
+// read_plot_features does, and when there is no plot.
+std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
+
+// What an estimate says of a plot that it found.
+struct FoundPlot {
+  std::uint32_t estimate = 0;  // PlotEstimate::id
+  double iou = 0;              // of the two boxes
+  double center_error_m = 0;
+  double heading_error_rad = 0;                  // between the length axes, 0 to pi / 2
+  std::map<std::string, double> heights_m = {};  // by name, "raw-p99"
 };
 
-// Errors of one estimated height against one truth, over the matched plots.
-struct HeightScore {
-  std::string height;            // "raw-p99"
-  std::string truth;             // "height_max_m"
-  std::vector<double> errors_m;  // estimate minus truth, by matched plot
-  std::vector<double> truths_m;
+struct PlotScore {
+  TruePlot truth;
+  std::optional<FoundPlot> found;  // absent: missed
 };
+
+// An estimate of one field beside its truth.
+struct FieldScore {
+  std::string method;
+  std::vector<PlotScore> plots;      // every true plot
+  std::vector<std::uint32_t> extra;  // ids of estimated plots that are no true plot
+};
+
+struct ScoreOptions {
+  double min_iou = 0.5;  // least intersection over union for a plot to count as found
+};
+
+FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
+                       const ScoreOptions& options = {});
+
+// How well plots were found, over one field or several together. Statistics of found plots are NaN
+// when there are none.
+struct BoxScore {
+  std::size_t plots = 0;  // true ones
+  std::size_t found = 0;
+  std::size_t missed = 0;
+  std::size_t extra = 0;
+  double iou_median = 0;
+  double iou_min = 0;
+  double center_rmse_m = 0;
+  double heading_rmse_rad = 0;
+};
+
+BoxScore score_boxes(std::span<const FieldScore> fields);
 
 }  // namespace plotscan::score

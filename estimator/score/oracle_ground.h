@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "estimate/cloud_map.h"
+#include "estimate/dhami2020.h"
+#include "estimate/estimate.h"
+#include "farm/terrain.h"
+#include "score/score.h"
+
+namespace plotscan::score {
+
+// The height "p99" of every true plot over the true terrain: what dhami2020's "raw-p99" would say
+// if its ground model were perfect. The points are the same, those of raw and voxel-filtered map in
+// the true box lengthened by extend_m at both ends; a point's height is its z minus the terrain's
+// under it, and those of more than plane_tolerance_m count. A plot without such a point, or beside
+// the terrain, has no height. Of `options`, only these three and voxel_m matter.
+estimate::Estimate oracle_ground(const estimate::CloudMap& map, const std::vector<TruePlot>& plots,
+                                 const farm::Terrain& terrain,
+                                 const estimate::Dhami2020Options& options = {});
+
+}  // namespace plotscan::score

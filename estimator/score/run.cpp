@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/run.h"
+
+#include <fstream>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "estimate/estimate.h"
+#include "score/score_files.h"
+
+namespace plotscan::score {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+fs::path file_in(const fs::path& path, const fs::path& inside) {
+  return fs::is_directory(path) ? path / inside : path;
+}
+
+void write_scores(const Scores& scores, const RunOptions& options) {
+  OutputFolder folder(*options.output, options.replace);
+  const fs::path file = folder.path() / "scores.json";
+  std::ofstream out(file);
+  out << to_json(scores).dump(1) << '\n';
+  if (!out.flush()) throw InputError(file, "cannot be written");
+  write_plot_table(folder.path() / "plots.csv", scores.field);
+  write_manifest(folder.path(), {.command = "estimator score",
+                                 .options = {{"min_iou", options.score.min_iou}},
+                                 .inputs = {file_in(options.estimate, "plots.geojson"),
+                                            file_in(options.truth, "truth/plots.geojson")},
+                                 .results = {{"boxes", to_json(scores.boxes)}}});
+  folder.commit();
+}
+
+}  // namespace
+
+json to_json(const Scores& scores) {
+  json heights = json::array();
+  for (const HeightScore& score : scores.heights) heights.push_back(to_json(score));
+  return {{"boxes", to_json(scores.boxes)}, {"heights", heights}, {"field", to_json(scores.field)}};
+}
+
+Scores run(const RunOptions& options) {
+  Scores scores;
+  scores.field = score_field(read_truth(options.truth), estimate::read_estimate(options.estimate),
+                             options.score);
+  scores.boxes = score_boxes({&scores.field, 1});
+  scores.heights = score_heights(scores.field);
+  if (options.output) write_scores(scores, options);
+  return scores;
+}
+
+}  // namespace plotscan::score

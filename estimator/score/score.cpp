@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/plot_features.h"
+#include "core/statistics.h"
+#include "score/matching.h"
+
+namespace plotscan::score {
+namespace fs = std::filesystem;
+namespace {
+
+template <class Plot>
+std::vector<PlotBox> boxes_of(const std::vector<Plot>& plots) {
+  std::vector<PlotBox> boxes;
+  for (const Plot& plot : plots) boxes.push_back(plot.box);
+  return boxes;
+}
+
+FoundPlot found_plot(const TruePlot& truth, const estimate::PlotEstimate& plot, double iou) {
+  return {.estimate = plot.id,
+          .iou = iou,
+          .center_error_m = (plot.box.center - truth.box.center).norm(),
+          .heading_error_rad = heading_difference(plot.box.heading_rad, truth.box.heading_rad),
+          .heights_m = plot.heights_m};
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  std::vector<double> squares;
+  for (const double value : values) squares.push_back(value * value);
+  return std::sqrt(mean(squares));
+}
+
+}  // namespace
+
+std::vector<TruePlot> read_truth(const fs::path& farm) {
+  const fs::path file = fs::is_directory(farm) ? farm / "truth" / "plots.geojson" : farm;
+  std::vector<TruePlot> plots;
+  for (const PlotFeature& feature : read_plot_features(file)) {
+    const estimate::PlotEstimate plot = estimate::plot_of(feature, plots.size() + 1);
+    plots.push_back({.id = plot.id, .row = plot.row, .column = plot.column, .box = plot.box});
+    for (const auto& [name, height_m] : plot.heights_m) {
+      plots.back().heights_m["height_" + name + "_m"] = height_m;
+    }
+  }
+  if (plots.empty()) throw InputError(file, "has no plots");
+  return plots;
+}
+
+FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
+                       const ScoreOptions& options) {
+  FieldScore field{.method = estimate.method, .plots = {}, .extra = {}};
+  for (const TruePlot& plot : truth) field.plots.push_back({.truth = plot, .found = {}});
+  const Matching matching = match_plots(boxes_of(truth), boxes_of(estimate.plots), options.min_iou);
+  for (const PlotMatch& match : matching.matches) {
+    field.plots[match.truth].found =
+        found_plot(truth[match.truth], estimate.plots[match.estimate], match.iou);
+  }
+  for (const std::size_t extra : matching.extra) field.extra.push_back(estimate.plots[extra].id);
+  return field;
+}
+
+BoxScore score_boxes(std::span<const FieldScore> fields) {
+  BoxScore boxes;
+  std::vector<double> ious, center_errors_m, heading_errors_rad;
+  for (const FieldScore& field : fields) {
+    boxes.plots += field.plots.size();
+    boxes.extra += field.extra.size();
+    for (const PlotScore& plot : field.plots) {
+      if (!plot.found) continue;
+      ious.push_back(plot.found->iou);
+      center_errors_m.push_back(plot.found->center_error_m);
+      heading_errors_rad.push_back(plot.found->heading_error_rad);
+    }
+  }
+  boxes.found = ious.size();
+  boxes.missed = boxes.plots - boxes.found;
+  boxes.iou_median = quantile(ious, 0.5);
+  boxes.iou_min = quantile(ious, 0);
+  boxes.center_rmse_m = root_mean_square(center_errors_m);
+  boxes.heading_rmse_rad = root_mean_square(heading_errors_rad);
+  return boxes;
+}
+
+}  // namespace plotscan::score
