@@ -3,8 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "core/progress.h"
 #include "farm/farm.h"
@@ -14,14 +18,20 @@ namespace plotscan::lidar {
 // How a farm is flown and scanned.
 struct FlyOptions {
   std::string sensor = "vlp16";
-  double altitude_m = 8.0;                      // over the mean terrain under the plots
-  double speed_m_s = 2.0;                       // along the strips
-  double spacing_m = 6.0;                       // between neighbouring strips
-  std::optional<std::filesystem::path> flight;  // a TUM trajectory in place of the planned path
+  double altitude_m = 8.0;  // over the mean terrain under the plots
+  double speed_m_s = 2.0;   // along the strips
+  double spacing_m = 6.0;   // between neighbouring strips
+  // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
+  // the flight's time 0.
+  std::optional<std::filesystem::path> flight = {};
   double spin_hz = 10.0;        // turns of the sensor a second, 5 to 20 for the VLP-16
-  double range_noise_m = 0.03;  // standard deviation of the range noise
+  double range_noise_m = 0.03;  // standard deviation of the range noise, 0 to 1
+  // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
+  // axis lies along the flight and azimuth 0 points down.
+  Eigen::Vector3d mount_rpy_rad = {0, std::numbers::pi / 2, 0};
   std::uint64_t seed = 1;
   int threads = 1;
+  std::vector<std::filesystem::path> inputs = {};  // what the farm was read from, for the manifest
 };
 
 struct FlySummary {
@@ -31,7 +41,7 @@ struct FlySummary {
 };
 
 // Scans the farm and writes the scan folder: cloud.pcd, trajectory.csv, manifest.json
-// (docs/formats.md). The same farm and options give the same bytes for any number of threads.
+// (docs/scan-format.md). The same farm and options give the same bytes for any number of threads.
 // Throws InputError on impossible options, a broken trajectory, or an existing folder that
 // `replace` does not cover.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,

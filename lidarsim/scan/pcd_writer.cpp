@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cerrno>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -37,6 +38,24 @@ std::string pcd_header(std::uint64_t points) {
   return comment + '\n' + entries;
 }
 
+// Writes the point's record, without padding, at `record`; returns its end.
+char* pack_point(const LabelledPoint& point, char* record) {
+  const auto put = [&record](const auto& value) {
+    std::memcpy(record, &value, sizeof value);
+    record += sizeof value;
+  };
+  put(point.x);
+  put(point.y);
+  put(point.z);
+  put(point.intensity);
+  put(point.ring);
+  put(point.time);
+  put(point.label);
+  put(point.plot);
+  put(point.plant);
+  return record;
+}
+
 }  // namespace
 
 PcdWriter::PcdWriter(const std::filesystem::path& path)
@@ -49,10 +68,12 @@ PcdWriter::~PcdWriter() {
   if (file_ >= 0) ::close(file_);
 }
 
-void PcdWriter::write(std::span<const char> records) {
-  check(records.size() % kPackedPointSize == 0, "whole records are written");
-  write_bytes(records);
-  points_ += records.size() / kPackedPointSize;
+void PcdWriter::write(std::span<const LabelledPoint> points) {
+  records_.resize(points.size() * kPackedPointSize);
+  char* record = records_.data();
+  for (const LabelledPoint& point : points) record = pack_point(point, record);
+  write_bytes(records_);
+  points_ += points.size();
 }
 
 void PcdWriter::close() {

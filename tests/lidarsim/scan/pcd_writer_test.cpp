@@ -31,10 +31,9 @@ LabelledPoint numbered_point(std::uint32_t i) {
 
 void write_cloud(const std::filesystem::path& file, std::uint32_t points) {
   PcdWriter writer(file);
-  std::array<char, 2 * kPackedPointSize> records{};
   for (std::uint32_t i = 0; i < points; i += 2) {
-    pack_point(numbered_point(i + 1), pack_point(numbered_point(i), records.data()));
-    writer.write(std::span(records).first(kPackedPointSize * std::min(points - i, 2u)));
+    const std::array<LabelledPoint, 2> pair = {numbered_point(i), numbered_point(i + 1)};
+    writer.write(std::span(pair).first(std::min(points - i, 2u)));
   }
   EXPECT_EQ(writer.points(), points);
   writer.close();
@@ -96,8 +95,7 @@ TEST(PcdWriter, UnclosedFileHoldsNoPoints) {
   const auto file = folder.path() / "cloud.pcd";
   {
     PcdWriter writer(file);
-    std::array<char, kPackedPointSize> record{};
-    writer.write(record);
+    writer.write(std::vector<LabelledPoint>(1));
   }
   EXPECT_THROW(read_positions(file, [](auto) {}), InputError);
 }

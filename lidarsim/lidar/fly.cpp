@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lidar/fly.h"
+
+#include <cmath>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "lidar/flight_plan.h"
+#include "lidar/quadrotor.h"
+#include "lidar/scene.h"
+#include "lidar/sensor.h"
+#include "lidar/shots.h"
+#include "lidar/simulate.h"
+#include "scan/pcd_writer.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::lidar {
+namespace {
+
+constexpr double kMaxFlight_s = 24 * 3600;
+constexpr int kMaxThreads = 1024;
+
+void validate(const FlyOptions& options, const SpinningLidar& sensor) {
+  if (!(options.spin_hz >= sensor.min_spin_hz && options.spin_hz <= sensor.max_spin_hz)) {
+    throw InputError("spin " + format_number(options.spin_hz) + " Hz must be in [" +
+                     format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
+                     "] Hz for sensor " + sensor.name);
+  }
+  if (!(options.range_noise_m >= 0 && options.range_noise_m <= 1))
+    throw InputError("noise " + format_number(options.range_noise_m) + " m must be in [0, 1] m");
+  if (!options.mount_rpy_rad.allFinite()) throw InputError("the mount's angles must be finite");
+  if (options.threads < 1 || options.threads > kMaxThreads)
+    throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
+}
+
+scan::Trajectory planned_flight(const farm::Farm& farm, const FlyOptions& options) {
+  const Quadrotor quadrotor;
+  const MotionLimits limits = leg_limits(quadrotor, options.speed_m_s);
+  const auto waypoints =
+      plan_strips(farm, {.altitude_m = options.altitude_m,
+                         .spacing_m = options.spacing_m,
+                         .run_up_m = RestToRest::run_up(options.speed_m_s, limits)});
+  return fly_waypoints(quadrotor, waypoints, options.speed_m_s);
+}
+
+scan::Trajectory read_flight(const std::filesystem::path& file) {
+  const scan::Trajectory read = scan::read_trajectory(file);
+  if (read.end_s() - read.start_s() > kMaxFlight_s) {
+    throw InputError(file, "the flight takes " + format_number(read.end_s() - read.start_s()) +
+                               " s; at most " + format_number(kMaxFlight_s) + " s are allowed");
+  }
+  std::vector<scan::StampedPose> poses = read.poses();
+  for (scan::StampedPose& pose : poses) pose.time_s -= read.start_s();
+  return scan::Trajectory(std::move(poses));
+}
+
+Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return Eigen::Isometry3d(AngleAxisd(rpy_rad.z(), Vector3d::UnitZ()) *
+                           AngleAxisd(rpy_rad.y(), Vector3d::UnitY()) *
+                           AngleAxisd(rpy_rad.x(), Vector3d::UnitX()));
+}
+
+Manifest manifest_of(const farm::Farm& farm, const FlyOptions& options, const FlySummary& summary) {
+  const Eigen::Vector3d mount_deg = options.mount_rpy_rad * 180 / std::numbers::pi;
+  Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
+  manifest.options = {{"farm", farm.name},
+                      {"sensor", options.sensor},
+                      {"spin_hz", options.spin_hz},
+                      {"noise_m", options.range_noise_m},
+                      {"mount_rpy_deg", {mount_deg.x(), mount_deg.y(), mount_deg.z()}}};
+  if (options.flight) {
+    manifest.options["flight"] = options.flight->filename().string();
+    manifest.inputs.push_back(*options.flight);
+  } else {
+    manifest.options["altitude_m"] = options.altitude_m;
+    manifest.options["speed_m_s"] = options.speed_m_s;
+    manifest.options["spacing_m"] = options.spacing_m;
+  }
+  manifest.results = {
+      {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};
+  return manifest;
+}
+
+}  // namespace
+
+FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
+               const FlyOptions& options, bool replace, const ProgressReport& progress) {
+  const SpinningLidar sensor = sensor_named(options.sensor);
+  validate(options, sensor);
+  OutputFolder output(scan_folder, replace);
+  const scan::Trajectory trajectory =
+      options.flight ? read_flight(*options.flight) : planned_flight(farm, options);
+  const ShotPlan plan(sensor, options.spin_hz, mount_pose(options.mount_rpy_rad), trajectory);
+  const Scene scene(farm);
+
+  scan::PcdWriter cloud(output.path() / "cloud.pcd");
+  simulate(
+      scene, sensor, plan,
+      {.range_noise_m = options.range_noise_m, .seed = options.seed, .threads = options.threads},
+      [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
+  cloud.close();
+  scan::write_trajectory(output.path() / "trajectory.csv", trajectory);
+
+  const FlySummary summary{.shots = plan.sequences() * plan.lasers(),
+                           .points = cloud.points(),
+                           .duration_s = trajectory.end_s()};
+  write_manifest(output.path(), manifest_of(farm, options, summary));
+  output.commit();
+  return summary;
+}
+
+}  // namespace plotscan::lidar

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "lidar/rest_to_rest.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::lidar {
+
+// A quadrotor as a point mass under thrust, weight and drag. The numbers are those of the Hector
+// quadrotor, which flies in the paper's simulation (Meyer et al., SIMPAR 2012; hector_quadrotor:
+// mass in quadrotor_base.urdf.xacro, C_wxy in quadrotor_aerodynamics.yaml, attitude, speed and yaw
+// limits in limits.yaml); acceleration, jerk and turning are gentler than its limits, as survey
+// autopilots fly.
+struct Quadrotor {
+  double mass_kg = 1.477;
+  double drag_n_s2_m2 = 0.12;  // force = -drag |v| v
+  double max_tilt_rad = 0.5;
+  double max_speed_m_s = 6;
+  double acceleration_m_s2 = 2;
+  double jerk_m_s3 = 4;
+  MotionLimits turn = {.speed = 1.5, .acceleration = 3, .jerk = 12};  // of the nose, rad
+};
+
+inline constexpr double kGravity_m_s2 = 9.80665;
+
+// Attitude (world_from_body) that gives the acceleration at the velocity: body z along the thrust,
+// m a = thrust - m g z - drag |v| v, and the nose as near the heading as that allows (Mellinger and
+// Kumar, ICRA 2011, section III). World frame, m/s^2, m/s, rad from x.
+Eigen::Quaterniond attitude_for(const Quadrotor& quadrotor, const Eigen::Vector3d& acceleration,
+                                const Eigen::Vector3d& velocity, double heading_rad);
+
+// Limits of a straight leg flown at speed_m_s: the acceleration is lowered where tilt against drag
+// leaves less. Throws InputError when the speed is not in (0, max_speed_m_s].
+MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s);
+
+// Flies level from waypoint to waypoint (world frame, metres; neighbours apart), nose ahead: at
+// each it brakes to a stop and turns on the spot to the next leg. Starts and ends at rest. One pose
+// each 0.01 s from time 0.
+scan::Trajectory fly_waypoints(const Quadrotor& quadrotor,
+                               const std::vector<Eigen::Vector3d>& waypoints, double speed_m_s);
+
+}  // namespace plotscan::lidar

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lidar/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace plotscan::lidar {
+namespace {
+
+// Firing sequences that one task takes: a fraction of a millisecond of casting.
+constexpr std::uint64_t kBatchSequences = 64;
+// Batches under way for each thread, so that the writer never starves the casters.
+constexpr std::size_t kBatchesPerThread = 4;
+// Hits are looked for this many standard deviations beyond the sensor's range: noise may bring them
+// back into it.
+constexpr double kNoiseReach = 6;
+
+struct Batch {
+  std::uint64_t end_sequence = 0;
+  std::vector<scan::LabelledPoint> points;
+};
+
+class Simulator {
+ public:
+  Simulator(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,
+            const SimulateOptions& options)
+      : scene_(scene), sensor_(sensor), plan_(plan), options_(options) {}
+
+  Batch run(std::uint64_t begin_sequence) const {
+    const std::uint64_t end = std::min(begin_sequence + kBatchSequences, plan_.sequences());
+    const std::vector<Ray> rays = fire(begin_sequence, end);
+    std::vector<Hit> hits(rays.size());
+    const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
+    scene_.cast(rays, static_cast<float>(reach_m), hits);
+    return {.end_sequence = end, .points = measure(begin_sequence, rays, hits)};
+  }
+
+ private:
+  std::vector<Ray> fire(std::uint64_t begin, std::uint64_t end) const {
+    std::vector<Ray> rays;
+    rays.reserve((end - begin) * plan_.lasers());
+    SequenceShots shots;
+    for (std::uint64_t sequence = begin; sequence < end; ++sequence) {
+      plan_.fire(sequence, shots);
+      for (std::size_t k = 0; k < plan_.lasers(); ++k) rays.push_back(ray_of(shots, k));
+    }
+    return rays;
+  }
+
+  std::vector<scan::LabelledPoint> measure(std::uint64_t begin_sequence,
+                                           const std::vector<Ray>& rays,
+                                           const std::vector<Hit>& hits) const {
+    std::vector<scan::LabelledPoint> points;
+    points.reserve(static_cast<std::size_t>(std::count_if(
+        hits.begin(), hits.end(), [](const Hit& hit) { return std::isfinite(hit.range_m); })));
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const Hit& hit = hits[i];
+      if (!std::isfinite(hit.range_m)) continue;
+      const std::uint64_t sequence = begin_sequence + i / plan_.lasers();
+      const std::size_t laser = i % plan_.lasers();
+      const double range = measured_range(hit.range_m, sequence * plan_.lasers() + laser);
+      if (range < sensor_.min_range_m || range > sensor_.max_range_m) continue;
+      const Eigen::Vector3f position =
+          rays[i].origin_m + static_cast<float>(range) * rays[i].direction;
+      const Surface& surface = scene_.surface(hit);
+      points.push_back({.x = position.x(),
+                        .y = position.y(),
+                        .z = position.z(),
+                        .intensity = return_intensity(surface.label, hit.cos_incidence),
+                        .ring = sensor_.lasers[laser].ring,
+                        .time = plan_.time_s(sequence, laser),
+                        .label = surface.label,
+                        .plot = surface.plot,
+                        .plant = surface.plant});
+    }
+    return points;
+  }
+
+  double measured_range(double range_m, std::uint64_t shot) const {
+    if (options_.range_noise_m > 0) {
+      RandomStream stream(options_.seed, random_purpose("range noise"), shot);
+      range_m += options_.range_noise_m * stream.normal();
+    }
+    if (sensor_.range_step_m > 0)
+      range_m = sensor_.range_step_m * std::nearbyint(range_m / sensor_.range_step_m);
+    return range_m;
+  }
+
+  const Scene& scene_;
+  const SpinningLidar& sensor_;
+  const ShotPlan& plan_;
+  const SimulateOptions& options_;
+};
+
+}  // namespace
+
+Ray ray_of(const SequenceShots& shots, std::size_t laser) {
+  const auto vector = [laser](const std::array<SequenceShots::PerLaser, 3>& v) {
+    return Eigen::Vector3f(static_cast<float>(v[0][laser]), static_cast<float>(v[1][laser]),
+                           static_cast<float>(v[2][laser]));
+  };
+  return {vector(shots.origin_m), vector(shots.direction)};
+}
+
+float return_intensity(scan::PointClass label, float cos_incidence) {
+  const float reflectance_percent = label == scan::PointClass::ground ? 30.0f : 45.0f;
+  return std::nearbyint(reflectance_percent * cos_incidence);
+}
+
+void simulate(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,
+              const SimulateOptions& options, const PointSink& sink,
+              const ProgressReport& progress) {
+  const Simulator simulator(scene, sensor, plan, options);
+  std::uint64_t next_sequence = 0;
+  const auto take = [&](tbb::flow_control& control) {
+    const std::uint64_t begin = next_sequence;
+    if (begin >= plan.sequences()) control.stop();
+    next_sequence += kBatchSequences;
+    return begin;
+  };
+  const auto run = [&](std::uint64_t begin) { return simulator.run(begin); };
+  const auto hand_on = [&](const Batch& batch) {
+    sink(batch.points);
+    if (progress)
+      progress(static_cast<double>(batch.end_sequence) / static_cast<double>(plan.sequences()));
+  };
+  // oneTBB keeps to the number of processors unless it is asked for more; asking for less here
+  // would bind other work of the process too.
+  std::optional<tbb::global_control> more_threads;
+  if (options.threads > tbb::info::default_concurrency()) {
+    more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.threads));
+  }
+  tbb::task_arena arena(options.threads);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        kBatchesPerThread * static_cast<std::size_t>(options.threads),
+        tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order, take) &
+            tbb::make_filter<std::uint64_t, Batch>(tbb::filter_mode::parallel, run) &
+            tbb::make_filter<Batch, void>(tbb::filter_mode::serial_in_order, hand_on));
+  });
+}
+
+}  // namespace plotscan::lidar

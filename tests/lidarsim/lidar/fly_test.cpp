@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lidar/fly.h"
+
+#include <cmath>
+
+#include "small_farm.h"
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::lidar {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+// A second of flight over the small farm's plots.
+std::filesystem::path short_flight(const TemporaryFolder& folder) {
+  return folder.write("flight.tum", "100 -3 0 5 0 0 0 1\n101 3 0 5 0 0 0 1\n");
+}
+
+TEST(Fly, WritesAScanFolder) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto scan = folder.path() / "scan";
+  double last_share = 0;
+  const FlySummary summary =
+      fly(farm, scan, {.flight = short_flight(folder), .seed = 4}, false, [&](double share) {
+        EXPECT_GE(share, last_share);
+        last_share = share;
+      });
+  EXPECT_DOUBLE_EQ(summary.duration_s, 1);
+  EXPECT_EQ(summary.shots, 18084u * 16);
+  EXPECT_DOUBLE_EQ(last_share, 1);
+
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::PCDReader().read((scan / "cloud.pcd").string(), cloud), 0);
+  EXPECT_EQ(cloud.width, summary.points);
+  EXPECT_GT(summary.points, 50000u);
+
+  const scan::Trajectory flown = scan::read_trajectory(scan / "trajectory.csv");
+  EXPECT_EQ(flown.start_s(), 0);  // seconds from take-off
+  EXPECT_EQ(flown.world_from_body(0.5).translation(), Eigen::Vector3d(0, 0, 5));
+
+  const nlohmann::json manifest = read_manifest(scan);
+  EXPECT_EQ(manifest["seed"], 4);
+  EXPECT_EQ(manifest["results"]["points"], summary.points);
+  EXPECT_EQ(manifest["options"]["mount_rpy_deg"], (nlohmann::json{0, 90, 0}));
+}
+
+TEST(Fly, SameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto bytes = [&](int threads, const std::string& file) {
+    const auto scan = folder.path() / std::to_string(threads);
+    if (!exists(scan)) fly(farm, scan, {.flight = short_flight(folder), .threads = threads}, false);
+    return read_text(scan / file);
+  };
+  for (const std::string file : {"cloud.pcd", "trajectory.csv", "manifest.json"}) {
+    const std::string one = bytes(1, file);
+    EXPECT_TRUE(one == bytes(2, file)) << file;
+    EXPECT_TRUE(one == bytes(7, file)) << file;
+  }
+}
+
+// The scan's own trajectory flies the same scan again.
+TEST(Fly, PlannedFlightRepeatsFromItsTrajectory) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto planned = folder.path() / "planned";
+  const FlySummary summary =
+      fly(farm, planned, {.altitude_m = 5, .speed_m_s = 4, .spacing_m = 2}, false);
+  EXPECT_GT(summary.duration_s, 5);
+  const auto repeated = folder.path() / "repeated";
+  fly(farm, repeated, {.flight = planned / "trajectory.csv"}, false);
+  EXPECT_TRUE(read_text(planned / "cloud.pcd") == read_text(repeated / "cloud.pcd"));
+}
+
+TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto scan = folder.path() / "out" / "scan";
+  const auto refusal = [&](const FlyOptions& options) {
+    return message_of<InputError>([&] { fly(farm, scan, options, false); });
+  };
+  EXPECT_THAT(refusal({.sensor = "os1"}), HasSubstr("\"os1\" is unknown; there is vlp16"));
+  EXPECT_THAT(refusal({.spin_hz = 4.9}), HasSubstr("spin 4.9 Hz must be in [5, 20]"));
+  EXPECT_THAT(refusal({.spin_hz = std::nan("")}), HasSubstr("spin"));
+  EXPECT_THAT(refusal({.range_noise_m = -0.1}), HasSubstr("noise -0.1 m must be in [0, 1]"));
+  EXPECT_THAT(refusal({.mount_rpy_rad = {0, INFINITY, 0}}), HasSubstr("mount"));
+  EXPECT_THAT(refusal({.threads = 0}), HasSubstr("threads 0"));
+  EXPECT_THAT(refusal({.speed_m_s = 50}), HasSubstr("speed 50 m/s"));
+  EXPECT_THAT(refusal({.altitude_m = -1}), HasSubstr("altitude -1 m"));
+  EXPECT_THAT(refusal({.flight = folder.path() / "none"}), HasSubstr("no such file"));
+  EXPECT_THAT(refusal({.flight = folder.write("long", "0 0 0 5 0 0 0 1\n1e9 0 0 5 0 0 0 1\n")}),
+              HasSubstr("at most 86400 s"));
+  EXPECT_TRUE(!exists(folder.path() / "out") || is_empty(folder.path() / "out"));
+}
+
+TEST(Fly, ReplacesOnlyWhenAskedTo) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto scan = folder.path() / "scan";
+  const FlyOptions options{.flight = short_flight(folder)};
+  fly(farm, scan, options, false);
+  EXPECT_THAT(message_of<InputError>([&] { fly(farm, scan, options, false); }),
+              HasSubstr("--force"));
+  fly(farm, scan, options, true);
+}
+
+}  // namespace
+}  // namespace plotscan::lidar
