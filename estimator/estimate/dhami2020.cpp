@@ -120,6 +120,7 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
   const PlotBox plot = voted_box(boxes, options, diagnostics);
   std::vector<Eigen::Vector2d> centers;
+  centers.reserve(boxes.size());
   for (const PlotBox& box : boxes) centers.push_back(box.center);
   const std::optional<Lattice> lattice = fit_lattice(centers, plot);
   diagnostics["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},

@@ -46,6 +46,7 @@ std::vector<Member> members_of(const Lattice& lattice, Centers centers, const Pl
     if (!is_new) place->second = std::min(place->second, candidate);
   }
   std::vector<Member> members;
+  members.reserve(nearest.size());
   for (const auto& [index, candidate] : nearest) {
     members.push_back({candidate.second, {index.first, index.second}});
   }

@@ -75,6 +75,7 @@ std::vector<Index> occupied(const std::map<Index, double>& cover, double least_c
   std::ranges::sort(candidates);
   if (candidates.size() > most) candidates.resize(most);
   std::vector<Index> indices;
+  indices.reserve(candidates.size());
   for (const auto& [share, index] : candidates) indices.push_back(index);
   std::ranges::sort(indices);
   return indices;

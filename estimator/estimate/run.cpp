@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 fs::path cloud_file(const fs::path& cloud) {
-  const fs::path file = fs::is_directory(cloud) ? cloud / "cloud.pcd" : cloud;
+  fs::path file = fs::is_directory(cloud) ? cloud / "cloud.pcd" : cloud;
   require_file(file);
   return file;
 }
