@@ -134,7 +134,10 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   if (!lattice) throw InputError("the clusters form no grid of plots");
   diagnostics["grid"] = to_json(*lattice);
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
-  return fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
+  std::vector<PlotEstimate> plots =
+      fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
+  if (plots.empty()) throw InputError("no box of the grid holds canopy");
+  return plots;
 }
 
 std::vector<PlotEstimate> given_plots(const std::vector<PlotBox>& boxes,
