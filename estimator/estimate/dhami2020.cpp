@@ -122,7 +122,7 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   std::vector<Eigen::Vector2d> centers;
   centers.reserve(boxes.size());
   for (const PlotBox& box : boxes) centers.push_back(box.center);
-  const std::optional<Lattice> lattice = fit_lattice(centers, plot);
+  std::optional<Lattice> lattice = fit_lattice(centers, plot);
   diagnostics["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
                                  {"slope_x", level.slope.x()},
                                  {"slope_y", level.slope.y()}};
@@ -132,6 +132,7 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
                             {"iterations", clustering.iterations}};
   if (!lattice) throw InputError("the clusters form no grid of plots");
+  if (options.learn_box) lattice = carried_over(*lattice, plot, canopy);
   diagnostics["grid"] = to_json(*lattice);
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
   std::vector<PlotEstimate> plots =

@@ -147,6 +147,11 @@ Eigen::Vector2i Lattice::nearest(const Eigen::Vector2d& position) const {
   return index.max(-kFarthest).min(kFarthest).cast<int>().matrix();
 }
 
+Lattice refitted(Lattice lattice, Centers centers, const PlotBox& plot, int reach) {
+  refit(lattice, centers, members_of(lattice, centers, plot, reach));
+  return lattice;
+}
+
 std::optional<Lattice> fit_lattice(Centers centers, const PlotBox& plot) {
   std::optional<Lattice> best;
   const std::size_t stride = std::max<std::size_t>(1, centers.size() / kMostSeeds);

@@ -40,4 +40,9 @@ struct Lattice {
 // lattice of one point.
 std::optional<Lattice> fit_lattice(std::span<const Eigen::Vector2d> centers, const PlotBox& plot);
 
+// The lattice refitted to those of the centres that agree with it, as above, and lie at most
+// `reach` steps from its origin.
+Lattice refitted(Lattice lattice, std::span<const Eigen::Vector2d> centers, const PlotBox& plot,
+                 int reach);
+
 }  // namespace plotscan::estimate

@@ -81,7 +81,42 @@ std::vector<Index> occupied(const std::map<Index, double>& cover, double least_c
   return indices;
 }
 
+// The mean position of the canopy nearest to each lattice point that has any.
+std::vector<Eigen::Vector2d> canopy_centroids(const Lattice& lattice,
+                                              std::span<const Eigen::Vector3f> canopy) {
+  std::map<Index, std::pair<Eigen::Vector2d, std::size_t>> sums;
+  for (const Eigen::Vector3f& point : canopy) {
+    const Eigen::Vector2d position = point.head<2>().cast<double>();
+    const Eigen::Vector2i nearest = lattice.nearest(position);
+    const Index index(nearest.x(), nearest.y());
+    if (!is_known(lattice, index)) continue;
+    auto& [sum, count] = sums.try_emplace(index, Eigen::Vector2d::Zero(), 0).first->second;
+    sum += position;
+    ++count;
+  }
+  std::vector<Eigen::Vector2d> centroids;
+  centroids.reserve(sums.size());
+  for (const auto& [index, sum] : sums) {
+    centroids.emplace_back(sum.first / static_cast<double>(sum.second));
+  }
+  return centroids;
+}
+
 }  // namespace
+
+Lattice carried_over(Lattice lattice, const PlotBox& plot,
+                     std::span<const Eigen::Vector3f> canopy) {
+  int farthest = 0;
+  for (const Eigen::Vector3f& point : canopy) {
+    const Eigen::Vector2i nearest = lattice.nearest(point.head<2>().cast<double>());
+    farthest = std::max(farthest, nearest.cwiseAbs().maxCoeff());
+  }
+  constexpr int kFirstReach = 4;
+  for (int reach = kFirstReach; reach < farthest + farthest / 2 + 2; reach += reach / 2) {
+    lattice = refitted(lattice, canopy_centroids(lattice, canopy), plot, reach);
+  }
+  return lattice;
+}
 
 std::vector<PlotEstimate> fill_lattice(const Lattice& lattice, const PlotBox& plot,
                                        std::span<const Eigen::Vector3f> canopy,

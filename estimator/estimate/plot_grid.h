@@ -12,6 +12,11 @@
 
 namespace plotscan::estimate {
 
+// A lattice learnt in a part of the field, carried on over all of it: refitted to the centroids of
+// the canopy around its points, in rounds that reach half as far again each, so that the error of
+// its steps does not grow with the distance. Stays as it is where the canopy does not follow it.
+Lattice carried_over(Lattice lattice, const PlotBox& plot, std::span<const Eigen::Vector3f> canopy);
+
 // Fills a lattice with boxes of the voted size (section IV-B3): the lattice points whose boxes are
 // covered by canopy at least kLeastCover times as far as the median of the boxes around the
 // clusters' centres; of those, the `most` best covered. Cover is the share of the box's squares of

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimate/plot_grid.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -121,6 +122,27 @@ TEST(Lattice, DoesNotHalveTheSpacingOfSmallPlots) {
   ASSERT_TRUE(lattice);
   EXPECT_NEAR(lattice->steps.col(0).norm(), 4.4, 1e-3);
   EXPECT_NEAR(lattice->steps.col(1).norm(), 2.2, 1e-3);
+}
+
+// Steps learnt in a corner are 2 % off: at the other end that is more than half a plot.
+TEST(Lattice, IsCarriedOverAFieldByItsCanopy) {
+  const Kentland field;
+  std::vector<Eigen::Vector3f> canopy;
+  RandomStream random(2, random_purpose("test/carry"), 0);
+  for (const auto& center : field.centers()) {
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector2d at = center + random.uniform(-2, 2) * field.plot.length_axis() +
+                                 random.uniform(-0.6, 0.6) * field.plot.width_axis();
+      canopy.emplace_back(static_cast<float>(at.x()), static_cast<float>(at.y()), 0.5f);
+    }
+  }
+  Lattice learnt{.origin = field.at(0, 0), .many_rows = true, .many_columns = true};
+  learnt.steps << 1.01 * field.row_step, 1.02 * field.column_step;
+  EXPECT_GT((learnt.point({3, 27}) - field.at(3, 27)).norm(), 0.5);
+  const Lattice carried = carried_over(learnt, field.plot, canopy);
+  for (const Eigen::Vector2i& corner : {Eigen::Vector2i(0, 27), {3, 0}, {3, 27}}) {
+    EXPECT_LT((carried.point(corner) - field.at(corner.x(), corner.y())).norm(), 0.08);
+  }
 }
 
 TEST(Lattice, KnowsWhichAxesItHasSeen) {
