@@ -33,8 +33,15 @@ constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
 
-std::filesystem::path path_at(const YamlSection& section, const std::string& key) {
-  return section.file().parent_path() / section.text(key);
+// A file that exists, named relative to the description's folder.
+std::filesystem::path file_at(const YamlSection& section, const std::string& key) {
+  const std::string text = section.text(key);
+  std::filesystem::path path = section.file().parent_path() / text;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    section.fail(key, "\"" + text + "\" is no file (looked for " + path.string() + ")");
+  }
+  return path;
 }
 
 std::string name_at(const YamlSection& section, const std::string& key, std::string fallback) {
@@ -62,7 +69,7 @@ TerrainDescription read_terrain(const YamlSection& section) {
   TerrainDescription terrain;
   if (section.has("mesh")) {
     section.allow_only({"mesh", "up", "unit_m"});
-    terrain.mesh = path_at(section, "mesh");
+    terrain.mesh = file_at(section, "mesh");
     terrain.mesh_options = read_mesh_options(section);
     return terrain;
   }
@@ -102,7 +109,7 @@ PlotGridDescription read_plot_grid(const YamlSection& section) {
 ModelDescription read_model(const YamlSection& section) {
   section.allow_only({"mesh", "name", "up", "unit_m", "foot"});
   ModelDescription model;
-  model.mesh = path_at(section, "mesh");
+  model.mesh = file_at(section, "mesh");
   model.name = name_at(section, "name", model.mesh.stem().string());
   model.options = read_mesh_options(section);
   if (section.choice("foot", {"origin", "lowest"}, 0) == 1) model.options.foot = MeshFoot::lowest;
@@ -147,8 +154,8 @@ PlantsDescription read_plants(const YamlSection& section) {
 LayoutDescription read_layout(const YamlSection& section) {
   section.allow_only({"plants", "columns", "plots", "models"});
   LayoutDescription layout;
-  layout.plants = path_at(section, "plants");
-  if (section.has("plots")) layout.plots = path_at(section, "plots");
+  layout.plants = file_at(section, "plants");
+  if (section.has("plots")) layout.plots = file_at(section, "plots");
   if (section.has("columns")) {
     const YamlSection columns = section.section("columns");
     columns.allow_only(layout_columns());

@@ -82,8 +82,8 @@ struct FarmDescription {
 
 // Reads a farm description. `overrides` are "key=value" with a dotted key ("terrain.relief_m=1",
 // "plots.rows.0.plots=5") and replace what the file says. Throws InputError on an unknown key, a
-// wrong type or an impossible value, naming file and line (or the override), key and what is
-// allowed.
+// wrong type, an impossible value or a file that does not exist, naming file and line (or the
+// override), key and what is allowed.
 FarmDescription load_description(const std::filesystem::path& file,
                                  const std::vector<std::string>& overrides = {});
 

@@ -33,7 +33,7 @@ struct Plant {
   double height_m = 0;  // highest vertex of the placed mesh minus terrain height at the stem's base
 };
 
-// The named truths of a plot's height, metres, over its plants' heights (docs/formats.md).
+// The named truths of a plot's height, metres, over its plants' heights (docs/farm-format.md).
 struct PlotHeights {
   double mean = 0;
   double max = 0;
@@ -63,8 +63,8 @@ struct Farm {
   std::vector<Plant> plants;
 };
 
-// Reads a farm folder (docs/formats.md) from its truth/ and models/. Throws InputError when a file
-// is missing or broken, a number is not finite, or a path leaves the folder.
+// Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a
+// file is missing or broken, a number is not finite, or a path leaves the folder.
 Farm read_farm(const std::filesystem::path& folder);
 
 }  // namespace plotscan::farm

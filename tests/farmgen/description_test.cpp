@@ -19,32 +19,35 @@ using ::testing::HasSubstr;
 
 // Line numbers of this text are in the tests below.
 constexpr const char* kBase =
-    "name: base\n"                                                                  // 1
-    "seed: 7\n"                                                                     // 2
-    "terrain:\n"                                                                    // 3
-    "  side_m: 30\n"                                                                // 4
-    "  vertices: 12\n"                                                              // 5
-    "  relief_m: 0.25\n"                                                            // 6
-    "plots:\n"                                                                      // 7
-    "  width_m: 1.5\n"                                                              // 8
-    "  length_m: 4\n"                                                               // 9
-    "  gap_width_m: 0.5\n"                                                          // 10
-    "  heading_deg: 90\n"                                                           // 11
-    "  position_m: [1, -2]\n"                                                       // 12
-    "  rows:\n"                                                                     // 13
-    "    - {plots: 10, offset_m: 0.5}\n"                                            // 14
-    "    - plots: 3\n"                                                              // 15
-    "plants:\n"                                                                     // 16
-    "  count: 90\n"                                                                 // 17
-    "  pattern: drilled\n"                                                          // 18
-    "  drill_rows: 3\n"                                                             // 19
-    "  scale: [0.8, 1.2]\n"                                                         // 20
-    "  models:\n"                                                                   // 21
-    "    - a/one.obj\n"                                                             // 22
-    "    - {mesh: /b/two.dae, name: second, up: y, unit_m: 0.01, foot: lowest}\n";  // 23
+    "name: base\n"                                                                 // 1
+    "seed: 7\n"                                                                    // 2
+    "terrain:\n"                                                                   // 3
+    "  side_m: 30\n"                                                               // 4
+    "  vertices: 12\n"                                                             // 5
+    "  relief_m: 0.25\n"                                                           // 6
+    "plots:\n"                                                                     // 7
+    "  width_m: 1.5\n"                                                             // 8
+    "  length_m: 4\n"                                                              // 9
+    "  gap_width_m: 0.5\n"                                                         // 10
+    "  heading_deg: 90\n"                                                          // 11
+    "  position_m: [1, -2]\n"                                                      // 12
+    "  rows:\n"                                                                    // 13
+    "    - {plots: 10, offset_m: 0.5}\n"                                           // 14
+    "    - plots: 3\n"                                                             // 15
+    "plants:\n"                                                                    // 16
+    "  count: 90\n"                                                                // 17
+    "  pattern: drilled\n"                                                         // 18
+    "  drill_rows: 3\n"                                                            // 19
+    "  scale: [0.8, 1.2]\n"                                                        // 20
+    "  models:\n"                                                                  // 21
+    "    - a/one.obj\n"                                                            // 22
+    "    - {mesh: b/two.dae, name: second, up: y, unit_m: 0.01, foot: lowest}\n";  // 23
 
 FarmDescription load(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
+  for (const char* file : {"a/one.obj", "b/two.dae", "m.obj", "t.csv", "p.geojson", "ground.stl"}) {
+    folder.write(file, "");
+  }
   return load_description(folder.write("farm.yaml", text), overrides);
 }
 
@@ -82,7 +85,7 @@ TEST(Description, ReadsEveryKey) {
   EXPECT_EQ(farm.models[0].mesh, farm.source.parent_path() / "a/one.obj");
   EXPECT_FALSE(farm.models[0].options.up);
   EXPECT_EQ(farm.models[1].name, "second");
-  EXPECT_EQ(farm.models[1].mesh, "/b/two.dae");
+  EXPECT_EQ(farm.models[1].mesh, farm.source.parent_path() / "b/two.dae");
   EXPECT_EQ(farm.models[1].options.up, UpAxis::y);
   EXPECT_EQ(farm.models[1].options.unit_m, 0.01);
   EXPECT_EQ(farm.models[1].options.foot, MeshFoot::lowest);
@@ -178,6 +181,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "2: seed \"-7\" is not a whole number in [0, 18446744073709551615]"},
         Mistake{"EmptyName", "name: base", "name: ''", "1: name is empty"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
+
+TEST(Description, FilesThatItNamesHaveToExist) {
+  const auto message = [](const std::string& old_text, const std::string& new_text) {
+    return message_of<InputError>([&] { load(replaced(old_text, new_text)); });
+  };
+  EXPECT_THAT(
+      message("a/one.obj", "a/none.obj"),
+      HasSubstr("farm.yaml:22: plants.models.0.mesh \"a/none.obj\" is no file (looked for "));
+  EXPECT_THAT(message("b/two.dae", "b"), HasSubstr("farm.yaml:23: plants.models.1.mesh \"b\""));
+  EXPECT_THAT(message("side_m: 30\n  vertices: 12\n  relief_m: 0.25\n", "mesh: hill.obj\n"),
+              HasSubstr("farm.yaml:4: terrain.mesh \"hill.obj\" is no file"));
+}
 
 TEST(Description, LayoutTakesThePlaceOfPlants) {
   const std::string with_both = std::string(kBase) + "layout: {plants: t.csv, models: [m.obj]}\n";

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// farmgen as its users run it: exit codes, messages, outputs.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "example_farm.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "core/error.h"
+
+namespace plotscan::farm {
+namespace {
+
+namespace fs = std::filesystem;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Outcome {
+  int exit_code;
+  std::string out;
+  std::string err;
+};
+
+class Farmgen : public ::testing::Test {
+ protected:
+  Farmgen() { write_example(folder_); }
+
+  // Runs in the temporary folder.
+  Outcome run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path().string() + "' && '" PLOTSCAN_FARMGEN "' " +
+                                arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), read_text(folder_.path() / "out.txt"),
+            read_text(folder_.path() / "err.txt")};
+  }
+
+  nlohmann::json json_of(const std::string& arguments) const {
+    const Outcome outcome = run(arguments + " --json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  }
+
+  // Every file and folder below the temporary folder but those that a run leaves anyhow.
+  std::vector<std::string> left_behind() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename().string();
+      if (name != "out.txt" && name != "err.txt" && name != "example.yaml") names.push_back(name);
+    }
+    return names;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Farmgen, GeneratesWhatCheckForetellsAndInfoTells) {
+  const auto checked = json_of("check example.yaml --seed 3");
+  EXPECT_THAT(left_behind(), IsEmpty()) << "check writes nothing";
+  auto generated = json_of("generate example.yaml -o farm --seed 3");
+  EXPECT_EQ(generated["folder"], "farm");
+  generated.erase("folder");
+  generated.erase("seconds");
+  EXPECT_EQ(generated, checked);
+  // Plot headings pass through degrees: compare all but the field's size exactly.
+  auto read = json_of("info farm");
+  EXPECT_NEAR(read["field_size_m"][0].get<double>(), checked["field_size_m"][0].get<double>(),
+              1e-9);
+  EXPECT_NEAR(read["leaf_area_index"].get<double>(), checked["leaf_area_index"].get<double>(),
+              1e-6);
+  for (const char* key : {"name", "seed", "plots", "plants", "plant_triangles", "plant_height_m",
+                          "plot_height_max_m", "terrain"}) {
+    EXPECT_EQ(read[key], checked[key]) << key;
+  }
+  EXPECT_THAT(run("info farm").out, HasSubstr("leaf area index"));
+}
+
+TEST_F(Farmgen, TheSeedIsTheUsersElseTheDescriptionsElseOne) {
+  EXPECT_EQ(json_of("check example.yaml")["seed"], 1);
+  EXPECT_EQ(json_of("check example.yaml --set seed=7")["seed"], 7);
+  EXPECT_EQ(json_of("check example.yaml --set seed=7 --seed 9")["seed"], 9);
+  EXPECT_EQ(json_of("check example.yaml --set seed=7 --seed 1")["seed"], 1);
+}
+
+TEST_F(Farmgen, BadInputEndsWithCodeTwoOneMessageAndNothingWritten) {
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {"generate none.yaml -o farm", "farmgen: none.yaml: no such file\n"},
+      {"generate example.yaml -o farm --set terrain.side_m=12", "farmgen: plots: a corner of plot"},
+      {"generate example.yaml -o farm --set terrain.sid=12",
+       "farmgen: --set terrain.sid=12: terrain.sid is not a known key"},
+      {"check example.yaml --set plants.count=-1",
+       "farmgen: --set plants.count=-1: plants.count -1 is not in [0, 1000000]\n"},
+      {"info nowhere", "farmgen: nowhere: no such farm folder\n"},
+      {"info .", "not a folder written by plotscan"},
+      {"plant soybean -o s.ply", "farmgen: s.ply: does not end in .obj\n"},
+      {"plant soybean -o s.obj --set nodes=0", "nodes is to be a whole number in [3, 30]\n"},
+      {"generate example.yaml", "--output is required"},
+      {"sow", ""}};
+  for (const auto& [arguments, message] : mistakes) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
+    EXPECT_THAT(outcome.out, IsEmpty()) << arguments;
+    EXPECT_THAT(left_behind(), IsEmpty()) << arguments;
+  }
+}
+
+TEST_F(Farmgen, ReplacesOnlyWithForce) {
+  EXPECT_EQ(run("generate example.yaml -o farm -q").exit_code, 0);
+  const Outcome refused = run("generate example.yaml -o farm --seed 2");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--force"));
+  EXPECT_EQ(json_of("info farm")["seed"], 1);
+  EXPECT_EQ(run("generate example.yaml -o farm --seed 2 --force").exit_code, 0);
+  EXPECT_EQ(json_of("info farm")["seed"], 2);
+  EXPECT_THAT(left_behind(), ::testing::ElementsAre("farm"));
+}
+
+TEST_F(Farmgen, MakesPlants) {
+  const auto made = json_of("plant soybean --seed 4 --set nodes=10 -o s.obj");
+  EXPECT_GT(made["height_m"], 0.3);
+  EXPECT_EQ(run("plant soybean -o s.obj").exit_code, 2) << "it exists";
+  EXPECT_EQ(run("plant soybean -o s.obj --force").exit_code, 0);
+  EXPECT_THAT(left_behind(), ::testing::ElementsAre("s.obj"));
+}
+
+}  // namespace
+}  // namespace plotscan::farm
