@@ -28,7 +28,8 @@ Eigen::Vector2d drilled_place(const PlantsDescription& description, const PlotBo
   const std::uint32_t rows = description.drill_rows;
   const std::uint32_t row = index % rows;
   const std::uint32_t in_row = (description.count - row + rows - 1) / rows;
-  const Eigen::Vector2d even(((index / rows + 0.5) / in_row - 0.5) * box.length_m,
+  const std::uint32_t place_in_row = index / rows;
+  const Eigen::Vector2d even(((place_in_row + 0.5) / in_row - 0.5) * box.length_m,
                              ((row + 0.5) / rows - 0.5) * box.width_m);
   RandomStream random(seed, random_purpose("plant/jitter"), id);
   const double along_length = random.uniform(-description.jitter_m, description.jitter_m);
@@ -87,6 +88,7 @@ std::vector<Plant> random_plants(const PlantsDescription& description,
 std::vector<Plant> table_plants(const LayoutDescription& layout, const std::vector<Plot>& plots,
                                 const std::vector<PlantModel>& models, const Terrain& terrain) {
   std::vector<std::string> names;
+  names.reserve(models.size());
   for (const PlantModel& model : models) names.push_back(model.name);
   std::unordered_set<std::uint32_t> plot_ids = {0};
   for (const Plot& plot : plots) plot_ids.insert(plot.id);

@@ -125,8 +125,9 @@ struct TriangleGrid::Builder {
     grid.cells_.resize(grid.cells_.size() + lists.size());
     const Eigen::Vector2d cell_size = level.cells_per_metre.cwiseInverse();
     for (std::size_t i = 0; i < lists.size(); ++i) {
-      const Eigen::Vector2d corner(static_cast<double>(i % level.size[0]),
-                                   static_cast<double>(i / level.size[0]));
+      const std::size_t row = i / level.size[0];
+      const std::size_t column = i % level.size[0];
+      const Eigen::Vector2d corner(static_cast<double>(column), static_cast<double>(row));
       const Eigen::Vector2d low = level.origin + corner.cwiseProduct(cell_size);
       const Cell cell = divide({low, low + cell_size}, lists[i], depth + 1);
       grid.cells_[level.first_cell + i] = cell;
