@@ -93,7 +93,8 @@ void run_generate(const Program& program, const Arguments& arguments) {
                    {.command = "farmgen generate",
                     .options = {{"description", description.source.filename().string()},
                                 {"set", arguments.assignments}},
-                    .inputs = farm::input_files(description)});
+                    .inputs = farm::input_files(description)},
+                   program.progress("writing"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const farm::FarmSummary summary = farm::summarise(made);
   nlohmann::json document = json_of(made, summary);

@@ -74,7 +74,7 @@ Farm generate(const FarmDescription& description, std::uint64_t seed) {
             .models = import_models(description.models),
             .plots = make_plots(description),
             .plants = {}};
-  require_on_terrain(farm.plots, farm.terrain);
+  require_on_terrain(farm.plots, farm.terrain, description.source);
   farm.plants = make_plants(description, farm);
   measure_plots(farm);
   return farm;

@@ -32,7 +32,8 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
 }
 
 [[noreturn]] void fail_off_terrain(const std::vector<Plot>& plots, const Terrain& terrain,
-                                   const Plot& plot, const Eigen::Vector2d& corner) {
+                                   const std::filesystem::path& source, const Plot& plot,
+                                   const Eigen::Vector2d& corner) {
   const Eigen::AlignedBox2d box = bounds_of(terrain);
   double needed_half_side = 0;
   for (const Plot& each : plots) {
@@ -41,13 +42,14 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
     }
   }
   const double outside = overhang(box, corner);
-  throw InputError("plots: a corner of plot " + std::to_string(plot.id) + " at (" +
-                   metres(corner.x()) + ", " + metres(corner.y()) + ") lies " +
-                   (outside > 0 ? metres(outside) + " " : "") + "off the terrain, which spans x " +
-                   metres(box.min().x()) + " to " + metres(box.max().x()) + ", y " +
-                   metres(box.min().y()) + " to " + metres(box.max().y()) +
-                   "; these plots need a square terrain of side " + metres(2 * needed_half_side) +
-                   ", or fewer, smaller or differently placed plots");
+  throw InputError(
+      source, "plots: a corner of plot " + std::to_string(plot.id) + " at (" + metres(corner.x()) +
+                  ", " + metres(corner.y()) + ") lies " +
+                  (outside > 0 ? metres(outside) + " " : "") + "off the terrain, which spans x " +
+                  metres(box.min().x()) + " to " + metres(box.max().x()) + ", y " +
+                  metres(box.min().y()) + " to " + metres(box.max().y()) +
+                  "; these plots need a square terrain of side " + metres(2 * needed_half_side) +
+                  ", or fewer, smaller or differently placed plots");
 }
 
 }  // namespace
@@ -82,11 +84,12 @@ std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
   return plots;
 }
 
-void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain) {
+void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain,
+                        const std::filesystem::path& source) {
   for (const Plot& plot : plots) {
     for (const Eigen::Vector2d& corner : plot.box.corners()) {
       if (terrain.height(corner.x(), corner.y())) continue;
-      fail_off_terrain(plots, terrain, plot, corner);
+      fail_off_terrain(plots, terrain, source, plot, corner);
     }
   }
 }

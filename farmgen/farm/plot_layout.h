@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "farm/description.h"
@@ -13,9 +15,10 @@ namespace plotscan::farm {
 // grid's y axis.
 std::vector<Plot> grid_plots(const PlotGridDescription& grid);
 
-// Throws InputError when a corner of a plot lies off the terrain, saying which, how far, and what
-// would fit.
-void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain);
+// Throws InputError (naming `source`, where the plots come from) when a corner of a plot lies off
+// the terrain, saying which, how far, and what would fit.
+void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain,
+                        const std::filesystem::path& source);
 
 // Finds the plot that holds a point.
 class PlotFinder {

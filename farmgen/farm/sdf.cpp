@@ -131,17 +131,20 @@ void write_plant(XmlFile& xml, const Plant& plant, const std::string& uri) {
   xml.close();
 }
 
-void write_plants_by_plot(XmlFile& xml, const Farm& farm) {
+void write_plants_by_plot(XmlFile& xml, const Farm& farm, const ProgressReport& progress) {
   std::vector<std::string> uris;
   for (const PlantModel& model : farm.models) {
     uris.push_back(model_mesh_path(model.name).generic_string());
   }
   std::map<std::uint32_t, std::vector<const Plant*>> by_plot;
   for (const Plant& plant : farm.plants) by_plot[plant.plot].push_back(&plant);
+  std::size_t written = 0;
   for (const auto& [plot, plants] : by_plot) {
     open_static_model(xml, plot == 0 ? "plants_outside_plots" : "plot_" + std::to_string(plot));
     for (const Plant* plant : plants) write_plant(xml, *plant, uris[plant->model]);
     close_static_model(xml);
+    written += plants.size();
+    progress(static_cast<double>(written) / static_cast<double>(farm.plants.size()));
   }
 }
 
@@ -151,14 +154,15 @@ std::filesystem::path model_mesh_path(const std::string& name) {
   return std::filesystem::path("models") / name / "meshes" / (name + ".obj");
 }
 
-void write_world(const std::filesystem::path& path, const Farm& farm) {
+void write_world(const std::filesystem::path& path, const Farm& farm,
+                 const ProgressReport& progress) {
   XmlFile xml(path);
   xml.open("sdf");
   xml.attribute("version", kSdfVersion);
   xml.open("world", farm.name);
   write_sun(xml);
   write_one_mesh_model(xml, kTerrainModel, model_mesh_path(kTerrainModel).generic_string(), true);
-  write_plants_by_plot(xml, farm);
+  write_plants_by_plot(xml, farm, progress);
   xml.close();
   xml.close();
   xml.finish();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/progress.h"
 #include "farm/farm.h"
 
 namespace plotscan::farm {
@@ -17,7 +18,8 @@ std::filesystem::path model_mesh_path(const std::string& name);
 // Writes an SDF 1.6 world: a sun, the terrain (with collision), and one static model a plot with a
 // visual for each plant (Gazebo loads thousands of separate models very slowly, and an <include>
 // cannot be scaled). Mesh paths are relative to the file, as Gazebo Sim resolves them.
-void write_world(const std::filesystem::path& path, const Farm& farm);
+void write_world(const std::filesystem::path& path, const Farm& farm,
+                 const ProgressReport& progress);
 
 // Writes model.config and model.sdf of one model below models_folder; its mesh is beside them. The
 // model is found as model://NAME through GZ_SIM_RESOURCE_PATH (Gazebo Classic: GAZEBO_MODEL_PATH).

@@ -14,6 +14,9 @@ namespace plotscan::farm {
 namespace fs = std::filesystem;
 namespace {
 
+// Shares of the time that are over once truth/ and world.sdf are written, for the progress bar.
+constexpr double kTruthShare = 0.35;
+constexpr double kWorldShare = 0.9;
 const Eigen::Vector3f kLeafGreen(0.24F, 0.46F, 0.16F);
 const Eigen::Vector3f kSoilBrown(0.45F, 0.34F, 0.24F);
 
@@ -61,15 +64,22 @@ nlohmann::json results_of(const Farm& farm) {
 
 }  // namespace
 
-void write_farm(const Farm& farm, const fs::path& folder, bool replace, Manifest origin) {
+void write_farm(const Farm& farm, const fs::path& folder, bool replace, Manifest origin,
+                const ProgressReport& progress) {
+  const auto report = [&](double share) {
+    if (progress) progress(share);
+  };
   OutputFolder output(folder, replace);
   write_models(output.path(), farm);
   write_truth(output.path() / "truth", farm);
-  write_world(output.path() / "world.sdf", farm);
+  report(kTruthShare);
+  write_world(output.path() / "world.sdf", farm,
+              [&](double share) { report(kTruthShare + (kWorldShare - kTruthShare) * share); });
   origin.seed = farm.seed;
   origin.results = results_of(farm);
   write_manifest(output.path(), origin);
   output.commit();
+  report(1);
 }
 
 }  // namespace plotscan::farm

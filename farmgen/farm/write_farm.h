@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/manifest.h"
+#include "core/progress.h"
 #include "farm/farm.h"
 
 namespace plotscan::farm {
@@ -13,6 +14,6 @@ namespace plotscan::farm {
 // results are the farm's. With `replace`, an earlier farm at the same place is replaced. Throws
 // InputError when the folder cannot be written or exists.
 void write_farm(const Farm& farm, const std::filesystem::path& folder, bool replace,
-                Manifest origin);
+                Manifest origin, const ProgressReport& progress = {});
 
 }  // namespace plotscan::farm

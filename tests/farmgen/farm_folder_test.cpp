@@ -110,6 +110,19 @@ TEST(FarmFolder, ReadsBackPlantsThatLeanAndPlantsOutsidePlots) {
   expect_equal(farm, read_farm(folder.path() / "farm"));
 }
 
+TEST(FarmFolder, ReadsBackAFarmWithoutPlants) {
+  const TemporaryFolder folder;
+  const Farm farm = generate(load_description(write_example(folder), {"plants.count=0"}), 5);
+  ASSERT_EQ(farm.plots.size(), 5u);
+  double last_share = 0;
+  write_farm(farm, folder.path() / "farm", false, {.command = "test"}, [&](double share) {
+    EXPECT_GE(share, last_share);
+    last_share = share;
+  });
+  EXPECT_EQ(last_share, 1);
+  expect_equal(farm, read_farm(folder.path() / "farm"));
+}
+
 TEST(FarmFolder, TheSameDescriptionAndSeedWriteTheSameBytes) {
   const TemporaryFolder folder;
   const FarmDescription description = load_description(write_example(folder));

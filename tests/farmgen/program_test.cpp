@@ -89,7 +89,8 @@ TEST_F(Farmgen, TheSeedIsTheUsersElseTheDescriptionsElseOne) {
 TEST_F(Farmgen, BadInputEndsWithCodeTwoOneMessageAndNothingWritten) {
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"generate none.yaml -o farm", "farmgen: none.yaml: no such file\n"},
-      {"generate example.yaml -o farm --set terrain.side_m=12", "farmgen: plots: a corner of plot"},
+      {"generate example.yaml -o farm --set terrain.side_m=12",
+       "farmgen: example.yaml: plots: a corner of plot"},
       {"generate example.yaml -o farm --set terrain.sid=12",
        "farmgen: --set terrain.sid=12: terrain.sid is not a known key"},
       {"check example.yaml --set plants.count=-1",
