@@ -28,23 +28,44 @@ Eigen::Vector3d turn_between(const Eigen::Quaterniond& a, const Eigen::Quaternio
   return angle * turn.axis();
 }
 
+using Components = std::array<PerLaser, 3>;
+
+Components cross(const Eigen::Vector3d& a, const Components& b) {
+  return {a.y() * b[2] - a.z() * b[1], a.z() * b[0] - a.x() * b[2], a.x() * b[1] - a.y() * b[0]};
+}
+
+// Vectors turned by the rate times each laser's time, to second order.
+Components turned(const Components& vectors, const Eigen::Vector3d& rate, const PerLaser& time_s) {
+  const Components first = cross(rate, vectors);
+  const Components second = cross(rate, first);
+  Components result;
+  for (int axis = 0; axis < 3; ++axis)
+    result[axis] = vectors[axis] + time_s * (first[axis] + 0.5 * time_s * second[axis]);
+  return result;
+}
+
 }  // namespace
 
 ShotPlan::ShotPlan(const SpinningLidar& sensor, double spin_hz,
                    const Eigen::Isometry3d& body_from_lidar, const scan::Trajectory& trajectory)
     : sequence_s_(sensor.sequence_s), spin_hz_(spin_hz) {
   check(sensor.lasers.size() <= kMaxLasers, "the sensor has too many lasers");
+  const auto lasers = static_cast<Eigen::Index>(sensor.lasers.size());
+  const auto of_each = [&](auto&& value) {
+    PerLaser values(lasers);
+    for (Eigen::Index k = 0; k < lasers; ++k) values[k] = value(sensor.lasers[k]);
+    return values;
+  };
+  fires_s_ = of_each([](const Laser& laser) { return laser.fires_s; });
+  cos_elevation_ = of_each([](const Laser& laser) { return std::cos(laser.elevation_rad); });
+  sin_elevation_ = of_each([](const Laser& laser) { return std::sin(laser.elevation_rad); });
+  const PerLaser advance_rad = 2 * std::numbers::pi * spin_hz * fires_s_;
+  cos_advance_ = advance_rad.cos();
+  sin_advance_ = advance_rad.sin();
   const Eigen::Matrix3d lidar_from_body = body_from_lidar.linear().transpose();
-  for (const Laser& laser : sensor.lasers) {
-    const double advance = 2 * std::numbers::pi * spin_hz * laser.fires_s;
-    lasers_.push_back({.fires_s = laser.fires_s,
-                       .cos_elevation = std::cos(laser.elevation_rad),
-                       .sin_elevation = std::sin(laser.elevation_rad),
-                       .cos_advance = std::cos(advance),
-                       .sin_advance = std::sin(advance),
-                       .origin_m = lidar_from_body * body_from_lidar.translation() +
-                                   laser.offset_m * Eigen::Vector3d::UnitZ()});
-  }
+  const Eigen::Vector3d lever = lidar_from_body * body_from_lidar.translation();
+  for (int axis = 0; axis < 3; ++axis) lever_m_[axis] = PerLaser::Constant(lasers, lever[axis]);
+  lever_m_[2] += of_each([](const Laser& laser) { return laser.offset_m; });
   const auto& poses = trajectory.poses();
   const double start_s = trajectory.start_s();
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
@@ -71,48 +92,50 @@ const ShotPlan::Segment& ShotPlan::segment(double time_s) const {
 void ShotPlan::fire(std::uint64_t sequence, SequenceShots& shots) const {
   const double time_s = static_cast<double>(sequence) * sequence_s_;
   const Segment& motion = segment(time_s);
-  const bool is_steady = time_s + lasers_.back().fires_s <= motion.end_s &&
+  const Eigen::Index lasers = fires_s_.size();
+  const bool is_steady = time_s + fires_s_[lasers - 1] <= motion.end_s &&
                          motion.turn_rad_s.norm() * sequence_s_ <= kSmallTurn_rad;
+  for (int axis = 0; axis < 3; ++axis) {
+    shots.origin_m[axis].resize(lasers);
+    shots.direction[axis].resize(lasers);
+  }
   if (is_steady) {
-    fire_lasers(motion, time_s, 0, lasers_.size(), shots);
+    fire_lasers(motion, time_s, 0, lasers, shots);
     return;
   }
-  for (std::size_t k = 0; k < lasers_.size(); ++k)
-    fire_lasers(segment(time_s + lasers_[k].fires_s), time_s, k, k + 1, shots);
+  for (Eigen::Index k = 0; k < lasers; ++k)
+    fire_lasers(segment(time_s + fires_s_[k]), time_s, k, 1, shots);
 }
 
-// Lasers begin..end of the sequence that starts at time_s, all within one segment. The attitude is
+// `count` lasers of the sequence that starts at time_s, all within one segment. The attitude is
 // exact when the first of them fires and turned on from there to second order.
-void ShotPlan::fire_lasers(const Segment& motion, double time_s, std::size_t begin, std::size_t end,
-                           SequenceShots& shots) const {
-  const double first_s = time_s + lasers_[begin].fires_s;
-  const double in_segment_s = first_s - motion.start_s;
+void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index begin,
+                           Eigen::Index count, SequenceShots& shots) const {
+  const auto these = [begin, count](const PerLaser& all) { return all.segment(begin, count); };
+  const double in_segment_s = time_s + fires_s_[begin] - motion.start_s;
   const Eigen::Matrix3d world_from_lidar =
       motion.world_from_lidar * rotation(motion.turn_rad_s * in_segment_s);
   const Eigen::Vector3d position = motion.position_m + motion.velocity_m_s * in_segment_s;
+  const PerLaser later_s = these(fires_s_) - fires_s_[begin];
+
   const double turns = spin_hz_ * time_s;
   const double azimuth = 2 * std::numbers::pi * (turns - std::floor(turns));
-  const double cos_start = std::cos(azimuth);
-  const double sin_start = std::sin(azimuth);
-  for (std::size_t k = begin; k < end; ++k) {
-    const LaserConstants& laser = lasers_[k];
-    const double cos_azimuth = cos_start * laser.cos_advance - sin_start * laser.sin_advance;
-    const double sin_azimuth = sin_start * laser.cos_advance + cos_start * laser.sin_advance;
-    const Eigen::Vector3d in_lidar(laser.cos_elevation * cos_azimuth,
-                                   -laser.cos_elevation * sin_azimuth, laser.sin_elevation);
-    const double later_s = time_s + laser.fires_s - first_s;
-    const Eigen::Vector3d turn = motion.turn_rad_s * later_s;
-    const auto turned = [&turn](const Eigen::Vector3d& v) -> Eigen::Vector3d {
-      const Eigen::Vector3d first_order = turn.cross(v);
-      return v + first_order + 0.5 * turn.cross(first_order);
-    };
-    const Eigen::Vector3d direction = world_from_lidar * turned(in_lidar);
-    const Eigen::Vector3d origin =
-        position + motion.velocity_m_s * later_s + world_from_lidar * turned(laser.origin_m);
-    for (int axis = 0; axis < 3; ++axis) {
-      shots.direction[axis][k] = direction[axis];
-      shots.origin_m[axis][k] = origin[axis];
-    }
+  const double cosine = std::cos(azimuth);
+  const double sine = std::sin(azimuth);
+  const PerLaser cos_azimuth = cosine * these(cos_advance_) - sine * these(sin_advance_);
+  const PerLaser sin_azimuth = sine * these(cos_advance_) + cosine * these(sin_advance_);
+  const Components direction = turned({these(cos_elevation_) * cos_azimuth,
+                                       -these(cos_elevation_) * sin_azimuth, these(sin_elevation_)},
+                                      motion.turn_rad_s, later_s);
+  const Components lever = turned({these(lever_m_[0]), these(lever_m_[1]), these(lever_m_[2])},
+                                  motion.turn_rad_s, later_s);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::RowVector3d row = world_from_lidar.row(axis);
+    shots.direction[axis].segment(begin, count) =
+        row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2];
+    shots.origin_m[axis].segment(begin, count) =
+        position[axis] + motion.velocity_m_s[axis] * later_s + row[0] * lever[0] +
+        row[1] * lever[1] + row[2] * lever[2];
   }
 }
 

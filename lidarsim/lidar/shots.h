@@ -12,10 +12,12 @@
 
 namespace plotscan::lidar {
 
-// The shots of one firing sequence in the world frame, in the order of firing; arrays by component
-// so that the compiler works on several lasers at once.
+// One number a laser, in the order of firing; vectors are kept by component so that several lasers
+// are worked on at once.
+using PerLaser = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxLasers, 1>;
+
+// The shots of one firing sequence in the world frame.
 struct SequenceShots {
-  using PerLaser = std::array<double, kMaxLasers>;
   std::array<PerLaser, 3> origin_m;
   std::array<PerLaser, 3> direction;  // unit vectors
 };
@@ -30,10 +32,10 @@ class ShotPlan {
 
   // Whole firing sequences within the trajectory.
   std::uint64_t sequences() const { return sequences_; }
-  std::size_t lasers() const { return lasers_.size(); }
+  std::size_t lasers() const { return static_cast<std::size_t>(fires_s_.size()); }
   // Seconds from the trajectory's start.
   double time_s(std::uint64_t sequence, std::size_t laser) const {
-    return static_cast<double>(sequence) * sequence_s_ + lasers_[laser].fires_s;
+    return static_cast<double>(sequence) * sequence_s_ + fires_s_[static_cast<Eigen::Index>(laser)];
   }
   void fire(std::uint64_t sequence, SequenceShots& shots) const;
 
@@ -47,21 +49,19 @@ class ShotPlan {
     Eigen::Matrix3d world_from_lidar;  // at start_s
     Eigen::Vector3d turn_rad_s;        // lidar frame
   };
-  // What does not change from sequence to sequence.
-  struct LaserConstants {
-    double fires_s = 0;
-    double cos_elevation = 0;
-    double sin_elevation = 0;
-    double cos_advance = 0;  // of the azimuth from the sequence's start to this shot
-    double sin_advance = 0;
-    Eigen::Vector3d origin_m;  // lidar frame's axes, from the body's origin
-  };
-
   const Segment& segment(double time_s) const;
-  void fire_lasers(const Segment& motion, double time_s, std::size_t begin, std::size_t end,
+  void fire_lasers(const Segment& motion, double time_s, Eigen::Index begin, Eigen::Index count,
                    SequenceShots& shots) const;
 
-  std::vector<LaserConstants> lasers_;
+  // What does not change from sequence to sequence: of each laser, when it fires after the
+  // sequence's start, its direction at azimuth 0, how far the azimuth advances until it fires, and
+  // the ray's origin seen from the body's, in the lidar frame's axes.
+  PerLaser fires_s_;
+  PerLaser cos_elevation_;
+  PerLaser sin_elevation_;
+  PerLaser cos_advance_;
+  PerLaser sin_advance_;
+  std::array<PerLaser, 3> lever_m_;
   std::vector<Segment> segments_;
   double sequence_s_ = 0;
   double spin_hz_ = 0;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -29,6 +31,31 @@ struct Batch {
   std::uint64_t end_sequence = 0;
   std::vector<scan::LabelledPoint> points;
 };
+
+// Gaussian range noise that belongs to the shot, not to the order of asking. Neighbouring shots
+// share a draw of two independent numbers.
+class RangeNoise {
+ public:
+  RangeNoise(std::uint64_t seed, double sigma_m) : seed_(seed), sigma_m_(sigma_m) {}
+
+  double of_shot(std::uint64_t shot) {
+    if (sigma_m_ == 0) return 0;
+    if (shot / 2 != pair_) {
+      pair_ = shot / 2;
+      normals_ = RandomStream(seed_, random_purpose("range noise"), pair_).normal_pair();
+    }
+    return sigma_m_ * (shot % 2 == 0 ? normals_.first : normals_.second);
+  }
+
+ private:
+  std::uint64_t seed_;
+  double sigma_m_;
+  std::uint64_t pair_ = std::numeric_limits<std::uint64_t>::max();
+  std::pair<double, double> normals_;
+};
+
+// The nearest whole number to a value that is not negative; std::nearbyint is a library call.
+double rounded(double value) { return static_cast<double>(static_cast<std::int64_t>(value + 0.5)); }
 
 class Simulator {
  public:
@@ -60,6 +87,7 @@ class Simulator {
   std::vector<scan::LabelledPoint> measure(std::uint64_t begin_sequence,
                                            const std::vector<Ray>& rays,
                                            const std::vector<Hit>& hits) const {
+    RangeNoise noise(options_.seed, options_.range_noise_m);
     std::vector<scan::LabelledPoint> points;
     points.reserve(static_cast<std::size_t>(std::count_if(
         hits.begin(), hits.end(), [](const Hit& hit) { return std::isfinite(hit.range_m); })));
@@ -68,7 +96,8 @@ class Simulator {
       if (!std::isfinite(hit.range_m)) continue;
       const std::uint64_t sequence = begin_sequence + i / plan_.lasers();
       const std::size_t laser = i % plan_.lasers();
-      const double range = measured_range(hit.range_m, sequence * plan_.lasers() + laser);
+      const double range =
+          measured_range(hit.range_m + noise.of_shot(sequence * plan_.lasers() + laser));
       if (range < sensor_.min_range_m || range > sensor_.max_range_m) continue;
       const Eigen::Vector3f position =
           rays[i].origin_m + static_cast<float>(range) * rays[i].direction;
@@ -86,14 +115,11 @@ class Simulator {
     return points;
   }
 
-  double measured_range(double range_m, std::uint64_t shot) const {
-    if (options_.range_noise_m > 0) {
-      RandomStream stream(options_.seed, random_purpose("range noise"), shot);
-      range_m += options_.range_noise_m * stream.normal();
-    }
-    if (sensor_.range_step_m > 0)
-      range_m = sensor_.range_step_m * std::nearbyint(range_m / sensor_.range_step_m);
-    return range_m;
+  // What the sensor reports for a range; 0 where noise takes it behind the sensor.
+  double measured_range(double range_m) const {
+    if (range_m <= 0) return 0;
+    if (sensor_.range_step_m == 0) return range_m;
+    return sensor_.range_step_m * rounded(range_m / sensor_.range_step_m);
   }
 
   const Scene& scene_;
@@ -105,16 +131,16 @@ class Simulator {
 }  // namespace
 
 Ray ray_of(const SequenceShots& shots, std::size_t laser) {
-  const auto vector = [laser](const std::array<SequenceShots::PerLaser, 3>& v) {
-    return Eigen::Vector3f(static_cast<float>(v[0][laser]), static_cast<float>(v[1][laser]),
-                           static_cast<float>(v[2][laser]));
+  const auto k = static_cast<Eigen::Index>(laser);
+  const auto vector = [k](const std::array<PerLaser, 3>& v) -> Eigen::Vector3f {
+    return Eigen::Vector3d(v[0][k], v[1][k], v[2][k]).cast<float>();
   };
   return {vector(shots.origin_m), vector(shots.direction)};
 }
 
 float return_intensity(scan::PointClass label, float cos_incidence) {
   const float reflectance_percent = label == scan::PointClass::ground ? 30.0f : 45.0f;
-  return std::nearbyint(reflectance_percent * cos_incidence);
+  return static_cast<float>(rounded(reflectance_percent * cos_incidence));
 }
 
 void simulate(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,

@@ -20,6 +20,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "records are written little-endian");
 
 constexpr std::size_t kHeaderSize = 512;
+constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
 // The header, padded by its comment line to kHeaderSize bytes whatever the number of points.
 std::string pcd_header(std::uint64_t points) {
@@ -59,7 +60,9 @@ char* pack_point(const LabelledPoint& point, char* record) {
 }  // namespace
 
 PcdWriter::PcdWriter(const std::filesystem::path& path)
-    : path_(path), file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+    : path_(path),
+      file_(open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
+      buffer_(kBufferSize) {
   if (file_ < 0) fail();
   write_bytes(pcd_header(0));
 }
@@ -69,18 +72,25 @@ PcdWriter::~PcdWriter() {
 }
 
 void PcdWriter::write(std::span<const LabelledPoint> points) {
-  records_.resize(points.size() * kPackedPointSize);
-  char* record = records_.data();
-  for (const LabelledPoint& point : points) record = pack_point(point, record);
-  write_bytes(records_);
+  for (const LabelledPoint& point : points) {
+    if (buffered_ + kPackedPointSize > buffer_.size()) flush();
+    buffered_ =
+        static_cast<std::size_t>(pack_point(point, buffer_.data() + buffered_) - buffer_.data());
+  }
   points_ += points.size();
 }
 
 void PcdWriter::close() {
+  flush();
   if (lseek(file_, 0, SEEK_SET) != 0) fail();
   write_bytes(pcd_header(points_));
   const int file = std::exchange(file_, -1);
   if (::close(file) != 0) fail();
+}
+
+void PcdWriter::flush() {
+  write_bytes(std::span(buffer_).first(buffered_));
+  buffered_ = 0;
 }
 
 void PcdWriter::write_bytes(std::span<const char> bytes) {

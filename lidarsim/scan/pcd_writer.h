@@ -26,17 +26,20 @@ class PcdWriter {
 
   // Throws std::runtime_error when the disk is full.
   void write(std::span<const LabelledPoint> points);
-  // Writes the number of points into the header. Without it the file says 0 points.
+  // Writes what is buffered, and the number of points into the header. Without it the file says 0
+  // points.
   void close();
   std::uint64_t points() const { return points_; }
 
  private:
+  void flush();
   void write_bytes(std::span<const char> bytes);
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   int file_ = -1;
-  std::vector<char> records_;  // kept for its memory
+  std::vector<char> buffer_;
+  std::size_t buffered_ = 0;  // bytes of buffer_ not written yet
   std::uint64_t points_ = 0;
 };
 

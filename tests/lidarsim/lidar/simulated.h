@@ -63,7 +63,7 @@ struct WorldShot {
 inline WorldShot world_shot(const lidar::ShotPlan& plan, std::uint64_t shot) {
   lidar::SequenceShots shots;
   plan.fire(shot / 16, shots);
-  const std::uint64_t k = shot % 16;
+  const auto k = static_cast<Eigen::Index>(shot % 16);
   return {.origin = {shots.origin_m[0][k], shots.origin_m[1][k], shots.origin_m[2][k]},
           .direction = {shots.direction[0][k], shots.direction[1][k], shots.direction[2][k]}};
 }

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/program.h"
+#include "farm/farm.h"
+#include "lidar/fly.h"
+
+namespace {
+
+using namespace plotscan;
+
+struct Arguments {
+  std::string farm;
+  std::string scan;
+  std::string flight;
+  std::vector<double> mount_deg = {0, 90, 0};
+  lidar::FlyOptions options;
+  bool force = false;
+};
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+void report(const Program& program, const Arguments& arguments, const lidar::FlySummary& summary,
+            double elapsed_s) {
+  const auto bytes =
+      std::filesystem::file_size(std::filesystem::path(arguments.scan) / "cloud.pcd");
+  const double shots_a_second = static_cast<double>(summary.shots) / elapsed_s;
+  program.result({{"scan", arguments.scan},
+                  {"duration_s", summary.duration_s},
+                  {"shots", summary.shots},
+                  {"points", summary.points},
+                  {"shots_per_second", shots_a_second},
+                  {"cloud_bytes", bytes},
+                  {"seconds", elapsed_s}});
+  program.say(format("%s: a flight of %.1f s, %.2f million shots, %.2f million points",
+                     arguments.scan.c_str(), summary.duration_s,
+                     1e-6 * static_cast<double>(summary.shots),
+                     1e-6 * static_cast<double>(summary.points)));
+  program.say(format("cloud.pcd %.1f MB, simulated in %.2f s (%.1f million shots a second)",
+                     1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
+}
+
+void run_fly(const Program& program, Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  lidar::FlyOptions& options = arguments.options;
+  options.seed = program.common().seed;
+  options.threads = program.common().threads;
+  if (!arguments.flight.empty()) options.flight = arguments.flight;
+  for (int angle = 0; angle < 3; ++angle)
+    options.mount_rpy_rad[angle] = arguments.mount_deg[angle] * std::numbers::pi / 180;
+  const farm::Farm farm = farm::read_farm(arguments.farm);
+  // The farm's manifest holds the hashes of its other files.
+  options.inputs = {std::filesystem::path(arguments.farm) / "manifest.json"};
+  const lidar::FlySummary summary =
+      lidar::fly(farm, arguments.scan, options, arguments.force, program.progress("scanning"));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  report(program, arguments, summary, elapsed.count());
+}
+
+void add_options(CLI::App& fly, Arguments& arguments) {
+  lidar::FlyOptions& options = arguments.options;
+  fly.add_option("FARM", arguments.farm, "farm folder, as farmgen writes it")->required();
+  fly.add_option("-o,--output", arguments.scan, "scan folder to write")->required();
+  fly.add_option("--sensor", options.sensor, "sensor: vlp16");
+  auto* altitude = fly.add_option("--altitude", options.altitude_m,
+                                  "metres over the mean terrain under the plots, 0.5 to 120");
+  auto* speed = fly.add_option("--speed", options.speed_m_s, "metres a second, up to 6");
+  auto* spacing =
+      fly.add_option("--spacing", options.spacing_m, "metres between neighbouring strips");
+  fly.add_option("--flight", arguments.flight,
+                 "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
+                 "seconds, metres) or a scan's trajectory.csv")
+      ->excludes(altitude)
+      ->excludes(speed)
+      ->excludes(spacing);
+  fly.add_option("--spin", options.spin_hz, "turns of the sensor a second, 5 to 20");
+  fly.add_option("--noise", options.range_noise_m,
+                 "standard deviation of the range noise, metres, 0 to 1");
+  fly.add_option("--mount", arguments.mount_deg,
+                 "the sensor in the body's frame: roll,pitch,yaw in degrees; 0,90,0 lays the spin "
+                 "axis along the flight, azimuth 0 down")
+      ->delimiter(',')
+      ->expected(3);
+  fly.add_flag("--force", arguments.force, "replace an existing scan folder");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("lidarsim", "Scan virtual farms with a simulated LiDAR drone.");
+  Arguments arguments;
+  CLI::App& fly = program.command("fly", "Fly over a farm and write the scan.",
+                                  [&] { run_fly(program, arguments); });
+  add_options(fly, arguments);
+  return program.run(argc, argv);
+}
