@@ -145,7 +145,10 @@ void run_plant_soybean(const Program& program, const Arguments& arguments) {
 }
 
 void add_farm_options(CLI::App& command, Arguments& arguments) {
-  command.add_option("FARM", arguments.input, "farm description (YAML)")->required();
+  command
+      .add_option("FARM", arguments.input,
+                  "farm description (YAML); its seed counts where --seed is absent")
+      ->required();
   command
       .add_option("--set", arguments.assignments,
                   "key=value in place of the description's, as in terrain.relief_m=0.5 or "
