@@ -284,8 +284,8 @@ TEST(Generate, PlotHeightsAreOverTheirOwnPlants) {
 
 TEST(PlotHeights, Hand3IsTheMeanOfThreeDifferentPlants) {
   // Powers of ten show which plants were taken.
-  std::vector<double> heights;
-  for (int i = 0; i < 8; ++i) heights.push_back(std::pow(10.0, i));
+  std::vector<double> heights(8);
+  for (int i = 0; i < 8; ++i) heights[i] = std::pow(10.0, i);
   std::set<long long> seen;
   std::array<int, 8> taken{};
   for (std::uint32_t plot = 1; plot <= 4000; ++plot) {
