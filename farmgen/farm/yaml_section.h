@@ -45,6 +45,7 @@ class YamlSection {
   // Throws when the section holds a key other than these, or one of them twice.
   void allow_only(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const;
+  bool is_list(const std::string& key) const;
 
   // Readers of one key. Without a `fallback` the key is required.
   double number(const std::string& key, Range range, std::optional<double> fallback = {}) const;

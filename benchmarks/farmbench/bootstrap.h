@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace plotscan::farmbench {
+
+// The squared errors of one farm's plots.
+struct SquaredErrors {
+  double sum = 0;
+  std::size_t count = 0;
+};
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+inline constexpr std::size_t kResamples = 2000;
+
+// The 95 % percentile bootstrap interval of the root mean squared error over all plots (Efron and
+// Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13). Farms are drawn, with putting
+// back, as wholes: the plots of a farm share its terrain and its flight, so that they are no
+// independent draws. NaN for fewer than two farms with errors. The same farms are drawn for every
+// method, so that methods are compared on the same resamples.
+Interval bootstrap_rmse(const std::vector<SquaredErrors>& farms, std::uint64_t seed);
+
+}  // namespace plotscan::farmbench

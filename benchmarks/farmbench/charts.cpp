@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/charts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "farmbench/format.h"
+#include "farmbench/methods.h"
+#include "score/height_score.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+// Okabe and Ito's colours, told apart by colour-blind readers; a pale twin for a method's second
+// group of rows is not needed with eight of them.
+constexpr std::array<const char*, 8> kColours = {"#56b4e9", "#e69f00", "#0072b2", "#009e73",
+                                                 "#cc79a7", "#d55e00", "#555555", "#f0e442"};
+
+// Chart coordinates, pixels.
+struct Frame {
+  double left, top, width, height;
+  double bottom() const { return top + height; }
+};
+
+std::string line(double x1, double y1, double x2, double y2, const char* style) {
+  return formatted("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>", x1, y1, x2, y2,
+                   style);
+}
+
+std::string label(double x, double y, const char* anchor, const std::string& text) {
+  return formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", x, y, anchor) +
+         escaped(text) + "</text>";
+}
+
+std::string svg(double width, double height, const std::string& content) {
+  return formatted("<svg viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" ", width, height,
+                   width, height) +
+         "xmlns=\"http://www.w3.org/2000/svg\" font-family=\"system-ui, sans-serif\" "
+         "font-size=\"12\" fill=\"#222\">" +
+         content + "</svg>\n";
+}
+
+// 1, 2 or 5 times a power of ten, so that about `count` steps make `range`.
+double tick_step(double range, int count) {
+  const double power = std::pow(10, std::floor(std::log10(range / count)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (range / (factor * power) <= count) return factor * power;
+  }
+  return 10 * power;
+}
+
+std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
+  std::vector<std::string> methods;
+  for (const TableRow& row : rows) {
+    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+  }
+  return methods;
+}
+
+const char* colour_of(const std::vector<std::string>& methods, const std::string& method) {
+  const auto place = std::ranges::find(methods, method) - methods.begin();
+  return kColours[static_cast<std::size_t>(place) % kColours.size()];
+}
+
+std::string bar(const Frame& frame, double x, double width, double px_per_cm, const TableRow& row,
+                const char* colour) {
+  const double height = 100 * row.rmse_m * px_per_cm;
+  std::string text =
+      formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\">", x,
+                frame.bottom() - height, width, height, colour) +
+      "<title>" +
+      escaped(row.method + ", " + row.case_name + ": " +
+              with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m) + " cm") +
+      "</title></rect>";
+  if (!std::isnan(row.rmse_low_m)) {
+    const double middle = x + width / 2;
+    text += line(middle, frame.bottom() - 100 * row.rmse_low_m * px_per_cm, middle,
+                 frame.bottom() - 100 * row.rmse_high_m * px_per_cm,
+                 "stroke=\"#222\" stroke-width=\"1.5\"");
+  }
+  return text;
+}
+
+std::string legend(const std::vector<std::string>& methods, double x, double y, double row_height) {
+  std::string text;
+  for (const std::string& method : methods) {
+    text += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"11\" height=\"11\" fill=\"%s\"/>", x,
+                      y - 10, colour_of(methods, method)) +
+            label(x + 17, y, "start", method);
+    y += row_height;
+  }
+  return text;
+}
+
+double highest_cm(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  double highest = 1;
+  for (const TableRow& row : rows) {
+    for (const double value_m : {row.rmse_m, row.rmse_high_m}) {
+      if (!std::isnan(value_m)) highest = std::max(highest, 100 * value_m);
+    }
+  }
+  for (const CaseInfo& info : result.cases)
+    highest = std::max(highest, info.published_rmse_cm.value_or(0));
+  return highest;
+}
+
+std::string horizontal_grid(const Frame& frame, double highest, double px_per_cm) {
+  std::string text;
+  const double step = tick_step(highest, 6);
+  for (double tick = 0; tick <= highest; tick += step) {
+    const double y = frame.bottom() - tick * px_per_cm;
+    text += line(frame.left, y, frame.left + frame.width, y, "stroke=\"#ddd\"") +
+            label(frame.left - 6, y + 4, "end", formatted("%g", tick));
+  }
+  return text;
+}
+
+// One method of a height chart, and its plots.
+struct HeightSeries {
+  std::string row;
+  score::HeightPairs pairs;
+};
+
+HeightSeries series_of(const SuiteResult& result, const std::string& case_name,
+                       const std::string& truth, const Method& method, const MethodHeight& height) {
+  HeightSeries series{.row = height.row, .pairs = {}};
+  for (const FarmResult& farm : result.farms) {
+    if (farm.case_name != case_name) continue;
+    for (const MethodResult& run : farm.methods) {
+      if (run.method != method.name) continue;
+      const score::HeightPairs pairs = score::height_pairs(run.score, height.height, truth);
+      auto& all = series.pairs;
+      all.truths_m.insert(all.truths_m.end(), pairs.truths_m.begin(), pairs.truths_m.end());
+      all.estimates_m.insert(all.estimates_m.end(), pairs.estimates_m.begin(),
+                             pairs.estimates_m.end());
+    }
+  }
+  return series;
+}
+
+// What a height chart shows: the published method, else the first; and the last.
+std::vector<HeightSeries> chosen_series(const SuiteResult& result, const std::string& case_name,
+                                        const std::string& truth) {
+  std::vector<HeightSeries> all;
+  for (const std::string& name : result.methods) {
+    const Method& method = method_named(name);
+    for (const MethodHeight& height : method.heights)
+      all.push_back(series_of(result, case_name, truth, method, height));
+  }
+  const std::string first = result.published ? result.published->method : all.front().row;
+  std::erase_if(all, [&](const HeightSeries& series) {
+    return series.row != first && series.row != all.back().row;
+  });
+  return all;
+}
+
+std::string dots(const Frame& frame, double low, double px_per_m, const HeightSeries& series,
+                 const char* colour) {
+  std::string text = formatted("<g fill=\"%s\" fill-opacity=\"0.55\">", colour);
+  for (std::size_t i = 0; i < series.pairs.truths_m.size(); ++i) {
+    text += formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.2\"/>",
+                      frame.left + (series.pairs.truths_m[i] - low) * px_per_m,
+                      frame.bottom() - (series.pairs.estimates_m[i] - low) * px_per_m);
+  }
+  return text + "</g>";
+}
+
+struct HeightRange {
+  double low = 0, high = 1;
+};
+
+HeightRange range_of(const std::vector<HeightSeries>& all) {
+  std::vector<double> values;
+  for (const HeightSeries& series : all) {
+    values.insert(values.end(), series.pairs.truths_m.begin(), series.pairs.truths_m.end());
+    values.insert(values.end(), series.pairs.estimates_m.begin(), series.pairs.estimates_m.end());
+  }
+  if (values.empty()) return {};
+  return {std::floor(std::ranges::min(values) * 10) / 10,
+          std::floor(std::ranges::max(values) * 10 + 1) / 10};
+}
+
+}  // namespace
+
+std::string escaped(const std::string& text) {
+  static const std::map<char, std::string> entities = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string result;
+  for (const char c : text) {
+    const auto entity = entities.find(c);
+    result += entity == entities.end() ? std::string(1, c) : entity->second;
+  }
+  return result;
+}
+
+std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  const std::vector<std::string> methods = methods_of(rows);
+  const Frame frame{.left = 40, .top = 24, .width = 660, .height = 240};
+  const double highest = highest_cm(result, rows) * 1.05;
+  const double px_per_cm = frame.height / highest;
+  const double group = frame.width / static_cast<double>(result.cases.size());
+  const double width = 0.8 * group / static_cast<double>(methods.size());
+  std::string content =
+      label(frame.left - 30, 14, "start", "RMSE, cm") + horizontal_grid(frame, highest, px_per_cm);
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const CaseInfo& info = result.cases[i];
+    const double left = frame.left + group * (static_cast<double>(i) + 0.1);
+    double x = left;
+    for (const TableRow& row : rows) {
+      if (row.case_name != info.name) continue;
+      if (!std::isnan(row.rmse_m)) {
+        content += bar(frame, x, width * 0.9, px_per_cm, row, colour_of(methods, row.method));
+      }
+      x += width;
+    }
+    content += label(left + 0.4 * group, frame.bottom() + 18, "middle", info.name);
+    if (!info.published_rmse_cm || !result.published) continue;
+    const double y = frame.bottom() - *info.published_rmse_cm * px_per_cm;
+    content +=
+        line(left, y, left + 0.8 * group, y,
+             "stroke=\"#b00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"") +
+        label(left + 0.8 * group + 3, y + 4, "start", formatted("%.1f", *info.published_rmse_cm));
+  }
+  double y = frame.bottom() + 42;
+  content += legend(methods, frame.left, y, 18);
+  y += 18 * static_cast<double>(methods.size());
+  if (result.published) {
+    content += line(frame.left, y - 4, frame.left + 12, y - 4,
+                    "stroke=\"#b00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"") +
+               label(frame.left + 17, y, "start",
+                     "published: " + result.published->method + ", " + result.published->source);
+  }
+  return svg(760, y + 10, content);
+}
+
+std::string height_chart(const SuiteResult& result, const std::string& case_name,
+                         const std::string& truth) {
+  const std::vector<HeightSeries> all = chosen_series(result, case_name, truth);
+  std::vector<std::string> names;
+  for (const HeightSeries& series : all) names.push_back(series.row);
+  const Frame frame{.left = 40, .top = 28, .width = 250, .height = 250};
+  const HeightRange range = range_of(all);
+  const double px_per_m = frame.width / (range.high - range.low);
+  std::string content = label(frame.left, 16, "start", case_name + ": estimate over truth, m");
+  const double step = tick_step(range.high - range.low, 6);
+  for (double tick = range.low; tick <= range.high + 1e-9; tick += step) {
+    const double offset = (tick - range.low) * px_per_m;
+    const std::string text = formatted("%.2g", tick);
+    content += line(frame.left, frame.bottom() - offset, frame.left + frame.width,
+                    frame.bottom() - offset, "stroke=\"#eee\"") +
+               label(frame.left - 5, frame.bottom() - offset + 4, "end", text) +
+               label(frame.left + offset, frame.bottom() + 16, "middle", text);
+  }
+  content += line(frame.left, frame.bottom(), frame.left + frame.width, frame.top,
+                  "stroke=\"#999\" stroke-dasharray=\"4 3\"");
+  for (const HeightSeries& series : all)
+    content += dots(frame, range.low, px_per_m, series, colour_of(names, series.row));
+  content += legend(names, frame.left, frame.bottom() + 38, 18);
+  return svg(310, frame.bottom() + 38 + 18 * static_cast<double>(names.size()), content);
+}
+
+}  // namespace plotscan::farmbench

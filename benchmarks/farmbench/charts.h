@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "farmbench/suite_result.h"
+#include "farmbench/table.h"
+
+namespace plotscan::farmbench {
+
+// Text as it may stand in HTML and SVG.
+std::string escaped(const std::string& text);
+
+// SVG: for each case a group of bars, one a method, RMSE in cm with its interval; a dashed line
+// where the case has a published figure. `rows` are of one truth.
+std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& rows);
+
+// SVG: every found plot of a case, estimated against true height, by the published method (else the
+// suite's first) and by the last method of the suite.
+std::string height_chart(const SuiteResult& result, const std::string& case_name,
+                         const std::string& truth);
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/farm_result.h"
+
+#include "score/score_files.h"
+
+namespace plotscan::farmbench {
+
+using nlohmann::json;
+
+json to_json(const FarmResult& result) {
+  json methods = json::array();
+  for (const MethodResult& method : result.methods) {
+    methods.push_back({{"method", method.method},
+                       {"seconds", method.seconds},
+                       {"failure", method.failure},
+                       {"score", score::to_json(method.score)}});
+  }
+  return {
+      {"case", result.case_name},
+      {"seed", result.seed},
+      {"made_from", result.made_from},
+      {"scan", {{"shots", result.shots}, {"points", result.points}, {"flight_s", result.flight_s}}},
+      {"methods", methods}};
+}
+
+FarmResult farm_result_from_json(const json& document) {
+  const json& scan = document.at("scan");
+  FarmResult result{.case_name = document.at("case"),
+                    .seed = document.at("seed"),
+                    .made_from = document.at("made_from"),
+                    .shots = scan.at("shots"),
+                    .points = scan.at("points"),
+                    .flight_s = scan.at("flight_s"),
+                    .methods = {}};
+  for (const json& method : document.at("methods")) {
+    result.methods.push_back({.method = method.at("method"),
+                              .seconds = method.at("seconds"),
+                              .failure = method.at("failure"),
+                              .score = score::field_from_json(method.at("score"))});
+  }
+  return result;
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "score/score.h"
+
+namespace plotscan::farmbench {
+
+// One method on one farm.
+struct MethodResult {
+  std::string method;   // Method::name
+  double seconds = 0;   // from the map in memory to the heights
+  std::string failure;  // why the method gave up, "" when it did not; every plot is missed then
+  score::FieldScore score;
+};
+
+// One farm of a suite: flown, and measured by every method.
+struct FarmResult {
+  std::string case_name;
+  std::uint64_t seed = 0;
+  nlohmann::json made_from;  // all that the result depends on: another value, another result
+  std::uint64_t shots = 0;
+  std::uint64_t points = 0;
+  double flight_s = 0;  // duration of the flight
+  std::vector<MethodResult> methods;
+};
+
+nlohmann::json to_json(const FarmResult& result);
+// Throws nlohmann::json::exception on anything that to_json does not write.
+FarmResult farm_result_from_json(const nlohmann::json& document);
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace plotscan::farmbench {
+
+// printf into a string of at most 255 characters.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+// A length as centimetres with two decimals; "-" for NaN.
+inline std::string centimetres(double metres) {
+  return std::isnan(metres) ? "-" : formatted("%.2f", 100 * metres);
+}
+
+// "4.81 [4.40, 5.30]", without the interval where it is NaN.
+inline std::string with_interval(double metres, double low_m, double high_m) {
+  const std::string value = centimetres(metres);
+  return std::isnan(low_m) ? value
+                           : value + " [" + centimetres(low_m) + ", " + centimetres(high_m) + "]";
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <string>
+
+#include "core/manifest.h"
+#include "core/program.h"
+#include "farmbench/format.h"
+#include "farmbench/reports.h"
+#include "farmbench/run.h"
+
+namespace {
+
+using namespace plotscan;
+
+nlohmann::json json_of(const farmbench::TableRow& row) {
+  return {{"case", row.case_name},
+          {"method", row.method},
+          {"truth", row.truth},
+          {"farms", row.farms},
+          {"plots", row.plots},
+          {"found", row.found},
+          {"missed", row.missed},
+          {"extra", row.extra},
+          {"without", row.without},
+          {"iou_median", row.iou_median},
+          {"iou_min", row.iou_min},
+          {"rmse_m", row.rmse_m},
+          {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
+          {"bias_m", row.bias_m},
+          {"mae_m", row.mae_m},
+          {"r2", row.r2},
+          {"seconds", row.seconds}};
+}
+
+void say_summary(const Program& program, const farmbench::RunSummary& summary,
+                 const std::string& output) {
+  for (const std::string& line : farmbench::summary_lines(summary.result, summary.table))
+    program.say(line);
+  program.say("Written: table.csv, results.json, leaderboard.md, report.html in " + output);
+  nlohmann::json rows = nlohmann::json::array();
+  for (const farmbench::TableRow& row : summary.table) rows.push_back(json_of(row));
+  program.result({{"output", output},
+                  {"farms", summary.result.farms.size()},
+                  {"resumed", summary.resumed},
+                  {"table", rows}});
+}
+
+void run_suite(const Program& program, farmbench::RunOptions options) {
+  options.threads = program.common().threads;
+  options.seed = program.common().seed;
+  options.build = file_hash("/proc/self/exe");
+  if (options.jobs == 0) options.jobs = options.threads;
+  const auto start = std::chrono::steady_clock::now();
+  const farmbench::RunSummary summary =
+      farmbench::run(options, program.progress(options.suite.stem().string()));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  program.say(farmbench::formatted("%zu farms, %zu of them run before, %.0f s",
+                                   summary.result.farms.size(), summary.resumed, seconds));
+  program.say("");
+  say_summary(program, summary, options.output.string());
+}
+
+void declare_run(Program& program, farmbench::RunOptions& options) {
+  CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
+                                  [&program, &options] { run_suite(program, options); });
+  run.add_option("SUITE", options.suite, "suite (YAML), such as benchmarks/suites/paper.yaml")
+      ->required();
+  run.add_option("-o,--output", options.output,
+                 "results folder; farms whose results it holds are not run again")
+      ->required();
+  run.add_option("--jobs", options.jobs, "farms at a time; 0 is one for each thread (-j)")
+      ->check(CLI::Range(0, 1024));
+  run.add_flag("--keep-clouds", options.keep_clouds,
+               "keep each farm and its scan in OUTPUT/clouds (about 300 MB a farm of the paper)");
+  run.add_flag("--force", options.force, "run every farm again");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("farmbench", "Benchmark plot and crop-height estimators on virtual farms.");
+  farmbench::RunOptions options;
+  options.jobs = 0;
+  declare_run(program, options);
+  std::string results;
+  CLI::App& report = program.command(
+      "report", "Make the table and reports again from results.json.",
+      [&] { say_summary(program, farmbench::report(results, program.common().seed), results); });
+  report.add_option("RESULTS", results, "results folder of farmbench run")->required();
+  return program.run(argc, argv);
+}

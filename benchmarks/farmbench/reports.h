@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "farmbench/suite_result.h"
+#include "farmbench/table.h"
+
+namespace plotscan::farmbench {
+
+// Writes table.csv, leaderboard.md and report.html into the results folder.
+void write_reports(const std::filesystem::path& folder, const SuiteResult& result,
+                   const std::vector<TableRow>& table);
+
+// The table for people, in at most 100 columns: method by case, for the tallest plant (the paper's
+// pattern) and the mean plant, beside the published figures.
+std::vector<std::string> summary_lines(const SuiteResult& result,
+                                       const std::vector<TableRow>& table);
+
+// The truths that the reports show, of those in the table.
+std::vector<std::string> shown_truths(const std::vector<TableRow>& table);
+
+// The rows of one truth, by method in the table's order, then by case.
+std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth);
+
+// The published figure that belongs to the row, "" where there is none.
+std::string published_cm(const SuiteResult& result, const TableRow& row);
+
+}  // namespace plotscan::farmbench

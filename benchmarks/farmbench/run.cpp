@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/run.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "farmbench/farm_queue.h"
+#include "farmbench/reports.h"
+#include "farmbench/run_farm.h"
+#include "farmbench/text_file.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+// One farm of the suite and where its result lies.
+struct Task {
+  const SuiteCase& suite_case;
+  std::uint64_t seed;
+  std::string name;  // "flat-1"
+  json made_from;
+  std::optional<FarmResult> result = std::nullopt;
+};
+
+void require_sound(const RunOptions& options) {
+  if (options.jobs < 1 || options.jobs > 1024)
+    throw InputError("the number of jobs is " + std::to_string(options.jobs) + "; it is 1 to 1024");
+  if (!fs::exists(options.output)) return;
+  if (!fs::is_directory(options.output))
+    throw InputError(options.output, "exists and is not a folder");
+  if (!fs::is_empty(options.output) && !fs::exists(options.output / "farms"))
+    throw InputError(options.output,
+                     "exists and holds no results of farmbench; choose another folder");
+}
+
+fs::path result_file(const RunOptions& options, const Task& task) {
+  return options.output / "farms" / (task.name + ".json");
+}
+
+// The farm's result where there is one made from the same; a broken file is as good as none.
+std::optional<FarmResult> earlier_result(const fs::path& file, const json& made_from) {
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    FarmResult result = farm_result_from_json(json::parse(read_text(file)));
+    if (result.made_from == made_from) return result;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
+  std::vector<Task> tasks;
+  for (const SuiteCase& suite_case : suite.cases) {
+    for (const std::uint64_t seed : suite.seeds) {
+      tasks.push_back({.suite_case = suite_case,
+                       .seed = seed,
+                       .name = suite_case.name + "-" + std::to_string(seed),
+                       .made_from = made_from(suite, suite_case, seed, options.build)});
+      if (options.force) continue;
+      tasks.back().result =
+          earlier_result(result_file(options, tasks.back()), tasks.back().made_from);
+    }
+  }
+  return tasks;
+}
+
+void run_task(Task& task, const Suite& suite, const RunOptions& options, int threads,
+              const ProgressReport& progress) {
+  const fs::path folder = options.output / (options.keep_clouds ? "clouds" : "work") / task.name;
+  fs::create_directories(folder);
+  FarmResult result = run_farm(suite, task.suite_case, task.seed, folder, threads, progress);
+  result.made_from = task.made_from;
+  write_text(result_file(options, task), to_json(result).dump(1) + "\n");
+  task.result = std::move(result);
+  if (!options.keep_clouds) fs::remove_all(folder);
+}
+
+void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& options,
+               const ProgressReport& progress) {
+  std::vector<Task*> open;
+  for (Task& task : tasks) {
+    if (!task.result) open.push_back(&task);
+  }
+  const int threads = std::max(1, options.threads / options.jobs);
+  run_queue(open.size(), options.jobs, progress, [&](std::size_t i, const ProgressReport& own) {
+    run_task(*open[i], suite, options, threads, own);
+  });
+  fs::remove_all(options.output / "work");
+}
+
+}  // namespace
+
+RunSummary run(const RunOptions& options, const ProgressReport& progress) {
+  require_sound(options);
+  const Suite suite = load_suite(options.suite);
+  std::vector<Task> tasks = plan(suite, options);
+  const auto resumed =
+      std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
+  fs::create_directories(options.output / "farms");
+  run_tasks(tasks, suite, options, progress);
+  std::vector<FarmResult> farms;
+  for (Task& task : tasks) farms.push_back(std::move(*task.result));
+  RunSummary summary{.result = result_of(suite, std::move(farms)),
+                     .table = {},
+                     .resumed = static_cast<std::size_t>(resumed)};
+  summary.table = make_table(summary.result, options.seed);
+  write_text(options.output / "results.json", to_json(summary.result).dump(1) + "\n");
+  write_reports(options.output, summary.result, summary.table);
+  write_manifest(options.output, {.command = "farmbench run",
+                                  .seed = options.seed,
+                                  .inputs = {options.suite},
+                                  .results = {{"farms", tasks.size()}}});
+  return summary;
+}
+
+RunSummary report(const fs::path& output, std::uint64_t seed) {
+  const fs::path file = output / "results.json";
+  RunSummary summary;
+  try {
+    summary.result = suite_result_from_json(json::parse(read_text(file)));
+  } catch (const json::exception& error) {
+    throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
+  }
+  summary.resumed = summary.result.farms.size();
+  summary.table = make_table(summary.result, seed);
+  write_reports(output, summary.result, summary.table);
+  return summary;
+}
+
+}  // namespace plotscan::farmbench

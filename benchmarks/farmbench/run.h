@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "farmbench/suite_result.h"
+#include "farmbench/table.h"
+
+namespace plotscan::farmbench {
+
+struct RunOptions {
+  std::filesystem::path suite;   // the YAML file
+  std::filesystem::path output;  // results folder
+  int jobs = 1;                  // farms at a time
+  int threads = 1;               // of all jobs together
+  bool keep_clouds = false;      // keep each farm and its scan in output/clouds
+  bool force = false;            // run again what has been run
+  std::string build;       // identifies the program, so that no other program's farms are kept
+  std::uint64_t seed = 1;  // of the bootstrap
+};
+
+struct RunSummary {
+  SuiteResult result;
+  std::vector<TableRow> table;
+  std::size_t resumed = 0;  // farms whose results were there already
+};
+
+// Runs the suite and writes output/farms/CASE-SEED.json farm by farm, then the reports of
+// write_reports and manifest.json. A farm is not run again when its file is there and was made from
+// the same (made_from). Nothing but `seconds` depends on jobs and threads. Throws InputError on a
+// bad suite, options out of range, an output that is no results folder, and as run_farm does.
+RunSummary run(const RunOptions& options, const ProgressReport& progress = {});
+
+// Makes the reports again from output/results.json.
+RunSummary report(const std::filesystem::path& output, std::uint64_t seed);
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/run_farm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "estimate/cloud_map.h"
+#include "farm/description.h"
+#include "farm/generate.h"
+#include "farm/write_farm.h"
+#include "farmbench/methods.h"
+#include "lidar/fly.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+// How far a farm is when it has been flown, and when its cloud has been read.
+constexpr double kFlown = 0.5;
+constexpr double kRead = 0.6;
+
+farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder) {
+  const farm::FarmDescription description =
+      farm::load_description(suite_case.farm, suite_case.overrides);
+  farm::Farm made = farm::generate(description, seed);
+  farm::write_farm(made, folder, true,
+                   {.command = "farmbench run",
+                    .options = {{"set", suite_case.overrides}},
+                    .inputs = farm::input_files(description)});
+  return made;
+}
+
+// What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
+estimate::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Eigen::Array2d low(kFar, kFar);
+  Eigen::Array2d high(-kFar, -kFar);
+  for (const score::TruePlot& plot : plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) {
+      low = low.min(corner.array());
+      high = high.max(corner.array());
+    }
+  }
+  low -= margin_m;
+  high += margin_m;
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+MethodResult run_method(const Method& method, const Field& field) {
+  MethodResult result{.method = method.name, .failure = {}, .score = {}};
+  estimate::Estimate estimate{.method = method.name};
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    estimate = method.estimate(field);
+    estimate.method = method.name;
+  } catch (const InputError& error) {
+    result.failure = error.what();
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.score = score::score_field(field.plots, estimate);
+  return result;
+}
+
+void report(const ProgressReport& progress, double share) {
+  if (progress) progress(share);
+}
+
+}  // namespace
+
+json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
+               const std::string& build) {
+  json files = json::array();
+  for (const fs::path& file :
+       farm::input_files(farm::load_description(suite_case.farm, suite_case.overrides))) {
+    files.push_back({{"file", file.filename().string()}, {"hash", file_hash(file)}});
+  }
+  return {{"plotscan", version()},
+          {"build", build},
+          {"files", files},
+          {"set", suite_case.overrides},
+          {"seed", seed},
+          {"flight",
+           {{"sensor", suite.flight.sensor},
+            {"altitude_m", suite.flight.altitude_m},
+            {"speed_m_s", suite.flight.speed_m_s},
+            {"spacing_m", suite.flight.spacing_m},
+            {"spin_hz", suite.flight.spin_hz},
+            {"range_noise_m", suite.flight.range_noise_m}}},
+          {"crop_margin_m", suite.crop_margin_m},
+          {"methods", suite.methods}};
+}
+
+FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
+                    const fs::path& folder, int threads, const ProgressReport& progress) {
+  const farm::Farm farm = make_farm(suite_case, seed, folder / "farm");
+  lidar::FlyOptions flight = suite.flight;
+  flight.seed = seed;
+  flight.threads = threads;
+  const lidar::FlySummary flown = lidar::fly(
+      farm, folder / "scan", flight, true, [&](double share) { report(progress, kFlown * share); });
+  const std::vector<score::TruePlot> plots = score::read_truth(folder / "farm");
+  const estimate::CloudMap map =
+      estimate::read_map(folder / "scan" / "cloud.pcd", field_area(plots, suite.crop_margin_m));
+  report(progress, kRead);
+  FarmResult result{.case_name = suite_case.name,
+                    .seed = seed,
+                    .made_from = {},
+                    .shots = flown.shots,
+                    .points = flown.points,
+                    .flight_s = flown.duration_s,
+                    .methods = {}};
+  for (const std::string& name : suite.methods) {
+    result.methods.push_back(run_method(
+        method_named(name),
+        {.map = map, .plots = plots, .terrain = farm.terrain, .seed = seed, .threads = threads}));
+    const auto done = static_cast<double>(result.methods.size());
+    report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
+  }
+  return result;
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/suite.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "farm/description.h"
+#include "farm/yaml_section.h"
+#include "farmbench/methods.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+using farm::YamlSection;
+
+constexpr std::size_t kMostCases = 1000;
+constexpr std::size_t kMostSeeds = 10'000;
+constexpr std::string_view kNameCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+
+// A name that can be part of a file's name and of a CSV field.
+std::string read_name(const YamlSection& section) {
+  std::string name = section.text("name");
+  if (name.size() > 40 || name.find_first_not_of(kNameCharacters) != std::string::npos)
+    section.fail("name", "\"" + name + "\" is not a name: 1 to 40 letters, digits, '-' and '_'");
+  return name;
+}
+
+void require_farm(const YamlSection& section, const SuiteCase& suite_case) {
+  try {
+    farm::load_description(suite_case.farm, suite_case.overrides);
+  } catch (const InputError& error) {
+    section.fail("farm", std::string("does not hold: ") + error.what());
+  }
+}
+
+SuiteCase read_case(const YamlSection& section) {
+  section.allow_only({"name", "farm", "set", "published_rmse_cm"});
+  SuiteCase suite_case{.name = read_name(section),
+                       .farm = section.file().parent_path() / section.text("farm")};
+  if (section.has("set")) {
+    for (const auto& [key, value] : section.section("set").texts())
+      suite_case.overrides.push_back(key + "=" + value);
+  }
+  if (section.has("published_rmse_cm"))
+    suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
+  require_farm(section, suite_case);
+  return suite_case;
+}
+
+std::vector<SuiteCase> read_cases(const YamlSection& root) {
+  std::vector<SuiteCase> cases;
+  std::set<std::string> names;
+  for (const YamlSection& section : root.list("cases", kMostCases)) {
+    cases.push_back(read_case(section));
+    if (!names.insert(cases.back().name).second)
+      section.fail("name", "\"" + cases.back().name + "\" is the name of another case as well");
+  }
+  return cases;
+}
+
+// Either a list of seeds or {first, count}.
+std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
+  std::vector<std::uint64_t> seeds;
+  if (root.is_list("seeds")) {
+    for (const YamlSection& entry : root.list("seeds", kMostSeeds, "seed")) {
+      entry.allow_only({"seed"});
+      seeds.push_back(entry.unsigned_integer("seed"));
+      if (std::ranges::count(seeds, seeds.back()) > 1)
+        root.fail("seeds", "name " + std::to_string(seeds.back()) + " twice");
+    }
+    return seeds;
+  }
+  const YamlSection range = root.section("seeds");
+  range.allow_only({"first", "count"});
+  const auto first = static_cast<std::uint64_t>(range.integer("first", 0, 1'000'000'000));
+  const std::int64_t count = range.integer("count", 1, kMostSeeds);
+  for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
+  return seeds;
+}
+
+lidar::FlyOptions read_flight(const YamlSection& root) {
+  lidar::FlyOptions flight;
+  if (!root.has("flight")) return flight;
+  const YamlSection section = root.section("flight");
+  section.allow_only({"altitude_m", "speed_m_s", "spacing_m", "spin_hz", "range_noise_m"});
+  flight.altitude_m = section.number("altitude_m", {1, 100}, flight.altitude_m);
+  flight.speed_m_s = section.number("speed_m_s", {0.1, 20}, flight.speed_m_s);
+  flight.spacing_m = section.number("spacing_m", {0.1, 1000}, flight.spacing_m);
+  flight.spin_hz = section.number("spin_hz", {5, 20}, flight.spin_hz);
+  flight.range_noise_m = section.number("range_noise_m", {0, 1}, flight.range_noise_m);
+  return flight;
+}
+
+std::vector<std::string> read_methods(const YamlSection& root) {
+  std::vector<std::string> known;
+  for (const Method& method : known_methods()) known.push_back(method.name);
+  std::vector<std::string> methods;
+  for (const YamlSection& entry : root.list("methods", known.size(), "name")) {
+    entry.allow_only({"name"});
+    methods.push_back(known[entry.choice("name", known)]);
+    if (std::ranges::count(methods, methods.back()) > 1)
+      root.fail("methods", "name \"" + methods.back() + "\" twice");
+  }
+  return methods;
+}
+
+}  // namespace
+
+Suite load_suite(const std::filesystem::path& file) {
+  const YamlSection root = YamlSection::load(file, {});
+  root.allow_only({"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "published"});
+  Suite suite{.file = file,
+              .name = read_name(root),
+              .cases = read_cases(root),
+              .seeds = read_seeds(root),
+              .flight = read_flight(root),
+              .methods = read_methods(root)};
+  suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
+  if (root.has("published")) {
+    const YamlSection published = root.section("published");
+    published.allow_only({"source", "method"});
+    suite.published = {.source = published.text("source"), .method = published.text("method")};
+  }
+  return suite;
+}
+
+}  // namespace plotscan::farmbench

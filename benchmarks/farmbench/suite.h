@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lidar/fly.h"
+
+namespace plotscan::farmbench {
+
+// One kind of farm: a description, with some of its keys replaced.
+struct SuiteCase {
+  std::string name;
+  std::filesystem::path farm;
+  std::vector<std::string> overrides = {};                 // "terrain.side_m=20"
+  std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
+};
+
+// What somebody published, to stand beside what is measured.
+struct Published {
+  std::string source;  // "Dhami et al., IROS 2020"
+  std::string method;  // the row of the table that it belongs to, "dhami2020/raw-p99"
+};
+
+// A benchmark: every method on every seed of every case.
+struct Suite {
+  std::filesystem::path file;
+  std::string name;
+  std::vector<SuiteCase> cases;
+  std::vector<std::uint64_t> seeds;  // of farm, flight and method alike
+  lidar::FlyOptions flight;          // its seed and threads are set farm by farm
+  double crop_margin_m = 1;          // bare ground around the plots that methods are given
+  std::vector<std::string> methods;  // names of known_methods()
+  std::optional<Published> published = std::nullopt;
+};
+
+// Reads a suite (docs/benchmark.md). Paths of farms are relative to the suite's file. Throws
+// InputError (file:line, key, what is allowed) on an unknown key, a wrong type, an unknown method,
+// an impossible value, or a case whose farm description does not hold.
+Suite load_suite(const std::filesystem::path& file);
+
+}  // namespace plotscan::farmbench

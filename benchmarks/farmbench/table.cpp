@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/table.h"
+
+#include <cmath>
+#include <set>
+
+#include "core/csv.h"
+#include "core/statistics.h"
+#include "farmbench/bootstrap.h"
+#include "farmbench/methods.h"
+#include "score/height_score.h"
+#include "score/score.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+// One method on all farms of one case.
+struct CaseOfMethod {
+  const Method& method;
+  std::vector<score::FieldScore> fields = {};
+  std::vector<double> seconds = {};
+};
+
+CaseOfMethod collect(const SuiteResult& result, const std::string& case_name,
+                     const std::string& method) {
+  CaseOfMethod collected{.method = method_named(method)};
+  for (const FarmResult& farm : result.farms) {
+    if (farm.case_name != case_name) continue;
+    for (const MethodResult& run : farm.methods) {
+      if (run.method != method) continue;
+      collected.fields.push_back(run.score);
+      collected.seconds.push_back(run.seconds);
+    }
+  }
+  return collected;
+}
+
+std::set<std::string> truths_of(const std::vector<score::FieldScore>& fields) {
+  std::set<std::string> truths;
+  for (const score::FieldScore& field : fields) truths.merge(score::true_heights(field));
+  return truths;
+}
+
+SquaredErrors squared_errors(const score::HeightPairs& pairs) {
+  SquaredErrors errors{.count = pairs.estimates_m.size()};
+  for (std::size_t i = 0; i < errors.count; ++i) {
+    const double error_m = pairs.estimates_m[i] - pairs.truths_m[i];
+    errors.sum += error_m * error_m;
+  }
+  return errors;
+}
+
+// Four decimals: a hundredth of what any of the figures is good for.
+std::string field_of(double value) { return format_number(std::round(value * 1e4) / 1e4); }
+
+void append(score::HeightPairs& all, const score::HeightPairs& more) {
+  all.estimates_m.insert(all.estimates_m.end(), more.estimates_m.begin(), more.estimates_m.end());
+  all.truths_m.insert(all.truths_m.end(), more.truths_m.begin(), more.truths_m.end());
+  all.without += more.without;
+}
+
+void set_boxes(TableRow& row, const CaseOfMethod& collected) {
+  const score::BoxScore boxes = score::score_boxes(collected.fields);
+  row.farms = collected.fields.size();
+  row.plots = boxes.plots;
+  row.found = boxes.found;
+  row.missed = boxes.missed;
+  row.extra = boxes.extra;
+  row.iou_median = boxes.iou_median;
+  row.iou_min = boxes.iou_min;
+  row.seconds = quantile(collected.seconds, 0.5);
+}
+
+void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string& height,
+                 std::uint64_t seed) {
+  score::HeightPairs pooled;
+  std::vector<SquaredErrors> by_farm;
+  for (const score::FieldScore& field : collected.fields) {
+    const score::HeightPairs pairs = score::height_pairs(field, height, row.truth);
+    by_farm.push_back(squared_errors(pairs));
+    append(pooled, pairs);
+  }
+  const score::HeightScore score = score::score_height(height, row.truth, pooled);
+  const Interval interval = bootstrap_rmse(by_farm, seed);
+  row.without = score.without;
+  row.rmse_m = score.rmse_m;
+  row.rmse_low_m = interval.low;
+  row.rmse_high_m = interval.high;
+  row.bias_m = score.bias_m;
+  row.mae_m = score.mae_m;
+  row.r2 = score.r2;
+}
+
+}  // namespace
+
+std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) {
+  std::vector<TableRow> table;
+  for (const CaseInfo& info : result.cases) {
+    for (const std::string& method : result.methods) {
+      const CaseOfMethod collected = collect(result, info.name, method);
+      for (const MethodHeight& height : collected.method.heights) {
+        for (const std::string& truth : truths_of(collected.fields)) {
+          TableRow row{
+              .suite = result.suite, .case_name = info.name, .method = height.row, .truth = truth};
+          set_boxes(row, collected);
+          set_heights(row, collected, height.height, seed);
+          table.push_back(row);
+        }
+      }
+    }
+  }
+  return table;
+}
+
+std::string table_csv(const std::vector<TableRow>& table) {
+  std::string text =
+      "suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,"
+      "rmse_lo_cm,rmse_hi_cm,bias_cm,mae_cm,r2,coverage95,seconds\n";
+  for (const TableRow& row : table) {
+    text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
+    for (const std::size_t count : {row.farms, row.plots, row.found, row.missed, row.extra})
+      text += "," + std::to_string(count);
+    for (const double value : {row.iou_median, row.iou_min, 100 * row.rmse_m, 100 * row.rmse_low_m,
+                               100 * row.rmse_high_m, 100 * row.bias_m, 100 * row.mae_m, row.r2,
+                               row.coverage95, row.seconds}) {
+      text += "," + field_of(value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "farmbench/suite_result.h"
+
+namespace plotscan::farmbench {
+
+// One case, method and truth over all farms of the case (docs/benchmark.md). What cannot be
+// computed is NaN.
+struct TableRow {
+  std::string suite;
+  std::string case_name;
+  std::string method;  // MethodHeight::row
+  std::string truth;   // "height_max_m"
+  std::size_t farms = 0;
+  std::size_t plots = 0;  // true ones
+  std::size_t found = 0;
+  std::size_t missed = 0;
+  std::size_t extra = 0;
+  std::size_t without = 0;  // found plots without this height
+  double iou_median = 0;
+  double iou_min = 0;
+  double rmse_m = 0;
+  double rmse_low_m = 0;  // 95 % bootstrap interval over farms
+  double rmse_high_m = 0;
+  double bias_m = 0;
+  double mae_m = 0;
+  double r2 = 0;
+  // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals.
+  double coverage95 = std::numeric_limits<double>::quiet_NaN();
+  double seconds = 0;  // of the method, median over farms
+};
+
+// All rows: by case, by method, by truth. `seed` draws the bootstrap's resamples.
+std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
+
+// table.csv: suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,
+// rmse_lo_cm,rmse_hi_cm,bias_cm,mae_cm,r2,coverage95,seconds; a field that is NaN is empty.
+std::string table_csv(const std::vector<TableRow>& table);
+
+}  // namespace plotscan::farmbench
