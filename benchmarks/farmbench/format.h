@@ -16,10 +16,13 @@ std::string formatted(const char* format, Values... values) {
   return text.data();
 }
 
-// A length as centimetres with two decimals; "-" for NaN.
-inline std::string centimetres(double metres) {
-  return std::isnan(metres) ? "-" : formatted("%.2f", 100 * metres);
+// A number in the format; "-" for NaN.
+inline std::string number(const char* format, double value) {
+  return std::isnan(value) ? "-" : formatted(format, value);
 }
+
+// A length as centimetres with two decimals; "-" for NaN.
+inline std::string centimetres(double metres) { return number("%.2f", 100 * metres); }
 
 // "4.81 [4.40, 5.30]", without the interval where it is NaN.
 inline std::string with_interval(double metres, double low_m, double high_m) {

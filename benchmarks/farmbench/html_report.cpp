@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/html_report.h"
 
-#include <cmath>
-
 #include "core/manifest.h"
 #include "farmbench/charts.h"
 #include "farmbench/format.h"
@@ -26,10 +24,6 @@ svg { max-width: 100%; height: auto; } .charts { display: flex; flex-wrap: wrap;
 p.note { color: #555; }
 </style></head><body>
 )";
-
-std::string number(const char* format, double value) {
-  return std::isnan(value) ? "&ndash;" : formatted(format, value);
-}
 
 std::string table_row(const SuiteResult& result, const TableRow& row, bool first_of_method) {
   const auto cell = [](const std::string& text) { return "<td>" + text + "</td>"; };

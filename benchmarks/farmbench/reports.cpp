@@ -12,13 +12,16 @@ namespace plotscan::farmbench {
 namespace {
 
 std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::string& published) {
-  std::string line =
-      "| " + std::to_string(rank) + " | " + row.method + " | " +
-      with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m) + " | " + published + " | " +
-      (std::isnan(row.bias_m) ? "-" : formatted("%+.2f", 100 * row.bias_m)) + " | " +
-      centimetres(row.mae_m) + " | " + (std::isnan(row.r2) ? "-" : formatted("%.3f", row.r2));
-  return line + formatted(" | %zu of %zu | %zu | %.3f | %.2f |", row.found, row.plots, row.extra,
-                          row.iou_median, row.seconds);
+  std::string line;
+  for (const std::string& cell :
+       {std::to_string(rank), row.method,
+        with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m), published,
+        number("%+.2f", 100 * row.bias_m), centimetres(row.mae_m), number("%.3f", row.r2),
+        formatted("%zu of %zu", row.found, row.plots), std::to_string(row.extra),
+        number("%.3f", row.iou_median), number("%.2f", row.seconds)}) {
+    line += "| " + cell + " ";
+  }
+  return line + "|";
 }
 
 // For each truth and case, the methods by RMSE.
@@ -48,12 +51,11 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
 }
 
 std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  const std::string interval = with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m);
-  const std::string bias = std::isnan(row.bias_m) ? "-" : formatted("%+.2f", 100 * row.bias_m);
-  return formatted("%-30s %-8s %4zu/%-4zu %5zu %5.2f  %-21s %7s %6s",
+  return formatted("%-30s %-8s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
                    first_of_method ? row.method.c_str() : "", row.case_name.c_str(), row.found,
-                   row.plots, row.extra, row.iou_median, interval.c_str(), bias.c_str(),
-                   published_cm(result, row).c_str());
+                   row.plots, row.extra, number("%.2f", row.iou_median).c_str(),
+                   with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
+                   number("%+.2f", 100 * row.bias_m).c_str(), published_cm(result, row).c_str());
 }
 
 }  // namespace

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "farmbench/farm_queue.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+namespace fs = std::filesystem;
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+const fs::path kSmoke = fs::path(PLOTSCAN_SOURCE_DIR) / "benchmarks/suites/smoke.yaml";
+
+// What the methods took of the clock is the one thing that runs differ in.
+std::string without_seconds(const fs::path& table) {
+  std::string result;
+  std::string text = read_text(table);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
+    result += line.substr(0, line.rfind(',')) + "\n";
+    begin = end + 1;
+  }
+  return result;
+}
+
+nlohmann::json without_seconds(nlohmann::json farm) {
+  for (auto& method : farm["methods"]) method.erase("seconds");
+  return farm;
+}
+
+const TableRow& row_of(const std::vector<TableRow>& table, const std::string& case_name,
+                       const std::string& method) {
+  const auto found = std::ranges::find_if(table, [&](const TableRow& row) {
+    return row.case_name == case_name && row.method == method && row.truth == "height_max_m";
+  });
+  if (found == table.end()) throw std::runtime_error("no row " + case_name + " " + method);
+  return *found;
+}
+
+RunOptions smoke_options(const fs::path& output) {
+  return {.suite = kSmoke, .output = output, .build = "test"};
+}
+
+TEST(RunSuite, SmokeFindsPlotsAndHeights) {
+  const TemporaryFolder folder;
+  const RunSummary summary = run(smoke_options(folder.path() / "smoke"));
+  EXPECT_EQ(summary.result.farms.size(), 3U);
+  EXPECT_EQ(summary.table.size(), 3U * 7 * 7);  // cases, rows of the methods, truths
+  const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
+  const TableRow& given = row_of(summary.table, "flat", "dhami2020/raw-p99 true-boxes");
+  const TableRow& oracle = row_of(summary.table, "flat", "oracle-ground");
+  EXPECT_EQ(own.found, own.plots);
+  EXPECT_EQ(own.extra, 0U);
+  EXPECT_GT(own.iou_median, 0.6);
+  EXPECT_LT(own.rmse_m, 0.12);
+  // On flat ground a plane is as good as the truth.
+  EXPECT_NEAR(given.bias_m, oracle.bias_m, 0.01);
+  for (const char* terrain : {"flat", "half", "one"}) {
+    const TableRow& row = row_of(summary.table, terrain, "oracle-ground");
+    EXPECT_EQ(row.found, row.plots);
+    EXPECT_DOUBLE_EQ(row.iou_min, 1);
+    // The 99th percentile of the points lies a little under the tallest plant's tip.
+    EXPECT_LT(row.bias_m, 0.01) << terrain;
+    EXPECT_GT(row.bias_m, -0.12) << terrain;
+    EXPECT_LT(row.rmse_m, 0.12) << terrain;
+    // The noise reaches above it.
+    EXPECT_GT(row_of(summary.table, terrain, "dhami2020/raw-max true-boxes").bias_m, row.bias_m);
+  }
+  for (const char* file : {"table.csv", "results.json", "leaderboard.md", "report.html",
+                           "manifest.json", "farms/one-1.json"}) {
+    EXPECT_TRUE(fs::exists(folder.path() / "smoke" / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "smoke" / "work"));
+}
+
+TEST(RunSuite, ResumesWhereItWasStopped) {
+  const TemporaryFolder folder;
+  const fs::path output = folder.path() / "smoke";
+  run(smoke_options(output));
+  const std::string table = without_seconds(output / "table.csv");
+  const auto farm = [&](const char* name) { return output / "farms" / name; };
+  const std::string removed = read_text(farm("half-1.json"));
+  const std::string kept = read_text(farm("one-1.json"));
+  const auto kept_time = fs::last_write_time(farm("one-1.json"));
+  fs::remove(farm("half-1.json"));
+  std::ofstream(farm("flat-1.json")) << "{ \"case\": \"fl";  // cut off
+  fs::create_directories(output / "work" / "half-1" / "farm");
+
+  const RunSummary summary = run(smoke_options(output));
+  EXPECT_EQ(summary.resumed, 1U);
+  EXPECT_EQ(without_seconds(output / "table.csv"), table);
+  EXPECT_EQ(read_text(farm("one-1.json")), kept);
+  EXPECT_EQ(fs::last_write_time(farm("one-1.json")), kept_time);
+  EXPECT_EQ(without_seconds(nlohmann::json::parse(read_text(farm("half-1.json")))),
+            without_seconds(nlohmann::json::parse(removed)));
+  EXPECT_FALSE(fs::exists(output / "work"));
+
+  const std::string whole = read_text(output / "table.csv");
+  fs::remove(output / "table.csv");
+  fs::remove(output / "report.html");
+  report(output, 1);
+  EXPECT_EQ(read_text(output / "table.csv"), whole);
+  EXPECT_TRUE(fs::exists(output / "report.html"));
+
+  RunOptions other_build = smoke_options(output);
+  other_build.build = "another";
+  EXPECT_EQ(run(other_build).resumed, 0U);
+}
+
+TEST(RunSuite, JobsAndThreadsChangeNothing) {
+  const TemporaryFolder folder;
+  const fs::path one = folder.path() / "one";
+  const fs::path many = folder.path() / "many";
+  run(smoke_options(one));
+  RunOptions options = smoke_options(many);
+  options.jobs = 2;
+  options.threads = 5;
+  run(options);
+  EXPECT_EQ(without_seconds(many / "table.csv"), without_seconds(one / "table.csv"));
+  for (const char* name : {"flat-1.json", "half-1.json", "one-1.json"}) {
+    EXPECT_EQ(without_seconds(nlohmann::json::parse(read_text(many / "farms" / name))),
+              without_seconds(nlohmann::json::parse(read_text(one / "farms" / name))));
+  }
+}
+
+TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
+  const TemporaryFolder folder;
+  const fs::path suite = folder.write(
+      "bare.yaml",
+      "name: bare\ncases:\n  - name: bare\n    farm: " + std::string(PLOTSCAN_SOURCE_DIR) +
+          "/worlds/paper_flat.yaml\n    set: {terrain.side_m: 30, plants.count: 0, "
+          "plots.rows: '[{plots: 4}]'}\nseeds: [1]\nflight: {altitude_m: 6, "
+          "speed_m_s: 3, range_noise_m: 0}\nmethods: [dhami2020, oracle-ground]\n");
+  RunOptions options{.suite = suite, .output = folder.path() / "bare", .build = "test"};
+  options.keep_clouds = true;
+  const RunSummary summary = run(options);
+  EXPECT_THAT(summary.result.farms[0].methods[0].failure, HasSubstr("too few for 4 plots"));
+  const TableRow& row = row_of(summary.table, "bare", "dhami2020/raw-p99");
+  EXPECT_EQ(row.missed, 4U);
+  EXPECT_TRUE(std::isnan(row.rmse_m));
+  const TableRow& oracle = row_of(summary.table, "bare", "oracle-ground");
+  EXPECT_EQ(oracle.without, 4U);  // found, but nothing stands on the ground
+  EXPECT_TRUE(fs::exists(options.output / "clouds" / "bare-1" / "scan" / "cloud.pcd"));
+}
+
+TEST(RunSuite, RefusesAFolderOfSomebodyElse) {
+  const TemporaryFolder folder;
+  folder.write("mine/thesis.txt", "precious");
+  EXPECT_THAT(message_of<InputError>([&] { run(smoke_options(folder.path() / "mine")); }),
+              HasSubstr("holds no results of farmbench"));
+  RunOptions options = smoke_options(folder.path() / "new");
+  options.jobs = 0;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("it is 1 to 1024"));
+  EXPECT_FALSE(fs::exists(folder.path() / "new"));
+  EXPECT_THAT(message_of<InputError>([&] { report(folder.path(), 1); }),
+              HasSubstr("results.json: no such file"));
+}
+
+TEST(RunQueue, DoesEveryPieceOnceAndReportsTheMean) {
+  std::vector<std::atomic<int>> done(50);
+  std::vector<double> shares;
+  run_queue(
+      done.size(), 3, [&](double share) { shares.push_back(share); },
+      [&](std::size_t i, const ProgressReport& progress) {
+        progress(0.5);
+        ++done[i];
+      });
+  for (const auto& times : done) EXPECT_EQ(times, 1);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_NEAR(shares.back(), 1, 1e-9);
+}
+
+TEST(RunQueue, TheFirstFailureStopsTheRest) {
+  std::atomic<int> started = 0;
+  EXPECT_THROW(run_queue(1000, 2, {},
+                         [&](std::size_t i, const ProgressReport&) {
+                           ++started;
+                           if (i == 3) throw InputError("broken");
+                         }),
+               InputError);
+  EXPECT_LT(started, 1000);
+}
+
+}  // namespace
+}  // namespace plotscan::farmbench

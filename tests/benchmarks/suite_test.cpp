@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/suite.h"
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "farm/description.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const std::filesystem::path kSuites =
+    std::filesystem::path(PLOTSCAN_SOURCE_DIR) / "benchmarks/suites";
+const std::string kFlat = std::string(PLOTSCAN_SOURCE_DIR) + "/worlds/paper_flat.yaml";
+
+// A sound suite, one key a line.
+const std::string kSound =
+    "name: mine\n"
+    "cases:\n"
+    "  - {name: a, farm: " +
+    kFlat +
+    "}\n"
+    "seeds: [4]\n"
+    "methods: [oracle-ground]\n";
+
+// kSound with one line in place of another.
+std::string with(const std::string& line, const std::string& other) {
+  std::string text = kSound;
+  return text.replace(text.find(line), line.size(), other);
+}
+
+TEST(LoadSuite, ThePapersProtocol) {
+  const Suite suite = load_suite(kSuites / "paper.yaml");
+  EXPECT_EQ(suite.name, "paper");
+  EXPECT_THAT(suite.seeds, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
+  ASSERT_EQ(suite.cases.size(), 3U);
+  EXPECT_THAT(suite.methods, ElementsAre("dhami2020", "dhami2020 true-boxes", "oracle-ground"));
+  const double relief_m[] = {0, 0.5, 1};
+  const double published_cm[] = {4.8, 6.1, 16.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const farm::FarmDescription farm = farm::load_description(suite.cases[i].farm);
+    EXPECT_EQ(farm.terrain.side_m, 80);
+    EXPECT_EQ(farm.terrain.vertices, 150U);
+    EXPECT_EQ(farm.terrain.relief_m, relief_m[i]);
+    EXPECT_EQ(farm.plants->count, 90U);
+    ASSERT_EQ(farm.plots->rows.size(), 3U);
+    for (const farm::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
+    EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
+  }
+}
+
+TEST(LoadSuite, OverridesSeedsAndFlight) {
+  const TemporaryFolder folder;
+  const Suite suite = load_suite(folder.write(
+      "s.yaml", with("seeds: [4]\n",
+                     "seeds: {first: 7, count: 3}\nflight: {altitude_m: 12, range_noise_m: 0}\n")
+                    .replace(kSound.find("}\n"), 1, ", set: {plots.rows: '[{plots: 2}]'}}")));
+  EXPECT_THAT(suite.seeds, ElementsAre(7, 8, 9));
+  EXPECT_EQ(suite.flight.altitude_m, 12);
+  EXPECT_EQ(suite.flight.range_noise_m, 0);
+  EXPECT_THAT(suite.cases[0].overrides, ElementsAre("plots.rows=[{plots: 2}]"));
+}
+
+struct BadSuite {
+  std::string text;
+  std::string message;  // after the file's name
+};
+
+class LoadSuiteErrors : public ::testing::TestWithParam<BadSuite> {};
+
+TEST_P(LoadSuiteErrors, NameLineAndKey) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("s.yaml", GetParam().text);
+  EXPECT_THAT(message_of<InputError>([&] { load_suite(file); }),
+              HasSubstr(file.string() + GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Suites, LoadSuiteErrors,
+    ::testing::Values(
+        BadSuite{kSound + "colour: red\n", ":6: colour is not a known key"},
+        BadSuite{with("[4]", "[4, four]"), ":4: seeds.1.seed \"four\" is not a whole number"},
+        BadSuite{with("[4]", "[4, 4]"), ":4: seeds name 4 twice"},
+        BadSuite{with("[4]", "{first: 1, count: 0}"), ":4: seeds.count 0 is not in [1, 10000]"},
+        BadSuite{with("[4]", "4"), ":4: seeds is not a map"},
+        BadSuite{with("[oracle-ground]", "[magic]"), ":5: methods.0.name \"magic\" is not one of"},
+        BadSuite{with("[oracle-ground]", "[oracle-ground, oracle-ground]"), ":5: methods name"},
+        BadSuite{with("name: mine", "name: a/b"), ":1: name \"a/b\" is not a name"},
+        BadSuite{with("name: mine\n", ""), ":1: name is missing"},
+        BadSuite{with("/paper_flat.yaml", "/none.yaml"), ":3: cases.0.farm does not hold"},
+        BadSuite{with(".yaml}", ".yaml, set: {terrain.colour: 1}}"),
+                 ":3: cases.0.farm does not hold: --set terrain.colour=1: terrain.colour is not a "
+                 "known key"},
+        BadSuite{with(".yaml}", ".yaml}\n  - {name: a, farm: " + kFlat + "}"),
+                 ":4: cases.1.name \"a\" is the name of another case as well"},
+        BadSuite{kSound + "flight: {spin_hz: 100}\n", ":6: flight.spin_hz 100 is not in [5, 20]"},
+        BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
+
+}  // namespace
+}  // namespace plotscan::farmbench

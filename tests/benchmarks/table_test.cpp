@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/table.h"
+
+#include <cmath>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "farmbench/html_report.h"
+#include "farmbench/reports.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+score::PlotScore plot(double truth_m, double error_m, double iou) {
+  score::PlotScore plot{.truth = {.id = 1, .box = {}, .heights_m = {{"height_max_m", truth_m}}}, .found = {}};
+  if (iou > 0) plot.found = {.iou = iou, .heights_m = {{"p99", truth_m + error_m}}};
+  return plot;
+}
+
+FarmResult farm(const std::string& case_name, std::uint64_t seed, double seconds,
+                const std::vector<score::PlotScore>& plots) {
+  return {.case_name = case_name,
+          .seed = seed,
+          .made_from = {{"seed", seed}},
+          .shots = 10,
+          .points = 5,
+          .flight_s = 1,
+          .methods = {{.method = "oracle-ground",
+                       .seconds = seconds,
+                       .failure = {},
+                       .score = {.method = "oracle-ground", .plots = plots, .extra = {9}}}}};
+}
+
+// Three farms of case a, of which the last has a missed plot; of case b nothing was found.
+SuiteResult small_result() {
+  return {.suite = "s<1>",
+          .cases = {{"a", 4.8}, {"b", {}}},
+          .methods = {"oracle-ground"},
+          .published = Published{.source = "A & B, 2020", .method = "oracle-ground"},
+          .farms = {farm("a", 1, 3, {plot(1.0, 0.03, 0.9), plot(1.2, -0.01, 0.8)}),
+                    farm("a", 2, 1, {plot(1.1, 0.02, 0.7), plot(1.3, 0.04, 0.95)}),
+                    farm("a", 3, 2, {plot(0.9, 0.05, 0.85), plot(1.0, 0, 0)}),
+                    farm("b", 1, 1, {plot(1.0, 0, 0)})}};
+}
+
+TEST(MakeTable, PoolsTheFarmsOfACase) {
+  const std::vector<TableRow> table = make_table(small_result(), 1);
+  ASSERT_EQ(table.size(), 2U);
+  const TableRow& row = table[0];
+  EXPECT_EQ(row.farms, 3U);
+  EXPECT_EQ(row.plots, 6U);
+  EXPECT_EQ(row.found, 5U);
+  EXPECT_EQ(row.missed, 1U);
+  EXPECT_EQ(row.extra, 3U);
+  EXPECT_DOUBLE_EQ(row.iou_median, 0.85);
+  EXPECT_DOUBLE_EQ(row.iou_min, 0.7);
+  EXPECT_NEAR(row.rmse_m, std::sqrt((9 + 1 + 4 + 16 + 25) * 1e-4 / 5), 1e-12);
+  EXPECT_NEAR(row.bias_m, 0.13 / 5, 1e-12);
+  EXPECT_NEAR(row.mae_m, 0.15 / 5, 1e-12);
+  EXPECT_NEAR(row.r2, 1 - 0.0055 / 0.1, 1e-12);  // truths 1.0 1.2 1.1 1.3 0.9
+  EXPECT_DOUBLE_EQ(row.seconds, 2);
+  // All resamples lie between the best farm and the worst one alone.
+  EXPECT_GE(row.rmse_low_m, std::sqrt(10e-4 / 2) - 1e-12);
+  EXPECT_LE(row.rmse_high_m, 0.05 + 1e-12);
+  EXPECT_LT(row.rmse_low_m, row.rmse_high_m);
+}
+
+TEST(MakeTable, NothingFoundIsARowOfItsOwn) {
+  const TableRow row = make_table(small_result(), 1)[1];
+  EXPECT_EQ(row.case_name, "b");
+  EXPECT_EQ(row.missed, 1U);
+  EXPECT_TRUE(std::isnan(row.rmse_m) && std::isnan(row.iou_median));
+}
+
+TEST(TableCsv, HasTheColumnsOthersReadIt) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("table.csv", table_csv(make_table(small_result(), 1)));
+  const std::vector<std::string> columns = {
+      "suite",   "case",   "method",     "truth",      "farms",   "plots",      "found",
+      "missed",  "extra",  "iou_median", "iou_min",    "rmse_cm", "rmse_lo_cm", "rmse_hi_cm",
+      "bias_cm", "mae_cm", "r2",         "coverage95", "seconds"};
+  std::string header = read_text(file);
+  header.resize(header.find('\n'));
+  std::string expected;
+  for (const std::string& column : columns) expected += (expected.empty() ? "" : ",") + column;
+  EXPECT_EQ(header, expected);
+  std::vector<std::string> rmses;
+  read_csv(file, columns, {}, [&](const CsvRow& row) {
+    rmses.emplace_back(row.text(11));
+    EXPECT_EQ(row.text(17), "");  // no method gives intervals yet
+  });
+  EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
+}
+
+TEST(SuiteResultJson, ComesBack) {
+  const nlohmann::json document = to_json(small_result());
+  const SuiteResult again = suite_result_from_json(nlohmann::json::parse(document.dump()));
+  EXPECT_EQ(to_json(again), document);
+  EXPECT_EQ(table_csv(make_table(again, 1)), table_csv(make_table(small_result(), 1)));
+}
+
+TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
+  const SuiteResult result = small_result();
+  const auto lines = summary_lines(result, make_table(result, 1));
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_THAT(lines[2],
+              ::testing::AllOf(HasSubstr("oracle-ground"), HasSubstr("5/6"), HasSubstr("3.32 ["),
+                               HasSubstr("+2.60"), HasSubstr("4.8")));
+  EXPECT_THAT(lines[3], ::testing::AllOf(HasSubstr("0/1"), Not(HasSubstr("nan"))));
+}
+
+TEST(HtmlReport, DrawsWellFormedCharts) {
+  const SuiteResult result = small_result();
+  const std::string page = html_report(result, make_table(result, 1));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr("s<1>")));
+  EXPECT_THAT(page, HasSubstr("A &amp; B"));
+  std::size_t charts = 0, circles = 0, bars = 0;
+  for (std::size_t at = page.find("<svg"); at != std::string::npos;
+       at = page.find("<svg", at + 1)) {
+    const std::string chart = page.substr(at, page.find("</svg>", at) + 6 - at);
+    tinyxml2::XMLDocument document;
+    ASSERT_EQ(document.Parse(chart.c_str()), tinyxml2::XML_SUCCESS) << chart;
+    ++charts;
+    const auto* root = document.RootElement();
+    for (const auto* e = root->FirstChildElement("rect"); e; e = e->NextSiblingElement("rect"))
+      bars += e->FirstChildElement("title") != nullptr ? 1 : 0;
+    for (const auto* g = root->FirstChildElement("g"); g; g = g->NextSiblingElement("g")) {
+      for (const auto* e = g->FirstChildElement("circle"); e; e = e->NextSiblingElement("circle"))
+        ++circles;
+    }
+  }
+  EXPECT_EQ(charts, 3U);   // RMSE, and heights of two cases
+  EXPECT_EQ(bars, 1U);     // nothing was found in b
+  EXPECT_EQ(circles, 5U);  // the plots found
+}
+
+}  // namespace
+}  // namespace plotscan::farmbench
