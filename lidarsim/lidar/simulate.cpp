@@ -55,7 +55,10 @@ class RangeNoise {
 };
 
 // The nearest whole number to a value that is not negative; std::nearbyint is a library call.
-double rounded(double value) { return static_cast<double>(static_cast<std::int64_t>(value + 0.5)); }
+double rounded(double value) {
+  return static_cast<double>(
+      static_cast<std::int64_t>(value + 0.5));  // NOLINT(bugprone-incorrect-roundings)
+}
 
 class Simulator {
  public:

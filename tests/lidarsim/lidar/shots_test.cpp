@@ -57,7 +57,7 @@ void expect_plain(std::uint64_t first, std::uint64_t shots, double spin_hz,
 
 scan::Trajectory hovering() { return scan::Trajectory({{.time_s = 0}, {.time_s = 1}}); }
 
-// Flies, turns about changing axes (steadily up to 2 rad/s) and starts at a clock's odd time.
+// Flies, turns about changing axes and starts at a clock's odd time.
 scan::Trajectory tumbling(double pose_gap_s, double turn_rad) {
   std::vector<scan::StampedPose> poses;
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
@@ -99,6 +99,7 @@ TEST(Shots, AzimuthDoesNotDrift) {
 
 TEST(Shots, EachIsFiredFromThePoseOfItsInstant) {
   expect_plain(0, 160000, 10, tilted_mount(), tumbling(0.01, 0.02));
+  expect_plain(0, 160000, 10, tilted_mount(), tumbling(0.01, 0.15));  // 15 rad/s
 }
 
 // Poses closer than a firing sequence, and turns too fast for the second-order step.
