@@ -13,6 +13,8 @@ namespace {
 // Turning by an angle below this within one firing sequence is taken to second order: the error,
 // its cube over 6, stays below 2e-10.
 constexpr double kSmallTurn_rad = 1e-3;
+// A turn below this from pose to pose is rounding.
+constexpr double kNoTurn_rad = 1e-14;
 
 Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
   const double angle = turn_rad.norm();
@@ -25,6 +27,7 @@ Eigen::Vector3d turn_between(const Eigen::Quaterniond& a, const Eigen::Quaternio
   const Eigen::AngleAxisd turn(a.conjugate() * b);
   const double angle =
       turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
+  if (std::abs(angle) < kNoTurn_rad) return Eigen::Vector3d::Zero();
   return angle * turn.axis();
 }
 
@@ -36,6 +39,7 @@ Components cross(const Eigen::Vector3d& a, const Components& b) {
 
 // Vectors turned by the rate times each laser's time, to second order.
 Components turned(const Components& vectors, const Eigen::Vector3d& rate, const PerLaser& time_s) {
+  if (rate.isZero(0)) return vectors;
   const Components first = cross(rate, vectors);
   const Components second = cross(rate, first);
   Components result;

@@ -21,8 +21,9 @@ namespace {
 
 // Firing sequences that one task takes: a fraction of a millisecond of casting.
 constexpr std::uint64_t kBatchSequences = 64;
-// Batches under way for each thread, so that the writer never starves the casters.
-constexpr std::size_t kBatchesPerThread = 4;
+// Batches under way for each thread: work for some milliseconds, so that one thread that waits for
+// the disk or a processor does not stop the others. At most 50 kB each.
+constexpr std::size_t kBatchesPerThread = 32;
 // Hits are looked for this many standard deviations beyond the sensor's range: noise may bring them
 // back into it.
 constexpr double kNoiseReach = 6;
