@@ -20,7 +20,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 score::PlotScore plot(double truth_m, double error_m, double iou) {
-  score::PlotScore plot{.truth = {.id = 1, .box = {}, .heights_m = {{"height_max_m", truth_m}}}, .found = {}};
+  score::PlotScore plot{.truth = {.id = 1, .box = {}, .heights_m = {{"height_max_m", truth_m}}},
+                        .found = {}};
   if (iou > 0) plot.found = {.iou = iou, .heights_m = {{"p99", truth_m + error_m}}};
   return plot;
 }

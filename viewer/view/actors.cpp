@@ -28,7 +28,7 @@
 namespace plotscan::view {
 namespace {
 
-constexpr double kBoxLift_m = 0.05;
+constexpr double kBoxLift_m = 0.15;
 // The colour bar ends here: the share of points below, so that one stray point does not bleach all
 // others.
 constexpr double kTopShare = 0.999;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad input gets one message and exit code 2, and leaves nothing behind.
+#include <algorithm>
+#include <ostream>
+
+#include "programs.h"
+#include "temporary_folder.h"
+
+namespace plotscan {
+namespace {
+
+using testing::Finished;
+using testing::run;
+using testing::TemporaryFolder;
+
+const std::string kPaper = std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'";
+
+struct BadCommand {
+  std::string command;
+  std::string says;  // a part of the message
+};
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const BadCommand& bad, std::ostream* out) { *out << bad.command; }
+
+class BadInput : public ::testing::TestWithParam<BadCommand> {};
+
+TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
+  const TemporaryFolder folder;
+  folder.write("broken.yaml", "name: x\nterrain: [1, 2\n");
+  folder.write(
+      "truncated.pcd",
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 100\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 100\nDATA binary\nabc");
+  folder.write("not_a_farm/readme", "x");
+  const Finished finished = run(GetParam().command, folder.path().string());
+  EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
+  EXPECT_NE(finished.errors.find(GetParam().says), std::string::npos) << finished.errors;
+  EXPECT_LE(std::count(finished.errors.begin(), finished.errors.end(), '\n'), 2) << finished.errors;
+  const auto left = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+  EXPECT_EQ(left, 3) << "something was left behind";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Programs, BadInput,
+    ::testing::Values(
+        BadCommand{"farmgen", "subcommand"},
+        BadCommand{"farmgen generate absent.yaml -o out", "absent.yaml"},
+        BadCommand{"farmgen generate broken.yaml -o out", "broken.yaml:"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --set terrain.side_m=-3", "side_m"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --set terrain.side_m=8", "terrain"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --set plants.count=1e12", "count"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --set terrain.sides=3", "sides"},
+        BadCommand{"farmgen generate " + kPaper + " -o not_a_farm", "not_a_farm"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --seed minus", "seed"},
+        BadCommand{"lidarsim fly not_a_farm -o out", "not_a_farm"},
+        BadCommand{"lidarsim fly absent -o out", "absent"},
+        BadCommand{"estimator run truncated.pcd -o out --plots 3", "truncated.pcd"},
+        BadCommand{"estimator run absent.pcd -o out --plots 3", "absent.pcd"},
+        BadCommand{"estimator run truncated.pcd -o out --plots=-3", "plots"},
+        BadCommand{"estimator score absent --truth not_a_farm", "absent"},
+        BadCommand{"farmbench run broken.yaml -o out", "broken.yaml"},
+        BadCommand{"plotview picture not_a_farm -o p.png", "not_a_farm"}),
+    [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
+
+}  // namespace
+}  // namespace plotscan

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The programs as a user runs them: farm, flight, scan, estimate, score.
+#include "programs.h"
+#include "temporary_folder.h"
+#include <nlohmann/json.hpp>
+
+#include "core/manifest.h"
+
+namespace plotscan {
+namespace {
+
+using testing::Finished;
+using testing::run;
+using testing::TemporaryFolder;
+
+const std::string kFarm =
+    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
+    " --set terrain.side_m=30 --set plots.rows.0.plots=3 --set plots.rows.1.plots=3" +
+    " --set plots.rows.2.plots=3 --set plants.count=40";
+
+class Chain : public ::testing::Test {
+ protected:
+  Finished succeed(const std::string& command) {
+    Finished finished = run(command, folder_.path().string());
+    EXPECT_EQ(finished.exit_code, 0) << command << '\n' << finished.output << finished.errors;
+    return finished;
+  }
+  bool exists(const std::string& name) const {
+    return std::filesystem::exists(folder_.path() / name);
+  }
+  std::string hash(const std::string& name) const { return file_hash(folder_.path() / name); }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Chain, RunsFromDescriptionToScores) {
+  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("lidarsim fly farm -o scan");
+  succeed(
+      "estimator run scan/cloud.pcd -o estimate --method dhami2020 --plots 9 --crop-box=-5,-9,5,9");
+  const Finished scored = succeed("estimator score estimate --truth farm --json");
+  const auto scores = nlohmann::json::parse(scored.output);
+  EXPECT_EQ(scores["boxes"]["plots"], 9);
+  EXPECT_GE(scores["boxes"]["found"], 8);
+  for (const char* file :
+       {"farm/world.sdf", "farm/truth/plots.geojson", "scan/cloud.pcd", "scan/trajectory.csv",
+        "estimate/plots.geojson", "estimate/heights.csv", "estimate/manifest.json"}) {
+    EXPECT_TRUE(exists(file)) << file;
+  }
+}
+
+TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
+  for (const std::string threads : {"1", "7"}) {
+    succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);
+    succeed("lidarsim fly farm" + threads + " -o scan" + threads + " -j " + threads + " --speed 4");
+    succeed("estimator run scan" + threads + "/cloud.pcd -o estimate" + threads +
+            " --plots 9 --crop-box=-5,-9,5,9 -j " + threads);
+  }
+  for (const std::string file :
+       {"farm#/manifest.json", "farm#/truth/plants.csv", "scan#/manifest.json", "scan#/cloud.pcd",
+        "estimate#/manifest.json", "estimate#/heights.csv"}) {
+    const auto with = [&file](const std::string& threads) {
+      std::string name = file;
+      return name.replace(name.find('#'), 1, threads);
+    };
+    EXPECT_EQ(hash(with("1")), hash(with("7"))) << file;
+  }
+}
+
+TEST_F(Chain, AnotherSeedIsAnotherFarm) {
+  succeed("farmgen generate " + kFarm + " -o a --seed 1");
+  succeed("farmgen generate " + kFarm + " -o b --seed 2");
+  EXPECT_NE(hash("a/truth/plants.csv"), hash("b/truth/plants.csv"));
+}
+
+TEST_F(Chain, EveryCommandExplainsItself) {
+  for (const std::string command :
+       {"farmgen generate", "farmgen info", "farmgen check", "farmgen plant", "lidarsim fly",
+        "estimator run", "estimator score", "farmbench run", "plotview picture"}) {
+    const std::string help = succeed(command + " --help").output;
+    for (const char* option :
+         {"--help", "--version", "--seed", "--threads", "--verbose", "--quiet", "--json"}) {
+      EXPECT_NE(help.find(option), std::string::npos) << command << " --help lacks " << option;
+    }
+    EXPECT_NE(succeed(command + " --version").output.find(version()), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace plotscan
