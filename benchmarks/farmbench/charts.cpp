@@ -140,7 +140,7 @@ HeightSeries series_of(const SuiteResult& result, const std::string& case_name,
   return series;
 }
 
-// What a height chart shows: the published method, else the first; and the last.
+// What a height chart shows: the methods with published figures, else the first; and the last.
 std::vector<HeightSeries> chosen_series(const SuiteResult& result, const std::string& case_name,
                                         const std::string& truth) {
   std::vector<HeightSeries> all;
@@ -149,9 +149,14 @@ std::vector<HeightSeries> chosen_series(const SuiteResult& result, const std::st
     for (const MethodHeight& height : method.heights)
       all.push_back(series_of(result, case_name, truth, method, height));
   }
-  const std::string first = result.published ? result.published->method : all.front().row;
+  std::vector<std::string> shown = {all.back().row};
+  if (result.published) {
+    shown.insert(shown.end(), result.published->methods.begin(), result.published->methods.end());
+  } else {
+    shown.push_back(all.front().row);
+  }
   std::erase_if(all, [&](const HeightSeries& series) {
-    return series.row != first && series.row != all.back().row;
+    return std::ranges::find(shown, series.row) == shown.end();
   });
   return all;
 }
@@ -229,8 +234,7 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
   if (result.published) {
     content += line(frame.left, y - 4, frame.left + 12, y - 4,
                     "stroke=\"#b00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"") +
-               label(frame.left + 17, y, "start",
-                     "published: " + result.published->method + ", " + result.published->source);
+               label(frame.left + 17, y, "start", "published: " + result.published->source);
   }
   return svg(760, y + 10, content);
 }
@@ -239,6 +243,7 @@ std::string height_chart(const SuiteResult& result, const std::string& case_name
                          const std::string& truth) {
   const std::vector<HeightSeries> all = chosen_series(result, case_name, truth);
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const HeightSeries& series : all) names.push_back(series.row);
   const Frame frame{.left = 40, .top = 28, .width = 250, .height = 250};
   const HeightRange range = range_of(all);

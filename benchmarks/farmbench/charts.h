@@ -16,8 +16,8 @@ std::string escaped(const std::string& text);
 // where the case has a published figure. `rows` are of one truth.
 std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& rows);
 
-// SVG: every found plot of a case, estimated against true height, by the published method (else the
-// suite's first) and by the last method of the suite.
+// SVG: every found plot of a case, estimated against true height, by the methods beside which
+// figures were published (else the suite's first) and by the last method of the suite.
 std::string height_chart(const SuiteResult& result, const std::string& case_name,
                          const std::string& truth);
 

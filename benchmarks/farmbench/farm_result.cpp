@@ -13,6 +13,7 @@ json to_json(const FarmResult& result) {
     methods.push_back({{"method", method.method},
                        {"seconds", method.seconds},
                        {"failure", method.failure},
+                       {"diagnostics", method.diagnostics},
                        {"score", score::to_json(method.score)}});
   }
   return {
@@ -36,6 +37,7 @@ FarmResult farm_result_from_json(const json& document) {
     result.methods.push_back({.method = method.at("method"),
                               .seconds = method.at("seconds"),
                               .failure = method.at("failure"),
+                              .diagnostics = method.at("diagnostics"),
                               .score = score::field_from_json(method.at("score"))});
   }
   return result;

@@ -16,6 +16,7 @@ struct MethodResult {
   std::string method;   // Method::name
   double seconds = 0;   // from the map in memory to the heights
   std::string failure;  // why the method gave up, "" when it did not; every plot is missed then
+  nlohmann::json diagnostics = nlohmann::json::object();  // Estimate::diagnostics
   score::FieldScore score;
 };
 

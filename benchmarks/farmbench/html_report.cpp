@@ -64,8 +64,7 @@ std::string scan_note(const SuiteResult& result) {
                      "intersection over union of at least 0.5, one to one). Intervals are 95 % "
                      "percentile bootstrap over farms.";
   if (result.published) {
-    text += " Published: RMSE of " + escaped(result.published->method) + " in " +
-            escaped(result.published->source) + ", cm.";
+    text += " Published: RMSE in " + escaped(result.published->source) + ", cm.";
   }
   return text + "</p>\n";
 }

@@ -83,7 +83,8 @@ std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const s
 }
 
 std::string published_cm(const SuiteResult& result, const TableRow& row) {
-  if (!result.published || result.published->method != row.method) return "";
+  if (!result.published || std::ranges::count(result.published->methods, row.method) == 0)
+    return "";
   const auto info = std::ranges::find(result.cases, row.case_name, &CaseInfo::name);
   if (info == result.cases.end() || !info->published_rmse_cm) return "";
   return formatted("%.1f", *info->published_rmse_cm);

@@ -25,7 +25,7 @@ std::vector<std::string> shown_truths(const std::vector<TableRow>& table);
 // The rows of one truth, by method in the table's order, then by case.
 std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth);
 
-// The published figure that belongs to the row, "" where there is none.
+// The published figure that belongs beside the row, "" where there is none.
 std::string published_cm(const SuiteResult& result, const TableRow& row);
 
 }  // namespace plotscan::farmbench

@@ -105,6 +105,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress) {
   fs::create_directories(options.output / "farms");
   run_tasks(tasks, suite, options, progress);
   std::vector<FarmResult> farms;
+  farms.reserve(tasks.size());
   for (Task& task : tasks) farms.push_back(std::move(*task.result));
   RunSummary summary{.result = result_of(suite, std::move(farms)),
                      .table = {},

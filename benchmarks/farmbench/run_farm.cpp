@@ -58,6 +58,7 @@ MethodResult run_method(const Method& method, const Field& field) {
   try {
     estimate = method.estimate(field);
     estimate.method = method.name;
+    result.diagnostics = estimate.diagnostics;
   } catch (const InputError& error) {
     result.failure = error.what();
   }

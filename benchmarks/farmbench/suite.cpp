@@ -40,8 +40,10 @@ SuiteCase read_case(const YamlSection& section) {
   SuiteCase suite_case{.name = read_name(section),
                        .farm = section.file().parent_path() / section.text("farm")};
   if (section.has("set")) {
-    for (const auto& [key, value] : section.section("set").texts())
-      suite_case.overrides.push_back(key + "=" + value);
+    for (const auto& [key, value] : section.section("set").texts()) {
+      suite_case.overrides.push_back(key);
+      suite_case.overrides.back().append("=").append(value);
+    }
   }
   if (section.has("published_rmse_cm"))
     suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
@@ -120,8 +122,12 @@ Suite load_suite(const std::filesystem::path& file) {
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
   if (root.has("published")) {
     const YamlSection published = root.section("published");
-    published.allow_only({"source", "method"});
-    suite.published = {.source = published.text("source"), .method = published.text("method")};
+    published.allow_only({"source", "methods"});
+    suite.published = {.source = published.text("source"), .methods = {}};
+    for (const YamlSection& entry : published.list("methods", 100, "row")) {
+      entry.allow_only({"row"});
+      suite.published->methods.push_back(entry.text("row"));
+    }
   }
   return suite;
 }

@@ -21,8 +21,8 @@ struct SuiteCase {
 
 // What somebody published, to stand beside what is measured.
 struct Published {
-  std::string source;  // "Dhami et al., IROS 2020"
-  std::string method;  // the row of the table that it belongs to, "dhami2020/raw-p99"
+  std::string source;                // "Dhami et al., IROS 2020"
+  std::vector<std::string> methods;  // the rows that it belongs beside, "dhami2020/raw-p99"
 };
 
 // A benchmark: every method on every seed of every case.

@@ -30,7 +30,7 @@ json to_json(const SuiteResult& result) {
       {"suite", result.suite}, {"cases", cases}, {"methods", result.methods}, {"farms", farms}};
   if (result.published)
     document["published"] = {{"source", result.published->source},
-                             {"method", result.published->method}};
+                             {"methods", result.published->methods}};
   return document;
 }
 
@@ -47,7 +47,7 @@ SuiteResult suite_result_from_json(const json& document) {
   }
   if (document.contains("published")) {
     const json& published = document["published"];
-    result.published = {.source = published.at("source"), .method = published.at("method")};
+    result.published = {.source = published.at("source"), .methods = published.at("methods")};
   }
   for (const json& farm : document.at("farms")) result.farms.push_back(farm_result_from_json(farm));
   return result;

@@ -17,6 +17,7 @@ namespace {
 template <class Plot>
 std::vector<PlotBox> boxes_of(const std::vector<Plot>& plots) {
   std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
   for (const Plot& plot : plots) boxes.push_back(plot.box);
   return boxes;
 }
@@ -31,6 +32,7 @@ FoundPlot found_plot(const TruePlot& truth, const estimate::PlotEstimate& plot, 
 
 double root_mean_square(const std::vector<double>& values) {
   std::vector<double> squares;
+  squares.reserve(values.size());
   for (const double value : values) squares.push_back(value * value);
   return std::sqrt(mean(squares));
 }

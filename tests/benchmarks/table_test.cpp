@@ -37,6 +37,7 @@ FarmResult farm(const std::string& case_name, std::uint64_t seed, double seconds
           .methods = {{.method = "oracle-ground",
                        .seconds = seconds,
                        .failure = {},
+                       .diagnostics = {{"voxels", 7}},
                        .score = {.method = "oracle-ground", .plots = plots, .extra = {9}}}}};
 }
 
@@ -45,7 +46,7 @@ SuiteResult small_result() {
   return {.suite = "s<1>",
           .cases = {{"a", 4.8}, {"b", {}}},
           .methods = {"oracle-ground"},
-          .published = Published{.source = "A & B, 2020", .method = "oracle-ground"},
+          .published = Published{.source = "A & B, 2020", .methods = {"oracle-ground"}},
           .farms = {farm("a", 1, 3, {plot(1.0, 0.03, 0.9), plot(1.2, -0.01, 0.8)}),
                     farm("a", 2, 1, {plot(1.1, 0.02, 0.7), plot(1.3, 0.04, 0.95)}),
                     farm("a", 3, 2, {plot(0.9, 0.05, 0.85), plot(1.0, 0, 0)}),
