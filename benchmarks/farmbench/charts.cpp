@@ -13,8 +13,7 @@
 namespace plotscan::farmbench {
 namespace {
 
-// Okabe and Ito's colours, told apart by colour-blind readers; a pale twin for a method's second
-// group of rows is not needed with eight of them.
+// Okabe and Ito's colours, told apart by colour-blind readers.
 constexpr std::array<const char*, 8> kColours = {"#56b4e9", "#e69f00", "#0072b2", "#009e73",
                                                  "#cc79a7", "#d55e00", "#555555", "#f0e442"};
 
@@ -51,18 +50,23 @@ double tick_step(double range, int count) {
   return 10 * power;
 }
 
-std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
-  std::vector<std::string> methods;
-  for (const TableRow& row : rows) {
-    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+// The rows that the suite's methods make, and each one's colour, the same in every chart.
+class Palette {
+ public:
+  explicit Palette(const SuiteResult& result) {
+    for (const std::string& name : result.methods) {
+      for (const MethodHeight& height : method_named(name).heights) rows_.push_back(height.row);
+    }
   }
-  return methods;
-}
+  const std::vector<std::string>& rows() const { return rows_; }
+  const char* colour(const std::string& row) const {
+    const auto place = std::ranges::find(rows_, row) - rows_.begin();
+    return kColours[static_cast<std::size_t>(place) % kColours.size()];
+  }
 
-const char* colour_of(const std::vector<std::string>& methods, const std::string& method) {
-  const auto place = std::ranges::find(methods, method) - methods.begin();
-  return kColours[static_cast<std::size_t>(place) % kColours.size()];
-}
+ private:
+  std::vector<std::string> rows_;
+};
 
 std::string bar(const Frame& frame, double x, double width, double px_per_cm, const TableRow& row,
                 const char* colour) {
@@ -83,13 +87,16 @@ std::string bar(const Frame& frame, double x, double width, double px_per_cm, co
   return text;
 }
 
-std::string legend(const std::vector<std::string>& methods, double x, double y, double row_height) {
+constexpr double kLegendLine = 18;
+
+std::string legend(const Palette& palette, const std::vector<std::string>& rows, double x,
+                   double y) {
   std::string text;
-  for (const std::string& method : methods) {
+  for (const std::string& row : rows) {
     text += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"11\" height=\"11\" fill=\"%s\"/>", x,
-                      y - 10, colour_of(methods, method)) +
-            label(x + 17, y, "start", method);
-    y += row_height;
+                      y - 10, palette.colour(row)) +
+            label(x + 17, y, "start", row);
+    y += kLegendLine;
   }
   return text;
 }
@@ -201,12 +208,12 @@ std::string escaped(const std::string& text) {
 }
 
 std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& rows) {
-  const std::vector<std::string> methods = methods_of(rows);
+  const Palette palette(result);
   const Frame frame{.left = 40, .top = 24, .width = 660, .height = 240};
   const double highest = highest_cm(result, rows) * 1.05;
   const double px_per_cm = frame.height / highest;
   const double group = frame.width / static_cast<double>(result.cases.size());
-  const double width = 0.8 * group / static_cast<double>(methods.size());
+  const double width = 0.8 * group / static_cast<double>(palette.rows().size());
   std::string content =
       label(frame.left - 30, 14, "start", "RMSE, cm") + horizontal_grid(frame, highest, px_per_cm);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
@@ -216,7 +223,7 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
     for (const TableRow& row : rows) {
       if (row.case_name != info.name) continue;
       if (!std::isnan(row.rmse_m)) {
-        content += bar(frame, x, width * 0.9, px_per_cm, row, colour_of(methods, row.method));
+        content += bar(frame, x, width * 0.9, px_per_cm, row, palette.colour(row.method));
       }
       x += width;
     }
@@ -229,8 +236,8 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
         label(left + 0.8 * group + 3, y + 4, "start", formatted("%.1f", *info.published_rmse_cm));
   }
   double y = frame.bottom() + 42;
-  content += legend(methods, frame.left, y, 18);
-  y += 18 * static_cast<double>(methods.size());
+  content += legend(palette, palette.rows(), frame.left, y);
+  y += kLegendLine * static_cast<double>(palette.rows().size());
   if (result.published) {
     content += line(frame.left, y - 4, frame.left + 12, y - 4,
                     "stroke=\"#b00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"") +
@@ -242,6 +249,7 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
 std::string height_chart(const SuiteResult& result, const std::string& case_name,
                          const std::string& truth) {
   const std::vector<HeightSeries> all = chosen_series(result, case_name, truth);
+  const Palette palette(result);
   std::vector<std::string> names;
   names.reserve(all.size());
   for (const HeightSeries& series : all) names.push_back(series.row);
@@ -261,9 +269,9 @@ std::string height_chart(const SuiteResult& result, const std::string& case_name
   content += line(frame.left, frame.bottom(), frame.left + frame.width, frame.top,
                   "stroke=\"#999\" stroke-dasharray=\"4 3\"");
   for (const HeightSeries& series : all)
-    content += dots(frame, range.low, px_per_m, series, colour_of(names, series.row));
-  content += legend(names, frame.left, frame.bottom() + 38, 18);
-  return svg(310, frame.bottom() + 38 + 18 * static_cast<double>(names.size()), content);
+    content += dots(frame, range.low, px_per_m, series, palette.colour(series.row));
+  content += legend(palette, names, frame.left, frame.bottom() + 38);
+  return svg(310, frame.bottom() + 38 + kLegendLine * static_cast<double>(names.size()), content);
 }
 
 }  // namespace plotscan::farmbench
