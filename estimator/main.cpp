@@ -144,10 +144,10 @@ void say_scores(const Program& program, const score::Scores& scores) {
                 boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
                 boxes.heading_rmse_rad * 180 / std::numbers::pi));
   program.say("");
-  program.say(formatted("%-12s %-15s %5s %7s %7s %7s %7s %7s %7s %6s", "height", "truth", "plots",
+  program.say(formatted("%-12s %-15s %5s %7s %7s %7s %7s %7s %8s %5s", "height", "truth", "plots",
                         "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
   for (const score::HeightScore& height : scores.heights) {
-    program.say(formatted("%-12s %-15s %5zu %7zu %7.2f %+7.2f %7.2f %7.2f %7.3f %6.3f",
+    program.say(formatted("%-12s %-15s %5zu %7zu %7.2f %+7.2f %7.2f %7.2f %8.2f %5.2f",
                           height.height.c_str(), height.truth.c_str(), height.plots, height.without,
                           100 * height.rmse_m, 100 * height.bias_m, 100 * height.mae_m,
                           100 * height.standard_error_m, height.r2, height.correlation2));

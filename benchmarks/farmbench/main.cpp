@@ -72,7 +72,7 @@ void declare_run(Program& program, farmbench::RunOptions& options) {
   run.add_option("--jobs", options.jobs, "farms at a time; 0 is one for each thread (-j)")
       ->check(CLI::Range(0, 1024));
   run.add_flag("--keep-clouds", options.keep_clouds,
-               "keep each farm and its scan in OUTPUT/clouds (about 300 MB a farm of the paper)");
+               "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
   run.add_flag("--force", options.force, "run every farm again");
 }
 
