@@ -41,13 +41,18 @@ std::string svg(double width, double height, const std::string& content) {
          content + "</svg>\n";
 }
 
-// 1, 2 or 5 times a power of ten, so that about `count` steps make `range`.
-double tick_step(double range, int count) {
-  const double power = std::pow(10, std::floor(std::log10(range / count)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (range / (factor * power) <= count) return factor * power;
+// From low to high in at most six steps of 1, 2 or 5 times a power of ten.
+std::vector<double> ticks(double low, double high) {
+  constexpr double kSteps = 6;
+  const double power = std::pow(10, std::floor(std::log10((high - low) / kSteps)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if ((high - low) / (factor * power) <= kSteps) step = factor * power;
   }
-  return 10 * power;
+  const int count = static_cast<int>((high - low) / step + 1e-6);
+  std::vector<double> values;
+  for (int i = 0; i <= count; ++i) values.push_back(low + i * step);
+  return values;
 }
 
 // The rows that the suite's methods make, and each one's colour, the same in every chart.
@@ -115,8 +120,7 @@ double highest_cm(const SuiteResult& result, const std::vector<TableRow>& rows) 
 
 std::string horizontal_grid(const Frame& frame, double highest, double px_per_cm) {
   std::string text;
-  const double step = tick_step(highest, 6);
-  for (double tick = 0; tick <= highest; tick += step) {
+  for (const double tick : ticks(0, highest)) {
     const double y = frame.bottom() - tick * px_per_cm;
     text += line(frame.left, y, frame.left + frame.width, y, "stroke=\"#ddd\"") +
             label(frame.left - 6, y + 4, "end", formatted("%g", tick));
@@ -257,8 +261,7 @@ std::string height_chart(const SuiteResult& result, const std::string& case_name
   const HeightRange range = range_of(all);
   const double px_per_m = frame.width / (range.high - range.low);
   std::string content = label(frame.left, 16, "start", case_name + ": estimate over truth, m");
-  const double step = tick_step(range.high - range.low, 6);
-  for (double tick = range.low; tick <= range.high + 1e-9; tick += step) {
+  for (const double tick : ticks(range.low, range.high)) {
     const double offset = (tick - range.low) * px_per_m;
     const std::string text = formatted("%.2g", tick);
     content += line(frame.left, frame.bottom() - offset, frame.left + frame.width,
