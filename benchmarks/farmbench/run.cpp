@@ -5,8 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include <unistd.h>
+
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/output_folder.h"
+#include "core/temporary_path.h"
 #include "farmbench/farm_queue.h"
 #include "farmbench/reports.h"
 #include "farmbench/run_farm.h"
@@ -17,6 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kCommand = "farmbench run";
 
 // One farm of the suite and where its result lies.
 struct Task {
@@ -30,12 +36,7 @@ struct Task {
 void require_sound(const RunOptions& options) {
   if (options.jobs < 1 || options.jobs > 1024)
     throw InputError("the number of jobs is " + std::to_string(options.jobs) + "; it is 1 to 1024");
-  if (!fs::exists(options.output)) return;
-  if (!fs::is_directory(options.output))
-    throw InputError(options.output, "exists and is not a folder");
-  if (!fs::is_empty(options.output) && !fs::exists(options.output / "farms"))
-    throw InputError(options.output,
-                     "exists and holds no results of farmbench; choose another folder");
+  require_own_folder(options.output, kCommand);
 }
 
 fs::path result_file(const RunOptions& options, const Task& task) {
@@ -70,15 +71,22 @@ std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
   return tasks;
 }
 
-void run_task(Task& task, const Suite& suite, const RunOptions& options, int threads,
-              const ProgressReport& progress) {
-  const fs::path folder = options.output / (options.keep_clouds ? "clouds" : "work") / task.name;
+void run_task(Task& task, const Suite& suite, const RunOptions& options, const fs::path& work,
+              int threads, const ProgressReport& progress) {
+  const fs::path folder = work / task.name;
   fs::create_directories(folder);
   FarmResult result = run_farm(suite, task.suite_case, task.seed, folder, threads, progress);
   result.made_from = task.made_from;
   write_text(result_file(options, task), to_json(result).dump(1) + "\n");
   task.result = std::move(result);
-  if (!options.keep_clouds) fs::remove_all(folder);
+  if (options.keep_clouds) {
+    const fs::path kept = options.output / "clouds" / task.name;
+    fs::create_directories(kept.parent_path());
+    fs::remove_all(kept);
+    fs::rename(folder, kept);
+  } else {
+    fs::remove_all(folder);
+  }
 }
 
 void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& options,
@@ -87,11 +95,24 @@ void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& o
   for (Task& task : tasks) {
     if (!task.result) open.push_back(&task);
   }
+  const TemporaryPath work(options.output / (".work-" + std::to_string(getpid())));
   const int threads = std::max(1, options.threads / options.jobs);
   run_queue(open.size(), options.jobs, progress, [&](std::size_t i, const ProgressReport& own) {
-    run_task(*open[i], suite, options, threads, own);
+    try {
+      run_task(*open[i], suite, options, work.path(), threads, own);
+    } catch (const InputError& error) {
+      throw InputError(options.suite, "case " + open[i]->suite_case.name + ", seed " +
+                                          std::to_string(open[i]->seed) + ": " + error.what());
+    }
   });
-  fs::remove_all(options.output / "work");
+}
+
+// From its start a run's folder says whose it is, so that no other folder is ever taken for it.
+void write_run_manifest(const RunOptions& options, const std::vector<Task>& tasks, bool finished) {
+  write_manifest(options.output, {.command = kCommand,
+                                  .seed = options.seed,
+                                  .inputs = {options.suite},
+                                  .results = {{"farms", tasks.size()}, {"finished", finished}}});
 }
 
 }  // namespace
@@ -103,6 +124,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress) {
   const auto resumed =
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
   fs::create_directories(options.output / "farms");
+  write_run_manifest(options, tasks, false);
   run_tasks(tasks, suite, options, progress);
   std::vector<FarmResult> farms;
   farms.reserve(tasks.size());
@@ -113,10 +135,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress) {
   summary.table = make_table(summary.result, options.seed);
   write_text(options.output / "results.json", to_json(summary.result).dump(1) + "\n");
   write_reports(options.output, summary.result, summary.table);
-  write_manifest(options.output, {.command = "farmbench run",
-                                  .seed = options.seed,
-                                  .inputs = {options.suite},
-                                  .results = {{"farms", tasks.size()}}});
+  write_run_manifest(options, tasks, true);
   return summary;
 }
 

@@ -51,7 +51,10 @@ SquaredErrors squared_errors(const score::HeightPairs& pairs) {
 }
 
 // Four decimals: a hundredth of what any of the figures is good for.
-std::string field_of(double value) { return format_number(std::round(value * 1e4) / 1e4); }
+// What could not be computed is an empty field.
+std::string field_of(double value) {
+  return std::isnan(value) ? "" : format_number(std::round(value * 1e4) / 1e4);
+}
 
 void append(score::HeightPairs& all, const score::HeightPairs& more) {
   all.estimates_m.insert(all.estimates_m.end(), more.estimates_m.begin(), more.estimates_m.end());

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/statistics.h"
 #include "estimate/field_finder.h"
 #include "scan/cloud_reader.h"
 
@@ -19,6 +21,13 @@ constexpr double kLongestSide_m = 10000;
 std::string text_of(const Area& area) {
   return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
          "," + format_number(area[3]);
+}
+
+// Of the first points of the area: a stray one among them must not become the origin.
+double median_z(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> z;
+  for (const Eigen::Vector3d& point : points) z.push_back(point.z());
+  return quantile(std::move(z), 0.5);
 }
 
 }  // namespace
@@ -39,15 +48,16 @@ CloudMap::CloudMap(const Area& area) : area_(area) {
 }
 
 void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
-  if (points_read_ == 0 && !world_points.empty()) {
-    origin_.z() = std::round(world_points.front().z());
-  }
   points_read_ += world_points.size();
-  for (const Eigen::Vector3d& point : world_points) {
-    if (point.x() < area_[0] || point.x() > area_[2] || point.y() < area_[1] ||
-        point.y() > area_[3]) {
-      continue;
-    }
+  std::vector<Eigen::Vector3d> inside;
+  std::ranges::copy_if(world_points, std::back_inserter(inside),
+                       [this](const Eigen::Vector3d& point) {
+                         return point.x() >= area_[0] && point.x() <= area_[2] &&
+                                point.y() >= area_[1] && point.y() <= area_[3];
+                       });
+  if (points_.empty() && !inside.empty()) origin_.z() = std::round(median_z(inside));
+  for (const Eigen::Vector3d& point : inside) {
+    if (std::abs(point.z() - origin_.z()) > kLongestSide_m) continue;
     points_.emplace_back((point - origin_).cast<float>());
   }
 }

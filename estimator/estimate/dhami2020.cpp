@@ -132,7 +132,15 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
                             {"iterations", clustering.iterations}};
   if (!lattice) throw InputError("the clusters form no grid of plots");
-  if (options.learn_box) lattice = carried_over(*lattice, plot, canopy);
+  if (options.learn_box) {
+    if (!lattice->many_rows || !lattice->many_columns) {
+      throw InputError(
+          "the plots in the learn box lie in one line, which tells nothing of the grid's other "
+          "step; " +
+          std::string("a learn box holds at least 2 x 2 plots"));
+    }
+    lattice = carried_over(*lattice, plot, canopy);
+  }
   diagnostics["grid"] = to_json(*lattice);
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
   std::vector<PlotEstimate> plots =
@@ -171,6 +179,11 @@ void require_range(double value, double low, double high, const std::string& nam
                    format_number(high));
 }
 
+bool holds(const Area& outer, const Area& inner) {
+  return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] &&
+         inner[3] <= outer[3];
+}
+
 void require_count(int count, int most, const std::string& name) {
   if (count >= 1 && count <= most) return;
   throw InputError(name + " is " + std::to_string(count) + "; it is 1 to " + std::to_string(most));
@@ -186,6 +199,9 @@ void require_sound(const Dhami2020Options& options) {
   }
   if (options.crop_box) require_area(*options.crop_box, "crop box");
   if (options.learn_box) require_area(*options.learn_box, "learn box");
+  if (options.learn_box && options.crop_box && !holds(*options.crop_box, *options.learn_box)) {
+    throw InputError("the learn box reaches out of the crop box");
+  }
   require_range(options.voxel_m, 0.005, 1, "the voxel's edge in metres");
   require_range(options.min_height_m, 0, 10, "the minimum height in metres");
   require_range(options.orientation_bin_rad, 0.001, 1.5, "the orientation's bin in radians");

@@ -83,7 +83,9 @@ void write_heights(const fs::path& path, const std::vector<PlotEstimate>& plots)
 std::string method_of(const fs::path& folder) {
   if (!fs::exists(folder / "manifest.json")) return "";
   const json options = read_manifest(folder).value("options", json::object());
-  return options.is_object() ? options.value("method", "") : "";
+  const bool named =
+      options.is_object() && options.contains("method") && options["method"].is_string();
+  return named ? options["method"].get<std::string>() : "";
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
     throw InputError("there is no method \"" + options.method + "\"; there is dhami2020");
   }
   const fs::path cloud = cloud_file(options.cloud);
-  OutputFolder folder(options.output, options.replace);
+  OutputFolder folder(options.output, options.replace, "estimator run");
   Dhami2020Options method_options = options.dhami2020;
   Manifest manifest{.command = "estimator run",
                     .seed = method_options.seed,

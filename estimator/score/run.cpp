@@ -20,7 +20,7 @@ fs::path file_in(const fs::path& path, const fs::path& inside) {
 }
 
 void write_scores(const Scores& scores, const RunOptions& options) {
-  OutputFolder folder(*options.output, options.replace);
+  OutputFolder folder(*options.output, options.replace, "estimator score");
   const fs::path file = folder.path() / "scores.json";
   std::ofstream out(file);
   out << to_json(scores).dump(1) << '\n';

@@ -92,6 +92,10 @@ void add_node(const std::filesystem::path& path, const aiScene& scene, const aiN
       if (face.mNumIndices != 3) continue;  // points and lines
       std::array<Eigen::Vector3f, 3> corners;
       for (int k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= part.mNumVertices) {
+          throw InputError(path, "a triangle names vertex " + std::to_string(face.mIndices[k]) +
+                                     " of " + std::to_string(part.mNumVertices));
+        }
         const aiVector3D& v = part.mVertices[face.mIndices[k]];
         corners[k] = (model_from_node * Eigen::Vector3d(v.x, v.y, v.z)).cast<float>();
         if (!corners[k].allFinite()) throw InputError(path, "a vertex is not finite");

@@ -18,6 +18,8 @@ const std::vector<std::string> kColumns = {"id",      "plot",    "model",   "x_m
                                            "scale_x", "scale_y", "scale_z", "height_m"};
 // How far from 1 the length of a rotation's quaternion may be.
 constexpr double kUnitTolerance = 1e-6;
+constexpr double kMostScale = 1000;
+constexpr double kFarthest_m = 1e5;
 
 using ModelIndex = std::unordered_map<std::string, std::uint32_t>;
 
@@ -38,7 +40,12 @@ Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelIndex& mod
   }
   for (int axis = 0; axis < 3; ++axis) {
     plant.scale[axis] = row.number(Column::scale_x + axis);
-    if (plant.scale[axis] <= 0) row.fail(Column::scale_x + axis, "is not positive");
+    if (plant.scale[axis] < 1 / kMostScale || plant.scale[axis] > kMostScale) {
+      row.fail(Column::scale_x + axis, "is not in [0.001, 1000]");
+    }
+    if (std::abs(plant.position[axis]) > kFarthest_m) {
+      row.fail(Column::x + axis, "is more than 100 km from the farm's centre");
+    }
   }
   plant.height_m = row.number(Column::height);
   return plant;

@@ -96,6 +96,7 @@ Farm read_farm(const fs::path& folder) {
   require_count(truth / "plots.geojson", "plots", farm.plots.size(), record.plots);
   require_count(truth / "plants.csv", "plants", farm.plants.size(), record.plants);
   require_consistent(truth, farm);
+  for (const char* part : {"truth", "models"}) require_unchanged(folder, part);
   return farm;
 }
 

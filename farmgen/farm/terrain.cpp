@@ -18,6 +18,9 @@ using Vertices = std::vector<Eigen::Vector3d>;
 // same.
 constexpr double kEdgeTolerance = 1e-9;
 
+// The greatest coordinate: the world frame is local metres.
+constexpr double kFarthest_m = 1e5;
+
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -34,6 +37,9 @@ void require_sound(const Vertices& vertices, const std::vector<Triangle>& triang
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].allFinite())
       throw InputError("terrain vertex " + std::to_string(i) + " is not finite");
+    if (vertices[i].cwiseAbs().maxCoeff() > kFarthest_m)
+      throw InputError("terrain vertex " + std::to_string(i) +
+                       " is more than 100 km from the farm's centre");
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t vertex : triangles[i]) {

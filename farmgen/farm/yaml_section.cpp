@@ -128,7 +128,9 @@ void YamlSection::allow_only(const std::vector<std::string>& keys) const {
 
 bool YamlSection::has(const std::string& key) const { return node_[key].IsDefined(); }
 
-bool YamlSection::is_list(const std::string& key) const { return node_[key].IsSequence(); }
+bool YamlSection::is_list(const std::string& key) const {
+  return has(key) && node_[key].IsSequence();
+}
 
 std::optional<std::string> YamlSection::scalar(const std::string& key, bool required) const {
   const YAML::Node value = node_[key];

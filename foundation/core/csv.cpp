@@ -61,7 +61,7 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file, std
 }  // namespace
 
 std::string format_number(double value) {
-  if (std::isnan(value)) return "";
+  if (std::isnan(value)) return "nan";
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};

@@ -9,7 +9,7 @@
 
 namespace plotscan {
 
-// The shortest text that reads back as the same number ("0.1", "1e-07"); "" for NaN.
+// The shortest text that reads back as the same number ("0.1", "1e-07"); "nan" for NaN.
 std::string format_number(double value);
 
 // One line of a table while it is read: its fields by column, each error naming file, line and

@@ -17,7 +17,9 @@ namespace {
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder));
+    const fs::path file = fs::relative(entry.path(), folder);
+    const bool hidden = file.begin()->string().starts_with(".");
+    if (entry.is_regular_file() && !hidden && file != "manifest.json") files.push_back(file);
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -75,9 +77,28 @@ nlohmann::json read_manifest(const fs::path& folder) {
   if (!fs::exists(path))
     throw InputError(folder, "not a folder written by plotscan (it has no manifest.json)");
   try {
-    return nlohmann::json::parse(read_text(path));
+    nlohmann::json manifest = nlohmann::json::parse(read_text(path));
+    if (!manifest.is_object()) throw InputError(path, "not a manifest: a JSON object is expected");
+    return manifest;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, std::string("not JSON: ") + error.what());
+  }
+}
+
+void require_unchanged(const fs::path& folder, const std::string& part) {
+  const nlohmann::json manifest = read_manifest(folder);
+  try {
+    for (const nlohmann::json& output : manifest.at("outputs")) {
+      const std::string file = output.at("file");
+      if (!file.starts_with(part + "/")) continue;
+      const fs::path path = path_inside(folder, file, folder / "manifest.json");
+      if (file_hash(path) != output.at("hash")) {
+        throw InputError(path,
+                         "was changed after plotscan wrote it (manifest.json holds another hash)");
+      }
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(folder / "manifest.json", std::string("lists no outputs: ") + error.what());
   }
 }
 

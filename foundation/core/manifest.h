@@ -29,8 +29,12 @@ struct Manifest {
 };
 
 // Writes folder/manifest.json with version, command, seed, options, the inputs' names and hashes,
-// and the hash of every file in `folder`.
+// and the hash of every other file in `folder`, hidden ones apart.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
+
+// Throws InputError naming the file when one below folder/`part` ("truth") is not as write_manifest
+// hashed it.
+void require_unchanged(const std::filesystem::path& folder, const std::string& part);
 
 // Throws InputError when the folder has no manifest.json that can be parsed.
 nlohmann::json read_manifest(const std::filesystem::path& folder);

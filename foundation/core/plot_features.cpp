@@ -16,6 +16,9 @@ constexpr double kDegrees = std::numbers::pi / 180;
 // A polygon whose opposite sides differ by more than this share of their length is not a plot's
 // rectangle.
 constexpr double kRectangleTolerance = 0.05;
+// A polygon and the box among its attributes are the same plot within this share of its size:
+// programs round coordinates, to centimetres at the coarsest.
+constexpr double kAgreementTolerance = 0.01;
 
 json ring_of(const PlotBox& box) {
   json ring = json::array();
@@ -55,6 +58,17 @@ bool nearly_equal(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return (a - b).norm() <= kRectangleTolerance * std::max(a.norm(), b.norm());
 }
 
+// The outer ring of a Polygon, or of a MultiPolygon of one part, as GIS programs export it.
+const json& polygon_ring(const json& feature, const std::string& which) {
+  const json geometry = feature.contains("geometry") ? feature["geometry"] : json();
+  const std::string type = geometry.is_object() ? geometry.value("type", "") : "null";
+  if (type == "Polygon") return feature["geometry"].at("coordinates").at(0);
+  if (type == "MultiPolygon" && geometry.at("coordinates").size() == 1) {
+    return feature["geometry"].at("coordinates").at(0).at(0);
+  }
+  throw InputError(which + " has geometry \"" + type + "\"; a plot is a Polygon of four corners");
+}
+
 PlotBox rectangle_of(const json& ring, const std::string& which) {
   std::vector<Eigen::Vector2d> corners;
   for (const json& position : ring)
@@ -87,14 +101,29 @@ void require_sound(const PlotBox& box, const std::string& which) {
   }
 }
 
+// A polygon that was moved in a GIS, its old box still among its attributes, would be silently
+// ignored.
+void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::string& which) {
+  const double apart = (box.center - polygon.center).norm();
+  const double allowed = kAgreementTolerance * (1 + box.length_m + box.width_m);
+  const bool same = apart <= allowed &&
+                    std::abs(box.area_m2() - polygon.area_m2()) <= allowed * box.length_m &&
+                    intersection_over_union(box, polygon) > 1 - kRectangleTolerance;
+  if (same) return;
+  throw InputError(which +
+                   ": its polygon is not the box that its properties center_x_m, center_y_m, "
+                   "width_m, length_m and "
+                   "heading_deg give; remove these five where the polygon is right");
+}
+
 PlotFeature read_feature(const json& feature, const std::string& which) {
   PlotFeature plot;
   if (feature.contains("properties") && feature["properties"].is_object())
     plot.properties = feature["properties"];
-  plot.box = has_exact_box(plot.properties)
-                 ? exact_box(plot.properties)
-                 : rectangle_of(feature.at("geometry").at("coordinates").at(0), which);
+  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), which);
+  plot.box = has_exact_box(plot.properties) ? exact_box(plot.properties) : polygon;
   require_sound(plot.box, which);
+  require_agreement(plot.box, polygon, which);
   return plot;
 }
 

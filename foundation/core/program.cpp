@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <thread>
 
+#include <signal.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/temporary_path.h"
 
 namespace plotscan {
 namespace {
@@ -26,13 +29,17 @@ constexpr int kBarWidth = 30;
 class ProgressBar {
  public:
   explicit ProgressBar(std::string label) : label_(std::move(label)) {}
+  // Work that ends early leaves no bar before its message.
+  ~ProgressBar() { clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(double share) {
     const auto now = Clock::now();
     if (share < 1 && now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     if (share >= 1) {
-      std::fprintf(stderr, "\r\033[K");
+      clear();
       return;
     }
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();
@@ -45,6 +52,11 @@ class ProgressBar {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void clear() {
+    if (drawn_ != Clock::time_point{}) std::fprintf(stderr, "\r\033[K");
+  }
+
   std::string label_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
@@ -61,6 +73,23 @@ void log_to_stderr(int verbosity, const std::string& name) {
   spdlog::set_default_logger(logger);
 }
 
+// SIGINT and SIGTERM are taken by a thread of their own, which may do what a signal handler may
+// not: remove what the interrupted work has begun to write. The process then ends as interrupted
+// programs do, with 128 + signal.
+void remove_unfinished_work_on_interrupt() {
+  sigset_t interrupts;
+  sigemptyset(&interrupts);
+  sigaddset(&interrupts, SIGINT);
+  sigaddset(&interrupts, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
+  std::thread([interrupts] {
+    int signal = 0;
+    sigwait(&interrupts, &signal);
+    TemporaryPath::remove_all();
+    _exit(128 + signal);
+  }).detach();
+}
+
 }  // namespace
 
 Program::Program(std::string name, const std::string& description)
@@ -75,7 +104,8 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
   command.option_defaults()->always_capture_default();
   command.set_version_flag("--version", name_ + " " + version());
   const CLI::Option* seed =
-      command.add_option("--seed", common_.seed, "seed of all random numbers");
+      command.add_option("--seed", common_.seed, "seed of all random numbers, 0 and up")
+          ->check(CLI::NonNegativeNumber);
   command.add_option("-j,--threads", common_.threads, "threads; 0 is one for each processor")
       ->check(CLI::Range(0, 1024));
   command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
@@ -93,10 +123,14 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
 }
 
 int Program::run(int argc, char** argv) {
+  remove_unfinished_work_on_interrupt();
   try {
     return guarded_run(argc, argv);
   } catch (const InputError& error) {
     std::cerr << name_ << ": " << error.what() << '\n';
+    return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << name_ << ": " << error.path1().string() << ": " << error.code().message() << '\n';
     return kExitBadInput;
   } catch (const std::exception& error) {
     std::cerr << name_ << ": " << error.what() << '\n';

@@ -42,6 +42,14 @@ scan::Trajectory planned_flight(const farm::Farm& farm, const FlyOptions& option
       plan_strips(farm, {.altitude_m = options.altitude_m,
                          .spacing_m = options.spacing_m,
                          .run_up_m = RestToRest::run_up(options.speed_m_s, limits)});
+  double way_m = 0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i)
+    way_m += (waypoints[i] - waypoints[i - 1]).norm();
+  if (way_m / options.speed_m_s > kMaxFlight_s) {
+    throw InputError("the flight of " + format_number(std::round(way_m)) +
+                     " m takes more than 24 hours at " + format_number(options.speed_m_s) +
+                     " m/s; fly faster, or wider strips");
+  }
   return fly_waypoints(quadrotor, waypoints, options.speed_m_s);
 }
 
@@ -91,7 +99,7 @@ FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
   const SpinningLidar sensor = sensor_named(options.sensor);
   validate(options, sensor);
-  OutputFolder output(scan_folder, replace);
+  OutputFolder output(scan_folder, replace, "lidarsim fly");
   const scan::Trajectory trajectory =
       options.flight ? read_flight(*options.flight) : planned_flight(farm, options);
   const ShotPlan plan(sensor, options.spin_hz, mount_pose(options.mount_rpy_rad), trajectory);

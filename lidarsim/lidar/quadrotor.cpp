@@ -73,10 +73,14 @@ Eigen::Quaterniond attitude_for(const Quadrotor& quadrotor, const Eigen::Vector3
   return Eigen::Quaterniond(world_from_body);
 }
 
+// Slower, a flight over the smallest farm takes hours.
+constexpr double kMinSpeed_m_s = 0.01;
+
 MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s) {
-  if (!(speed_m_s > 0 && speed_m_s <= quadrotor.max_speed_m_s)) {
-    throw InputError("speed " + format_number(speed_m_s) + " m/s must be over 0 and at most " +
-                     format_number(quadrotor.max_speed_m_s) + " m/s, the quadrotor's limit");
+  if (!(speed_m_s >= kMinSpeed_m_s && speed_m_s <= quadrotor.max_speed_m_s)) {
+    throw InputError("speed " + format_number(speed_m_s) + " m/s must be in [" +
+                     format_number(kMinSpeed_m_s) + ", " + format_number(quadrotor.max_speed_m_s) +
+                     "] m/s");
   }
   const double against_drag = quadrotor.drag_n_s2_m2 * speed_m_s * speed_m_s / quadrotor.mass_kg;
   const double by_tilt = kGravity_m_s2 * std::tan(quadrotor.max_tilt_rad) - against_drag;

@@ -34,7 +34,7 @@ Eigen::Quaterniond attitude_for(const Quadrotor& quadrotor, const Eigen::Vector3
                                 const Eigen::Vector3d& velocity, double heading_rad);
 
 // Limits of a straight leg flown at speed_m_s: the acceleration is lowered where tilt against drag
-// leaves less. Throws InputError when the speed is not in (0, max_speed_m_s].
+// leaves less. Throws InputError when the speed is not in [0.01, max_speed_m_s].
 MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s);
 
 // Flies level from waypoint to waypoint (world frame, metres; neighbours apart), nose ahead: at

@@ -12,6 +12,8 @@ namespace plotscan::scan {
 namespace {
 
 // Files carry quaternions of four decimals and more; further from 1 it is no attitude.
+// Beyond, float32 positions are coarser than a centimetre.
+constexpr double kFarthest_m = 1e5;
 constexpr double kNormTolerance = 0.01;
 
 }  // namespace
@@ -20,6 +22,10 @@ std::string pose_error(const StampedPose& pose, double previous_s) {
   if (!std::isfinite(pose.time_s) || !pose.position_m.allFinite() ||
       !pose.attitude.coeffs().allFinite())
     return "a number is not finite";
+  if (pose.position_m.cwiseAbs().maxCoeff() > kFarthest_m) {
+    return "the position is more than " + format_number(kFarthest_m) +
+           " m from the origin; the world frame is local metres";
+  }
   if (pose.time_s <= previous_s) {
     return "time " + format_number(pose.time_s) + " s is not after the previous pose's " +
            format_number(previous_s) + " s";

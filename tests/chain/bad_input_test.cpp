@@ -33,12 +33,21 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 100\nHEIGHT 1\n"
       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 100\nDATA binary\nabc");
   folder.write("not_a_farm/readme", "x");
+  folder.write("web/manifest.json", "{}");
+  folder.write("no_seeds.yaml",
+               "name: x\ncases: [{name: a, farm: absent.yaml}]\nmethods: [dhami2020]\n");
+  folder.write("index.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+               "y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 0 1\n3 0 1 7\n");
+  const auto before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
   const Finished finished = run(GetParam().command, folder.path().string());
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
   EXPECT_NE(finished.errors.find(GetParam().says), std::string::npos) << finished.errors;
   EXPECT_LE(std::count(finished.errors.begin(), finished.errors.end(), '\n'), 2) << finished.errors;
   const auto left = std::distance(std::filesystem::directory_iterator(folder.path()), {});
-  EXPECT_EQ(left, 3) << "something was left behind";
+  EXPECT_EQ(left, before) << "something was left behind";
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -55,6 +64,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"farmgen generate " + kPaper + " -o out --seed minus", "seed"},
         BadCommand{"lidarsim fly not_a_farm -o out", "not_a_farm"},
         BadCommand{"lidarsim fly absent -o out", "absent"},
+        BadCommand{"farmgen generate " + kPaper + " -o web --force", "web"},
+        BadCommand{"farmgen generate " + kPaper + " -o ''", "no name"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --seed -1", "seed"},
+        BadCommand{
+            "farmgen generate " + kPaper + " -o out --set \"plants.models=[$PWD/index.ply]\"",
+            "vertex 7"},
+        BadCommand{"farmbench run no_seeds.yaml -o out", "seeds"},
         BadCommand{"estimator run truncated.pcd -o out --plots 3", "truncated.pcd"},
         BadCommand{"estimator run absent.pcd -o out --plots 3", "absent.pcd"},
         BadCommand{"estimator run truncated.pcd -o out --plots=-3", "plots"},

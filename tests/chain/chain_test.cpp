@@ -73,6 +73,21 @@ TEST_F(Chain, AnotherSeedIsAnotherFarm) {
   EXPECT_NE(hash("a/truth/plants.csv"), hash("b/truth/plants.csv"));
 }
 
+TEST_F(Chain, LeavesNothingWhenInterrupted) {
+  succeed("farmgen generate " + kFarm + " -o farm");
+  const Finished interrupted =
+      run("timeout -s INT 0.5 lidarsim fly farm -o scan --speed 0.05", folder_.path().string());
+  EXPECT_NE(interrupted.exit_code, 0);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 1)
+      << "something was left behind";
+}
+
+TEST_F(Chain, NeverReplacesWhatItReads) {
+  succeed("farmgen generate " + kFarm + " -o farm");
+  EXPECT_EQ(run("lidarsim fly farm -o farm --force", folder_.path().string()).exit_code, 2);
+  EXPECT_TRUE(exists("farm/truth/plants.csv"));
+}
+
 TEST_F(Chain, EveryCommandExplainsItself) {
   for (const std::string command :
        {"farmgen generate", "farmgen info", "farmgen check", "farmgen plant", "lidarsim fly",

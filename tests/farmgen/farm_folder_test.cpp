@@ -106,7 +106,7 @@ TEST(FarmFolder, ReadsBackPlantsThatLeanAndPlantsOutsidePlots) {
   const TemporaryFolder folder;
   const Farm farm = generate(load_description(write_leaning_example(folder)), 5);
   ASSERT_EQ(farm.plants.back().plot, 0u);
-  write_farm(farm, folder.path() / "farm", false, {.command = "test"});
+  write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
   expect_equal(farm, read_farm(folder.path() / "farm"));
 }
 
@@ -115,10 +115,11 @@ TEST(FarmFolder, ReadsBackAFarmWithoutPlants) {
   const Farm farm = generate(load_description(write_example(folder), {"plants.count=0"}), 5);
   ASSERT_EQ(farm.plots.size(), 5u);
   double last_share = 0;
-  write_farm(farm, folder.path() / "farm", false, {.command = "test"}, [&](double share) {
-    EXPECT_GE(share, last_share);
-    last_share = share;
-  });
+  write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"},
+             [&](double share) {
+               EXPECT_GE(share, last_share);
+               last_share = share;
+             });
   EXPECT_EQ(last_share, 1);
   expect_equal(farm, read_farm(folder.path() / "farm"));
 }
@@ -130,7 +131,8 @@ TEST(FarmFolder, TheSameDescriptionAndSeedWriteTheSameBytes) {
     write_farm(generate(description, 42), folder.path() / name, false,
                {.command = "farmgen generate", .inputs = input_files(description)});
   }
-  write_farm(generate(description, 43), folder.path() / "c", false, {.command = "test"});
+  write_farm(generate(description, 43), folder.path() / "c", false,
+             {.command = "farmgen generate"});
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "a")) {
     if (!entry.is_regular_file()) continue;
@@ -164,10 +166,11 @@ TEST(FarmFolder, TerrainIsAPlyThatAssimpReads) {
 TEST(FarmFolder, WritingRefusesToReplaceUnlessAsked) {
   const TemporaryFolder folder;
   const Farm farm = written_example(folder);
-  EXPECT_THAT(message_of<InputError>(
-                  [&] { write_farm(farm, folder.path() / "farm", false, {.command = "test"}); }),
+  EXPECT_THAT(message_of<InputError>([&] {
+                write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+              }),
               HasSubstr("--force"));
-  write_farm(farm, folder.path() / "farm", true, {.command = "test"});
+  write_farm(farm, folder.path() / "farm", true, {.command = "farmgen generate"});
 }
 
 struct Damage {

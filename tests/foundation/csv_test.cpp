@@ -58,7 +58,7 @@ TEST(FormatNumber, ReadsBackTheSame) {
   for (const double value : {0.1, -1.0 / 3, 1e-300, 123456789.123456789}) {
     EXPECT_EQ(std::stod(format_number(value)), value);
   }
-  EXPECT_EQ(format_number(std::nan("")), "");
+  EXPECT_EQ(format_number(std::nan("")), "nan");
 }
 
 }  // namespace

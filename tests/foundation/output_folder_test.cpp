@@ -17,11 +17,11 @@ std::size_t entries(const fs::path& folder) {
 TEST(OutputFolder, AppearsOnlyWhenCommitted) {
   const testing::TemporaryFolder folder;
   {
-    const OutputFolder abandoned(folder.path() / "out", false);
+    const OutputFolder abandoned(folder.path() / "out", false, "farmgen generate");
     std::ofstream(abandoned.path() / "file") << "x";
   }
   EXPECT_EQ(entries(folder.path()), 0u);
-  OutputFolder kept(folder.path() / "deep" / "out/", false);
+  OutputFolder kept(folder.path() / "deep" / "out/", false, "farmgen generate");
   std::ofstream(kept.path() / "file") << "x";
   EXPECT_FALSE(fs::exists(folder.path() / "deep/out"));
   kept.commit();
@@ -29,17 +29,49 @@ TEST(OutputFolder, AppearsOnlyWhenCommitted) {
   EXPECT_EQ(entries(folder.path() / "deep"), 1u);
 }
 
+constexpr const char* kManifest = R"({"plotscan": "0.1.0", "command": "farmgen generate"})";
+
 TEST(OutputFolder, NeverReplacesWhatIsNotOurs) {
   const testing::TemporaryFolder folder;
+  const auto refused = [](const fs::path& path, bool replace, const std::string& command) {
+    EXPECT_THROW(OutputFolder(path, replace, command), InputError) << path;
+  };
   folder.write("foreign/data", "precious");
-  EXPECT_THROW(OutputFolder(folder.path() / "foreign", true), InputError);
-  EXPECT_THROW(OutputFolder(folder.write("file", ""), true), InputError);
-  folder.write("ours/manifest.json", "{}");
-  EXPECT_THROW(OutputFolder(folder.path() / "ours", false), InputError);
-  OutputFolder replaced(folder.path() / "ours", true);
-  EXPECT_TRUE(fs::exists(folder.path() / "ours/manifest.json"));
-  replaced.commit();
+  folder.write("web/manifest.json", "{}");
+  folder.write("broken/manifest.json", "[]");
+  folder.write("ours/manifest.json", kManifest);
+  refused(folder.path() / "foreign", true, "farmgen generate");
+  refused(folder.path() / "web", true, "farmgen generate");
+  refused(folder.path() / "broken", true, "farmgen generate");
+  refused(folder.write("file", ""), true, "farmgen generate");
+  refused(folder.path() / "ours", false, "farmgen generate");
+  refused(folder.path() / "ours", true, "lidarsim fly");
+  refused("", true, "farmgen generate");
+  EXPECT_TRUE(fs::exists(folder.path() / "foreign/data"));
+  EXPECT_TRUE(fs::exists(folder.path() / "web/manifest.json"));
+}
+
+TEST(OutputFolder, ReplacesItsOwnWhenCommitted) {
+  const testing::TemporaryFolder folder;
+  folder.write("ours/manifest.json", kManifest);
+  {
+    OutputFolder replaced(folder.path() / "ours", true, "farmgen generate");
+    std::ofstream(replaced.path() / "new") << "x";
+    EXPECT_TRUE(fs::exists(folder.path() / "ours/manifest.json"));
+    replaced.commit();
+  }
   EXPECT_FALSE(fs::exists(folder.path() / "ours/manifest.json"));
+  EXPECT_TRUE(fs::exists(folder.path() / "ours/new"));
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+TEST(TemporaryPath, IsRemovedWithItsObjectOrAtOnce) {
+  const testing::TemporaryFolder folder;
+  { const TemporaryPath kept_short(folder.write("a/file", "x").parent_path()); }
+  EXPECT_FALSE(fs::exists(folder.path() / "a"));
+  const TemporaryPath living(folder.write("b/file", "x").parent_path());
+  TemporaryPath::remove_all();
+  EXPECT_FALSE(fs::exists(folder.path() / "b"));
 }
 
 }  // namespace

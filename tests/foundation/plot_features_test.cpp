@@ -42,6 +42,30 @@ TEST(PlotFeatures, ReadsABareRectangle) {
   EXPECT_NEAR(plots[0].box.center.x(), -0.5, 1e-12);
 }
 
+TEST(PlotFeatures, ReadsAMultiPolygonOfOnePart) {
+  const testing::TemporaryFolder folder;
+  std::string text = foreign("[0,0],[0,3],[-1,3],[-1,0],[0,0]");
+  text.replace(text.find("\"Polygon\""), 9, "\"MultiPolygon\"");
+  text.replace(text.find("[[["), 3, "[[[[").replace(text.find("]]]"), 3, "]]]]");
+  EXPECT_NEAR(read_plot_features(folder.write("q.geojson", text)).at(0).box.length_m, 3, 1e-12);
+}
+
+TEST(PlotFeatures, RefusesAPolygonThatWasMovedAwayFromItsBox) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "plots.geojson";
+  write_plot_features(file, {{.box = {.center = {100, 50}, .width_m = 1.5, .length_m = 4},
+                              .properties = {{"plot", 1}}}});
+  auto document = nlohmann::json::parse(read_text(file));
+  for (auto& corner : document["features"][0]["geometry"]["coordinates"][0]) {
+    corner[0] = corner[0].get<double>() + 1.2;
+  }
+  EXPECT_THROW(read_plot_features(folder.write("moved.geojson", document.dump())), InputError);
+  for (auto& corner : document["features"][0]["geometry"]["coordinates"][0]) {
+    corner[0] = std::round((corner[0].get<double>() - 1.2) * 1000) / 1000;
+  }
+  EXPECT_NO_THROW(read_plot_features(folder.write("rounded.geojson", document.dump())));
+}
+
 TEST(PlotFeatures, RefusesWhatIsNoPlot) {
   const testing::TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {

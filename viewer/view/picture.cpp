@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <vtkCamera.h>
@@ -15,7 +14,9 @@
 #include <vtkWindowToImageFilter.h>
 
 #include "core/error.h"
+#include "core/temporary_path.h"
 #include "view/actors.h"
+#include "view/display.h"
 
 namespace plotscan::view {
 namespace {
@@ -38,11 +39,6 @@ void validate(const PictureOptions& options) {
   require_range(options.elevation_deg, 5, 90, "camera elevation in degrees");
   require_range(options.azimuth_deg, -360, 360, "camera azimuth in degrees");
   require_range(options.margin_m, 0, 1e4, "margin in metres");
-  if (std::getenv("DISPLAY") == nullptr) {
-    throw InputError(
-        "there is no X display to draw with; on a machine without a screen: xvfb-run -a plotview "
-        "...");
-  }
 }
 
 // Looks at the field's centre from as near as shows all of it.
@@ -73,16 +69,16 @@ void aim(vtkRenderer& renderer, const Field& field, const PictureOptions& option
 
 // Beside its place first, so that no half a picture is left.
 void write_png(vtkRenderWindow& window, const std::filesystem::path& png) {
-  const std::filesystem::path partial = png.string() + ".partial";
+  const TemporaryPath partial(png.string() + ".partial");
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(&window);
   capture->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(capture->GetOutputPort());
-  writer->SetFileName(partial.c_str());
+  writer->SetFileName(partial.path().c_str());
   writer->Write();
   std::error_code error;
-  std::filesystem::rename(partial, png, error);
+  std::filesystem::rename(partial.path(), png, error);
   if (writer->GetErrorCode() != 0 || error) throw InputError(png, "cannot be written");
 }
 
@@ -92,6 +88,7 @@ void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::p
                   const std::vector<PlotBox>& boxes, const std::filesystem::path& png,
                   const PictureOptions& options) {
   validate(options);
+  const Display display;
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
   const Field field = field_of(farm, options.margin_m);
   const int panels = cloud ? 2 : 1;

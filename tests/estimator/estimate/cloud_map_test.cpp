@@ -31,6 +31,13 @@ TEST(CloudMap, KeepsMillimetresInMapGridCoordinates) {
   EXPECT_LT((map.origin() + map.points().front().cast<double>() - point).norm(), 1e-5);
 }
 
+TEST(CloudMap, StrayPointsDoNotCoarsenTheOthers) {
+  CloudMap map({0, 0, 10, 10});
+  map.add(std::vector<Eigen::Vector3d>{{1, 1, 1e9}, {2, 2, 0.125}, {3, 3, 0.25}, {99, 99, -1e8}});
+  ASSERT_EQ(map.points().size(), 2u);
+  EXPECT_NEAR(map.origin().z() + map.points()[1].z(), 0.25, 1e-6);
+}
+
 TEST(CloudMap, RefusesAreasThatAreNone) {
   EXPECT_THAT(message_of<InputError>([] {
                 require_area({0, 0, -1, 5}, "crop box");

@@ -111,7 +111,8 @@ TEST(Quadrotor, TurnsAtALimitedRateAndPassesEveryWaypoint) {
 TEST(Quadrotor, ImpossibleSpeedsAreRefused) {
   for (const double speed : {0.0, -1.0, 6.1, std::nan("")}) {
     const auto fly = [&] { leg_limits(Quadrotor(), speed); };
-    EXPECT_THAT(testing::message_of<InputError>(fly), ::testing::HasSubstr("at most 6 m/s"));
+    EXPECT_THAT(testing::message_of<InputError>(fly),
+                ::testing::HasSubstr("must be in [0.01, 6] m/s"));
   }
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+namespace plotscan {
+
+// A file or folder of unfinished work: removed when this object goes, and when the program is
+// interrupted (Program watches for SIGINT and SIGTERM).
+class TemporaryPath {
+ public:
+  // Creates nothing.
+  explicit TemporaryPath(std::filesystem::path path);
+  ~TemporaryPath();
+  TemporaryPath(const TemporaryPath&) = delete;
+  TemporaryPath& operator=(const TemporaryPath&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // Removes what every living TemporaryPath of the process names: the last thing before the process
+  // ends.
+  static void remove_all();
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace plotscan
