@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/program.h"
+#include "core/text.h"
 #include "estimate/run.h"
 #include "score/run.h"
 
@@ -20,12 +20,6 @@ struct RunArguments {
   std::string boxes;
   bool no_level = false;
 };
-
-std::string formatted(const char* format, auto... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 std::optional<estimate::Area> area_of(const std::vector<double>& corners) {
   if (corners.empty()) return std::nullopt;

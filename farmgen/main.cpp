@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "core/program.h"
+#include "core/text.h"
 #include "farm/description.h"
 #include "farm/generate.h"
 #include "farm/heights.h"
@@ -27,13 +26,6 @@ struct Arguments {
   std::vector<std::string> assignments;  // --set
   bool force = false;
 };
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 nlohmann::json json_of(const farm::Spread& spread) {
   return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}};
@@ -58,23 +50,24 @@ nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary)
 
 void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
   const auto say_spread = [&](const char* label, const farm::Spread& spread) {
-    program.say(format("%-15s %.3f / %.3f / %.3f m (min / mean / max)", label, spread.min,
-                       spread.mean, spread.max));
+    program.say(formatted("%-15s %.3f / %.3f / %.3f m (min / mean / max)", label, spread.min,
+                          spread.mean, spread.max));
   };
-  program.say(format("farm            %s, seed %llu", made.name.c_str(),
-                     static_cast<unsigned long long>(made.seed)));
-  program.say(format("terrain         %.1f x %.1f m, z %.2f to %.2f m, %zu triangles",
-                     summary.terrain_size_m.x(), summary.terrain_size_m.y(),
-                     summary.terrain_z_m.x(), summary.terrain_z_m.y(), summary.terrain_triangles));
-  program.say(format("plots           %zu in a field of %.1f x %.1f m", summary.plots,
-                     summary.field_size_m.x(), summary.field_size_m.y()));
-  program.say(format("plants          %zu of %zu models, %llu triangles when placed",
-                     summary.plants, summary.models,
-                     static_cast<unsigned long long>(summary.plant_triangles)));
+  program.say(formatted("farm            %s, seed %llu", made.name.c_str(),
+                        static_cast<unsigned long long>(made.seed)));
+  program.say(formatted("terrain         %.1f x %.1f m, z %.2f to %.2f m, %zu triangles",
+                        summary.terrain_size_m.x(), summary.terrain_size_m.y(),
+                        summary.terrain_z_m.x(), summary.terrain_z_m.y(),
+                        summary.terrain_triangles));
+  program.say(formatted("plots           %zu in a field of %.1f x %.1f m", summary.plots,
+                        summary.field_size_m.x(), summary.field_size_m.y()));
+  program.say(formatted("plants          %zu of %zu models, %llu triangles when placed",
+                        summary.plants, summary.models,
+                        static_cast<unsigned long long>(summary.plant_triangles)));
   say_spread("plant heights", summary.plant_height_m);
   say_spread("plot maxima", summary.plot_height_max_m);
-  program.say(format("leaf area index %.2f (area of all plant triangles over the plots' area)",
-                     summary.leaf_area_index));
+  program.say(formatted("leaf area index %.2f (area of all plant triangles over the plots' area)",
+                        summary.leaf_area_index));
 }
 
 farm::Farm generate_from(const Program& program, const Arguments& arguments,
@@ -101,10 +94,10 @@ void run_generate(const Program& program, const Arguments& arguments) {
   document["folder"] = arguments.output;
   document["seconds"] = elapsed.count();
   program.result(document);
-  program.say(format("%s: %zu plots, %zu plants on %.1f x %.1f m, seed %llu, in %.2f s",
-                     arguments.output.c_str(), summary.plots, summary.plants,
-                     summary.terrain_size_m.x(), summary.terrain_size_m.y(),
-                     static_cast<unsigned long long>(made.seed), elapsed.count()));
+  program.say(formatted("%s: %zu plots, %zu plants on %.1f x %.1f m, seed %llu, in %.2f s",
+                        arguments.output.c_str(), summary.plots, summary.plants,
+                        summary.terrain_size_m.x(), summary.terrain_size_m.y(),
+                        static_cast<unsigned long long>(made.seed), elapsed.count()));
 }
 
 void run_info(const Program& program, const Arguments& arguments) {
@@ -140,8 +133,8 @@ void run_plant_soybean(const Program& program, const Arguments& arguments) {
                   {"area_m2", area_m2},
                   {"vertices", mesh.vertices.size()},
                   {"triangles", mesh.triangles.size()}});
-  program.say(format("%s: height %.3f m, area %.3f m2, %zu triangles", arguments.output.c_str(),
-                     height_m, area_m2, mesh.triangles.size()));
+  program.say(formatted("%s: height %.3f m, area %.3f m2, %zu triangles", arguments.output.c_str(),
+                        height_m, area_m2, mesh.triangles.size()));
 }
 
 void add_farm_options(CLI::App& command, Arguments& arguments) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/program.h"
+#include "core/text.h"
 #include "farm/farm.h"
 #include "lidar/fly.h"
 
@@ -24,13 +23,6 @@ struct Arguments {
   bool force = false;
 };
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
-
 void report(const Program& program, const Arguments& arguments, const lidar::FlySummary& summary,
             double elapsed_s) {
   const auto bytes =
@@ -43,12 +35,12 @@ void report(const Program& program, const Arguments& arguments, const lidar::Fly
                   {"shots_per_second", shots_a_second},
                   {"cloud_bytes", bytes},
                   {"seconds", elapsed_s}});
-  program.say(format("%s: a flight of %.1f s, %.2f million shots, %.2f million points",
-                     arguments.scan.c_str(), summary.duration_s,
-                     1e-6 * static_cast<double>(summary.shots),
-                     1e-6 * static_cast<double>(summary.points)));
-  program.say(format("cloud.pcd %.1f MB, simulated in %.2f s (%.1f million shots a second)",
-                     1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
+  program.say(formatted("%s: a flight of %.1f s, %.2f million shots, %.2f million points",
+                        arguments.scan.c_str(), summary.duration_s,
+                        1e-6 * static_cast<double>(summary.shots),
+                        1e-6 * static_cast<double>(summary.points)));
+  program.say(formatted("cloud.pcd %.1f MB, simulated in %.2f s (%.1f million shots a second)",
+                        1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
 void run_fly(const Program& program, Arguments& arguments) {

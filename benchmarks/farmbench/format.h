@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
-namespace plotscan::farmbench {
+#include "core/text.h"
 
-// printf into a string of at most 255 characters.
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
+namespace plotscan::farmbench {
 
 // A number in the format; "-" for NaN.
 inline std::string number(const char* format, double value) {

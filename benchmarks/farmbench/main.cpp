@@ -4,6 +4,7 @@
 
 #include "core/manifest.h"
 #include "core/program.h"
+#include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
@@ -55,8 +56,8 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
       farmbench::run(options, program.progress(options.suite.stem().string()));
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  program.say(farmbench::formatted("%zu farms, %zu of them run before, %.0f s",
-                                   summary.result.farms.size(), summary.resumed, seconds));
+  program.say(formatted("%zu farms, %zu of them run before, %.0f s", summary.result.farms.size(),
+                        summary.resumed, seconds));
   program.say("");
   say_summary(program, summary, options.output.string());
 }

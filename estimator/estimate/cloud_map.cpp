@@ -25,8 +25,8 @@ std::string text_of(const Area& area) {
 
 // Of the first points of the area: a stray one among them must not become the origin.
 double median_z(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<double> z;
-  for (const Eigen::Vector3d& point : points) z.push_back(point.z());
+  std::vector<double> z(points.size());
+  std::ranges::transform(points, z.begin(), [](const Eigen::Vector3d& point) { return point.z(); });
   return quantile(std::move(z), 0.5);
 }
 

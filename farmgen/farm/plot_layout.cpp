@@ -3,20 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan::farm {
 namespace {
 
-std::string metres(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f m", value);
-  return text.data();
-}
+std::string metres(double value) { return formatted("%.2f m", value); }
 
 Eigen::AlignedBox2d bounds_of(const Terrain& terrain) {
   Eigen::AlignedBox2d box;

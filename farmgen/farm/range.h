@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "core/text.h"
 
 namespace plotscan::farm {
 
@@ -14,11 +14,7 @@ struct Range {
 
   bool contains(double value) const { return value >= low && value <= high; }  // false for NaN
   // "[0, 100000]"
-  std::string text() const {
-    std::array<char, 64> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "[%.10g, %.10g]", low, high);
-    return buffer.data();
-  }
+  std::string text() const { return formatted("[%.10g, %.10g]", low, high); }
 };
 
 }  // namespace plotscan::farm

@@ -2,10 +2,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "farm/range.h"
 #include "farm/soybean.h"
 
@@ -77,11 +77,9 @@ SoybeanOptions soybean_options(const std::vector<std::string>& assignments) {
 std::string soybean_options_help() {
   std::string text;
   for (const Parameter& parameter : kParameters) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "  %-20s %-7s %s\n", parameter.name,
-                  format_number(SoybeanOptions{}.*parameter.value).c_str(),
-                  range_text(parameter).c_str());
-    text += line.data();
+    text += formatted("  %-20s %-7s %s\n", parameter.name,
+                      format_number(SoybeanOptions{}.*parameter.value).c_str(),
+                      range_text(parameter).c_str());
   }
   return text;
 }

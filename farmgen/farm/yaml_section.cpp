@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan::farm {
 namespace {
@@ -28,12 +29,6 @@ std::optional<Number> parsed(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return {};
   return value;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 // The node's child of that name or index; a map's child is made where it is missing.
@@ -118,7 +113,7 @@ void YamlSection::allow_only(const std::vector<std::string>& keys) const {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(a list or map)";
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       origin_->fail(entry.first.Mark(), path_of(key),
-                    "is not a known key; known here are " + joined(keys));
+                    "is not a known key; known here are " + joined(keys, ", "));
     }
     if (!seen.insert(key).second) {
       origin_->fail(entry.first.Mark(), path_of(key), "is given twice");
@@ -185,7 +180,7 @@ std::size_t YamlSection::choice(const std::string& key, const std::vector<std::s
   const auto text = scalar(key, !fallback);
   if (!text) return *fallback;
   const auto found = std::find(names.begin(), names.end(), *text);
-  if (found == names.end()) fail(key, "\"" + *text + "\" is not one of " + joined(names));
+  if (found == names.end()) fail(key, "\"" + *text + "\" is not one of " + joined(names, ", "));
   return static_cast<std::size_t>(found - names.begin());
 }
 

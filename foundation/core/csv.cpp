@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -30,12 +31,6 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
-
 // For each wanted column its place in the file's header; kAbsent for a missing optional one.
 std::vector<std::size_t> places_in_header(const std::filesystem::path& file, std::size_t line,
                                           const std::vector<std::string_view>& header,
@@ -51,8 +46,9 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file, std
   }
   for (const std::string_view name : header) {
     if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) {
-      throw InputError(file, line,
-                       "unknown column \"" + std::string(name) + "\"; known are " + joined(wanted));
+      throw InputError(
+          file, line,
+          "unknown column \"" + std::string(name) + "\"; known are " + joined(wanted, ","));
     }
   }
   return places;
@@ -126,7 +122,7 @@ void read_csv(const std::filesystem::path& file, const std::vector<std::string>&
     row(CsvRow(file, line_number, wanted, fields));
   }
   if (header_fields == 0)
-    throw InputError(file, "is empty; the header line " + joined(columns) + " is expected");
+    throw InputError(file, "is empty; the header line " + joined(columns, ",") + " is expected");
 }
 
 }  // namespace plotscan
