@@ -64,7 +64,8 @@ struct Farm {
 };
 
 // Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a
-// file is missing or broken, a number is not finite, or a path leaves the folder.
+// file is missing, broken or not as the manifest hashed it, a number is not finite, or a path
+// leaves the folder.
 Farm read_farm(const std::filesystem::path& folder);
 
 }  // namespace plotscan::farm

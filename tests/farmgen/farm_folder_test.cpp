@@ -218,6 +218,8 @@ INSTANTIATE_TEST_SUITE_P(
                              "\"height_p98_m\"", "feature 1: height_p99_m is missing"},
                       Damage{"OtherTerrainHeader", "truth/terrain.ply", "property double x",
                              "property float x ", "its PLY header is another"},
+                      Damage{"EditedByHand", "truth/plants.csv", "\n2,1,", "\n2, 1,",
+                             "plants.csv: was changed after plotscan wrote it"},
                       Damage{"TerrainOfMoreVertices", "truth/terrain.ply", "vertex 44", "vertex 45",
                              "its header, with 45 vertices"}),
     [](const auto& damage) { return std::string(damage.param.name); });

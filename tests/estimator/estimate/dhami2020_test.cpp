@@ -114,6 +114,22 @@ TEST(Dhami2020, CarriesALearntGridOverTheWholeField) {
   EXPECT_GT(worst_overlap(estimate, farm), 0.8) << estimate.diagnostics.dump(1);
 }
 
+TEST(Dhami2020, LearnsNoGridFromOneLineOfPlots) {
+  SyntheticFarm farm;
+  const PlotBox low = farm.box(0, 0);
+  const PlotBox high = farm.box(0, 3);
+  const Area learn{low.center.x() - 2.7, low.center.y() - 1.2, high.center.x() + 2.7,
+                   high.center.y() + 1.2};
+  EXPECT_THAT(
+      message_of<InputError>([&] { dhami2020(farm.map(), {.plots = 4, .learn_box = learn}); }),
+      HasSubstr("2 x 2 plots"));
+  EXPECT_THAT(
+      message_of<InputError>([&] {
+        dhami2020(farm.map(), {.plots = 4, .crop_box = Area{-1, -1, 1, 1}, .learn_box = learn});
+      }),
+      HasSubstr("out of the crop box"));
+}
+
 TEST(Dhami2020, SearchesTheCropBoxOnly) {
   SyntheticFarm farm;
   const Area crop{-8.2, -100, 2.7, 100};  // two of the three rows

@@ -109,7 +109,7 @@ TEST(Quadrotor, TurnsAtALimitedRateAndPassesEveryWaypoint) {
 }
 
 TEST(Quadrotor, ImpossibleSpeedsAreRefused) {
-  for (const double speed : {0.0, -1.0, 6.1, std::nan("")}) {
+  for (const double speed : {0.0, -1.0, 0.001, 6.1, std::nan("")}) {
     const auto fly = [&] { leg_limits(Quadrotor(), speed); };
     EXPECT_THAT(testing::message_of<InputError>(fly),
                 ::testing::HasSubstr("must be in [0.01, 6] m/s"));

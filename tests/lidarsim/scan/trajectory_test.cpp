@@ -99,6 +99,7 @@ TEST(Trajectory, BrokenFilesAreRefusedByLine) {
   EXPECT_THAT(refusal(first + "1 0 0 up 0 0 0 1\n"), HasSubstr("\"up\" is not a number"));
   EXPECT_THAT(refusal(first + "1 0 0 nan 0 0 0 1\n"), HasSubstr("not finite"));
   EXPECT_THAT(refusal("inf 0 0 8 0 0 0 1\n"), HasSubstr("not finite"));
+  EXPECT_THAT(refusal(first + "1 1e300 0 8 0 0 0 1\n"), HasSubstr("from the origin"));
   EXPECT_THAT(refusal(first + "1 0 0 8 0 0 0 0\n"), HasSubstr("quaternion norm 0 is not 1"));
   EXPECT_THAT(refusal(first + "1 0 0 8 1 0 0 1\n"), HasSubstr("flight:2: quaternion norm 1.41"));
   const std::string header = "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
