@@ -4,14 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "crop/soybean.h"
+#include "mesh/measure.h"
+#include "mesh/obj.h"
+
 #include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "farm/description.h"
 #include "farm/generate.h"
 #include "farm/heights.h"
-#include "farm/obj.h"
-#include "farm/soybean.h"
 #include "farm/summary.h"
 #include "farm/write_farm.h"
 
@@ -121,13 +123,13 @@ void run_plant_soybean(const Program& program, const Arguments& arguments) {
   if (output.extension() != ".obj") throw InputError(output, "does not end in .obj");
   if (fs::exists(output) && !arguments.force)
     throw InputError(output, "exists; --force replaces it");
-  const farm::Mesh mesh =
-      farm::soybean(farm::soybean_options(arguments.assignments), program.common().seed);
+  const mesh::Mesh mesh =
+      crop::soybean(crop::soybean_options(arguments.assignments), program.common().seed);
   const fs::path partial = output.string() + ".partial";
-  farm::write_obj(partial, mesh);
+  mesh::write_obj(partial, mesh);
   fs::rename(partial, output);
-  const double height_m = farm::mesh_height(mesh);
-  const double area_m2 = farm::scaled_area(mesh, Eigen::Vector3d::Ones());
+  const double height_m = mesh::mesh_height(mesh);
+  const double area_m2 = mesh::ScaledArea(mesh).at();
   program.result({{"mesh", arguments.output},
                   {"height_m", height_m},
                   {"area_m2", area_m2},
@@ -183,6 +185,6 @@ int main(int argc, char** argv) {
   plant.add_option("-o,--output", arguments.output, "mesh to write (OBJ, metres, z up)")
       ->required();
   plant.add_flag("--force", arguments.force, "replace a mesh that is already there");
-  plant.footer("Keys of --set with their defaults:\n" + farm::soybean_options_help());
+  plant.footer("Keys of --set with their defaults:\n" + crop::soybean_options_help());
   return program.run(argc, argv);
 }

@@ -5,14 +5,12 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/yaml_section.h"
 #include "farm/description.h"
-#include "farm/yaml_section.h"
 #include "farmbench/methods.h"
 
 namespace plotscan::farmbench {
 namespace {
-
-using farm::YamlSection;
 
 constexpr std::size_t kMostCases = 1000;
 constexpr std::size_t kMostSeeds = 10'000;

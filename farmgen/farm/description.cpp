@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/yaml_section.h"
 #include "farm/layout_table.h"
-#include "farm/yaml_section.h"
 
 namespace plotscan::farm {
 namespace {
@@ -58,9 +58,10 @@ std::string name_at(const YamlSection& section, const std::string& key, std::str
   return name;
 }
 
-MeshImportOptions read_mesh_options(const YamlSection& section) {
-  MeshImportOptions options;
-  if (section.has("up")) options.up = section.choice("up", {"z", "y"}) == 0 ? UpAxis::z : UpAxis::y;
+mesh::MeshImportOptions read_mesh_options(const YamlSection& section) {
+  mesh::MeshImportOptions options;
+  if (section.has("up"))
+    options.up = section.choice("up", {"z", "y"}) == 0 ? mesh::UpAxis::z : mesh::UpAxis::y;
   options.unit_m = section.number("unit_m", kUnit, options.unit_m);
   return options;
 }
@@ -112,7 +113,8 @@ ModelDescription read_model(const YamlSection& section) {
   model.mesh = file_at(section, "mesh");
   model.name = name_at(section, "name", model.mesh.stem().string());
   model.options = read_mesh_options(section);
-  if (section.choice("foot", {"origin", "lowest"}, 0) == 1) model.options.foot = MeshFoot::lowest;
+  if (section.choice("foot", {"origin", "lowest"}, 0) == 1)
+    model.options.foot = mesh::MeshFoot::lowest;
   if (model.name == "terrain") section.fail("name", "\"terrain\" is the terrain's own name");
   return model;
 }

@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh_import.h"
 #include <Eigen/Core>
-
-#include "farm/mesh_import.h"
 
 namespace plotscan::farm {
 
@@ -20,7 +19,7 @@ namespace plotscan::farm {
 struct TerrainDescription {
   // A mesh file in place of the random square; its z = 0 and origin are the world's.
   std::optional<std::filesystem::path> mesh;
-  MeshImportOptions mesh_options;
+  mesh::MeshImportOptions mesh_options;
   double side_m = 0;
   std::uint32_t vertices = 150;  // random ones, besides the four corners
   double relief_m = 0;           // z of each vertex is uniform in [-relief_m, relief_m]
@@ -46,7 +45,7 @@ struct PlotGridDescription {
 struct ModelDescription {
   std::string name;
   std::filesystem::path mesh;
-  MeshImportOptions options;
+  mesh::MeshImportOptions options;
 };
 
 enum class PlantPattern { random, drilled };

@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mesh/mesh.h"
 #include <Eigen/Geometry>
 
 #include "core/plot_box.h"
-#include "farm/mesh.h"
 #include "farm/terrain.h"
 
 namespace plotscan::farm {
@@ -18,15 +19,19 @@ namespace plotscan::farm {
 struct PlantModel {
   std::string
       name;  // unique in the farm; letters, digits, '-', '_', '.'; names its folder below models/
-  Mesh mesh;
-  double height_m = 0;  // highest vertex over the origin, measured from the mesh
+  mesh::Mesh mesh;
+  double height_m = 0;                   // highest vertex over the origin, measured from the mesh
+  std::optional<mesh::Mesh> light = {};  // the same plant in few triangles, where there is one
 };
+
+enum class PlantKind : std::uint8_t { crop, weed };
 
 // One placed plant: world_from_model = translation(position) * rotation * scale.
 struct Plant {
-  std::uint32_t id = 0;                                // from 1, in the order of truth/plants.csv
-  std::uint32_t plot = 0;                              // Plot::id, 0 for a plant outside every plot
-  std::uint32_t model = 0;                             // index into Farm::models
+  std::uint32_t id = 0;     // from 1, in the order of truth/plants.csv
+  std::uint32_t plot = 0;   // Plot::id, 0 for a plant outside every plot
+  std::uint32_t model = 0;  // index into Farm::models
+  PlantKind kind = PlantKind::crop;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // the stem's base, world frame
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();

@@ -3,6 +3,8 @@
 
 #include <unordered_map>
 
+#include "mesh/measure.h"
+
 #include "core/error.h"
 #include "farm/heights.h"
 #include "farm/plant_layout.h"
@@ -17,7 +19,7 @@ Terrain make_terrain(const TerrainDescription& description, std::uint64_t seed) 
   if (!description.mesh) {
     return random_terrain(description.side_m, description.vertices, description.relief_m, seed);
   }
-  const Mesh mesh = import_mesh(*description.mesh, description.mesh_options);
+  const mesh::Mesh mesh = mesh::import_mesh(*description.mesh, description.mesh_options);
   std::vector<Eigen::Vector3d> vertices;
   vertices.reserve(mesh.vertices.size());
   for (const Eigen::Vector3f& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
@@ -31,8 +33,8 @@ Terrain make_terrain(const TerrainDescription& description, std::uint64_t seed) 
 std::vector<PlantModel> import_models(const std::vector<ModelDescription>& descriptions) {
   std::vector<PlantModel> models;
   for (const ModelDescription& description : descriptions) {
-    Mesh mesh = import_mesh(description.mesh, description.options);
-    const double height_m = mesh_height(mesh);
+    mesh::Mesh mesh = mesh::import_mesh(description.mesh, description.options);
+    const double height_m = mesh::mesh_height(mesh);
     if (height_m <= 0) {
       throw InputError(description.mesh,
                        "has no vertex above its origin; is z its up axis? (up: y, foot: lowest)");

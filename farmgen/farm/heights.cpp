@@ -26,14 +26,6 @@ std::vector<std::size_t> sample(std::size_t count, std::size_t wanted, RandomStr
 
 }  // namespace
 
-double mesh_height(const Mesh& mesh) {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3f& vertex : mesh.vertices) {
-    highest = std::max(highest, static_cast<double>(vertex.z()));
-  }
-  return highest;
-}
-
 double placed_height(const PlantModel& model, const Plant& plant, double ground_z) {
   const double foot = plant.position.z() - ground_z;
   const bool upright = plant.rotation.x() == 0 && plant.rotation.y() == 0;

@@ -8,9 +8,6 @@
 
 namespace plotscan::farm {
 
-// Height of the mesh's highest vertex over its origin, metres.
-double mesh_height(const Mesh& mesh);
-
 // Highest vertex of the placed mesh minus `ground_z`, metres. Constant time for a plant that stands
 // upright; over all vertices for one that leans.
 double placed_height(const PlantModel& model, const Plant& plant, double ground_z);

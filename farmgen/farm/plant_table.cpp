@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "core/csv.h"
-#include "farm/text_file.h"
+#include "core/text_file.h"
 
 namespace plotscan::farm {
 namespace {

@@ -3,11 +3,13 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
+
 #include "core/error.h"
 #include "core/manifest.h"
 #include "farm/farm.h"
 #include "farm/heights.h"
-#include "farm/mesh_import.h"
 #include "farm/plant_table.h"
 #include "farm/plot_table.h"
 #include "farm/sdf.h"
@@ -47,8 +49,9 @@ std::vector<PlantModel> read_models(const fs::path& folder, const std::vector<st
   for (const std::string& name : names) {
     // A name that is no single folder name would lead out of models/.
     path_inside(folder / "models", name, folder / "manifest.json");
-    Mesh mesh = import_mesh(path_inside(folder, model_mesh_path(name), folder / "manifest.json"));
-    const double height_m = mesh_height(mesh);
+    mesh::Mesh mesh =
+        mesh::import_mesh(path_inside(folder, model_mesh_path(name), folder / "manifest.json"));
+    const double height_m = mesh::mesh_height(mesh);
     models.push_back({name, std::move(mesh), height_m});
   }
   return models;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mesh/measure.h"
 #include <Eigen/Geometry>
 
 namespace plotscan::farm {
@@ -40,32 +41,7 @@ double summarise_plots(const std::vector<Plot>& plots, FarmSummary& summary) {
   return area_m2;
 }
 
-// A row for each triangle: the squares of the coordinates of the cross product of its edges.
-using CrossSquares = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-CrossSquares cross_squares(const Mesh& mesh) {
-  CrossSquares squares(static_cast<Eigen::Index>(mesh.triangles.size()), 3);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& [ia, ib, ic] = mesh.triangles[i];
-    const Eigen::Vector3d a = mesh.vertices[ia].cast<double>();
-    const Eigen::Vector3d ab = mesh.vertices[ib].cast<double>() - a;
-    const Eigen::Vector3d ac = mesh.vertices[ic].cast<double>() - a;
-    squares.row(static_cast<Eigen::Index>(i)) = ab.cross(ac).cwiseAbs2().transpose();
-  }
-  return squares;
-}
-
-// The cross product of scaled edges is the cross product scaled by the other two axes.
-double scaled_area(const CrossSquares& squares, const Eigen::Vector3d& scale) {
-  const Eigen::Vector3d factor(scale.y() * scale.z(), scale.z() * scale.x(), scale.x() * scale.y());
-  return (squares * factor.cwiseAbs2()).cwiseSqrt().sum() / 2;
-}
-
 }  // namespace
-
-double scaled_area(const Mesh& mesh, const Eigen::Vector3d& scale) {
-  return scaled_area(cross_squares(mesh), scale);
-}
 
 FarmSummary summarise(const Farm& farm) {
   FarmSummary summary;
@@ -73,15 +49,17 @@ FarmSummary summarise(const Farm& farm) {
   const double plots_m2 = summarise_plots(farm.plots, summary);
   summary.models = farm.models.size();
   summary.plants = farm.plants.size();
-  std::vector<CrossSquares> squares;
-  for (const PlantModel& model : farm.models) squares.push_back(cross_squares(model.mesh));
+  std::vector<mesh::ScaledArea> leaves;
+  for (const PlantModel& model : farm.models) {
+    leaves.push_back(mesh::ScaledArea::of_leaves(model.mesh));
+  }
   std::vector<double> heights;
   heights.reserve(farm.plants.size());
   double leaves_m2 = 0;
   for (const Plant& plant : farm.plants) {
     heights.push_back(plant.height_m);
     summary.plant_triangles += farm.models[plant.model].mesh.triangles.size();
-    if (plant.plot != 0) leaves_m2 += scaled_area(squares[plant.model], plant.scale);
+    if (plant.plot != 0) leaves_m2 += leaves[plant.model].at(plant.scale);
   }
   summary.plant_height_m = spread_of(heights);
   summary.leaf_area_index = plots_m2 > 0 ? leaves_m2 / plots_m2 : 0;

@@ -27,14 +27,10 @@ struct FarmSummary {
   Eigen::Vector2d field_size_m = Eigen::Vector2d::Zero();  // bounding rectangle of the plots
   Spread plant_height_m;
   Spread plot_height_max_m;
-  // Area of the plants' triangles, each counted once (a leaf is one sheet; stems count as well),
-  // over the area of the plots.
+  // Area of the plants' leaves (mesh::ScaledArea::of_leaves) over the area of the plots.
   double leaf_area_index = 0;
 };
 
 FarmSummary summarise(const Farm& farm);
-
-// Area of the mesh's triangles with each axis scaled, square metres.
-double scaled_area(const Mesh& mesh, const Eigen::Vector3d& scale);
 
 }  // namespace plotscan::farm

@@ -3,8 +3,9 @@
 
 #include <utility>
 
+#include "mesh/obj.h"
+
 #include "core/output_folder.h"
-#include "farm/obj.h"
 #include "farm/plant_table.h"
 #include "farm/plot_table.h"
 #include "farm/sdf.h"
@@ -20,8 +21,8 @@ constexpr double kWorldShare = 0.9;
 const Eigen::Vector3f kLeafGreen(0.24F, 0.46F, 0.16F);
 const Eigen::Vector3f kSoilBrown(0.45F, 0.34F, 0.24F);
 
-Mesh mesh_of(const Terrain& terrain) {
-  Mesh mesh;
+mesh::Mesh mesh_of(const Terrain& terrain) {
+  mesh::Mesh mesh;
   for (const Eigen::Vector3d& vertex : terrain.vertices()) {
     mesh.vertices.emplace_back(vertex.cast<float>());
   }
@@ -29,19 +30,28 @@ Mesh mesh_of(const Terrain& terrain) {
   return mesh;
 }
 
-void write_model(const fs::path& folder, const std::string& name, const Mesh& mesh,
-                 const Eigen::Vector3f& colour, const std::string& text, bool with_collision) {
+// With every surface that has no material in one of the given name and colour.
+mesh::Mesh coloured(mesh::Mesh mesh, const std::string& name, const Eigen::Vector3f& colour) {
+  if (mesh.materials.empty()) mesh.materials.emplace_back();
+  for (mesh::Material& material : mesh.materials) {
+    if (material.name.empty()) material = {.name = name, .colour = colour, .texture = {}};
+  }
+  return mesh;
+}
+
+void write_model(const fs::path& folder, const std::string& name, const mesh::Mesh& mesh,
+                 const std::string& text, bool with_collision) {
   const fs::path path = folder / model_mesh_path(name);
   fs::create_directories(path.parent_path());
-  write_coloured_obj(path, mesh, colour);
+  mesh::write_obj(path, mesh);
   write_model_description(folder / "models", name, text, with_collision);
 }
 
 void write_models(const fs::path& folder, const Farm& farm) {
-  write_model(folder, kTerrainModel, mesh_of(farm.terrain), kSoilBrown,
+  write_model(folder, kTerrainModel, coloured(mesh_of(farm.terrain), "soil", kSoilBrown),
               "Terrain of the farm " + farm.name, true);
   for (const PlantModel& model : farm.models) {
-    write_model(folder, model.name, model.mesh, kLeafGreen,
+    write_model(folder, model.name, coloured(model.mesh, "plant", kLeafGreen),
                 "Plant of the farm " + farm.name + ", foot at the origin", false);
   }
 }

@@ -98,7 +98,10 @@ Scene::Scene(const farm::Farm& farm) : trees_(std::make_unique<Trees>()) {
   tbb::task_arena one_thread(1);
   one_thread.execute([&] { build_trees(farm); });
   for (const farm::Plant& plant : farm.plants) {
-    surfaces_.push_back({.label = scan::PointClass::crop, .plot = plant.plot, .plant = plant.id});
+    const bool weed = plant.kind == farm::PlantKind::weed;
+    surfaces_.push_back({.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
+                         .plot = plant.plot,
+                         .plant = plant.id});
     const Eigen::Matrix3d linear = world_from_model(plant).linear();
     normal_from_model_.emplace_back(linear.inverse().transpose().cast<float>());
   }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "example_farm.h"
+#include "farmgen/farm/example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -33,7 +33,7 @@ constexpr double kBoxLift_m = 0.15;
 // others.
 constexpr double kTopShare = 0.999;
 
-vtkNew<vtkPolyData> poly_data_of(const farm::Mesh& mesh) {
+vtkNew<vtkPolyData> poly_data_of(const mesh::Mesh& mesh) {
   vtkNew<vtkPoints> points;
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     points->InsertNextPoint(vertex.x(), vertex.y(), vertex.z());
@@ -164,7 +164,7 @@ Field field_of(const farm::Farm& farm, double margin_m) {
 }
 
 void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Field& field) {
-  farm::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
+  mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
   for (const Eigen::Vector3d& vertex : terrain.vertices())
     mesh.vertices.emplace_back(vertex.cast<float>());
   const auto data = poly_data_of(mesh);

@@ -70,8 +70,8 @@ TEST(Ranges, ToATiltedPlane) {
 }
 
 // A sphere of radius 1 whose triangles come from an octahedron halved `levels` times.
-farm::Mesh sphere(int levels) {
-  farm::Mesh mesh{
+mesh::Mesh sphere(int levels) {
+  mesh::Mesh mesh{
       .vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
       .triangles = {
           {0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
@@ -93,7 +93,7 @@ farm::Mesh sphere(int levels) {
 }
 
 // The radius of the largest ball within the mesh.
-double inner_radius(const farm::Mesh& mesh) {
+double inner_radius(const mesh::Mesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& t : mesh.triangles) {
     const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();

@@ -38,8 +38,8 @@ inline farm::Terrain wavy_terrain(double half_side_m, std::uint32_t cells) {
 }
 
 // A mesh of `leaves` random triangles in a cylinder of 0.2 m radius and 0.5 m height.
-inline farm::Mesh random_bush(std::uint64_t seed, int leaves) {
-  farm::Mesh mesh;
+inline mesh::Mesh random_bush(std::uint64_t seed, int leaves) {
+  mesh::Mesh mesh;
   RandomStream stream(seed, random_purpose("test/bush"), 0);
   for (int leaf = 0; leaf < leaves; ++leaf) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -110,7 +110,7 @@ inline std::vector<WorldTriangle> world_triangles(const farm::Farm& farm) {
     all.push_back({.corners = {v[t[0]], v[t[1]], v[t[2]]}});
   }
   for (const farm::Plant& plant : farm.plants) {
-    const farm::Mesh& mesh = farm.models[plant.model].mesh;
+    const mesh::Mesh& mesh = farm.models[plant.model].mesh;
     const auto placed = [&](std::uint32_t vertex) -> Eigen::Vector3d {
       const Eigen::Vector3d scaled = mesh.vertices[vertex].cast<double>().cwiseProduct(plant.scale);
       return plant.position + plant.rotation * scaled;

@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <map>
 
-#include "example_farm.h"
+#include "farmgen/farm/example_farm.h"
+#include "mesh/mesh_import.h"
 #include <gtest/gtest.h>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
@@ -16,7 +17,6 @@
 
 #include "core/error.h"
 #include "farm/generate.h"
-#include "farm/mesh_import.h"
 #include "farm/write_farm.h"
 
 namespace plotscan::farm {
@@ -52,7 +52,7 @@ void expect_placed(const sdf::Visual& visual, const Farm& farm, const Plant& pla
   EXPECT_EQ(Eigen::Vector3d(mesh->Scale().X(), mesh->Scale().Y(), mesh->Scale().Z()), plant.scale);
   const fs::path file = folder / mesh->Uri();
   ASSERT_TRUE(fs::exists(file)) << file << " is relative to the world";
-  EXPECT_EQ(import_mesh(file).vertices.size(), farm.models[plant.model].mesh.vertices.size());
+  EXPECT_EQ(mesh::import_mesh(file).vertices.size(), farm.models[plant.model].mesh.vertices.size());
 }
 
 TEST(World, LibsdformatFindsEveryPlantWhereItStands) {

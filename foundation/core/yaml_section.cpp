@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/yaml_section.h"
+#include "core/yaml_section.h"
 
 #include <algorithm>
 #include <charconv>
@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 
-namespace plotscan::farm {
+namespace plotscan {
 namespace {
 
 std::vector<std::string> split_path(const std::string& path) {
@@ -240,4 +240,4 @@ std::map<std::string, std::string> YamlSection::texts() const {
   return all;
 }
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "example_farm.h"
+#include "farmgen/farm/example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -86,9 +86,9 @@ TEST(Description, ReadsEveryKey) {
   EXPECT_FALSE(farm.models[0].options.up);
   EXPECT_EQ(farm.models[1].name, "second");
   EXPECT_EQ(farm.models[1].mesh, farm.source.parent_path() / "b/two.dae");
-  EXPECT_EQ(farm.models[1].options.up, UpAxis::y);
+  EXPECT_EQ(farm.models[1].options.up, mesh::UpAxis::y);
   EXPECT_EQ(farm.models[1].options.unit_m, 0.01);
-  EXPECT_EQ(farm.models[1].options.foot, MeshFoot::lowest);
+  EXPECT_EQ(farm.models[1].options.foot, mesh::MeshFoot::lowest);
 }
 
 TEST(Description, OverridesReplaceAndAdd) {

@@ -5,7 +5,7 @@
 
 #include "core/text.h"
 
-namespace plotscan::farm {
+namespace plotscan {
 
 // The closed range of a number.
 struct Range {
@@ -17,4 +17,4 @@ struct Range {
   std::string text() const { return formatted("[%.10g, %.10g]", low, high); }
 };
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

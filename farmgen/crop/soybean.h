@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "farm/mesh.h"
+#include "mesh/mesh.h"
 
-namespace plotscan::farm {
+namespace plotscan::crop {
 
 // The parameters of a soybean in mid-season (about R2: full height, canopy nearly closed). Lengths
 // are those of the largest internode, petiole or leaflet; the others follow profiles along the
@@ -41,6 +41,6 @@ std::string soybean_options_help();
 
 // A soybean of open leaf sheets and tubes, its stem's foot at the origin. Coordinates are whole
 // hundredths of a millimetre, so that the mesh is the same with every mathematical library.
-Mesh soybean(const SoybeanOptions& options, std::uint64_t seed);
+mesh::Mesh soybean(const SoybeanOptions& options, std::uint64_t seed);
 
-}  // namespace plotscan::farm
+}  // namespace plotscan::crop

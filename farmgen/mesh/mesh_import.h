@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "farm/mesh.h"
+#include "mesh/mesh.h"
 
-namespace plotscan::farm {
+namespace plotscan::mesh {
 
 enum class UpAxis { z, y };
 enum class MeshFoot {
@@ -25,8 +25,9 @@ struct MeshImportOptions {
 
 // Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are
 // triangulated, all objects joined, equal vertices shared, and triangles without area dropped.
-// Throws InputError when the file is missing or cannot be parsed, its format is another, a
+// Materials keep their names, diffuse colours and textures (PNG or JPEG, inside the file or beside
+// it). Throws InputError when the file is missing or cannot be parsed, its format is another, a
 // coordinate is not finite, or no triangle with an area is left.
 Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {});
 
-}  // namespace plotscan::farm
+}  // namespace plotscan::mesh

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/soybean.h"
+#include "crop/soybean.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "example_farm.h"
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
+#include "mesh/obj.h"
+#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.h"
-#include "farm/heights.h"
-#include "farm/mesh_import.h"
-#include "farm/obj.h"
-#include "farm/summary.h"
 
-namespace plotscan::farm {
+namespace plotscan::crop {
 namespace {
 
 namespace fs = std::filesystem;
+using mesh::import_mesh;
+using mesh::Mesh;
+using mesh::mesh_height;
+using mesh::write_obj;
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
+
+fs::path models_folder() { return fs::path(PLOTSCAN_SOURCE_DIR) / "models" / "soybean"; }
 
 TEST(Soybean, TheShippedModelsAreMadeAgainByteForByte) {
   const TemporaryFolder folder;
@@ -44,7 +49,8 @@ TEST(Soybean, TheShippedModelsAreAsTheirDescriptionSays) {
     const Mesh mesh = import_mesh(file);
     const double height_m = mesh_height(mesh);
     EXPECT_NEAR(model["height_m"].as<double>(), height_m, 1e-5) << file;
-    EXPECT_NEAR(model["area_m2"].as<double>(), scaled_area(mesh, Eigen::Vector3d::Ones()), 1e-4);
+    EXPECT_NEAR(model["area_m2"].as<double>(), mesh::ScaledArea(mesh).at(Eigen::Vector3d::Ones()),
+                1e-4);
     EXPECT_EQ(model["triangles"].as<std::size_t>(), mesh.triangles.size());
     EXPECT_LE(mesh.triangles.size(), 4000u);
     EXPECT_LT(fs::file_size(file), 200'000u);
@@ -64,7 +70,7 @@ TEST(Soybean, ParametersDoWhatTheySay) {
   EXPECT_GT(height("internode_m=0.1") - height("internode_m=0.05"), 0.05 * 13 * 0.6);
   EXPECT_GT(height("nodes=20"), height("nodes=10"));
   const auto area = [](const std::string& assignment) {
-    return scaled_area(soybean(soybean_options({assignment}), 3), Eigen::Vector3d::Ones());
+    return mesh::ScaledArea(soybean(soybean_options({assignment}), 3)).at(Eigen::Vector3d::Ones());
   };
   // Stems keep their area, leaves grow with the square of their length.
   const double first_step = area("leaflet_length_m=0.2") - area("leaflet_length_m=0.1");
@@ -88,4 +94,4 @@ TEST(Soybean, RefusesParametersOutOfRange) {
 }
 
 }  // namespace
-}  // namespace plotscan::farm
+}  // namespace plotscan::crop

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/mesh_import.h"
+#include "mesh/mesh_import.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <filesystem>
 
+#include "mesh/measure.h"
 #include "temporary_folder.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -13,10 +14,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.h"
-#include "farm/heights.h"
-#include "farm/obj.h"
 
-namespace plotscan::farm {
+namespace plotscan::mesh {
 namespace {
 
 namespace fs = std::filesystem;
@@ -181,13 +180,6 @@ TEST(MeshImport, RefusesWhatIsNoMesh) {
   EXPECT_THAT(message(folder.path()), HasSubstr("not a regular file"));
 }
 
-TEST(MeshImport, ReadsBackTheObjThatIsWritten) {
-  const TemporaryFolder folder;
-  const Mesh mesh = import_mesh(folder.write("t.obj", kObjZUp));
-  write_coloured_obj(folder.path() / "copy.obj", mesh, {0.1F, 0.2F, 0.3F});
-  expect_tetrahedron(import_mesh(folder.path() / "copy.obj"));
-}
-
 TEST(MeshImport, ThirdPartyPlantsHaveTheHeightsTheirAuthorsGive) {
   const fs::path plants = fs::path(PLOTSCAN_SHARED_DATA_DIR) / "plants" / "cropcraft";
   if (!fs::exists(plants)) GTEST_SKIP() << plants << " is absent";
@@ -202,6 +194,9 @@ TEST(MeshImport, ThirdPartyPlantsHaveTheHeightsTheirAuthorsGive) {
       const double tolerance_m = std::string(crop) == "maize" ? 0.1 : 0.01;
       EXPECT_NEAR(mesh_height(mesh), model["height"].as<double>(), tolerance_m) << file;
       EXPECT_GT(mesh.triangles.size(), 200u) << file;
+      EXPECT_TRUE(std::any_of(mesh.materials.begin(), mesh.materials.end(),
+                              [](const auto& material) { return material.texture != nullptr; }))
+          << "the leaf's picture";
       ++read;
     }
   }
@@ -209,4 +204,4 @@ TEST(MeshImport, ThirdPartyPlantsHaveTheHeightsTheirAuthorsGive) {
 }
 
 }  // namespace
-}  // namespace plotscan::farm
+}  // namespace plotscan::mesh

@@ -12,9 +12,9 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "farm/range.h"
+#include "core/range.h"
 
-namespace plotscan::farm {
+namespace plotscan {
 
 // Where a value of a description comes from: a line of the file, or an override.
 class YamlOrigin {
@@ -84,4 +84,4 @@ class YamlSection {
   std::string path_;  // dotted, "" for the document
 };
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

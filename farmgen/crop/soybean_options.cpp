@@ -3,13 +3,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "crop/soybean.h"
+
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/range.h"
 #include "core/text.h"
-#include "farm/range.h"
-#include "farm/soybean.h"
 
-namespace plotscan::farm {
+namespace plotscan::crop {
 namespace {
 
 struct Parameter {
@@ -84,4 +85,4 @@ std::string soybean_options_help() {
   return text;
 }
 
-}  // namespace plotscan::farm
+}  // namespace plotscan::crop

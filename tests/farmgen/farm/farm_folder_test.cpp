@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "example_farm.h"
+#include "farmgen/farm/example_farm.h"
 #include "temporary_folder.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -22,7 +22,7 @@ using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-void expect_equal(const Mesh& a, const Mesh& b) {
+void expect_equal(const mesh::Mesh& a, const mesh::Mesh& b) {
   EXPECT_EQ(a.triangles, b.triangles);
   ASSERT_EQ(a.vertices.size(), b.vertices.size());
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {

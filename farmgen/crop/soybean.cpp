@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/soybean.h"
+#include "crop/soybean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 
-namespace plotscan::farm {
+namespace plotscan::crop {
 namespace {
 
 using Eigen::Vector3d;
@@ -42,7 +42,7 @@ class SoybeanBuilder {
   SoybeanBuilder(const SoybeanOptions& options, std::uint64_t seed)
       : options_(options), seed_(seed) {}
 
-  Mesh build() {
+  mesh::Mesh build() {
     RandomStream random(seed_, random_purpose("soybean/stem"), 0);
     const double lean = options_.lean_deg * kRadians * random.uniform();
     const double azimuth = 2 * std::numbers::pi * random.uniform();
@@ -207,13 +207,13 @@ class SoybeanBuilder {
   const SoybeanOptions& options_;
   std::uint64_t seed_;
   double first_azimuth_ = 0;
-  Mesh mesh_;
+  mesh::Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh soybean(const SoybeanOptions& options, std::uint64_t seed) {
+mesh::Mesh soybean(const SoybeanOptions& options, std::uint64_t seed) {
   return SoybeanBuilder(options, seed).build();
 }
 
-}  // namespace plotscan::farm
+}  // namespace plotscan::crop

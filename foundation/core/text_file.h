@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace plotscan::farm {
+namespace plotscan {
 
 // A text file being written, its numbers as the shortest text that reads back as the same number.
 class TextFile {
@@ -40,4 +40,4 @@ class TextFile {
   std::ofstream out_;
 };
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

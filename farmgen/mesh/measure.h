@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mesh/mesh.h"
+#include <Eigen/Core>
+
+namespace plotscan::mesh {
+
+// Height of the mesh's highest vertex over its origin, metres.
+double mesh_height(const Mesh& mesh);
+
+// The area of some triangles of a mesh, each counted once, when the mesh is scaled.
+class ScaledArea {
+ public:
+  // Of all triangles.
+  explicit ScaledArea(const Mesh& mesh);
+  // Of the leaves: the triangles whose material's name contains "leaf", or all of them where no
+  // material's does. A leaf is one sheet, so this is its one-sided area.
+  static ScaledArea of_leaves(const Mesh& mesh);
+
+  // Square metres with each axis scaled. By the number of triangles.
+  double at(const Eigen::Vector3d& scale = Eigen::Vector3d::Ones()) const;
+
+ private:
+  ScaledArea() = default;
+  void add(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+
+  // Of each triangle: the squares of the coordinates of the cross product of its edges.
+  std::vector<Eigen::Array3d> cross_squares_;
+};
+
+}  // namespace plotscan::mesh

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plotscan::mesh {
+
+// An image as its file holds it.
+struct Image {
+  std::string name;   // a file name without folders: letters, digits, '-', '_', '.'
+  std::string bytes;  // of a PNG or JPEG file
+};
+
+// How a surface looks; its name says what it is ("leaf", "stem", "ear").
+struct Material {
+  std::string name;                                          // may be empty: the file gave none
+  Eigen::Vector3f colour = Eigen::Vector3f::Constant(0.6F);  // diffuse red, green, blue in [0, 1]
+  std::shared_ptr<const Image> texture = {};  // multiplied with the colour; null: none
+};
+
+// Triangles over shared vertices, metres, z up, counter-clockwise seen from outside.
+struct Mesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Material> materials = {};  // may be empty: all of one nameless material
+  std::vector<std::uint16_t> triangle_material =
+      {};  // index of each triangle's; empty: all have the first
+  // (u, v) of each vertex, v upward from the image's lower edge; empty where no material has a
+  // texture.
+  std::vector<Eigen::Vector2f> texture_coordinates = {};
+
+  std::uint16_t material_of(std::size_t triangle) const {
+    return triangle_material.empty() ? std::uint16_t{0} : triangle_material[triangle];
+  }
+};
+
+// Puts the other mesh's triangles after the mesh's own. Materials that are equal (name, colour and
+// texture) become one.
+void append(Mesh& mesh, const Mesh& other);
+
+// Triangles that show the same surface with about `triangles` of them or fewer, by clustering
+// vertices; open sheets (leaves) keep their place and extent, and materials stay apart. The mesh
+// itself where it has no more.
+Mesh simplified(const Mesh& mesh, std::size_t triangles);
+
+}  // namespace plotscan::mesh

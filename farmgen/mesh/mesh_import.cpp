@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/mesh_import.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include "core/error.h"
+
+namespace plotscan::mesh {
+namespace {
+
+constexpr std::array<const char*, 6> kFormats = {".obj", ".dae", ".gltf", ".glb", ".ply", ".stl"};
+// Assimp hands out DAE and glTF with y up, in metres: what glTF prescribes, and what it converts a
+// DAE's stated axis and unit to.
+constexpr std::array<const char*, 3> kYUpFormats = {".dae", ".gltf", ".glb"};
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// A vertex with its place in the texture.
+using Corner = Eigen::Matrix<float, 5, 1>;
+
+struct CornerHash {
+  std::size_t operator()(const Corner& corner) const {
+    std::array<std::uint32_t, 5> bits{};
+    std::memcpy(bits.data(), corner.data(), sizeof bits);
+    std::uint64_t hash = 0;
+    for (const std::uint32_t word : bits) hash = (hash ^ word) * 0x9E3779B97F4A7C15u + (hash >> 29);
+    return hash;
+  }
+};
+
+// Gathers triangles, sharing equal vertices.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(std::vector<Material> materials) {
+    mesh_.materials = std::move(materials);
+    textured_ = std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
+                            [](const Material& material) { return material.texture != nullptr; });
+  }
+
+  bool textured() const { return textured_; }
+
+  void add(const std::array<Corner, 3>& corners, std::uint16_t material) {
+    const Eigen::Vector3d edge = (corners[1] - corners[0]).head<3>().cast<double>();
+    const Eigen::Vector3d other = (corners[2] - corners[0]).head<3>().cast<double>();
+    if (edge.cross(other).isZero(0)) return;
+    mesh_.triangles.push_back({index_of(corners[0]), index_of(corners[1]), index_of(corners[2])});
+    mesh_.triangle_material.push_back(material);
+  }
+
+  // Materials that no triangle has are left out.
+  Mesh take() {
+    std::vector<bool> used(mesh_.materials.size());
+    for (const std::uint16_t material : mesh_.triangle_material) used[material] = true;
+    std::vector<std::uint16_t> place(used.size());
+    std::vector<Material> kept;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      place[i] = static_cast<std::uint16_t>(kept.size());
+      if (used[i]) kept.push_back(mesh_.materials[i]);
+    }
+    for (std::uint16_t& material : mesh_.triangle_material) material = place[material];
+    mesh_.materials = std::move(kept);
+    return std::move(mesh_);
+  }
+
+ private:
+  std::uint32_t index_of(const Corner& corner) {
+    // Adding zero turns -0 into 0, which compares equal to it but has other bits.
+    const Corner key = corner.array() + 0.0F;
+    const auto [place, is_new] =
+        index_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    if (is_new) {
+      mesh_.vertices.emplace_back(key.head<3>());
+      if (textured_) mesh_.texture_coordinates.emplace_back(key.tail<2>());
+    }
+    return place->second;
+  }
+
+  Mesh mesh_;
+  bool textured_ = false;
+  std::unordered_map<Corner, std::uint32_t, CornerHash> index_;
+};
+
+// PNG and JPEG are what every program of the field shows.
+bool is_image(const std::string& bytes) {
+  return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xff\xd8\xff");
+}
+
+std::string image_name(const std::string& file) {
+  std::string name = std::filesystem::path(file).filename().string();
+  for (char& c : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
+    if (!plain) c = '_';
+  }
+  return name;
+}
+
+// The image that a material names: one inside the file, or a file beside it. A texture that is
+// absent, or no PNG or JPEG, is left out: it changes the look alone.
+std::shared_ptr<const Image> texture_of(const std::filesystem::path& path, const aiScene& scene,
+                                        const aiMaterial& material) {
+  aiString name;
+  if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS &&
+      material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS) {
+    return nullptr;
+  }
+  Image image;
+  if (const aiTexture* inside = scene.GetEmbeddedTexture(name.C_Str())) {
+    if (inside->mHeight != 0) return nullptr;  // raw texels
+    image.bytes.assign(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
+    image.name = image_name(path.stem().string() + "_texture" + image_name(name.C_Str()) + "." +
+                            inside->achFormatHint);
+  } else {
+    std::string file = name.C_Str();
+    std::replace(file.begin(), file.end(), '\\', '/');
+    std::error_code error;
+    const std::filesystem::path beside = path.parent_path() / file;
+    if (!std::filesystem::is_regular_file(beside, error)) return nullptr;
+    image.bytes = read_text(beside);
+    image.name = image_name(file);
+  }
+  if (!is_image(image.bytes)) return nullptr;
+  return std::make_shared<const Image>(std::move(image));
+}
+
+std::vector<Material> materials_of(const std::filesystem::path& path, const aiScene& scene) {
+  std::vector<Material> materials;
+  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+    const aiMaterial& given = *scene.mMaterials[i];
+    Material material{.name = given.GetName().C_Str()};
+    // The name assimp gives where the file has no material.
+    if (material.name == AI_DEFAULT_MATERIAL_NAME) material.name.clear();
+    aiColor3D colour;
+    if (given.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS) {
+      material.colour = Eigen::Vector3f(colour.r, colour.g, colour.b).cwiseMax(0).cwiseMin(1);
+    }
+    material.texture = texture_of(path, scene, given);
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+Eigen::Affine3d file_from_node(const aiMatrix4x4& m) {
+  Eigen::Affine3d transform;
+  transform.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4,
+      m.d1, m.d2, m.d3, m.d4;
+  return transform;
+}
+
+// Metres with z up from the coordinates that assimp hands out.
+Eigen::Affine3d model_from_file(const std::string& extension, const MeshImportOptions& options) {
+  const bool y_up_format =
+      std::find(kYUpFormats.begin(), kYUpFormats.end(), extension) != kYUpFormats.end();
+  const UpAxis up = options.up.value_or(y_up_format ? UpAxis::y : UpAxis::z);
+  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+  if (up == UpAxis::y) transform.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
+  return transform * Eigen::Scaling(options.unit_m);
+}
+
+Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned vertex,
+                 const Eigen::Affine3d& model_from_node, bool textured) {
+  if (vertex >= part.mNumVertices) {
+    throw InputError(path, "a triangle names vertex " + std::to_string(vertex) + " of " +
+                               std::to_string(part.mNumVertices));
+  }
+  const aiVector3D& v = part.mVertices[vertex];
+  Corner corner = Corner::Zero();
+  corner.head<3>() = (model_from_node * Eigen::Vector3d(v.x, v.y, v.z)).cast<float>();
+  if (textured && part.HasTextureCoords(0)) {
+    const aiVector3D& uv = part.mTextureCoords[0][vertex];
+    corner.tail<2>() << uv.x, uv.y;
+  }
+  if (!corner.head<3>().allFinite()) throw InputError(path, "a vertex is not finite");
+  if (!corner.allFinite()) throw InputError(path, "a texture coordinate is not finite");
+  return corner;
+}
+
+void add_node(const std::filesystem::path& path, const aiScene& scene, const aiNode& node,
+              const Eigen::Affine3d& model_from_parent, MeshBuilder& builder) {
+  const Eigen::Affine3d model_from_node = model_from_parent * file_from_node(node.mTransformation);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // points and lines
+      std::array<Corner, 3> corners;
+      for (int k = 0; k < 3; ++k) {
+        corners[k] = corner_of(path, part, face.mIndices[k], model_from_node, builder.textured());
+      }
+      builder.add(corners, static_cast<std::uint16_t>(part.mMaterialIndex));
+    }
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    add_node(path, scene, *node.mChildren[i], model_from_node, builder);
+  }
+}
+
+void put_lowest_at_zero(Mesh& mesh) {
+  const auto below = [](const auto& a, const auto& b) { return a.z() < b.z(); };
+  const float lowest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(), below)->z();
+  for (Eigen::Vector3f& vertex : mesh.vertices) vertex.z() -= lowest;
+}
+
+}  // namespace
+
+Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options) {
+  require_file(path);
+  const std::string extension = lower_extension(path);
+  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
+    throw InputError(path, "is not a mesh format that is read: OBJ, DAE, glTF, GLB, PLY, STL");
+  }
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    throw InputError(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+  }
+  if (scene->mNumMaterials > std::numeric_limits<std::uint16_t>::max()) {
+    throw InputError(path, "has more than 65535 materials");
+  }
+  MeshBuilder builder(materials_of(path, *scene));
+  add_node(path, *scene, *scene->mRootNode, model_from_file(extension, options), builder);
+  Mesh mesh = builder.take();
+  if (mesh.triangles.empty()) throw InputError(path, "has no triangle with an area");
+  if (options.foot == MeshFoot::lowest) put_lowest_at_zero(mesh);
+  return mesh;
+}
+
+}  // namespace plotscan::mesh
