@@ -8,22 +8,19 @@
 
 #include "core/error.h"
 #include "core/yaml_section.h"
+#include "farm/description_values.h"
 #include "farm/layout_table.h"
 
 namespace plotscan::farm {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
-constexpr Range kUnit = {1e-6, 1e6};
 constexpr Range kScale = {0.01, 100};
-constexpr Range kSide = {1, 100000};
-constexpr Range kRelief = {0, 1000};
 constexpr Range kPlotSize = {0.05, 1000};
 constexpr Range kGap = {0, 1000};
 constexpr Range kPlace = {-100000, 100000};
 constexpr Range kHeading = {-360, 360};
 constexpr Range kJitter = {0, 10};
-constexpr std::int64_t kMostTerrainVertices = 1'000'000;
 constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::size_t kMostRows = 10'000;
 constexpr std::uint64_t kMostPlots = 100'000;
@@ -32,17 +29,6 @@ constexpr std::size_t kMostModels = 1000;
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
-
-// A file that exists, named relative to the description's folder.
-std::filesystem::path file_at(const YamlSection& section, const std::string& key) {
-  const std::string text = section.text(key);
-  std::filesystem::path path = section.file().parent_path() / text;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    section.fail(key, "\"" + text + "\" is no file (looked for " + path.string() + ")");
-  }
-  return path;
-}
 
 std::string name_at(const YamlSection& section, const std::string& key, std::string fallback) {
   for (char& c : fallback) {
@@ -56,30 +42,6 @@ std::string name_at(const YamlSection& section, const std::string& key, std::str
                           "with '.'");
   }
   return name;
-}
-
-mesh::MeshImportOptions read_mesh_options(const YamlSection& section) {
-  mesh::MeshImportOptions options;
-  if (section.has("up"))
-    options.up = section.choice("up", {"z", "y"}) == 0 ? mesh::UpAxis::z : mesh::UpAxis::y;
-  options.unit_m = section.number("unit_m", kUnit, options.unit_m);
-  return options;
-}
-
-TerrainDescription read_terrain(const YamlSection& section) {
-  TerrainDescription terrain;
-  if (section.has("mesh")) {
-    section.allow_only({"mesh", "up", "unit_m"});
-    terrain.mesh = file_at(section, "mesh");
-    terrain.mesh_options = read_mesh_options(section);
-    return terrain;
-  }
-  section.allow_only({"side_m", "vertices", "relief_m", "mesh"});
-  terrain.side_m = section.number("side_m", kSide);
-  terrain.vertices = static_cast<std::uint32_t>(
-      section.integer("vertices", 0, kMostTerrainVertices, terrain.vertices));
-  terrain.relief_m = section.number("relief_m", kRelief, terrain.relief_m);
-  return terrain;
 }
 
 PlotGridDescription read_plot_grid(const YamlSection& section) {
@@ -217,7 +179,8 @@ FarmDescription load_description(const std::filesystem::path& file,
 
 std::vector<std::filesystem::path> input_files(const FarmDescription& description) {
   std::vector<std::filesystem::path> files = {description.source};
-  if (description.terrain.mesh) files.push_back(*description.terrain.mesh);
+  for (std::filesystem::path& file : terrain_files(description.terrain))
+    files.push_back(std::move(file));
   if (description.layout) {
     files.push_back(description.layout->plants);
     if (description.layout->plots) files.push_back(*description.layout->plots);

@@ -11,19 +11,12 @@
 #include "mesh/mesh_import.h"
 #include <Eigen/Core>
 
+#include "farm/terrain_description.h"
+
 namespace plotscan::farm {
 
 // A farm as its author describes it: what docs/farm-format.md says of farm.yaml, with the ranges
 // checked, angles in radians and paths resolved against the file's folder.
-
-struct TerrainDescription {
-  // A mesh file in place of the random square; its z = 0 and origin are the world's.
-  std::optional<std::filesystem::path> mesh;
-  mesh::MeshImportOptions mesh_options;
-  double side_m = 0;
-  std::uint32_t vertices = 150;  // random ones, besides the four corners
-  double relief_m = 0;           // z of each vertex is uniform in [-relief_m, relief_m]
-};
 
 struct PlotRowDescription {
   std::uint32_t plots = 0;
