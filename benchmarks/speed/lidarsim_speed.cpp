@@ -34,14 +34,16 @@ constexpr double kSpin_hz = 10;
 
 // One strip over the middle of the plots.
 scan::Trajectory middle_strip(const farm::Farm& farm) {
-  const auto waypoints = lidar::plan_strips(farm, {.altitude_m = 8, .spacing_m = 1000});
+  const lidar::Scene scene(lidar::scene_content(farm));
+  const auto waypoints =
+      lidar::plan_strips(lidar::site_of(farm), scene, {.altitude_m = 8, .spacing_m = 1000});
   return lidar::fly_waypoints(lidar::Quadrotor(), waypoints, 2.0);
 }
 
 struct Work {
   Work(const farm::Farm& farm, const scan::Trajectory& trajectory)
       : sensor(lidar::vlp16()),
-        scene(farm),
+        scene(lidar::scene_content(farm)),
         plan(sensor, kSpin_hz,
              Eigen::Isometry3d(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitY())),
              trajectory) {

@@ -2,6 +2,7 @@
 #include "lidar/flight_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double kMaxAltitude_m = 120;  // where drones may fly without a waiver
 constexpr double kMaxPath_m = 100e3;
-constexpr double kClearanceStep_m = 0.5;
+constexpr double kClearance_m = 0.5;      // to either side of the path
+constexpr double kClearanceStep_m = 0.1;  // between rays
 
 void require_in_range(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -22,83 +24,87 @@ void require_in_range(const char* name, double value, double low, double high) {
                    format_number(low) + ", " + format_number(high) + "] m");
 }
 
-// The plots' direction: headings averaged as axes of four-fold symmetry, since the sides of a box
+// The areas' direction: headings averaged as axes of four-fold symmetry, since the sides of a box
 // are two directions and each is the same as its opposite.
-double mean_heading(const std::vector<farm::Plot>& plots) {
+double mean_heading(const std::vector<PlotBox>& areas) {
   double sine = 0;
   double cosine = 0;
-  for (const farm::Plot& plot : plots) {
-    sine += std::sin(4 * plot.box.heading_rad);
-    cosine += std::cos(4 * plot.box.heading_rad);
+  for (const PlotBox& area : areas) {
+    sine += std::sin(4 * area.heading_rad);
+    cosine += std::cos(4 * area.heading_rad);
   }
   return std::atan2(sine, cosine) / 4;
 }
 
-// The plots' bounding rectangle in axes along and across the strips.
+// The areas' bounding rectangle in axes along and across the strips.
 struct Field {
   Eigen::Rotation2Dd world_from_field{0};
   Eigen::AlignedBox2d bounds;
 };
 
-Field field_with_heading(const std::vector<farm::Plot>& plots, double heading_rad) {
+Field field_with_heading(const std::vector<PlotBox>& areas, double heading_rad) {
   Field field{.world_from_field = Eigen::Rotation2Dd(heading_rad), .bounds = {}};
-  for (const farm::Plot& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners())
+  for (const PlotBox& area : areas) {
+    for (const Eigen::Vector2d& corner : area.corners())
       field.bounds.extend(field.world_from_field.inverse() * corner);
   }
   return field;
 }
 
-Field field_along_longer_side(const std::vector<farm::Plot>& plots) {
-  const double heading = mean_heading(plots);
-  const Field field = field_with_heading(plots, heading);
+Field field_along_longer_side(const std::vector<PlotBox>& areas) {
+  const double heading = mean_heading(areas);
+  const Field field = field_with_heading(areas, heading);
   const Eigen::Vector2d sides = field.bounds.sizes();
-  return sides.x() >= sides.y() ? field : field_with_heading(plots, heading + EIGEN_PI / 2);
+  return sides.x() >= sides.y() ? field : field_with_heading(areas, heading + EIGEN_PI / 2);
 }
 
-double mean_ground(const farm::Farm& farm) {
-  double sum = 0;
-  int count = 0;
-  const auto add = [&](const Eigen::Vector2d& place) {
-    const auto height = farm.terrain.height(place.x(), place.y());
-    if (!height) return;
-    sum += *height;
-    ++count;
-  };
-  for (const farm::Plot& plot : farm.plots) {
-    add(plot.box.center);
-    for (const Eigen::Vector2d& corner : plot.box.corners()) add(corner);
+double ground_of(const Site& site) {
+  if (site.areas.empty()) {
+    throw InputError("the " + site.kind +
+                     " has no plots to fly over; give a trajectory with --flight");
   }
-  if (count == 0) throw InputError("no plot of the farm lies on its terrain");
-  return sum / count;
+  if (!site.ground_m) throw InputError("no plot of the " + site.kind + " lies on its terrain");
+  return *site.ground_m;
 }
 
-void require_clearance(const farm::Farm& farm, const std::vector<Eigen::Vector3d>& path) {
-  double tallest_plant = 0;
-  for (const farm::Plant& plant : farm.plants)
-    tallest_plant = std::max(tallest_plant, plant.height_m);
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Eigen::Vector3d way = path[i + 1] - path[i];
-    const int steps = static_cast<int>(std::ceil(way.norm() / kClearanceStep_m));
-    for (int step = 0; step <= steps; ++step) {
-      const Eigen::Vector3d place = path[i] + way * step / std::max(steps, 1);
-      const auto ground = farm.terrain.height(place.x(), place.y());
-      if (!ground || place.z() > *ground + tallest_plant) continue;
-      throw InputError("the flight would meet the ground or the crop at x " +
-                       format_number(std::round(place.x())) + " m, y " +
-                       format_number(std::round(place.y())) + " m; give a higher altitude");
+// Casts rays down all along a leg and beside it. Both its ends are at the same height.
+void require_clear_leg(const Scene& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  constexpr int kAside = static_cast<int>(kClearance_m / kClearanceStep_m);
+  const Eigen::Vector3d way = to - from;
+  const Eigen::Vector3d aside = Eigen::Vector3d(-way.y(), way.x(), 0).normalized();
+  const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / kClearanceStep_m)));
+  const float top = scene.top_m() + 1;
+  std::array<Ray, 2 * kAside + 1> rays;
+  std::array<Hit, rays.size()> hits;
+  for (int step = 0; step <= steps; ++step) {
+    const Eigen::Vector3d place = from + way * step / steps;
+    for (int k = 0; k < static_cast<int>(rays.size()); ++k) {
+      const Eigen::Vector3d beside = place + (k - kAside) * kClearanceStep_m * aside;
+      rays[k] = {.origin_m = {static_cast<float>(beside.x()), static_cast<float>(beside.y()), top},
+                 .direction = {0, 0, -1}};
     }
+    scene.cast(rays, top - static_cast<float>(from.z()), hits);
+    const auto is_hit = [](const Hit& hit) { return std::isfinite(hit.range_m); };
+    if (std::none_of(hits.begin(), hits.end(), is_hit)) continue;
+    throw InputError("the flight would meet the ground or the crop at x " +
+                     format_number(std::round(place.x())) + " m, y " +
+                     format_number(std::round(place.y())) + " m; give a higher altitude");
   }
+}
+
+void require_clearance(const Scene& scene, const std::vector<Eigen::Vector3d>& path) {
+  if (path.front().z() > static_cast<double>(scene.top_m())) return;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) require_clear_leg(scene, path[i], path[i + 1]);
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> plan_strips(const farm::Farm& farm, const FlightPlanOptions& options) {
+std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
+                                         const FlightPlanOptions& options) {
   require_in_range("altitude", options.altitude_m, 0.5, kMaxAltitude_m);
   require_in_range("spacing", options.spacing_m, 0.1, 1000);
-  if (farm.plots.empty())
-    throw InputError("the farm has no plots to fly over; give a trajectory with --flight");
-  const Field field = field_along_longer_side(farm.plots);
+  const double z = ground_of(site) + options.altitude_m;
+  const Field field = field_along_longer_side(site.areas);
   const Eigen::Vector2d sides = field.bounds.sizes();
   const double strips = std::max(1.0, std::ceil(sides.y() / options.spacing_m));
   const double strip_m = sides.x() + 2 * options.run_up_m;
@@ -106,7 +112,6 @@ std::vector<Eigen::Vector3d> plan_strips(const farm::Farm& farm, const FlightPla
     throw InputError("the flight would be longer than " + format_number(kMaxPath_m / 1000) +
                      " km; give a wider spacing");
   }
-  const double z = mean_ground(farm) + options.altitude_m;
   std::vector<Eigen::Vector3d> path;
   for (int strip = 0; strip < static_cast<int>(strips); ++strip) {
     const double across =
@@ -119,7 +124,7 @@ std::vector<Eigen::Vector3d> plan_strips(const farm::Farm& farm, const FlightPla
       path.emplace_back(place.x(), place.y(), z);
     }
   }
-  require_clearance(farm, path);
+  require_clearance(scene, path);
   return path;
 }
 

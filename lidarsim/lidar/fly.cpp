@@ -9,7 +9,6 @@
 #include "core/output_folder.h"
 #include "lidar/flight_plan.h"
 #include "lidar/quadrotor.h"
-#include "lidar/scene.h"
 #include "lidar/sensor.h"
 #include "lidar/shots.h"
 #include "lidar/simulate.h"
@@ -35,13 +34,13 @@ void validate(const FlyOptions& options, const SpinningLidar& sensor) {
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
 
-scan::Trajectory planned_flight(const farm::Farm& farm, const FlyOptions& options) {
+scan::Trajectory planned_flight(const Site& site, const Scene& scene, const FlyOptions& options) {
   const Quadrotor quadrotor;
   const MotionLimits limits = leg_limits(quadrotor, options.speed_m_s);
-  const auto waypoints =
-      plan_strips(farm, {.altitude_m = options.altitude_m,
-                         .spacing_m = options.spacing_m,
-                         .run_up_m = RestToRest::run_up(options.speed_m_s, limits)});
+  const auto waypoints = plan_strips(site, scene,
+                                     {.altitude_m = options.altitude_m,
+                                      .spacing_m = options.spacing_m,
+                                      .run_up_m = RestToRest::run_up(options.speed_m_s, limits)});
   double way_m = 0;
   for (std::size_t i = 1; i < waypoints.size(); ++i)
     way_m += (waypoints[i] - waypoints[i - 1]).norm();
@@ -72,10 +71,10 @@ Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
                            AngleAxisd(rpy_rad.x(), Vector3d::UnitX()));
 }
 
-Manifest manifest_of(const farm::Farm& farm, const FlyOptions& options, const FlySummary& summary) {
+Manifest manifest_of(const Site& site, const FlyOptions& options, const FlySummary& summary) {
   const Eigen::Vector3d mount_deg = options.mount_rpy_rad * 180 / std::numbers::pi;
   Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
-  manifest.options = {{"farm", farm.name},
+  manifest.options = {{site.kind, site.name},
                       {"sensor", options.sensor},
                       {"spin_hz", options.spin_hz},
                       {"noise_m", options.range_noise_m},
@@ -95,15 +94,14 @@ Manifest manifest_of(const farm::Farm& farm, const FlyOptions& options, const Fl
 
 }  // namespace
 
-FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
+FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
   const SpinningLidar sensor = sensor_named(options.sensor);
   validate(options, sensor);
   OutputFolder output(scan_folder, replace, "lidarsim fly");
   const scan::Trajectory trajectory =
-      options.flight ? read_flight(*options.flight) : planned_flight(farm, options);
+      options.flight ? read_flight(*options.flight) : planned_flight(site, scene, options);
   const ShotPlan plan(sensor, options.spin_hz, mount_pose(options.mount_rpy_rad), trajectory);
-  const Scene scene(farm);
 
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
   simulate(
@@ -116,9 +114,14 @@ FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
   const FlySummary summary{.shots = plan.sequences() * plan.lasers(),
                            .points = cloud.points(),
                            .duration_s = trajectory.end_s()};
-  write_manifest(output.path(), manifest_of(farm, options, summary));
+  write_manifest(output.path(), manifest_of(site, options, summary));
   output.commit();
   return summary;
+}
+
+FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
+               const FlyOptions& options, bool replace, const ProgressReport& progress) {
+  return fly(site_of(farm), Scene(scene_content(farm)), scan_folder, options, replace, progress);
 }
 
 }  // namespace plotscan::lidar

@@ -12,13 +12,15 @@
 
 #include "core/progress.h"
 #include "farm/farm.h"
+#include "lidar/scene.h"
+#include "lidar/site.h"
 
 namespace plotscan::lidar {
 
-// How a farm is flown and scanned.
+// How a farm or a world is flown and scanned.
 struct FlyOptions {
   std::string sensor = "vlp16";
-  double altitude_m = 8.0;  // over the mean terrain under the plots
+  double altitude_m = 8.0;  // over the mean ground under the plots
   double speed_m_s = 2.0;   // along the strips
   double spacing_m = 6.0;   // between neighbouring strips
   // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
@@ -31,7 +33,7 @@ struct FlyOptions {
   Eigen::Vector3d mount_rpy_rad = {0, std::numbers::pi / 2, 0};
   std::uint64_t seed = 1;
   int threads = 1;
-  std::vector<std::filesystem::path> inputs = {};  // what the farm was read from, for the manifest
+  std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
 };
 
 struct FlySummary {
@@ -40,10 +42,14 @@ struct FlySummary {
   double duration_s = 0;  // of the flight
 };
 
-// Scans the farm and writes the scan folder: cloud.pcd, trajectory.csv, manifest.json
-// (docs/scan-format.md). The same farm and options give the same bytes for any number of threads.
-// Throws InputError on impossible options, a broken trajectory, or an existing folder that
+// Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv, manifest.json
+// (docs/scan-format.md). The same scene, site and options give the same bytes for any number of
+// threads. Throws InputError on impossible options, a broken trajectory, or an existing folder that
 // `replace` does not cover.
+FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
+               const FlyOptions& options, bool replace, const ProgressReport& progress = {});
+
+// The same for a farm. Throws InputError when a plant names a missing model, too.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 

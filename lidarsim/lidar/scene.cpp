@@ -14,13 +14,11 @@ namespace plotscan::lidar {
 
 struct Scene::Trees {
   Device device;
-  std::vector<SceneHandle> models;
+  std::vector<SceneHandle> meshes;  // null where no instance needs one
   SceneHandle world;
 };
 
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 void require_success(RTCDevice device, const std::string& what) {
   const RTCError error = rtcGetDeviceError(device);
@@ -28,20 +26,17 @@ void require_success(RTCDevice device, const std::string& what) {
   check(error == RTC_ERROR_NONE, what + " fails in Embree with error " + std::to_string(error));
 }
 
-template <class Vertex>
-Geometry triangle_geometry(RTCDevice device, const std::vector<Vertex>& vertices,
-                           const std::vector<Triangle>& triangles) {
+Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh) {
   Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
-                                                             0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), vertices.size()));
+  auto* vertex = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), mesh.vertices.size()));
   auto* index = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              sizeof(Triangle), triangles.size()));
+                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
   require_success(device, "a mesh's memory");
-  for (const Vertex& v : vertices)
-    for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(v[axis]);
-  for (const Triangle& t : triangles) index = std::copy(t.begin(), t.end(), index);
+  for (const Eigen::Vector3f& v : mesh.vertices) vertex = std::copy(v.begin(), v.end(), vertex);
+  for (const auto& t : mesh.triangles) index = std::copy(t.begin(), t.end(), index);
   rtcCommitGeometry(geometry.get());
   return geometry;
 }
@@ -55,75 +50,62 @@ SceneHandle new_scene(RTCDevice device) {
   return scene;
 }
 
-Eigen::Affine3d world_from_model(const farm::Plant& plant) {
-  return Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
+bool is_instance(const PlacedMesh& placed) {
+  return placed.world_from_mesh.matrix() != Eigen::Matrix4d::Identity();
 }
 
-Geometry plant_instance(RTCDevice device, RTCScene model, const farm::Plant& plant) {
+Geometry instance_of(RTCDevice device, RTCScene mesh, const Eigen::Affine3d& world_from_mesh) {
   Geometry instance(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
-  rtcSetGeometryInstancedScene(instance.get(), model);
-  const Eigen::Affine3f pose = world_from_model(plant).cast<float>();
+  rtcSetGeometryInstancedScene(instance.get(), mesh);
+  const Eigen::Affine3f pose = world_from_mesh.cast<float>();
   rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, pose.data());
   rtcCommitGeometry(instance.get());
   return instance;
 }
 
-// The world scene: plants by their index, then the terrain.
-SceneHandle world_scene(RTCDevice device, const farm::Farm& farm,
-                        const std::vector<SceneHandle>& models) {
-  SceneHandle world = new_scene(device);
-  unsigned id = 0;
-  for (const farm::Plant& plant : farm.plants) {
-    if (plant.model >= models.size()) {
-      throw InputError("plant " + std::to_string(plant.id) + " names model " +
-                       std::to_string(plant.model) + "; the farm has " +
-                       std::to_string(models.size()));
-    }
-    const Geometry instance = plant_instance(device, models[plant.model].get(), plant);
-    rtcAttachGeometryByID(world.get(), instance.get(), id++);
-  }
-  const Geometry terrain =
-      triangle_geometry(device, farm.terrain.vertices(), farm.terrain.triangles());
-  rtcAttachGeometryByID(world.get(), terrain.get(), id);
-  rtcCommitScene(world.get());
-  require_success(device, "the scene");
-  return world;
-}
-
 }  // namespace
 
-Scene::Scene(const farm::Farm& farm) : trees_(std::make_unique<Trees>()) {
+Scene::Scene(const SceneContent& content) : trees_(std::make_unique<Trees>()) {
+  for (const PlacedMesh& placed : content.placed) {
+    check(placed.mesh < content.meshes.size(), "every placed mesh is there");
+    surfaces_.push_back(placed.surface);
+    normal_from_mesh_.emplace_back(
+        placed.world_from_mesh.linear().inverse().transpose().cast<float>());
+  }
   // One thread builds the trees: where two triangles are hit at the same distance the answer
   // depends on the tree, and the tree must not depend on the number of threads.
   tbb::task_arena one_thread(1);
-  one_thread.execute([&] { build_trees(farm); });
-  for (const farm::Plant& plant : farm.plants) {
-    const bool weed = plant.kind == farm::PlantKind::weed;
-    surfaces_.push_back({.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
-                         .plot = plant.plot,
-                         .plant = plant.id});
-    const Eigen::Matrix3d linear = world_from_model(plant).linear();
-    normal_from_model_.emplace_back(linear.inverse().transpose().cast<float>());
-  }
-  surfaces_.push_back({.label = scan::PointClass::ground});
-  normal_from_model_.emplace_back(Eigen::Matrix3f::Identity());
+  one_thread.execute([&] { build_trees(content); });
   RTCBounds bounds;
   rtcGetSceneBounds(trees_->world.get(), &bounds);
   top_m_ = bounds.upper_z;
+  bottom_m_ = bounds.lower_z;
 }
 
-void Scene::build_trees(const farm::Farm& farm) {
+void Scene::build_trees(const SceneContent& content) {
   trees_->device.reset(rtcNewDevice(nullptr));
   RTCDevice device = trees_->device.get();
   check(device != nullptr, "Embree has a device");
-  for (const farm::PlantModel& model : farm.models) {
-    SceneHandle scene = new_scene(device);
-    const Geometry mesh = triangle_geometry(device, model.mesh.vertices, model.mesh.triangles);
-    rtcAttachGeometry(scene.get(), mesh.get());
-    rtcCommitScene(scene.get());
-    trees_->models.push_back(std::move(scene));
+  trees_->meshes.resize(content.meshes.size());
+  trees_->world = new_scene(device);
+  RTCScene world = trees_->world.get();
+  for (unsigned id = 0; id < content.placed.size(); ++id) {
+    const PlacedMesh& placed = content.placed[id];
+    const mesh::Mesh& mesh = content.meshes[placed.mesh];
+    SceneHandle& tree = trees_->meshes[placed.mesh];
+    if (!is_instance(placed)) {
+      rtcAttachGeometryByID(world, triangle_geometry(device, mesh).get(), id);
+      continue;
+    }
+    if (tree == nullptr) {
+      tree = new_scene(device);
+      rtcAttachGeometry(tree.get(), triangle_geometry(device, mesh).get());
+      rtcCommitScene(tree.get());
+    }
+    rtcAttachGeometryByID(world, instance_of(device, tree.get(), placed.world_from_mesh).get(), id);
   }
-  trees_->world = world_scene(device, farm, trees_->models);
+  rtcCommitScene(world);
+  require_success(device, "the scene");
 }
 
 Scene::~Scene() = default;
@@ -153,9 +135,9 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersect(world, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-    const bool is_plant = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    const std::uint32_t surface = is_plant ? query.hit.instID[0] : query.hit.geomID;
-    const Eigen::Vector3f normal = normal_from_model_[surface] *
+    const bool in_instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    const std::uint32_t surface = in_instance ? query.hit.instID[0] : query.hit.geomID;
+    const Eigen::Vector3f normal = normal_from_mesh_[surface] *
                                    Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     hits[i] = {.range_m = query.ray.tfar,
                .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),

@@ -7,8 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "farm/farm.h"
-#include "scan/point.h"
+#include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
 
@@ -17,25 +16,18 @@ struct Ray {
   Eigen::Vector3f direction;  // unit vector
 };
 
-// Where a ray first meets the farm.
+// Where a ray first meets a surface.
 struct Hit {
   float range_m = 0;          // infinite: nowhere
   float cos_incidence = 0;    // of the angle between the ray and the surface's normal, in [0, 1]
   std::uint32_t surface = 0;  // index for Scene::surface
 };
 
-// What a hit lies on.
-struct Surface {
-  scan::PointClass label = scan::PointClass::unlabelled;
-  std::uint32_t plot = 0;
-  std::uint32_t plant = 0;  // Plant::id
-};
-
-// A farm ready for ray tracing: each plant mesh once, plants as instances of them, the terrain.
+// Meshes ready for ray tracing: each once, and instances of it where it is placed; a mesh that is
+// placed without a transform (a terrain) as it is.
 class Scene {
  public:
-  // Throws InputError when a plant names a missing model.
-  explicit Scene(const farm::Farm& farm);
+  explicit Scene(const SceneContent& content);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -44,18 +36,23 @@ class Scene {
   void cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
   const Surface& surface(const Hit& hit) const { return surfaces_[hit.surface]; }
 
+  // Nothing lies higher or lower, metres.
+  float top_m() const { return top_m_; }
+  float bottom_m() const { return bottom_m_; }
+
   // For the speed benchmark: the Embree scene (RTCScene) itself.
   void* native() const;
 
  private:
   struct Trees;
 
-  void build_trees(const farm::Farm& farm);
+  void build_trees(const SceneContent& content);
 
   std::unique_ptr<Trees> trees_;
-  std::vector<Surface> surfaces_;                   // of the plants, then of the terrain
-  std::vector<Eigen::Matrix3f> normal_from_model_;  // of the plants: turns normals into the world
-  float top_m_ = 0;                                 // nothing lies higher
+  std::vector<Surface> surfaces_;                  // in the order of SceneContent::placed
+  std::vector<Eigen::Matrix3f> normal_from_mesh_;  // turns normals into the world
+  float top_m_ = 0;
+  float bottom_m_ = 0;
 };
 
 }  // namespace plotscan::lidar

@@ -17,6 +17,10 @@ namespace {
 using ::testing::HasSubstr;
 using testing::message_of;
 
+std::vector<Eigen::Vector3d> strips_over(const farm::Farm& farm, const FlightPlanOptions& options) {
+  return plan_strips(site_of(farm), Scene(scene_content(farm)), options);
+}
+
 // 3 rows of 5 plots on a grid turned by `heading_rad`, on flat ground at 2 m.
 farm::Farm plots_on_a_grid(double heading_rad) {
   farm::Farm farm{.name = "grid",
@@ -53,7 +57,7 @@ class StripsOver : public ::testing::TestWithParam<double> {};
 TEST_P(StripsOver, CoverEveryPlot) {
   const farm::Farm farm = plots_on_a_grid(GetParam());
   for (const double spacing : {1.0, 3.3, 6.0, 50.0}) {
-    const auto path = plan_strips(farm, {.altitude_m = 8, .spacing_m = spacing, .run_up_m = 1.5});
+    const auto path = strips_over(farm, {.altitude_m = 8, .spacing_m = spacing, .run_up_m = 1.5});
     ASSERT_EQ(path.size() % 2, 0u);
     for (const farm::Plot& plot : farm.plots) {
       for (const Eigen::Vector2d& corner : plot.box.corners()) {
@@ -70,7 +74,7 @@ TEST_P(StripsOver, CoverEveryPlot) {
 
 TEST_P(StripsOver, RunAlongTheLongerSideThereAndBack) {
   const farm::Farm farm = plots_on_a_grid(GetParam());
-  const auto path = plan_strips(farm, {.altitude_m = 8, .spacing_m = 3, .run_up_m = 1.5});
+  const auto path = strips_over(farm, {.altitude_m = 8, .spacing_m = 3, .run_up_m = 1.5});
   ASSERT_EQ(path.size(), 8u);  // 9.5 m of plots across: 4 strips
   const Eigen::Vector2d along(std::cos(GetParam()), std::sin(GetParam()));
   for (std::size_t i = 0; i < path.size(); i += 2) {
@@ -90,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Headings, StripsOver, ::testing::Values(0.0, 0.4, -1.2,
 TEST(FlightPlan, ImpossibleFlightsAreRefused) {
   const farm::Farm farm = plots_on_a_grid(0);
   const auto refusal = [](const farm::Farm& over, const FlightPlanOptions& options) {
-    return message_of<InputError>([&] { plan_strips(over, options); });
+    return message_of<InputError>([&] { strips_over(over, options); });
   };
   EXPECT_THAT(refusal(farm, {.altitude_m = 0}), HasSubstr("altitude 0 m must be in [0.5, 120]"));
   EXPECT_THAT(refusal(farm, {.altitude_m = 121}), HasSubstr("altitude"));

@@ -69,7 +69,7 @@ std::vector<Ray> random_rays(const farm::Farm& farm, std::uint64_t count) {
 TEST(Scene, HitsWhatBruteForceHits) {
   const farm::Farm farm = testing::small_farm();
   const std::vector<WorldTriangle> triangles = testing::world_triangles(farm);
-  const Scene scene(farm);
+  const Scene scene(scene_content(farm));
   const std::vector<Ray> rays = random_rays(farm, 20000);
   std::vector<Hit> hits(rays.size());
   scene.cast(rays, kFar_m, hits);
@@ -107,7 +107,7 @@ TEST(Scene, HitsWhatBruteForceHits) {
 TEST(Scene, NoRaySlipsBetweenTrianglesOfTheTerrain) {
   farm::Farm farm = testing::small_farm();
   farm.plants.clear();
-  const Scene scene(farm);
+  const Scene scene(scene_content(farm));
   const Eigen::Vector3d origin(0.3, -0.2, 8);
   std::vector<Ray> rays;
   for (std::size_t first = 0; first < farm.terrain.triangles().size(); first += 2) {
@@ -131,7 +131,7 @@ TEST(Scene, SeesNothingBeyondItsReach) {
                         .models = {},
                         .plots = {},
                         .plants = {}};
-  const Scene scene(farm);
+  const Scene scene(scene_content(farm));
   const std::vector<Ray> rays = {{{0, 0, 5}, {0, 0, -1}}};
   std::vector<Hit> hits(1);
   scene.cast(rays, 5.01f, hits);
@@ -144,7 +144,7 @@ TEST(Scene, SeesNothingBeyondItsReach) {
 TEST(Scene, PlantWithoutModelIsRefused) {
   farm::Farm farm = testing::small_farm();
   farm.plants[3].model = 9;
-  EXPECT_THROW(Scene{farm}, InputError);
+  EXPECT_THROW(scene_content(farm), InputError);
 }
 
 }  // namespace

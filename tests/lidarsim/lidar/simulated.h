@@ -36,7 +36,7 @@ inline std::vector<scan::LabelledPoint> simulated(const farm::Farm& farm,
                                                   const lidar::ShotPlan& plan,
                                                   const lidar::SimulateOptions& options) {
   std::vector<scan::LabelledPoint> points;
-  lidar::simulate(lidar::Scene(farm), sensor, plan, options,
+  lidar::simulate(lidar::Scene(lidar::scene_content(farm)), sensor, plan, options,
                   [&](std::span<const scan::LabelledPoint> piece) {
                     points.insert(points.end(), piece.begin(), piece.end());
                   });

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lidar/scene_content.h"
+
+#include <string>
+
+#include "core/error.h"
+
+namespace plotscan::lidar {
+namespace {
+
+mesh::Mesh shape_of(const farm::Terrain& terrain) {
+  mesh::Mesh shape{.vertices = {}, .triangles = terrain.triangles()};
+  for (const Eigen::Vector3d& vertex : terrain.vertices())
+    shape.vertices.emplace_back(vertex.cast<float>());
+  return shape;
+}
+
+void require_model(const farm::Farm& farm, const farm::Plant& plant) {
+  if (plant.model < farm.models.size()) return;
+  throw InputError("plant " + std::to_string(plant.id) + " names model " +
+                   std::to_string(plant.model) + "; the farm has " +
+                   std::to_string(farm.models.size()));
+}
+
+Surface surface_of(const farm::Plant& plant) {
+  const bool weed = plant.kind == farm::PlantKind::weed;
+  return {.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
+          .plot = plant.plot,
+          .plant = plant.id};
+}
+
+}  // namespace
+
+SceneContent scene_content(const farm::Farm& farm) {
+  SceneContent content;
+  for (const farm::PlantModel& model : farm.models)
+    content.meshes.push_back({.vertices = model.mesh.vertices, .triangles = model.mesh.triangles});
+  content.placed.reserve(farm.plants.size() + 1);
+  for (const farm::Plant& plant : farm.plants) {
+    require_model(farm, plant);
+    const Eigen::Affine3d world_from_model =
+        Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
+    content.placed.push_back(
+        {.mesh = plant.model, .world_from_mesh = world_from_model, .surface = surface_of(plant)});
+  }
+  content.placed.push_back({.mesh = static_cast<std::uint32_t>(content.meshes.size()),
+                            .surface = {.label = scan::PointClass::ground}});
+  content.meshes.push_back(shape_of(farm.terrain));
+  return content;
+}
+
+}  // namespace plotscan::lidar

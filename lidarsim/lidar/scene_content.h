@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include <Eigen/Geometry>
+
+#include "farm/farm.h"
+#include "scan/point.h"
+
+namespace plotscan::lidar {
+
+// What a hit lies on.
+struct Surface {
+  scan::PointClass label = scan::PointClass::unlabelled;
+  std::uint32_t plot = 0;   // 0: none
+  std::uint32_t plant = 0;  // Plant::id; 0: none
+};
+
+// A mesh somewhere in the world.
+struct PlacedMesh {
+  std::uint32_t mesh = 0;  // index into SceneContent::meshes
+  Eigen::Affine3d world_from_mesh = Eigen::Affine3d::Identity();
+  Surface surface;
+};
+
+// All that a laser can meet, wherever it comes from; metres, z up.
+struct SceneContent {
+  std::vector<mesh::Mesh> meshes;  // their triangles alone count, not their looks
+  std::vector<PlacedMesh> placed;
+};
+
+// A farm's plants in their order, then its terrain. Throws InputError when a plant names a missing
+// model.
+SceneContent scene_content(const farm::Farm& farm);
+
+}  // namespace plotscan::lidar
