@@ -23,6 +23,7 @@ if(NOT embree_FOUND)
 endif()
 
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 
 # Random123 is headers without a package config.

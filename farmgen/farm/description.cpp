@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr Range kScale = {0.01, 100};
+constexpr Range kLatitude = {-89, 89};  // at a pole there is no north
+constexpr Range kLongitude = {-180, 180};
+constexpr Range kAltitude = {-1000, 10000};
 constexpr Range kPlotSize = {0.05, 1000};
 constexpr Range kGap = {0, 1000};
 constexpr Range kPlace = {-100000, 100000};
@@ -42,6 +45,13 @@ std::string name_at(const YamlSection& section, const std::string& key, std::str
                           "with '.'");
   }
   return name;
+}
+
+Anchor read_anchor(const YamlSection& section) {
+  section.allow_only({"latitude_deg", "longitude_deg", "altitude_m"});
+  return {.latitude_deg = section.number("latitude_deg", kLatitude),
+          .longitude_deg = section.number("longitude_deg", kLongitude),
+          .altitude_m = section.number("altitude_m", kAltitude, 0.0)};
 }
 
 PlotGridDescription read_plot_grid(const YamlSection& section) {
@@ -162,11 +172,12 @@ void read_explicit_plants(const YamlSection& root, FarmDescription& description)
 FarmDescription load_description(const std::filesystem::path& file,
                                  const std::vector<std::string>& overrides) {
   const YamlSection root = YamlSection::load(file, overrides);
-  root.allow_only({"name", "seed", "terrain", "plots", "plants", "layout"});
+  root.allow_only({"name", "seed", "anchor", "terrain", "plots", "plants", "layout"});
   FarmDescription description;
   description.source = file;
   description.name = name_at(root, "name", file.stem().string());
   if (root.has("seed")) description.seed = root.unsigned_integer("seed");
+  if (root.has("anchor")) description.anchor = read_anchor(root.section("anchor"));
   description.terrain = read_terrain(root.section("terrain"));
   if (root.has("plots")) description.plots = read_plot_grid(root.section("plots"));
   if (root.has("layout")) {

@@ -11,6 +11,7 @@
 #include "mesh/mesh_import.h"
 #include <Eigen/Core>
 
+#include "farm/geodesy.h"
 #include "farm/terrain_description.h"
 
 namespace plotscan::farm {
@@ -64,6 +65,7 @@ struct FarmDescription {
   std::filesystem::path source;  // the YAML file
   std::string name;
   std::optional<std::uint64_t> seed;
+  std::optional<Anchor> anchor;
   TerrainDescription terrain;
   std::optional<PlotGridDescription> plots;
   std::vector<ModelDescription> models;

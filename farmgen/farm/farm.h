@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "core/plot_box.h"
+#include "farm/geodesy.h"
 #include "farm/terrain.h"
 
 namespace plotscan::farm {
@@ -66,6 +67,7 @@ struct Farm {
   std::vector<PlantModel> models;
   std::vector<Plot> plots;
   std::vector<Plant> plants;
+  std::optional<Anchor> anchor = {};  // where on Earth the origin lies, where that is known
 };
 
 // Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a

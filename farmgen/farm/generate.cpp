@@ -75,7 +75,8 @@ Farm generate(const FarmDescription& description, std::uint64_t seed) {
             .terrain = make_terrain(description.terrain, seed),
             .models = import_models(description.models),
             .plots = make_plots(description),
-            .plants = {}};
+            .plants = {},
+            .anchor = description.anchor};
   require_on_terrain(farm.plots, farm.terrain, description.source);
   farm.plants = make_plants(description, farm);
   measure_plots(farm);

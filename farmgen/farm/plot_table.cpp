@@ -68,9 +68,7 @@ void require_different_ids(const std::filesystem::path& path, const std::vector<
   }
 }
 
-}  // namespace
-
-void write_plots(const std::filesystem::path& path, const std::vector<Plot>& plots) {
+std::vector<PlotFeature> features_of(const std::vector<Plot>& plots) {
   std::vector<PlotFeature> features;
   features.reserve(plots.size());
   for (const Plot& plot : plots) {
@@ -82,7 +80,21 @@ void write_plots(const std::filesystem::path& path, const std::vector<Plot>& plo
     for (const auto& [name, value] : kHeights) feature.properties[name] = plot.heights.*value;
     features.push_back(std::move(feature));
   }
-  write_plot_features(path, features);
+  return features;
+}
+
+}  // namespace
+
+void write_plots(const std::filesystem::path& path, const std::vector<Plot>& plots) {
+  write_plot_features(path, features_of(plots));
+}
+
+void write_plots_wgs84(const std::filesystem::path& path, const std::vector<Plot>& plots,
+                       const Anchor& anchor) {
+  write_plot_features_wgs84(path, features_of(plots), [&](const Eigen::Vector2d& corner) {
+    const GeodeticPoint point = geodetic_from_world(anchor, {corner.x(), corner.y(), 0});
+    return Eigen::Vector2d(point.longitude_deg, point.latitude_deg);
+  });
 }
 
 std::vector<Plot> read_plots(const std::filesystem::path& path) {

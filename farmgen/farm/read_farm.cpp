@@ -26,18 +26,27 @@ struct FarmRecord {
   std::vector<std::string> models;
   std::size_t plots = 0;
   std::size_t plants = 0;
+  std::optional<Anchor> anchor = {};
 };
+
+Anchor anchor_of(const nlohmann::json& anchor) {
+  return {.latitude_deg = anchor.at("latitude_deg"),
+          .longitude_deg = anchor.at("longitude_deg"),
+          .altitude_m = anchor.at("altitude_m")};
+}
 
 FarmRecord read_record(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InputError(folder, "no such farm folder");
   const nlohmann::json manifest = read_manifest(folder);
   try {
     const nlohmann::json& results = manifest.at("results");
-    return {.name = results.at("name"),
-            .seed = manifest.at("seed"),
-            .models = results.at("models"),
-            .plots = results.at("plots"),
-            .plants = results.at("plants")};
+    FarmRecord record{.name = results.at("name"),
+                      .seed = manifest.at("seed"),
+                      .models = results.at("models"),
+                      .plots = results.at("plots"),
+                      .plants = results.at("plants")};
+    if (results.contains("anchor")) record.anchor = anchor_of(results["anchor"]);
+    return record;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(folder / "manifest.json",
                      std::string("is not the manifest of a farm: ") + error.what());
@@ -94,7 +103,8 @@ Farm read_farm(const fs::path& folder) {
             .terrain = read_terrain(truth / "terrain.ply"),
             .models = read_models(folder, record.models),
             .plots = read_plots(truth / "plots.geojson"),
-            .plants = {}};
+            .plants = {},
+            .anchor = record.anchor};
   farm.plants = read_plants(truth / "plants.csv", farm.models);
   require_count(truth / "plots.geojson", "plots", farm.plots.size(), record.plots);
   require_count(truth / "plants.csv", "plants", farm.plants.size(), record.plants);

@@ -59,17 +59,26 @@ void write_models(const fs::path& folder, const Farm& farm) {
 void write_truth(const fs::path& folder, const Farm& farm) {
   fs::create_directories(folder);
   write_plots(folder / "plots.geojson", farm.plots);
+  if (farm.anchor) write_plots_wgs84(folder / "plots_wgs84.geojson", farm.plots, *farm.anchor);
   write_plants(folder / "plants.csv", farm);
   write_terrain(folder / "terrain.ply", farm.terrain);
+}
+
+nlohmann::json json_of(const Anchor& anchor) {
+  return {{"latitude_deg", anchor.latitude_deg},
+          {"longitude_deg", anchor.longitude_deg},
+          {"altitude_m", anchor.altitude_m}};
 }
 
 nlohmann::json results_of(const Farm& farm) {
   nlohmann::json models = nlohmann::json::array();
   for (const PlantModel& model : farm.models) models.push_back(model.name);
-  return {{"name", farm.name},
-          {"models", models},
-          {"plots", farm.plots.size()},
-          {"plants", farm.plants.size()}};
+  nlohmann::json results = {{"name", farm.name},
+                            {"models", models},
+                            {"plots", farm.plots.size()},
+                            {"plants", farm.plants.size()}};
+  if (farm.anchor) results["anchor"] = json_of(*farm.anchor);
+  return results;
 }
 
 }  // namespace

@@ -20,14 +20,20 @@ constexpr double kRectangleTolerance = 0.05;
 // programs round coordinates, to centimetres at the coarsest.
 constexpr double kAgreementTolerance = 0.01;
 
-json ring_of(const PlotBox& box) {
+using Projection = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
+
+// Counter-clockwise, as RFC 7946 section 3.1.6 wants it.
+json ring_of(const PlotBox& box, const Projection& projection) {
   json ring = json::array();
-  for (const Eigen::Vector2d& corner : box.corners()) ring.push_back({corner.x(), corner.y()});
+  for (const Eigen::Vector2d& corner : box.corners()) {
+    const Eigen::Vector2d position = projection(corner);
+    ring.push_back({position.x(), position.y()});
+  }
   ring.push_back(ring.front());
   return ring;
 }
 
-json feature_of(const PlotFeature& plot) {
+json feature_of(const PlotFeature& plot, const Projection& projection) {
   json properties = plot.properties;
   properties["center_x_m"] = plot.box.center.x();
   properties["center_y_m"] = plot.box.center.y();
@@ -35,8 +41,21 @@ json feature_of(const PlotFeature& plot) {
   properties["length_m"] = plot.box.length_m;
   properties["heading_deg"] = plot.box.heading_rad / kDegrees;
   return {{"type", "Feature"},
-          {"geometry", {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box)})}}},
+          {"geometry",
+           {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
           {"properties", properties}};
+}
+
+void write_collection(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
+                      const char* coordinate_system, const Projection& projection) {
+  json features = json::array();
+  for (const PlotFeature& plot : plots) features.push_back(feature_of(plot, projection));
+  const json document = {{"type", "FeatureCollection"},
+                         {"coordinate_system", coordinate_system},
+                         {"features", features}};
+  std::ofstream out(path);
+  out << document.dump(1) << '\n';
+  if (!out.flush()) throw InputError(path, "cannot be written");
 }
 
 bool has_exact_box(const json& properties) {
@@ -130,14 +149,17 @@ PlotFeature read_feature(const json& feature, const std::string& which) {
 }  // namespace
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots) {
-  json features = json::array();
-  for (const PlotFeature& plot : plots) features.push_back(feature_of(plot));
-  const json document = {{"type", "FeatureCollection"},
-                         {"coordinate_system", "local metres, x east, y north; not WGS84"},
-                         {"features", features}};
-  std::ofstream out(path);
-  out << document.dump(1) << '\n';
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  write_collection(path, plots, "local metres, x east, y north; not WGS84",
+                   [](const Eigen::Vector2d& corner) { return corner; });
+}
+
+void write_plot_features_wgs84(const std::filesystem::path& path,
+                               const std::vector<PlotFeature>& plots,
+                               const Projection& lonlat_deg_from_world) {
+  write_collection(path, plots,
+                   "WGS84 longitude, latitude in degrees; attributes in local metres, x east, "
+                   "y north",
+                   lonlat_deg_from_world);
 }
 
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {

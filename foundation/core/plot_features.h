@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,12 @@ struct PlotFeature {
 // so in a "coordinate_system" member, as RFC 7946 section 4 allows by prior arrangement. Each
 // feature also carries its box exactly: center_x_m, center_y_m, width_m, length_m, heading_deg.
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots);
+
+// The same with each corner as WGS84 longitude and latitude, degrees, as RFC 7946 wants them:
+// `lonlat_deg_from_world` gives them. The box among the attributes stays in local metres.
+void write_plot_features_wgs84(
+    const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
+    const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& lonlat_deg_from_world);
 
 // Reads what write_plot_features writes, and any FeatureCollection of four-cornered polygons (from
 // QGIS, say): there the box is the rectangle with the polygon's centroid and mean side lengths,

@@ -130,8 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "5: terrain.vertexes is not a known key; known here are side_m, vertices, "
                 "relief_m, mesh"},
         Mistake{"UnknownSection", "terrain:", "ground:",
-                "3: ground is not a known key; known here are name, seed, terrain, plots, plants, "
-                "layout"},
+                "3: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
+                "plants, layout"},
         Mistake{"KeyTwice", "  vertices: 12\n", "  side_m: 31\n",
                 "5: terrain.side_m is given twice"},
         Mistake{"WrongType", "side_m: 30", "side_m: wide",

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace plotscan::farm {
+
+// A place on WGS84: geodetic latitude and longitude, and the height above the ellipsoid.
+struct GeodeticPoint {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;
+};
+
+// Where on Earth the world frame's origin lies; its x axis points east there, y north, z up.
+using Anchor = GeodeticPoint;
+
+// The world frame is the tangent frame at the anchor (east, north, up), through the Earth's centre
+// and back without approximation (GeographicLib::LocalCartesian). Longitudes are within 180 degrees
+// of the anchor's, so that a farm on the antimeridian stays in one piece.
+GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& point);
+Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& point);
+
+}  // namespace plotscan::farm
