@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "mesh/mesh_import.h"
+
+#include "core/error.h"
 #include "core/plot_features.h"
 #include "core/program.h"
 #include "farm/farm.h"
 #include "view/picture.h"
+#include "view/plant_picture.h"
 
 namespace fs = std::filesystem;
 
@@ -37,6 +41,46 @@ void draw(const plotscan::Program& program, const PictureArguments& arguments) {
   program.result({{"picture", arguments.png.string()}});
 }
 
+struct PlantsArguments {
+  std::vector<fs::path> meshes;
+  std::vector<std::string> labels;
+  std::string up;
+  fs::path png;
+  plotscan::view::PlantPictureOptions options;
+};
+
+void draw_plants(const plotscan::Program& program, const PlantsArguments& arguments) {
+  using plotscan::mesh::UpAxis;
+  if (!arguments.labels.empty() && arguments.labels.size() != arguments.meshes.size()) {
+    throw plotscan::InputError("--labels names " + std::to_string(arguments.labels.size()) +
+                               " plants where there are " +
+                               std::to_string(arguments.meshes.size()) + " meshes");
+  }
+  plotscan::mesh::MeshImportOptions import;
+  if (!arguments.up.empty()) import.up = arguments.up == "y" ? UpAxis::y : UpAxis::z;
+  std::vector<plotscan::view::PicturedPlant> plants;
+  for (std::size_t i = 0; i < arguments.meshes.size(); ++i) {
+    const fs::path& path = arguments.meshes[i];
+    plants.push_back(
+        {.label = arguments.labels.empty() ? path.stem().string() : arguments.labels[i],
+         .mesh = plotscan::mesh::import_mesh(path, import)});
+  }
+  plotscan::view::draw_plants(plants, arguments.png, arguments.options);
+  program.say("wrote " + arguments.png.string());
+  program.result({{"picture", arguments.png.string()}});
+}
+
+// Of pictures of both kinds.
+template <class Options>
+void add_view_options(CLI::App& command, Options& options) {
+  command.add_option("--width", options.width_px, "width of the picture (pixels)");
+  command.add_option("--height", options.height_px, "height of the picture (pixels)");
+  command.add_option("--azimuth", options.azimuth_deg,
+                     "where the camera stands, counter-clockwise from east (degrees)");
+  command.add_option("--elevation", options.elevation_deg,
+                     "of the camera over the horizon (degrees)");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -52,12 +96,23 @@ int main(int argc, char** argv) {
                      "scan folder, PCD or PLY: drawn beside the farm, coloured by height");
   picture.add_option("--plots", arguments.plots,
                      "estimate folder or GeoJSON: its boxes are drawn on the scan");
-  picture.add_option("--width", arguments.options.width_px, "width of the picture (pixels)");
-  picture.add_option("--height", arguments.options.height_px, "height of the picture (pixels)");
-  picture.add_option("--azimuth", arguments.options.azimuth_deg,
-                     "where the camera stands, counter-clockwise from east (degrees)");
-  picture.add_option("--elevation", arguments.options.elevation_deg,
-                     "of the camera over the horizon (degrees)");
+  add_view_options(picture, arguments.options);
   picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");
+
+  PlantsArguments several;
+  CLI::App& plants = program.command("plants", "Draw plant meshes side by side into a PNG.",
+                                     [&] { draw_plants(program, several); });
+  plants.add_option("MESH", several.meshes, "plant meshes: OBJ, DAE, glTF, PLY, STL")->required();
+  plants.add_option("-o,--output", several.png, "the PNG to write")->required();
+  plants
+      .add_option("--labels", several.labels,
+                  "names under the plants, with commas between; else the files' names")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  plants.add_option("--columns", several.options.columns,
+                    "plants in a row; else as many as makes them largest");
+  plants.add_option("--up", several.up, "axis that points up in the meshes")
+      ->check(CLI::IsMember({"z", "y"}));
+  add_view_options(plants, several.options);
   return program.run(argc, argv);
 }

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/picture.h"
 
-#include <array>
-#include <functional>
-
 #include "temporary_folder.h"
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
+#include "viewer/pixels.h"
 
 #include "core/error.h"
 
 namespace plotscan::view {
 namespace {
-
-using Colour = std::array<int, 3>;
 
 // A flat square of 20 m with one plot of one upright, dark green slab.
 farm::Farm slab_farm() {
@@ -56,29 +49,6 @@ std::filesystem::path small_cloud(const testing::TemporaryFolder& folder) {
                        points);
 }
 
-// Pixels whose colour `wanted` holds, in the part [from, to) of the picture's width.
-int count_pixels(const std::filesystem::path& png, double from, double to,
-                 const std::function<bool(Colour)>& wanted) {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(png.c_str());
-  reader->Update();
-  vtkImageData& image = *reader->GetOutput();
-  const int* size = image.GetDimensions();
-  int count = 0;
-  for (int y = 0; y < size[1]; ++y) {
-    for (int x = static_cast<int>(from * size[0]); x < static_cast<int>(to * size[0]); ++x) {
-      Colour colour{};
-      for (int c = 0; c < 3; ++c)
-        colour[c] = static_cast<int>(image.GetScalarComponentAsDouble(x, y, 0, c));
-      count += wanted(colour);
-    }
-  }
-  return count;
-}
-
-bool red(Colour c) { return c[0] > 150 && c[1] < 90 && c[2] < 90; }
-bool green(Colour c) { return c[1] > c[0] + 25 && c[1] > c[2] + 25; }
-
 TEST(Picture, ShowsPlantsOnTheLeftAndCloudWithBoxesOnTheRight) {
   const testing::TemporaryFolder folder;
   const auto farm = slab_farm();
@@ -98,6 +68,23 @@ TEST(Picture, OfAFarmAloneFillsThePicture) {
   draw_picture(slab_farm(), std::nullopt, {}, folder.path() / "farm.png",
                {.width_px = 300, .height_px = 300});
   EXPECT_GT(count_pixels(folder.path() / "farm.png", 0, 1, green), 50);
+}
+
+TEST(Picture, ShowsMaterialsColoursAndWeedsApartFromTheCrop) {
+  const testing::TemporaryFolder folder;
+  farm::Farm farm = slab_farm();
+  farm.models[0].mesh.materials = {{.name = "leaf", .colour = {0.1F, 0.2F, 0.9F}, .texture = {}}};
+  const PictureOptions options{.width_px = 300, .height_px = 300};
+  draw_picture(farm, std::nullopt, {}, folder.path() / "crop.png", options);
+  EXPECT_GT(count_pixels(folder.path() / "crop.png", 0, 1, blue), 50);
+  EXPECT_EQ(count_pixels(folder.path() / "crop.png", 0, 1, green), 0);
+
+  farm.plants[0].kind = farm::PlantKind::weed;
+  draw_picture(farm, std::nullopt, {}, folder.path() / "weed.png", options);
+  EXPECT_EQ(count_pixels(folder.path() / "weed.png", 0, 1, blue), 0);
+  EXPECT_GT(count_pixels(folder.path() / "weed.png", 0, 1,
+                         [](Colour c) { return c[0] > c[1] + 25 && c[2] > c[1] + 25; }),
+            50);
 }
 
 TEST(Picture, RefusesImpossibleSizesAndPlaces) {

@@ -21,9 +21,11 @@
 #include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
 #include <vtkTextProperty.h>
+#include <vtkTexture.h>
 
 #include "core/statistics.h"
 #include "scan/cloud_reader.h"
+#include "view/surfaces.h"
 
 namespace plotscan::view {
 namespace {
@@ -33,22 +35,9 @@ constexpr double kBoxLift_m = 0.15;
 // others.
 constexpr double kTopShare = 0.999;
 
-vtkNew<vtkPolyData> poly_data_of(const mesh::Mesh& mesh) {
-  vtkNew<vtkPoints> points;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
-    points->InsertNextPoint(vertex.x(), vertex.y(), vertex.z());
-  vtkNew<vtkCellArray> cells;
-  for (const auto& triangle : mesh.triangles) {
-    cells->InsertNextCell({triangle[0], triangle[1], triangle[2]});
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(cells);
-  return data;
-}
-
 // One point a plant with its rotation (w, x, y, z) and scale, as vtkGlyph3DMapper wants them.
-vtkNew<vtkPolyData> placements_of(const farm::Farm& farm, std::uint32_t model) {
+vtkNew<vtkPolyData> placements_of(const farm::Farm& farm, std::uint32_t model,
+                                  farm::PlantKind kind) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> rotations;
   rotations->SetName("rotation");
@@ -57,7 +46,7 @@ vtkNew<vtkPolyData> placements_of(const farm::Farm& farm, std::uint32_t model) {
   scales->SetName("scale");
   scales->SetNumberOfComponents(3);
   for (const farm::Plant& plant : farm.plants) {
-    if (plant.model != model) continue;
+    if (plant.model != model || plant.kind != kind) continue;
     points->InsertNextPoint(plant.position.data());
     rotations->InsertNextTuple4(plant.rotation.w(), plant.rotation.x(), plant.rotation.y(),
                                 plant.rotation.z());
@@ -68,6 +57,29 @@ vtkNew<vtkPolyData> placements_of(const farm::Farm& farm, std::uint32_t model) {
   data->GetPointData()->AddArray(rotations);
   data->GetPointData()->AddArray(scales);
   return data;
+}
+
+// Reddish, as pigweeds are, so that a weed shows among a crop of the same mesh.
+Surface as_weed(Surface surface) {
+  const Eigen::Vector3f red(0.62F, 0.20F, 0.36F);
+  surface.material.colour = 0.25F * surface.material.colour + 0.75F * red;
+  surface.texture = nullptr;
+  return surface;
+}
+
+void add_surface(vtkRenderer& renderer, const Surface& surface, vtkPolyData* placements) {
+  vtkNew<vtkGlyph3DMapper> mapper;
+  mapper->SetSourceData(surface.triangles);
+  mapper->SetInputData(placements);
+  mapper->SetOrientationArray("rotation");
+  mapper->SetOrientationModeToQuaternion();
+  mapper->SetScaleArray("scale");
+  mapper->SetScaleModeToScaleByVectorComponents();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  paint(*actor, surface);
+  actor->GetProperty()->SetInterpolationToFlat();
+  renderer.AddActor(actor);
 }
 
 struct ColouredPoints {
@@ -167,8 +179,7 @@ void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Fiel
   mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
   for (const Eigen::Vector3d& vertex : terrain.vertices())
     mesh.vertices.emplace_back(vertex.cast<float>());
-  const auto data = poly_data_of(mesh);
-  vtkSmartPointer<vtkPolyData> shown = data.GetPointer();
+  vtkSmartPointer<vtkPolyData> shown = surfaces_of(mesh).front().triangles;
   for (const int axis : {0, 1}) {
     for (const int side : {-1, 1}) shown = behind_plane(shown, field, axis, side);
   }
@@ -184,22 +195,19 @@ void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Fiel
 
 void add_plants(vtkRenderer& renderer, const farm::Farm& farm) {
   for (std::uint32_t model = 0; model < farm.models.size(); ++model) {
-    const auto mesh = poly_data_of(farm.models[model].mesh);
-    const auto placements = placements_of(farm, model);
-    vtkNew<vtkGlyph3DMapper> mapper;
-    mapper->SetSourceData(mesh);
-    mapper->SetInputData(placements);
-    mapper->SetOrientationArray("rotation");
-    mapper->SetOrientationModeToQuaternion();
-    mapper->SetScaleArray("scale");
-    mapper->SetScaleModeToScaleByVectorComponents();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    const double shade = 0.08 * (model % 5);
-    actor->GetProperty()->SetColor(0.24 + shade, 0.52 + shade / 2, 0.18);
-    actor->GetProperty()->SetInterpolationToFlat();
-    actor->GetProperty()->SetAmbient(0.3);
-    renderer.AddActor(actor);
+    std::vector<Surface> surfaces = surfaces_of(farm.models[model].mesh);
+    // Shades keep the plants of a mesh without materials apart.
+    const float shade = 0.06F * static_cast<float>(model % 5);
+    if (surfaces.size() == 1 && surfaces.front().material.name.empty())
+      surfaces.front().material.colour += Eigen::Vector3f(shade, shade / 2, 0);
+    for (const farm::PlantKind kind : {farm::PlantKind::crop, farm::PlantKind::weed}) {
+      const auto placements = placements_of(farm, model, kind);
+      if (placements->GetNumberOfPoints() == 0) continue;
+      for (Surface surface : surfaces) {
+        if (kind == farm::PlantKind::weed) surface = as_weed(surface);
+        add_surface(renderer, surface, placements);
+      }
+    }
   }
 }
 

@@ -22,7 +22,8 @@ Field field_of(const farm::Farm& farm, double margin_m);
 // The terrain's triangles within the field, shaded.
 void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Field& field);
 
-// Every plant as an instance of its mesh.
+// Every plant as an instance of its mesh, in its materials' colours and textures; weeds are
+// reddish.
 void add_plants(vtkRenderer& renderer, const farm::Farm& farm);
 
 // The cloud's points within the field, coloured by height over the terrain, with a colour bar.

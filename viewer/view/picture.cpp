@@ -8,15 +8,12 @@
 #include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkWindowToImageFilter.h>
 
-#include "core/error.h"
-#include "core/temporary_path.h"
 #include "view/actors.h"
 #include "view/display.h"
+#include "view/window.h"
 
 namespace plotscan::view {
 namespace {
@@ -26,19 +23,12 @@ constexpr double kViewAngleDeg = 24;
 // Room left around the field.
 constexpr double kAir = 1.03;
 
-void require_range(double value, double low, double high, const std::string& what) {
-  if (!(value >= low && value <= high)) {
-    throw InputError(what + " " + std::to_string(value) + " is not in [" + std::to_string(low) +
-                     ", " + std::to_string(high) + "]");
-  }
-}
-
 void validate(const PictureOptions& options) {
-  require_range(options.width_px, 64, 16384, "picture width");
-  require_range(options.height_px, 64, 16384, "picture height");
-  require_range(options.elevation_deg, 5, 90, "camera elevation in degrees");
-  require_range(options.azimuth_deg, -360, 360, "camera azimuth in degrees");
-  require_range(options.margin_m, 0, 1e4, "margin in metres");
+  require_range(options.width_px, kPictureSize_px, "picture width");
+  require_range(options.height_px, kPictureSize_px, "picture height");
+  require_range(options.elevation_deg, {5, 90}, "camera elevation in degrees");
+  require_range(options.azimuth_deg, {-360, 360}, "camera azimuth in degrees");
+  require_range(options.margin_m, {0, 1e4}, "margin in metres");
 }
 
 // Looks at the field's centre from as near as shows all of it.
@@ -67,21 +57,6 @@ void aim(vtkRenderer& renderer, const Field& field, const PictureOptions& option
   renderer.ResetCameraClippingRange();
 }
 
-// Beside its place first, so that no half a picture is left.
-void write_png(vtkRenderWindow& window, const std::filesystem::path& png) {
-  const TemporaryPath partial(png.string() + ".partial");
-  vtkNew<vtkWindowToImageFilter> capture;
-  capture->SetInput(&window);
-  capture->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(capture->GetOutputPort());
-  writer->SetFileName(partial.path().c_str());
-  writer->Write();
-  std::error_code error;
-  std::filesystem::rename(partial.path(), png, error);
-  if (writer->GetErrorCode() != 0 || error) throw InputError(png, "cannot be written");
-}
-
 }  // namespace
 
 void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::path>& cloud,
@@ -102,9 +77,7 @@ void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::p
   aim(*farm_panel, field, options, aspect);
 
   vtkNew<vtkRenderWindow> window;
-  window->OffScreenRenderingOn();
-  window->SetMultiSamples(8);
-  window->SetSize(options.width_px, options.height_px);
+  prepare_offscreen(*window, options.width_px, options.height_px);
   window->AddRenderer(farm_panel);
 
   vtkNew<vtkRenderer> cloud_panel;
@@ -116,8 +89,7 @@ void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::p
     aim(*cloud_panel, field, options, aspect);
     window->AddRenderer(cloud_panel);
   }
-  window->Render();
-  write_png(*window, png);
+  render_png(*window, png);
 }
 
 }  // namespace plotscan::view

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace plotscan::view {
+
+// What a picture of plants side by side shows. They are seen in parallel projection, all at one
+// scale.
+struct PlantPictureOptions {
+  int width_px = 1600;  // of the whole picture, 64 to 16384
+  int height_px = 700;
+  double azimuth_deg = -60;   // where the camera stands: counter-clockwise from east
+  double elevation_deg = 10;  // of the camera over the horizon, 0 to 90
+  int columns = 0;            // plants in a row, up to 1000; 0: as many as makes them largest
+};
+
+// A plant with its name in the picture.
+struct PicturedPlant {
+  std::string label;
+  mesh::Mesh mesh;  // the stem's foot at the origin
+};
+
+// Draws the plants in their order on common ground lines, each row with a scale of heights in
+// metres, and writes a PNG. The scale counts heights over the foot of a stem; from above (more than
+// 60 degrees) it counts metres of ground instead. Needs a display as draw_picture does. Throws
+// InputError on no plants, options out of range, plants that do not fit, a texture that cannot be
+// decoded, a file that cannot be written, or a missing display.
+void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem::path& png,
+                 const PlantPictureOptions& options);
+
+}  // namespace plotscan::view

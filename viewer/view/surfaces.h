@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.h"
+#include <vtkSmartPointer.h>
+
+class vtkActor;
+class vtkPolyData;
+class vtkTexture;
+
+namespace plotscan::view {
+
+// The triangles of a mesh that have one material.
+struct Surface {
+  vtkSmartPointer<vtkPolyData> triangles;
+  mesh::Material material;
+  vtkSmartPointer<vtkTexture> texture;  // null: the material has none
+};
+
+// One surface a material that has triangles; what has no material, or one
+// without name and texture, is plain green. Throws InputError when a texture is neither a PNG nor a
+// JPEG that can be decoded.
+std::vector<Surface> surfaces_of(const mesh::Mesh& mesh);
+
+// Gives the actor the surface's colour and texture, matt, so that both sides of a leaf show it.
+void paint(vtkActor& actor, const Surface& surface);
+
+}  // namespace plotscan::view

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/window.h"
+
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkRenderWindow.h>
+#include <vtkWindowToImageFilter.h>
+
+#include "core/error.h"
+#include "core/temporary_path.h"
+
+namespace plotscan::view {
+
+void require_range(double value, const Range& range, const std::string& what) {
+  if (!range.contains(value)) {
+    throw InputError(what + " " + formatted("%.10g", value) + " is not in " + range.text());
+  }
+}
+
+void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
+  window.OffScreenRenderingOn();
+  window.SetMultiSamples(8);
+  window.SetSize(width_px, height_px);
+}
+
+void render_png(vtkRenderWindow& window, const std::filesystem::path& png) {
+  window.Render();
+  const TemporaryPath partial(png.string() + ".partial");
+  vtkNew<vtkWindowToImageFilter> capture;
+  capture->SetInput(&window);
+  capture->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(capture->GetOutputPort());
+  writer->SetFileName(partial.path().c_str());
+  writer->SetCompressionLevel(9);
+  writer->Write();
+  std::error_code error;
+  std::filesystem::rename(partial.path(), png, error);
+  if (writer->GetErrorCode() != 0 || error) throw InputError(png, "cannot be written");
+}
+
+}  // namespace plotscan::view

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/range.h"
+
+class vtkRenderWindow;
+
+namespace plotscan::view {
+
+inline constexpr Range kPictureSize_px{64, 16384};
+
+// Throws InputError, naming `what`, when the value is outside the range.
+void require_range(double value, const Range& range, const std::string& what);
+
+// Makes the window an off-screen, anti-aliased one of that size.
+void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px);
+
+// Renders the window and writes it as a PNG, beside its place first, so that no half a picture is
+// left. Throws InputError when the file cannot be written.
+void render_png(vtkRenderWindow& window, const std::filesystem::path& png);
+
+}  // namespace plotscan::view
