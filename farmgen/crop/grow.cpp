@@ -1,20 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crop/grow.h"
 
+#include "crop/crop_files.h"
 #include "crop/soybean.h"
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan::crop {
+namespace {
 
-std::vector<std::string> crops() { return {"soybean"}; }
+struct Crop {
+  const char* name;  // its file is models/NAME/NAME.yaml
+  void (*grow)(const Traits& traits, std::uint64_t seed, PlantBuilder& plant);
+};
 
-std::vector<std::string> stages(const std::string&) { return {"R2"}; }
+const std::vector<Crop>& known_crops() {
+  static const std::vector<Crop> kCrops = {};
+  return kCrops;
+}
+
+const Crop& crop_named(const std::string& name) {
+  for (const Crop& crop : known_crops()) {
+    if (name == crop.name) return crop;
+  }
+  throw InputError("crop " + name + " is not known; known are " + joined(crops(), ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> crops() {
+  std::vector<std::string> names = {"soybean"};
+  for (const Crop& crop : known_crops()) names.emplace_back(crop.name);
+  return names;
+}
+
+std::vector<std::string> stages(const std::string& crop) {
+  if (crop == "soybean") return {"R2"};
+  std::vector<std::string> names;
+  for (const Stage& stage : cultivar(crop).stages) names.push_back(stage.name);
+  return names;
+}
+
+Cultivar cultivar(const std::string& crop, const std::string& file) {
+  const std::string name = crop_named(crop).name;
+  Cultivar own = parse_cultivar(crop_file(name), name + ".yaml");
+  return file.empty() ? own : override_cultivar(own, file);
+}
+
+StageFacts stage_facts(const std::string& crop, const std::string& stage) {
+  const Cultivar own = cultivar(crop);
+  return {.stage = own.stage(stage),
+          .plants_per_m2 = own.plants_per_m2,
+          .row_spacing_m = own.row_spacing_m};
+}
 
 mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {
-  if (options.crop != "soybean") throw InputError("crop " + options.crop + " is not known");
-  const mesh::Mesh mesh = soybean(soybean_options(options.assignments), seed);
-  return options.detail == Detail::scan ? mesh : mesh::simplified(mesh, 300);
+  if (options.crop == "soybean") {
+    const mesh::Mesh mesh = soybean(soybean_options(options.assignments), seed);
+    return options.detail == Detail::scan ? mesh : mesh::simplified(mesh, 300);
+  }
+  const Crop& crop = crop_named(options.crop);
+  const Cultivar described = cultivar(options.crop, options.cultivar_file);
+  const Traits traits(described, described.stage(options.stage), options.assignments);
+  PlantBuilder plant(options.detail, described.colours);
+  crop.grow(traits, seed, plant);
+  return plant.take();
 }
 
 }  // namespace plotscan::crop

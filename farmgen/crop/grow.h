@@ -5,26 +5,36 @@
 #include <string>
 #include <vector>
 
+#include "crop/cultivar.h"
+#include "crop/plant_builder.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::crop {
 
-enum class Detail {
-  scan,   // what a laser should see: every leaf's shape
-  light,  // the same plant in few triangles, for programs that show thousands
-};
-
 struct GrowOptions {
-  std::string crop;                      // one of crops()
-  std::string stage;                     // one of stages(crop); empty: the crop's default stage
-  std::vector<std::string> assignments;  // "key=value" in place of the crop's parameters
+  std::string crop;                           // one of crops()
+  std::string stage = {};                     // one of stages(crop); empty: the default stage
+  std::vector<std::string> assignments = {};  // "key=value" in place of the crop's parameters
   Detail detail = Detail::scan;
+  std::string cultivar_file = {};  // a user's file over the crop's own (docs/plants.md); or empty
 };
 
 // "soybean", ...
 std::vector<std::string> crops();
 // The growth stages of a crop, in the order in which it passes through them.
 std::vector<std::string> stages(const std::string& crop);
+// A crop with its parameters, stages and default plot; with a user's file over it where one is
+// named. Throws InputError on an unknown crop or a file that is not sound.
+Cultivar cultivar(const std::string& crop, const std::string& file = "");
+
+// What was published of a crop's default plot at a stage.
+struct StageFacts {
+  Stage stage;
+  double plants_per_m2 = 0;
+  double row_spacing_m = 0;
+};
+// The default stage for "". Throws InputError on an unknown crop or stage.
+StageFacts stage_facts(const std::string& crop, const std::string& stage = "");
 
 // Grows one plant, its stem's foot at the origin, metres, z up. The same options and seed give the
 // same mesh; both details show the same plant. Throws InputError on an unknown crop, stage or key,

@@ -66,8 +66,7 @@ void apply_override(const YAML::Node& root, const std::string& assignment) {
   }
 }
 
-YAML::Node parse(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+YAML::Node parse_map(const std::string& text, const std::filesystem::path& file) {
   try {
     YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) throw InputError(file, 1, "is not a map of keys to values");
@@ -93,7 +92,12 @@ void YamlOrigin::fail(const YAML::Mark& mark, const std::string& path,
 
 YamlSection YamlSection::load(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
-  const YAML::Node root = parse(file);
+  return parse(read_text(file), file, overrides);
+}
+
+YamlSection YamlSection::parse(const std::string& text, const std::filesystem::path& file,
+                               const std::vector<std::string>& overrides) {
+  const YAML::Node root = parse_map(text, file);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
   return {std::make_shared<const YamlOrigin>(file, overrides), root, ""};
 }
@@ -125,6 +129,14 @@ bool YamlSection::has(const std::string& key) const { return node_[key].IsDefine
 
 bool YamlSection::is_list(const std::string& key) const {
   return has(key) && node_[key].IsSequence();
+}
+
+bool YamlSection::is_map(const std::string& key) const { return has(key) && node_[key].IsMap(); }
+
+std::vector<std::string> YamlSection::keys() const {
+  std::vector<std::string> all;
+  for (const auto& entry : node_) all.push_back(entry.first.Scalar());
+  return all;
 }
 
 std::optional<std::string> YamlSection::scalar(const std::string& key, bool required) const {
@@ -186,20 +198,32 @@ std::size_t YamlSection::choice(const std::string& key, const std::vector<std::s
 
 std::pair<double, double> YamlSection::pair(
     const std::string& key, Range range, std::optional<std::pair<double, double>> fallback) const {
+  if (!has(key) && fallback) return *fallback;
+  const std::vector<double> both = numbers(key, 2, range);
+  return {both[0], both[1]};
+}
+
+std::vector<double> YamlSection::numbers(const std::string& key, std::size_t count,
+                                         Range range) const {
   const YAML::Node value = node_[key];
-  if (!value.IsDefined() && fallback) return *fallback;
   if (!value.IsDefined()) fail(key, "is missing");
-  const bool is_pair =
-      value.IsSequence() && value.size() == 2 && value[0].IsScalar() && value[1].IsScalar();
-  if (!is_pair) fail(key, "is not a list of two numbers in " + range.text());
-  const auto first = parsed<double>(value[0].Scalar());
-  const auto second = parsed<double>(value[1].Scalar());
-  for (const auto& number : {first, second}) {
-    if (number && range.contains(*number)) continue;
-    fail(key, "[" + value[0].Scalar() + ", " + value[1].Scalar() +
-                  "] is not a pair of numbers in " + range.text());
+  const std::string counted = count == 2 ? "two" : std::to_string(count);
+  const bool listed =
+      value.IsSequence() && value.size() == count &&
+      std::all_of(value.begin(), value.end(), [](const auto& entry) { return entry.IsScalar(); });
+  if (!listed) fail(key, "is not a list of " + counted + " numbers in " + range.text());
+  std::vector<double> all;
+  std::vector<std::string> texts;
+  for (const auto& entry : value) {
+    const auto number = parsed<double>(entry.Scalar());
+    texts.push_back(entry.Scalar());
+    if (number && range.contains(*number)) all.push_back(*number);
   }
-  return {*first, *second};
+  if (all.size() < count) {
+    fail(key, "[" + joined(texts, ", ") + "] is not " + (count == 2 ? "a pair of" : counted) +
+                  " numbers in " + range.text());
+  }
+  return all;
 }
 
 YamlSection YamlSection::section(const std::string& key) const {

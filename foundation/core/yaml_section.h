@@ -41,11 +41,17 @@ class YamlSection {
   // the value is YAML). The document must be a map.
   static YamlSection load(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);
+  // The same from a text; errors name it as `file`.
+  static YamlSection parse(const std::string& text, const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides = {});
 
   // Throws when the section holds a key other than these, or one of them twice.
   void allow_only(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const;
   bool is_list(const std::string& key) const;
+  bool is_map(const std::string& key) const;
+  // The section's keys in the order of the file.
+  std::vector<std::string> keys() const;
 
   // Readers of one key. Without a `fallback` the key is required.
   double number(const std::string& key, Range range, std::optional<double> fallback = {}) const;
@@ -59,6 +65,8 @@ class YamlSection {
   // Two numbers: [first, second].
   std::pair<double, double> pair(const std::string& key, Range range,
                                  std::optional<std::pair<double, double>> fallback = {}) const;
+  // `count` numbers: [first, second, ...].
+  std::vector<double> numbers(const std::string& key, std::size_t count, Range range) const;
   YamlSection section(const std::string& key) const;
   // The entries of a list, each of which is a map, or a scalar when `scalar_key` is given (then it
   // reads as a map with that one key).
