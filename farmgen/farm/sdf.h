@@ -9,9 +9,6 @@
 
 namespace plotscan::farm {
 
-// The folder of the terrain's model below models/.
-inline constexpr const char* kTerrainModel = "terrain";
-
 // Where a model's mesh lies in a farm folder: models/NAME/meshes/NAME.obj.
 std::filesystem::path model_mesh_path(const std::string& name);
 

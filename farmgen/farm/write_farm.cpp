@@ -9,6 +9,7 @@
 #include "farm/plant_table.h"
 #include "farm/plot_table.h"
 #include "farm/sdf.h"
+#include "farm/sdf_elements.h"
 #include "farm/terrain_ply.h"
 
 namespace plotscan::farm {

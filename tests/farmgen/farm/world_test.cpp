@@ -92,7 +92,10 @@ TEST(World, EveryModelLoadsOnItsOwn) {
   write_leaning_farm(folder);
   for (const char* name : {"soybean_1", "soybean_2", "terrain"}) {
     const fs::path model = fs::path("models") / name;
-    EXPECT_TRUE(fs::exists(folder.path() / "farm" / model / "model.config")) << name;
+    EXPECT_NE(read_text(folder.path() / "farm" / model / "model.config")
+                  .find("<sdf version=\"1.6\">model.sdf</sdf>"),
+              std::string::npos)
+        << name;
     sdf::Root root;
     load(folder.path() / "farm", model / "model.sdf", root);
     ASSERT_NE(root.Model(), nullptr) << name;
