@@ -36,9 +36,9 @@ std::string height_of(const std::string& property) {
 
 PlotFeature feature_of(const PlotEstimate& plot) {
   PlotFeature feature{.box = plot.box};
-  feature.properties = {{"plot", plot.id}, {"points", plot.points}};
-  if (plot.row > 0) feature.properties["row"] = plot.row;
-  if (plot.column > 0) feature.properties["column"] = plot.column;
+  feature.properties = {{"plot_number", plot.id}, {"points", plot.points}};
+  if (plot.row > 0) feature.properties["row_number"] = plot.row;
+  if (plot.column > 0) feature.properties["col_number"] = plot.column;
   for (const auto& [name, height_m] : plot.heights_m) {
     feature.properties[property_of(name)] = height_m;
   }
@@ -62,7 +62,8 @@ void write_heights(const fs::path& path, const std::vector<PlotEstimate>& plots)
     for (const auto& [name, height_m] : plot.heights_m) names.insert(name);
   }
   std::ofstream out(path);
-  out << "plot,row,column,center_x_m,center_y_m,width_m,length_m,heading_deg,points";
+  out << "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,"
+         "points";
   for (const std::string& name : names) out << ',' << property_of(name);
   out << '\n';
   for (const PlotEstimate& plot : plots) {
@@ -117,9 +118,9 @@ Estimate read_estimate(const fs::path& path) {
 
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
   PlotEstimate plot{
-      .id = integer_of(feature.properties, "plot", static_cast<std::uint32_t>(number)),
-      .row = integer_of(feature.properties, "row", 0),
-      .column = integer_of(feature.properties, "column", 0),
+      .id = integer_of(feature.properties, "plot_number", static_cast<std::uint32_t>(number)),
+      .row = integer_of(feature.properties, "row_number", 0),
+      .column = integer_of(feature.properties, "col_number", 0),
       .box = feature.box,
       .points = integer_of(feature.properties, "points", std::size_t{0})};
   for (const auto& [property, value] : feature.properties.items()) {

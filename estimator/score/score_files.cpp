@@ -32,12 +32,9 @@ PlotBox box_from_json(const json& document) {
 }
 
 json to_json(const PlotScore& plot) {
-  json document = {{"plot", plot.truth.id},
-                   {"row", plot.truth.row},
-                   {"column", plot.truth.column},
-                   {"box", to_json(plot.truth.box)},
-                   {"truths_m", plot.truth.heights_m},
-                   {"found", nullptr}};
+  json document = {{"plot_number", plot.truth.id},     {"row_number", plot.truth.row},
+                   {"col_number", plot.truth.column},  {"box", to_json(plot.truth.box)},
+                   {"truths_m", plot.truth.heights_m}, {"found", nullptr}};
   if (plot.found) {
     document["found"] = {{"estimate", plot.found->estimate},
                          {"iou", plot.found->iou},
@@ -49,9 +46,9 @@ json to_json(const PlotScore& plot) {
 }
 
 PlotScore plot_from_json(const json& document) {
-  PlotScore plot{.truth = {.id = document.at("plot"),
-                           .row = document.at("row"),
-                           .column = document.at("column"),
+  PlotScore plot{.truth = {.id = document.at("plot_number"),
+                           .row = document.at("row_number"),
+                           .column = document.at("col_number"),
                            .box = box_from_json(document.at("box")),
                            .heights_m = document.at("truths_m")},
                  .found = {}};
@@ -107,7 +104,7 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   const std::set<std::string> heights = estimated_heights(field);
   const std::set<std::string> truths = true_heights(field);
   std::ofstream out(path);
-  out << "plot,row,column,found,estimate,iou,center_error_m,heading_error_deg";
+  out << "plot_number,row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
   for (const std::string& truth : truths) out << ",true_" << truth;
   for (const std::string& height : heights) out << ",estimated_height_" << height << "_m";
   out << '\n';

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -39,6 +40,9 @@ struct Plant {
   double height_m = 0;  // highest vertex of the placed mesh minus terrain height at the stem's base
 };
 
+// What grows where no cultivar is named.
+inline constexpr std::string_view kNoAccession = "crop";
+
 // The named truths of a plot's height, metres, over its plants' heights (docs/farm-format.md).
 struct PlotHeights {
   double mean = 0;
@@ -50,13 +54,20 @@ struct PlotHeights {
   double hand3 = 0;  // mean of 3 plants drawn at random: the paper's field protocol
 };
 
+// A plot and what a breeder's field book says of it.
 struct Plot {
-  std::uint32_t id = 0;  // from 1
-  int row = 0;           // from 1
-  int column = 0;        // from 1, along the row
-  PlotBox box;           // bounds the sown area
-  std::uint32_t plant_count = 0;
-  PlotHeights heights;  // all zero without plants
+  std::uint32_t id = 0;                               // the plot number; no two alike
+  int row = 0;                                        // from 1
+  int column = 0;                                     // from 1, along the row
+  PlotBox box;                                        // bounds the sown area
+  std::uint32_t plant_count = 0;                      // of the crop: weeds are not counted
+  PlotHeights heights;                                // of the crop; all zero without plants
+  int rep = 1;                                        // replicate of the cultivar, from 1
+  int block = 1;                                      // from 1
+  std::string accession = std::string(kNoAccession);  // the cultivar's name
+  std::uint32_t missing_plants = 0;                   // sown, but not there
+  std::uint32_t weed_count = 0;
+  double lodging_rad = 0;  // mean lean of its plants from the vertical
 };
 
 // A virtual phenotyping farm, world frame: ENU, metres, z up, origin at the farm's centre.

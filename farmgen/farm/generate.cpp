@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/generate.h"
 
+#include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "mesh/measure.h"
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "farm/heights.h"
 #include "farm/plant_layout.h"
 #include "farm/plot_layout.h"
@@ -57,13 +60,30 @@ std::vector<Plant> make_plants(const FarmDescription& description, const Farm& f
   return random_plants(*description.plants, farm.plots, farm.models, farm.terrain, farm.seed);
 }
 
+// How far the plant's stem leans from the vertical.
+double lean_of(const Plant& plant) {
+  return 2 * std::asin(std::min(1.0, std::hypot(plant.rotation.x(), plant.rotation.y())));
+}
+
+// Counts, heights and leans of each plot's plants; of the weeds, the count.
 void measure_plots(Farm& farm) {
   std::unordered_map<std::uint32_t, std::vector<double>> heights;
-  for (const Plant& plant : farm.plants) heights[plant.plot].push_back(plant.height_m);
+  std::unordered_map<std::uint32_t, std::vector<double>> leans;
+  std::unordered_map<std::uint32_t, std::uint32_t> weeds;
+  for (const Plant& plant : farm.plants) {
+    if (plant.kind == PlantKind::weed) {
+      ++weeds[plant.plot];
+    } else {
+      heights[plant.plot].push_back(plant.height_m);
+      leans[plant.plot].push_back(lean_of(plant));
+    }
+  }
   for (Plot& plot : farm.plots) {
     const std::vector<double>& own = heights[plot.id];
     plot.plant_count = static_cast<std::uint32_t>(own.size());
     plot.heights = plot_heights(own, farm.seed, plot.id);
+    plot.weed_count = weeds[plot.id];
+    if (!own.empty()) plot.lodging_rad = mean(leans[plot.id]);
   }
 }
 

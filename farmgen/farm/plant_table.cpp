@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/plant_table.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "core/csv.h"
@@ -12,10 +15,12 @@
 namespace plotscan::farm {
 namespace {
 
-enum Column { id, plot, model, x, y, z, qx, qy, qz, qw, scale_x, scale_y, scale_z, height };
-const std::vector<std::string> kColumns = {"id",      "plot",    "model",   "x_m",     "y_m",
-                                           "z_m",     "qx",      "qy",      "qz",      "qw",
-                                           "scale_x", "scale_y", "scale_z", "height_m"};
+enum Column { id, plot, kind, model, x, y, z, qx, qy, qz, qw, scale_x, scale_y, scale_z, height };
+const std::vector<std::string> kColumns = {"id",  "plot",    "kind",    "model",   "x_m",
+                                           "y_m", "z_m",     "qx",      "qy",      "qz",
+                                           "qw",  "scale_x", "scale_y", "scale_z", "height_m"};
+// In the order of PlantKind.
+constexpr std::array<std::string_view, 2> kKindNames = {"crop", "weed"};
 // How far from 1 the length of a rotation's quaternion may be.
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kMostScale = 1000;
@@ -23,12 +28,19 @@ constexpr double kFarthest_m = 1e5;
 
 using ModelIndex = std::unordered_map<std::string, std::uint32_t>;
 
+PlantKind kind_of(const CsvRow& row) {
+  const auto name = std::find(kKindNames.begin(), kKindNames.end(), row.text(Column::kind));
+  if (name == kKindNames.end()) row.fail(Column::kind, "is neither crop nor weed");
+  return static_cast<PlantKind>(name - kKindNames.begin());
+}
+
 Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelIndex& models) {
   constexpr long long kMost = std::numeric_limits<std::uint32_t>::max();
   Plant plant;
   plant.id = static_cast<std::uint32_t>(row.integer(Column::id, 1, kMost));
   if (plant.id != expected_id) row.fail(Column::id, "is not " + std::to_string(expected_id));
   plant.plot = static_cast<std::uint32_t>(row.integer(Column::plot, 0, kMost));
+  plant.kind = kind_of(row);
   const auto model = models.find(std::string(row.text(Column::model)));
   if (model == models.end()) row.fail(Column::model, "is not one of the farm's models");
   plant.model = model->second;
@@ -58,7 +70,8 @@ void write_plants(const std::filesystem::path& path, const Farm& farm) {
   for (std::size_t i = 0; i < kColumns.size(); ++i) out << (i == 0 ? "" : ",") << kColumns[i];
   out << "\n";
   for (const Plant& plant : farm.plants) {
-    out << plant.id << "," << plant.plot << "," << farm.models[plant.model].name;
+    out << plant.id << "," << plant.plot << "," << kKindNames[static_cast<std::size_t>(plant.kind)]
+        << "," << farm.models[plant.model].name;
     for (const double value :
          {plant.position.x(), plant.position.y(), plant.position.z(), plant.rotation.x(),
           plant.rotation.y(), plant.rotation.z(), plant.rotation.w(), plant.scale.x(),

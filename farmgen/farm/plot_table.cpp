@@ -4,14 +4,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <unordered_set>
 
 #include "core/error.h"
 #include "core/plot_features.h"
+#include "core/text_file.h"
 
 namespace plotscan::farm {
 namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180;
 
 struct HeightAttribute {
   const char* name;
@@ -37,6 +41,12 @@ class Attributes {
     const double value = found->get<double>();
     if (!std::isfinite(value)) fail(name, "is not finite");
     return value;
+  }
+
+  std::string text(const char* name) const {
+    const auto found = values_.find(name);
+    if (found == values_.end() || !found->is_string()) fail(name, "is missing or not a text");
+    return found->get<std::string>();
   }
 
   std::uint32_t whole(const char* name, double low) const {
@@ -68,17 +78,31 @@ void require_different_ids(const std::filesystem::path& path, const std::vector<
   }
 }
 
+// A CSV field (RFC 4180): accessions from other programs may hold commas and quotes.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
+// What truth/plots.geojson says of a plot beside its box (docs/farm-format.md).
+nlohmann::json plot_attributes(const Plot& plot) {
+  nlohmann::json attributes = {
+      {"plot_number", plot.id},     {"row_number", plot.row},
+      {"col_number", plot.column},  {"rep_number", plot.rep},
+      {"block_number", plot.block}, {"accession_name", plot.accession},
+      {"plants", plot.plant_count}, {"plants_missing", plot.missing_plants},
+      {"weeds", plot.weed_count},   {"lodging_deg", plot.lodging_rad / kDegrees}};
+  for (const auto& [name, value] : kHeights) attributes[name] = plot.heights.*value;
+  return attributes;
+}
+
 std::vector<PlotFeature> features_of(const std::vector<Plot>& plots) {
   std::vector<PlotFeature> features;
   features.reserve(plots.size());
   for (const Plot& plot : plots) {
-    PlotFeature feature{.box = plot.box};
-    feature.properties["plot"] = plot.id;
-    feature.properties["row"] = plot.row;
-    feature.properties["column"] = plot.column;
-    feature.properties["plants"] = plot.plant_count;
-    for (const auto& [name, value] : kHeights) feature.properties[name] = plot.heights.*value;
-    features.push_back(std::move(feature));
+    features.push_back({.box = plot.box, .properties = plot_attributes(plot)});
   }
   return features;
 }
@@ -101,14 +125,20 @@ std::vector<Plot> read_plots(const std::filesystem::path& path) {
   std::vector<Plot> plots;
   for (const PlotFeature& feature : read_plot_features(path)) {
     const Attributes attributes(path, plots.size() + 1, feature.properties);
-    Plot plot{.id = attributes.whole("plot", 1),
-              .row = static_cast<int>(attributes.whole("row", 1)),
-              .column = static_cast<int>(attributes.whole("column", 1)),
+    Plot plot{.id = attributes.whole("plot_number", 1),
+              .row = static_cast<int>(attributes.whole("row_number", 1)),
+              .column = static_cast<int>(attributes.whole("col_number", 1)),
               .box = feature.box,
               .plant_count = attributes.whole("plants", 0),
-              .heights = {}};
+              .heights = {},
+              .rep = static_cast<int>(attributes.whole("rep_number", 1)),
+              .block = static_cast<int>(attributes.whole("block_number", 1)),
+              .accession = attributes.text("accession_name"),
+              .missing_plants = attributes.whole("plants_missing", 0),
+              .weed_count = attributes.whole("weeds", 0),
+              .lodging_rad = attributes.number("lodging_deg") * kDegrees};
     for (const auto& [name, value] : kHeights) plot.heights.*value = attributes.number(name);
-    plots.push_back(plot);
+    plots.push_back(std::move(plot));
   }
   require_different_ids(path, plots);
   return plots;
@@ -122,15 +152,38 @@ std::vector<Plot> read_plot_boxes(const std::filesystem::path& path) {
     const auto whole_or = [&](const char* name, std::uint32_t fallback) {
       return feature.properties.contains(name) ? attributes.whole(name, 1) : fallback;
     };
-    plots.push_back({.id = whole_or("plot", place),
-                     .row = static_cast<int>(whole_or("row", 1)),
-                     .column = static_cast<int>(whole_or("column", place)),
-                     .box = feature.box,
-                     .plant_count = 0,
-                     .heights = {}});
+    Plot plot{.id = whole_or("plot_number", place),
+              .row = static_cast<int>(whole_or("row_number", 1)),
+              .column = static_cast<int>(whole_or("col_number", place)),
+              .box = feature.box,
+              .plant_count = 0,
+              .heights = {},
+              .rep = static_cast<int>(whole_or("rep_number", 1)),
+              .block = static_cast<int>(whole_or("block_number", 1))};
+    if (feature.properties.contains("accession_name")) {
+      plot.accession = attributes.text("accession_name");
+    }
+    plots.push_back(std::move(plot));
   }
   require_different_ids(path, plots);
   return plots;
+}
+
+void write_trial_layout(const std::filesystem::path& path, const std::string& trial,
+                        const std::vector<Plot>& plots) {
+  TextFile out(path);
+  out << "plot_name,accession_name,plot_number,block_number,rep_number,row_number,col_number,"
+         "center_x_m,center_y_m,width_m,length_m,heading_deg\n";
+  for (const Plot& plot : plots) {
+    out << trial << "_" << plot.id << "," << quoted(plot.accession) << "," << plot.id << ","
+        << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
+    for (const double value : {plot.box.center.x(), plot.box.center.y(), plot.box.width_m,
+                               plot.box.length_m, plot.box.heading_rad / kDegrees}) {
+      out << "," << value;
+    }
+    out << "\n";
+  }
+  out.close();
 }
 
 }  // namespace plotscan::farm

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "farm/farm.h"
 
 namespace plotscan::farm {
 
-// truth/plots.geojson: boxes, ids, rows, columns, plant counts and heights (docs/farm-format.md).
+// truth/plots.geojson: the plots' boxes and attributes.
 void write_plots(const std::filesystem::path& path, const std::vector<Plot>& plots);
 
 // truth/plots_wgs84.geojson: the same polygons and attributes, the corners as longitude and
@@ -16,12 +17,17 @@ void write_plots(const std::filesystem::path& path, const std::vector<Plot>& plo
 void write_plots_wgs84(const std::filesystem::path& path, const std::vector<Plot>& plots,
                        const Anchor& anchor);
 
-// Reads what write_plots writes. Throws InputError on a missing or non-finite attribute, or an id
-// given twice.
+// Reads what write_plots writes. Throws InputError on a missing or non-finite attribute, or a
+// number given twice.
 std::vector<Plot> read_plots(const std::filesystem::path& path);
 
-// Boxes alone, from any plots.geojson: the id is the "plot" attribute where all features have it,
-// else the place in the file from 1. Row and column likewise, else row 1.
+// Boxes alone, from any plots.geojson: the id is the attribute plot_number, else the place in the
+// file from 1. Row, column, replicate, block and accession likewise from their attributes, else
+// row 1, the place in the file, 1, 1 and kNoAccession.
 std::vector<Plot> read_plot_boxes(const std::filesystem::path& path);
+
+// truth/plots.csv: the trial's layout as breeding databases take it in, plots named after `trial`.
+void write_trial_layout(const std::filesystem::path& path, const std::string& trial,
+                        const std::vector<Plot>& plots);
 
 }  // namespace plotscan::farm

@@ -73,10 +73,15 @@ void require_count(const fs::path& file, const std::string& what, std::size_t fo
                              std::to_string(expected));
 }
 
+struct PlantCounts {
+  std::size_t crop = 0;
+  std::size_t weeds = 0;
+};
+
 // Plants name plots that exist, and as many of them as the plots say.
 void require_consistent(const fs::path& truth, const Farm& farm) {
-  std::unordered_map<std::uint32_t, std::size_t> counts;
-  for (const Plot& plot : farm.plots) counts[plot.id] = 0;
+  std::unordered_map<std::uint32_t, PlantCounts> counts;
+  for (const Plot& plot : farm.plots) counts[plot.id] = {};
   for (const Plant& plant : farm.plants) {
     if (plant.plot == 0) continue;
     const auto count = counts.find(plant.plot);
@@ -85,11 +90,14 @@ void require_consistent(const fs::path& truth, const Farm& farm) {
                                                  std::to_string(plant.plot) +
                                                  ", which plots.geojson lacks");
     }
-    ++count->second;
+    ++(plant.kind == PlantKind::weed ? count->second.weeds : count->second.crop);
   }
   for (const Plot& plot : farm.plots) {
-    require_count(truth / "plants.csv", "plants of plot " + std::to_string(plot.id),
-                  counts.at(plot.id), plot.plant_count);
+    const std::string of_plot = " of plot " + std::to_string(plot.id);
+    require_count(truth / "plants.csv", "plants" + of_plot, counts.at(plot.id).crop,
+                  plot.plant_count);
+    require_count(truth / "plants.csv", "weeds" + of_plot, counts.at(plot.id).weeds,
+                  plot.weed_count);
   }
 }
 

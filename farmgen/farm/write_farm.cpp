@@ -61,6 +61,7 @@ void write_truth(const fs::path& folder, const Farm& farm) {
   fs::create_directories(folder);
   write_plots(folder / "plots.geojson", farm.plots);
   if (farm.anchor) write_plots_wgs84(folder / "plots_wgs84.geojson", farm.plots, *farm.anchor);
+  write_trial_layout(folder / "plots.csv", farm.name, farm.plots);
   write_plants(folder / "plants.csv", farm);
   write_terrain(folder / "terrain.ply", farm.terrain);
 }

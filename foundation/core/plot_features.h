@@ -12,8 +12,8 @@
 namespace plotscan {
 
 // One plot of a plots.geojson: its box and its attributes. `properties` holds what the writer knows
-// of the plot beyond the box: "plot" (id, from 1), "row", "column" (from 1), heights such as
-// "height_max_m".
+// of the plot beyond the box: "plot_number" (from 1), "row_number", "col_number" (from 1), heights
+// such as "height_max_m".
 struct PlotFeature {
   PlotBox box;
   nlohmann::json properties = nlohmann::json::object();

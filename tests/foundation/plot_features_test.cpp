@@ -12,13 +12,13 @@ TEST(PlotFeatures, ComeBackAsWritten) {
   const testing::TemporaryFolder folder;
   const PlotFeature plot{
       .box = {.center = {1.5, -2.25}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.7},
-      .properties = {{"plot", 7}, {"height_max_m", 0.61}}};
+      .properties = {{"plot_number", 7}, {"height_max_m", 0.61}}};
   write_plot_features(folder.path() / "plots.geojson", {plot});
   const auto read = read_plot_features(folder.path() / "plots.geojson");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].box.center, plot.box.center);
   EXPECT_NEAR(intersection_over_union(read[0].box, plot.box), 1, 1e-12);
-  EXPECT_EQ(read[0].properties["plot"], 7);
+  EXPECT_EQ(read[0].properties["plot_number"], 7);
   EXPECT_EQ(read[0].properties["height_max_m"], 0.61);
 }
 
@@ -54,7 +54,7 @@ TEST(PlotFeatures, RefusesAPolygonThatWasMovedAwayFromItsBox) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "plots.geojson";
   write_plot_features(file, {{.box = {.center = {100, 50}, .width_m = 1.5, .length_m = 4},
-                              .properties = {{"plot", 1}}}});
+                              .properties = {{"plot_number", 1}}}});
   auto document = nlohmann::json::parse(read_text(file));
   for (auto& corner : document["features"][0]["geometry"]["coordinates"][0]) {
     corner[0] = corner[0].get<double>() + 1.2;

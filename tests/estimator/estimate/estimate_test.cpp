@@ -46,11 +46,12 @@ TEST(Estimate, ReadsWhatItWrites) {
 TEST(Estimate, WritesOneLineAPlot) {
   const TemporaryFolder folder;
   write_estimate(folder.path(), two_plots());
-  EXPECT_EQ(read_text(folder.path() / "heights.csv"),
-            "plot,row,column,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
-            "height_raw-p99_m,height_voxel-max_m\n"
-            "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7\n"
-            "2,0,0,9,9,1.5,4,28.64788975654116,0,,\n");
+  EXPECT_EQ(
+      read_text(folder.path() / "heights.csv"),
+      "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
+      "height_raw-p99_m,height_voxel-max_m\n"
+      "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7\n"
+      "2,0,0,9,9,1.5,4,28.64788975654116,0,,\n");
 }
 
 std::string geojson(const std::string& properties) {
@@ -75,7 +76,7 @@ TEST(Estimate, SaysWhatIsMissing) {
     return message_of<InputError>([&] { read_estimate(folder.path()); });
   };
   EXPECT_THAT(message(), HasSubstr("plots.geojson"));
-  folder.write("plots.geojson", geojson(R"({"plot":-7,"height":1})"));
+  folder.write("plots.geojson", geojson(R"({"plot_number":-7,"height":1})"));
   EXPECT_THAT(message(), HasSubstr("no plot has a height"));
   folder.write("plots.geojson", R"({"type":"FeatureCollection","features":[]})");
   EXPECT_THAT(message(), HasSubstr("has no plots"));

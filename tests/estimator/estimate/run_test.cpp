@@ -85,8 +85,10 @@ TEST(Run, KeepsTheNamesOfGivenPlots) {
   RunOptions options = small_run(folder, kFarm);
   options.dhami2020.plots = 0;
   options.boxes = folder.path() / "plots.geojson";
-  write_plot_features(*options.boxes, {{kFarm.box(1, 2), {{"plot", 42}, {"row", 2}, {"column", 3}}},
-                                       {kFarm.box(0, 0), nlohmann::json::object()}});
+  write_plot_features(
+      *options.boxes,
+      {{kFarm.box(1, 2), {{"plot_number", 42}, {"row_number", 2}, {"col_number", 3}}},
+       {kFarm.box(0, 0), nlohmann::json::object()}});
   const Estimate estimate = run(options);
   ASSERT_EQ(estimate.plots.size(), 2u);
   EXPECT_EQ(estimate.plots[0].id, 42u);

@@ -171,9 +171,10 @@ TEST(ScoreFiles, OneRowAPlot) {
   const TemporaryFolder folder;
   write_plot_table(folder.path() / "plots.csv", three_plots());
   std::vector<std::string> heights;
-  read_csv(folder.path() / "plots.csv", {"plot", "found", "iou", "estimated_height_raw-p99_m"},
-           {"row", "column", "estimate", "center_error_m", "heading_error_deg", "true_height_max_m",
-            "true_height_mean_m"},
+  read_csv(folder.path() / "plots.csv",
+           {"plot_number", "found", "iou", "estimated_height_raw-p99_m"},
+           {"row_number", "col_number", "estimate", "center_error_m", "heading_error_deg",
+            "true_height_max_m", "true_height_mean_m"},
            [&](const CsvRow& row) {
              heights.emplace_back(row.text(3));
              EXPECT_EQ(row.integer(0, 1, 3), static_cast<long long>(heights.size()));
@@ -186,9 +187,9 @@ class ScoreRun : public ::testing::Test {
   void SetUp() override {
     std::filesystem::create_directories(folder_.path() / "farm" / "truth");
     write_plot_features(folder_.path() / "farm" / "truth" / "plots.geojson",
-                        {{box_at(0), {{"plot", 4}, {"plants", 90}, {"height_max_m", 0.6}}},
-                         {box_at(5), {{"plot", 7}, {"plants", 90}, {"height_max_m", 0.8}}}});
-    write_plot_features(estimate_, {{box_at(5), {{"plot", 1}, {"height_mine_m", 0.9}}}});
+                        {{box_at(0), {{"plot_number", 4}, {"plants", 90}, {"height_max_m", 0.6}}},
+                         {box_at(5), {{"plot_number", 7}, {"plants", 90}, {"height_max_m", 0.8}}}});
+    write_plot_features(estimate_, {{box_at(5), {{"plot_number", 1}, {"height_mine_m", 0.9}}}});
   }
 
   TemporaryFolder folder_;

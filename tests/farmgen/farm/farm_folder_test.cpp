@@ -34,7 +34,13 @@ void expect_equal(const Plot& a, const Plot& b) {
   EXPECT_EQ(a.id, b.id);
   EXPECT_EQ(a.row, b.row);
   EXPECT_EQ(a.column, b.column);
+  EXPECT_EQ(a.rep, b.rep);
+  EXPECT_EQ(a.block, b.block);
+  EXPECT_EQ(a.accession, b.accession);
   EXPECT_EQ(a.plant_count, b.plant_count);
+  EXPECT_EQ(a.missing_plants, b.missing_plants);
+  EXPECT_EQ(a.weed_count, b.weed_count);
+  EXPECT_DOUBLE_EQ(a.lodging_rad, b.lodging_rad);
   EXPECT_EQ(a.box.center, b.box.center);
   EXPECT_EQ(a.box.width_m, b.box.width_m);
   EXPECT_EQ(a.box.length_m, b.box.length_m);
@@ -51,6 +57,7 @@ void expect_equal(const Plot& a, const Plot& b) {
 void expect_equal(const Plant& a, const Plant& b) {
   EXPECT_EQ(a.id, b.id);
   EXPECT_EQ(a.plot, b.plot);
+  EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.model, b.model);
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
@@ -140,7 +147,7 @@ TEST(FarmFolder, TheSameDescriptionAndSeedWriteTheSameBytes) {
     EXPECT_EQ(text_of(entry.path()), text_of(folder.path() / "b" / relative)) << relative;
     ++files;
   }
-  EXPECT_EQ(files, 1u + 1 + 3 + 3 * 4) << "world, manifest, truth, and four files a model";
+  EXPECT_EQ(files, 1u + 1 + 4 + 3 * 4) << "world, manifest, truth, and four files a model";
   EXPECT_NE(text_of(folder.path() / "a/truth/plants.csv"),
             text_of(folder.path() / "c/truth/plants.csv"));
 }
@@ -193,10 +200,14 @@ TEST_P(DamagedFarm, IsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     FarmFolder, DamagedFarm,
-    ::testing::Values(Damage{"NanInPlants", "truth/plants.csv", "\n2,1,soybean", "\n2,nan,soybean",
+    ::testing::Values(Damage{"NanInPlants", "truth/plants.csv", "\n2,1,crop", "\n2,nan,crop",
                              "plants.csv:3: plot \"nan\" is not a whole number"},
-                      Damage{"UnknownModel", "truth/plants.csv", "\n2,1,soybean", "\n2,1,wheat",
-                             "is not one of the farm's models"},
+                      Damage{"UnknownModel", "truth/plants.csv", "\n2,1,crop,soybean",
+                             "\n2,1,crop,wheat", "is not one of the farm's models"},
+                      Damage{"UnknownKind", "truth/plants.csv", "\n2,1,crop", "\n2,1,tree",
+                             "plants.csv:3: kind \"tree\" is neither crop nor weed"},
+                      Damage{"CropTurnedWeed", "truth/plants.csv", "\n2,1,crop", "\n2,1,weed",
+                             "has 19 plants of plot 1; the farm has 20"},
                       Damage{"WrongId", "truth/plants.csv", "\n2,1,", "\n3,1,",
                              "id \"3\" is not 2"},
                       Damage{"PlotThatIsNot", "truth/plants.csv", "\n2,1,", "\n2,77,",

@@ -93,7 +93,7 @@ TEST(Layout, PlotsMayComeFromAGeoJson) {
                "model,x_m,y_m,plot\nsoybean_1,1,1,\nsoybean_1,5,5,\nsoybean_1,5,5,12\n"
                "soybean_1,1,1,0\n");
   PlotFeature feature{.box = {.center = {1, 1}, .width_m = 2, .length_m = 3, .heading_rad = 0.5}};
-  feature.properties["plot"] = 12;
+  feature.properties["plot_number"] = 12;
   write_plot_features(folder.path() / "p.geojson", {feature});
   const Farm farm =
       generate(load_description(folder.write("f.yaml", layout_of("  plots: p.geojson\n"))), 1);
