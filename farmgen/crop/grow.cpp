@@ -3,6 +3,7 @@
 
 #include "crop/crop_files.h"
 #include "crop/soybean.h"
+#include "crop/textures.h"
 
 #include "core/error.h"
 #include "core/text.h"
@@ -65,7 +66,9 @@ mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {
   const Traits traits(described, described.stage(options.stage), options.assignments);
   PlantBuilder plant(options.detail, described.colours);
   crop.grow(traits, seed, plant);
-  return plant.take();
+  mesh::Mesh mesh = plant.take(options.textured);
+  if (options.textured) add_textures(mesh, options.crop);
+  return mesh;
 }
 
 }  // namespace plotscan::crop

@@ -17,6 +17,8 @@ struct GrowOptions {
   std::vector<std::string> assignments = {};  // "key=value" in place of the crop's parameters
   Detail detail = Detail::scan;
   std::string cultivar_file = {};  // a user's file over the crop's own (docs/plants.md); or empty
+  // Materials get pictures of their surfaces (crop/textures.h) in place of plain colours.
+  bool textured = false;
 };
 
 // "soybean", ...

@@ -42,7 +42,8 @@ void write_materials(const std::filesystem::path& path, const Mesh& mesh,
       out << key << " " << material.colour.x() << " " << material.colour.y() << " "
           << material.colour.z() << "\n";
     }
-    out << "Ks 0 0 0\n";
+    // Matt for readers of the plain model and of the physically based one (roughness, metallic).
+    out << "Ks 0 0 0\nPr 0.8\nPm 0\n";
     if (material.texture) out << "map_Kd " << material.texture->name << "\n";
   }
   out.close();

@@ -89,7 +89,7 @@ void place(const std::vector<PlantExtent>& plants, const Eigen::Vector2d& pictur
            PlantLayout& layout) {
   const Size size = size_of(plants, layout.rows, layout.px_per_m);
   const double air_px = (picture_px.y() - size.height_px) / static_cast<double>(layout.rows.size());
-  double top = picture_px.y() - kMargin_px / 2;
+  double top = picture_px.y() - kMargin_px;
   layout.feet.resize(plants.size());
   for (PlantRow& row : layout.rows) {
     const double height = row_height_px(plants, row, layout.px_per_m) + air_px;

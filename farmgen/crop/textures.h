@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "mesh/mesh.h"
+#include <Eigen/Core>
+
+namespace plotscan::crop {
+
+// How the surface of an organ is drawn.
+enum class Pattern {
+  net_veins,       // a midrib with side veins to both sides: the leaflets of soybean
+  parallel_veins,  // a midrib with veins along it: the blades of grasses
+  fibres,          // stripes along the organ: stems, husks, tassels
+  spikelets,       // scales in rows that overlap: the ears of wheat
+  pod,             // a downy skin over a row of seeds
+};
+
+// The pattern of a crop's material by its name: "leaf" of "soybean". Materials of other names are
+// fibres.
+Pattern pattern_of(const std::string& crop, const std::string& material);
+
+// A PNG drawn about `colour` (red, green, blue in [0, 1]), which is also
+// about its mean, for texture coordinates as PlantBuilder gives them: u across the organ, v from
+// its base to its tip. The name states the colour: "soybean_leaf_3f7d2a.png". The same arguments
+// give the same bytes (with the same zlib).
+std::shared_ptr<const mesh::Image> organ_texture(const std::string& crop,
+                                                 const std::string& material,
+                                                 const Eigen::Vector3f& colour);
+
+// Gives every material of the mesh the texture of its name and colour. The colours become white,
+// since a texture is multiplied with them. The mesh must have texture coordinates.
+void add_textures(mesh::Mesh& mesh, const std::string& crop);
+
+// Bare loam, "soil.png", 256 x 256 pixels, whose opposite edges fit together. One repetition is
+// meant to cover kSoilTexture_m by kSoilTexture_m of ground: texture coordinates of a terrain are
+// (x, y) / kSoilTexture_m.
+std::shared_ptr<const mesh::Image> soil_texture();
+inline constexpr double kSoilTexture_m = 1;
+
+}  // namespace plotscan::crop
