@@ -2,6 +2,7 @@
 #include "crop/grow.h"
 
 #include "crop/crop_files.h"
+#include "crop/maize.h"
 #include "crop/soybean.h"
 #include "crop/textures.h"
 
@@ -17,7 +18,7 @@ struct Crop {
 };
 
 const std::vector<Crop>& known_crops() {
-  static const std::vector<Crop> kCrops = {};
+  static const std::vector<Crop> kCrops = {{"maize", grow_maize}};
   return kCrops;
 }
 
