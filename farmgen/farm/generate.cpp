@@ -4,34 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "mesh/measure.h"
 
 #include "core/error.h"
 #include "core/statistics.h"
 #include "farm/heights.h"
+#include "farm/make_terrain.h"
 #include "farm/plant_layout.h"
 #include "farm/plot_layout.h"
 #include "farm/plot_table.h"
-#include "farm/random_terrain.h"
 
 namespace plotscan::farm {
 namespace {
-
-Terrain make_terrain(const TerrainDescription& description, std::uint64_t seed) {
-  if (!description.mesh) {
-    return random_terrain(description.side_m, description.vertices, description.relief_m, seed);
-  }
-  const mesh::Mesh mesh = mesh::import_mesh(*description.mesh, description.mesh_options);
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3f& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
-  try {
-    return {std::move(vertices), mesh.triangles};
-  } catch (const InputError& error) {
-    throw InputError(*description.mesh, error.what());
-  }
-}
 
 std::vector<PlantModel> import_models(const std::vector<ModelDescription>& descriptions) {
   std::vector<PlantModel> models;
@@ -90,13 +76,16 @@ void measure_plots(Farm& farm) {
 }  // namespace
 
 Farm generate(const FarmDescription& description, std::uint64_t seed) {
+  std::vector<Plot> plots = make_plots(description);
+  MadeTerrain ground = make_terrain(description.terrain, plots, seed, description.source);
   Farm farm{.name = description.name,
             .seed = seed,
-            .terrain = make_terrain(description.terrain, seed),
+            .terrain = std::move(ground.terrain),
             .models = import_models(description.models),
-            .plots = make_plots(description),
+            .plots = std::move(plots),
             .plants = {},
-            .anchor = description.anchor};
+            .anchor = description.anchor,
+            .terrain_origin_m = ground.origin_m};
   require_on_terrain(farm.plots, farm.terrain, description.source);
   farm.plants = make_plants(description, farm);
   measure_plots(farm);

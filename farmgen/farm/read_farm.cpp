@@ -27,6 +27,7 @@ struct FarmRecord {
   std::size_t plots = 0;
   std::size_t plants = 0;
   std::optional<Anchor> anchor = {};
+  std::optional<Eigen::Vector2d> terrain_origin_m = {};
 };
 
 Anchor anchor_of(const nlohmann::json& anchor) {
@@ -46,6 +47,10 @@ FarmRecord read_record(const fs::path& folder) {
                       .plots = results.at("plots"),
                       .plants = results.at("plants")};
     if (results.contains("anchor")) record.anchor = anchor_of(results["anchor"]);
+    if (results.contains("terrain_origin_m")) {
+      const nlohmann::json& origin = results["terrain_origin_m"];
+      record.terrain_origin_m = {origin.at(0).get<double>(), origin.at(1).get<double>()};
+    }
     return record;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(folder / "manifest.json",
@@ -112,7 +117,8 @@ Farm read_farm(const fs::path& folder) {
             .models = read_models(folder, record.models),
             .plots = read_plots(truth / "plots.geojson"),
             .plants = {},
-            .anchor = record.anchor};
+            .anchor = record.anchor,
+            .terrain_origin_m = record.terrain_origin_m};
   farm.plants = read_plants(truth / "plants.csv", farm.models);
   require_count(truth / "plots.geojson", "plots", farm.plots.size(), record.plots);
   require_count(truth / "plants.csv", "plants", farm.plants.size(), record.plants);
