@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "mesh/mesh_import.h"
 
@@ -18,5 +20,13 @@ std::filesystem::path file_at(const YamlSection& section, const std::string& key
 
 // The keys `up` and `unit_m` of a mesh file.
 mesh::MeshImportOptions read_mesh_options(const YamlSection& section);
+
+// A name for files and tables; `fallback` with '_' for what no name may hold, where the key is
+// missing. Without a fallback the key is required.
+std::string name_at(const YamlSection& section, const std::string& key,
+                    std::optional<std::string> fallback = {});
+
+// The key `scale`: least and greatest scale of an axis.
+std::pair<double, double> scale_at(const YamlSection& section);
 
 }  // namespace plotscan::farm

@@ -6,8 +6,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "mesh/measure.h"
-
 #include "core/error.h"
 #include "core/statistics.h"
 #include "farm/heights.h"
@@ -15,35 +13,39 @@
 #include "farm/plant_layout.h"
 #include "farm/plot_layout.h"
 #include "farm/plot_table.h"
+#include "farm/sown_plants.h"
+#include "farm/weeds.h"
 
 namespace plotscan::farm {
 namespace {
 
-std::vector<PlantModel> import_models(const std::vector<ModelDescription>& descriptions) {
-  std::vector<PlantModel> models;
-  for (const ModelDescription& description : descriptions) {
-    mesh::Mesh mesh = mesh::import_mesh(description.mesh, description.options);
-    const double height_m = mesh::mesh_height(mesh);
-    if (height_m <= 0) {
-      throw InputError(description.mesh,
-                       "has no vertex above its origin; is z its up axis? (up: y, foot: lowest)");
-    }
-    models.push_back({description.name, std::move(mesh), height_m});
+// The plots of a farm whose plants a table places.
+std::vector<Plot> laid_out_plots(const FarmDescription& description, std::uint64_t seed) {
+  if (!description.plots) {
+    return description.layout->plots ? read_plot_boxes(*description.layout->plots)
+                                     : std::vector<Plot>();
   }
-  return models;
+  std::vector<Plot> plots = grid_plots(*description.plots);
+  std::erase_if(plots,
+                [&](const Plot& plot) { return is_missing(*description.plots, plot.id, seed); });
+  return plots;
 }
 
-std::vector<Plot> make_plots(const FarmDescription& description) {
-  if (description.plots) return grid_plots(*description.plots);
-  if (description.layout->plots) return read_plot_boxes(*description.layout->plots);
-  return {};
+std::vector<Plot> plots_of(const std::vector<SownPlot>& sown) {
+  std::vector<Plot> plots;
+  for (const SownPlot& plot : sown) {
+    plots.push_back(plot.plot);
+    plots.back().missing_plants = plot.cultivar->count;  // until they are grown
+  }
+  return plots;
 }
 
-std::vector<Plant> make_plants(const FarmDescription& description, const Farm& farm) {
-  if (description.layout) {
-    return table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+// The weeds come behind the crop, so that no plant of the crop changes its id.
+void add_weeds(const WeedsDescription& description, Farm& farm) {
+  for (Plant& weed : draw_weeds(description, farm.plots, farm.models, farm.terrain, farm.seed)) {
+    weed.id = static_cast<std::uint32_t>(farm.plants.size() + 1);
+    farm.plants.push_back(weed);
   }
-  return random_plants(*description.plants, farm.plots, farm.models, farm.terrain, farm.seed);
 }
 
 // How far the plant's stem leans from the vertical.
@@ -68,6 +70,7 @@ void measure_plots(Farm& farm) {
     const std::vector<double>& own = heights[plot.id];
     plot.plant_count = static_cast<std::uint32_t>(own.size());
     plot.heights = plot_heights(own, farm.seed, plot.id);
+    plot.missing_plants -= std::min(plot.missing_plants, plot.plant_count);
     plot.weed_count = weeds[plot.id];
     if (!own.empty()) plot.lodging_rad = mean(leans[plot.id]);
   }
@@ -76,18 +79,23 @@ void measure_plots(Farm& farm) {
 }  // namespace
 
 Farm generate(const FarmDescription& description, std::uint64_t seed) {
-  std::vector<Plot> plots = make_plots(description);
+  std::vector<SownPlot> sown;
+  if (description.plants) sown = sow(*description.plots, *description.plants, seed);
+  std::vector<Plot> plots = description.plants ? plots_of(sown) : laid_out_plots(description, seed);
   MadeTerrain ground = make_terrain(description.terrain, plots, seed, description.source);
   Farm farm{.name = description.name,
             .seed = seed,
             .terrain = std::move(ground.terrain),
-            .models = import_models(description.models),
+            .models = make_models(description.models, description.source),
             .plots = std::move(plots),
             .plants = {},
             .anchor = description.anchor,
             .terrain_origin_m = ground.origin_m};
   require_on_terrain(farm.plots, farm.terrain, description.source);
-  farm.plants = make_plants(description, farm);
+  farm.plants = description.plants
+                    ? grow_plants(sown, farm.models, farm.terrain, seed)
+                    : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+  if (description.weeds) add_weeds(*description.weeds, farm);
   measure_plots(farm);
   return farm;
 }

@@ -19,10 +19,26 @@ constexpr double kSmallestScale = 0.01;
 constexpr double kLargestScale = 100;
 constexpr long long kMostPlots = std::numeric_limits<std::uint32_t>::max();
 
-enum Column { model, x, y, id, z, scale, scale_x, scale_y, scale_z, yaw, pitch, roll, plot, count };
+enum Column {
+  model,
+  x,
+  y,
+  id,
+  z,
+  scale,
+  scale_x,
+  scale_y,
+  scale_z,
+  yaw,
+  pitch,
+  roll,
+  plot,
+  kind,
+  count
+};
 constexpr std::array<const char*, Column::count> kNames = {
     "model",   "x_m",     "y_m",     "id",        "z_m",      "scale", "scale_x",
-    "scale_y", "scale_z", "yaw_deg", "pitch_deg", "roll_deg", "plot"};
+    "scale_y", "scale_z", "yaw_deg", "pitch_deg", "roll_deg", "plot",  "kind"};
 constexpr std::size_t kRequired = 3;
 
 // Reads rows by Column, whatever the table's own names and order.
@@ -35,12 +51,14 @@ class LayoutRows {
     for (std::size_t column = 0; column < Column::count; ++column) {
       const auto other = renamed.find(kNames[column]);
       const bool is_renamed = other != renamed.end();
+      if (column >= kRequired && !is_renamed && is_taken(renamed, kNames[column])) continue;
       // A renamed column is wanted: a typing error in its name is to be found.
       auto& names = column < kRequired || is_renamed ? required_ : optional_;
       names.push_back(is_renamed ? other->second : kNames[column]);
       names_[column] = names.back();
     }
     for (std::size_t column = 0; column < Column::count; ++column) {
+      if (names_[column].empty()) continue;
       const auto in_required = std::find(required_.begin(), required_.end(), names_[column]);
       places_[column] = in_required != required_.end()
                             ? in_required - required_.begin()
@@ -59,7 +77,15 @@ class LayoutRows {
   }
 
  private:
-  bool has(const CsvRow& row, Column column) const { return !row.text(places_[column]).empty(); }
+  // Whether a table's column that happens to have one of our names is read as another of ours.
+  static bool is_taken(const std::map<std::string, std::string>& renamed, const char* name) {
+    return std::any_of(renamed.begin(), renamed.end(),
+                       [&](const auto& entry) { return entry.second == name; });
+  }
+
+  bool has(const CsvRow& row, Column column) const {
+    return !names_[column].empty() && !row.text(places_[column]).empty();
+  }
 
   double number(const CsvRow& row, Column column, double fallback) const {
     return has(row, column) ? row.number(places_[column]) : fallback;
@@ -99,6 +125,14 @@ class LayoutRows {
     return static_cast<std::uint32_t>(found->second);
   }
 
+  PlantKind kind_of(const CsvRow& row) const {
+    if (!has(row, Column::kind)) return PlantKind::crop;
+    const std::string_view kind = row.text(places_[Column::kind]);
+    if (kind == "crop") return PlantKind::crop;
+    if (kind == "weed") return PlantKind::weed;
+    row.fail(places_[Column::kind], "is neither crop nor weed");
+  }
+
   LayoutPlant plant_of(const CsvRow& row, long long expected_id) const {
     if (has(row, Column::id) && row.integer(places_[Column::id], 1, kMostPlots) != expected_id) {
       row.fail(places_[Column::id], "is not " + std::to_string(expected_id) +
@@ -113,6 +147,7 @@ class LayoutRows {
     if (has(row, Column::plot)) {
       plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kMostPlots));
     }
+    plant.kind = kind_of(row);
     plant.line = row.line();
     return plant;
   }
@@ -121,7 +156,7 @@ class LayoutRows {
   std::map<std::string, std::size_t> models_;
   std::vector<std::string> required_;
   std::vector<std::string> optional_;
-  std::array<std::string, Column::count> names_;
+  std::array<std::string, Column::count> names_;  // the table's; empty: it has no such column
   std::array<std::ptrdiff_t, Column::count> places_{};
 };
 

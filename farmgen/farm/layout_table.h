@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "farm/farm.h"
+
 namespace plotscan::farm {
 
 // One line of a table of plants.
@@ -19,6 +21,7 @@ struct LayoutPlant {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   std::optional<std::uint32_t> plot;
+  PlantKind kind = PlantKind::crop;
   std::size_t line = 0;  // in the table's file, for messages
 };
 

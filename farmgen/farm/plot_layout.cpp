@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "core/error.h"
+#include "core/random.h"
 #include "core/text.h"
 
 namespace plotscan::farm {
@@ -48,36 +48,71 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
                   ", or fewer, smaller or differently placed plots");
 }
 
+// Between the centres of neighbours, along the grid's own axes.
+Eigen::Vector2d pitch_of(const PlotGridDescription& grid) {
+  if (grid.pitch) return {grid.pitch->column_m.norm(), grid.pitch->row_m.norm()};
+  return {grid.width_m + grid.gap_width_m, grid.length_m + grid.gap_length_m};
+}
+
+// The directions along a row and from row to row, as columns.
+Eigen::Matrix2d axes_of(const PlotGridDescription& grid) {
+  Eigen::Matrix2d axes = Eigen::Rotation2Dd(grid.heading_rad).toRotationMatrix();
+  if (grid.pitch) {
+    axes << grid.pitch->column_m.normalized(), grid.pitch->row_m.normalized();
+  } else if (grid.skew_rad != 0) {
+    axes.col(1) = Eigen::Rotation2Dd(grid.skew_rad) * axes.col(1).eval();
+  }
+  return axes;
+}
+
+// By how much the alleys before a row or column (from 0) are wider than the gaps they replace.
+double widened(const std::map<std::uint32_t, double>& alleys_m, std::size_t before, double gap_m) {
+  double wider_m = 0;
+  for (const auto& [after, alley_m] : alleys_m) {
+    if (after <= before) wider_m += alley_m - gap_m;
+  }
+  return wider_m;
+}
+
 }  // namespace
 
 std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
   std::vector<Plot> plots;
-  Eigen::AlignedBox2d bounds;  // in the grid's own frame
+  Eigen::AlignedBox2d bounds;  // along the grid's own axes
   const Eigen::Vector2d size(grid.width_m, grid.length_m);
-  const Eigen::Vector2d pitch = size + Eigen::Vector2d(grid.gap_width_m, grid.gap_length_m);
+  const Eigen::Vector2d pitch = pitch_of(grid);
+  const Eigen::Matrix2d world_from_grid = axes_of(grid);
+  const double heading = std::atan2(world_from_grid(1, 1), world_from_grid(0, 1));
   for (std::size_t row = 0; row < grid.rows.size(); ++row) {
-    for (std::uint32_t column = 0; column < grid.rows[row].plots; ++column) {
-      const Eigen::Vector2d low(grid.rows[row].offset_m + column * pitch.x(),
-                                static_cast<double>(row) * pitch.y());
+    for (std::uint32_t place = 0; place < grid.rows[row].plots; ++place) {
+      const bool backward = grid.numbering == PlotNumbering::serpentine && row % 2 == 1;
+      const std::uint32_t column = backward ? grid.rows[row].plots - 1 - place : place;
+      const Eigen::Vector2d low(grid.rows[row].offset_m + column * pitch.x() +
+                                    widened(grid.column_alleys_m, column, pitch.x() - grid.width_m),
+                                static_cast<double>(row) * pitch.y() +
+                                    widened(grid.row_alleys_m, row, pitch.y() - grid.length_m));
       bounds.extend(low);
       bounds.extend(low + size);
-      plots.push_back(
-          {.id = static_cast<std::uint32_t>(plots.size() + 1),
-           .row = static_cast<int>(row + 1),
-           .column = static_cast<int>(column + 1),
-           .box = {.center = low + size / 2,
-                   .width_m = grid.width_m,
-                   .length_m = grid.length_m,
-                   .heading_rad = wrap_heading(grid.heading_rad + std::numbers::pi / 2)},
-           .plant_count = 0,
-           .heights = {}});
+      plots.push_back({.id = grid.first_number + static_cast<std::uint32_t>(plots.size()),
+                       .row = static_cast<int>(row + 1),
+                       .column = static_cast<int>(column + 1),
+                       .box = {.center = low + size / 2,
+                               .width_m = grid.width_m,
+                               .length_m = grid.length_m,
+                               .heading_rad = wrap_heading(heading)},
+                       .plant_count = 0,
+                       .heights = {}});
     }
   }
-  const Eigen::Rotation2Dd world_from_grid(grid.heading_rad);
   for (Plot& plot : plots) {
     plot.box.center = grid.position_m + world_from_grid * (plot.box.center - bounds.center());
   }
   return plots;
+}
+
+bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed) {
+  if (std::binary_search(grid.missing.begin(), grid.missing.end(), number)) return true;
+  return RandomStream(seed, random_purpose("plot/missing"), number).uniform() < grid.missing_rate;
 }
 
 void require_on_terrain(const std::vector<Plot>& plots, const Terrain& terrain,

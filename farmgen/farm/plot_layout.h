@@ -11,9 +11,12 @@
 
 namespace plotscan::farm {
 
-// The plots of a grid, numbered row by row from 1, without plants. Each box's length axis is the
-// grid's y axis.
+// All plots of a grid in the order of their numbers, without plants, those that are missing among
+// them. Each box's length axis is the axis from row to row.
 std::vector<Plot> grid_plots(const PlotGridDescription& grid);
+
+// Whether the plot of that number is missing: named by the description, or drawn.
+bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed);
 
 // Throws InputError (naming `source`, where the plots come from) when a corner of a plot lies off
 // the terrain, saying which, how far, and what would fit.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,6 +25,7 @@ struct FarmRecord {
   std::string name;
   std::uint64_t seed = 0;
   std::vector<std::string> models;
+  std::vector<std::string> light_models;  // those of them with a light mesh
   std::size_t plots = 0;
   std::size_t plants = 0;
   std::optional<Anchor> anchor = {};
@@ -44,6 +46,7 @@ FarmRecord read_record(const fs::path& folder) {
     FarmRecord record{.name = results.at("name"),
                       .seed = manifest.at("seed"),
                       .models = results.at("models"),
+                      .light_models = results.at("light_models"),
                       .plots = results.at("plots"),
                       .plants = results.at("plants")};
     if (results.contains("anchor")) record.anchor = anchor_of(results["anchor"]);
@@ -58,15 +61,18 @@ FarmRecord read_record(const fs::path& folder) {
   }
 }
 
-std::vector<PlantModel> read_models(const fs::path& folder, const std::vector<std::string>& names) {
+std::vector<PlantModel> read_models(const fs::path& folder, const FarmRecord& record) {
+  const fs::path manifest = folder / "manifest.json";
+  const std::set<std::string> with_light(record.light_models.begin(), record.light_models.end());
   std::vector<PlantModel> models;
-  for (const std::string& name : names) {
+  for (const std::string& name : record.models) {
     // A name that is no single folder name would lead out of models/.
-    path_inside(folder / "models", name, folder / "manifest.json");
-    mesh::Mesh mesh =
-        mesh::import_mesh(path_inside(folder, model_mesh_path(name), folder / "manifest.json"));
+    path_inside(folder / "models", name, manifest);
+    mesh::Mesh mesh = mesh::import_mesh(path_inside(folder, model_mesh_path(name), manifest));
     const double height_m = mesh::mesh_height(mesh);
     models.push_back({name, std::move(mesh), height_m});
+    if (!with_light.contains(name)) continue;
+    models.back().light = mesh::import_mesh(path_inside(folder, light_mesh_path(name), manifest));
   }
   return models;
 }
@@ -114,7 +120,7 @@ Farm read_farm(const fs::path& folder) {
   Farm farm{.name = record.name,
             .seed = record.seed,
             .terrain = read_terrain(truth / "terrain.ply"),
-            .models = read_models(folder, record.models),
+            .models = read_models(folder, record),
             .plots = read_plots(truth / "plots.geojson"),
             .plants = {},
             .anchor = record.anchor,

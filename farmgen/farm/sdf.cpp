@@ -55,6 +55,10 @@ std::filesystem::path model_mesh_path(const std::string& name) {
   return std::filesystem::path("models") / name / "meshes" / (name + ".obj");
 }
 
+std::filesystem::path light_mesh_path(const std::string& name) {
+  return model_mesh_path(name).replace_filename(name + "_light.obj");
+}
+
 void write_world(const std::filesystem::path& path, const Farm& farm,
                  const ProgressReport& progress) {
   XmlFile xml(path);

@@ -11,6 +11,8 @@ namespace plotscan::farm {
 
 // Where a model's mesh lies in a farm folder: models/NAME/meshes/NAME.obj.
 std::filesystem::path model_mesh_path(const std::string& name);
+// The light mesh of a model that has one.
+std::filesystem::path light_mesh_path(const std::string& name);
 
 // Writes an SDF 1.6 world: a sun, the terrain (with collision), and one static model a plot with a
 // visual for each plant (Gazebo loads thousands of separate models very slowly, and an <include>

@@ -54,6 +54,9 @@ void write_models(const fs::path& folder, const Farm& farm) {
   for (const PlantModel& model : farm.models) {
     write_model(folder, model.name, coloured(model.mesh, "plant", kLeafGreen),
                 "Plant of the farm " + farm.name + ", foot at the origin", false);
+    if (!model.light) continue;
+    mesh::write_obj(folder / light_mesh_path(model.name),
+                    coloured(*model.light, "plant", kLeafGreen));
   }
 }
 
@@ -74,9 +77,14 @@ nlohmann::json json_of(const Anchor& anchor) {
 
 nlohmann::json results_of(const Farm& farm) {
   nlohmann::json models = nlohmann::json::array();
-  for (const PlantModel& model : farm.models) models.push_back(model.name);
+  nlohmann::json with_light = nlohmann::json::array();
+  for (const PlantModel& model : farm.models) {
+    models.push_back(model.name);
+    if (model.light) with_light.push_back(model.name);
+  }
   nlohmann::json results = {{"name", farm.name},
                             {"models", models},
+                            {"light_models", with_light},
                             {"plots", farm.plots.size()},
                             {"plants", farm.plants.size()}};
   if (farm.anchor) results["anchor"] = json_of(*farm.anchor);

@@ -75,11 +75,11 @@ TEST(Description, ReadsEveryKey) {
   EXPECT_EQ(farm.plots->rows[0].plots, 10u);
   EXPECT_EQ(farm.plots->rows[0].offset_m, 0.5);
   EXPECT_EQ(farm.plots->rows[1].plots, 3u);
-  EXPECT_EQ(farm.plants->count, 90u);
-  EXPECT_EQ(farm.plants->pattern, PlantPattern::drilled);
-  EXPECT_EQ(farm.plants->drill_rows, 3u);
-  EXPECT_EQ(farm.plants->min_scale, 0.8);
-  EXPECT_EQ(farm.plants->max_scale, 1.2);
+  EXPECT_EQ(farm.plants->cultivars[0].count, 90u);
+  EXPECT_EQ(farm.plants->cultivars[0].pattern, PlantPattern::drilled);
+  EXPECT_EQ(farm.plants->cultivars[0].drill_rows, 3u);
+  EXPECT_EQ(farm.plants->cultivars[0].min_scale, 0.8);
+  EXPECT_EQ(farm.plants->cultivars[0].max_scale, 1.2);
   ASSERT_EQ(farm.models.size(), 2u);
   EXPECT_EQ(farm.models[0].name, "one");
   EXPECT_EQ(farm.models[0].mesh, farm.source.parent_path() / "a/one.obj");
@@ -99,7 +99,7 @@ TEST(Description, OverridesReplaceAndAdd) {
   EXPECT_EQ(farm.plots->rows[0].plots, 10u);
   EXPECT_EQ(farm.plots->rows[1].plots, 5u);
   EXPECT_EQ(farm.plots->gap_length_m, 2);
-  EXPECT_EQ(farm.plants->min_scale, 0.5);
+  EXPECT_EQ(farm.plants->cultivars[0].min_scale, 0.5);
   EXPECT_EQ(farm.name, "last");
   EXPECT_EQ(farm.models.size(), 2u);
 }
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m"},
         Mistake{"UnknownSection", "terrain:", "ground:",
                 "3: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
-                "plants, layout"},
+                "plants, layout, weeds"},
         Mistake{"KeyTwice", "  vertices: 12\n", "  side_m: 31\n",
                 "5: terrain.side_m is given twice"},
         Mistake{"WrongType", "side_m: 30", "side_m: wide",

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "farm/farm.h"
+#include "farm/weeds_description.h"
+
+namespace plotscan::farm {
+
+// Weeds at random places of the field, as many as per_m2 asks for before those are taken away that
+// stand where no weeds are wanted or off the terrain. Their ids are 0; what is drawn for a weed
+// depends on the seed and its number alone. Throws InputError when there are more than a million.
+std::vector<Plant> draw_weeds(const WeedsDescription& description, const std::vector<Plot>& plots,
+                              const std::vector<PlantModel>& models, const Terrain& terrain,
+                              std::uint64_t seed);
+
+}  // namespace plotscan::farm
