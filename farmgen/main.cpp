@@ -34,20 +34,26 @@ nlohmann::json json_of(const farm::Spread& spread) {
 }
 
 nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary) {
-  return {{"name", made.name},
-          {"seed", made.seed},
-          {"terrain",
-           {{"size_m", {summary.terrain_size_m.x(), summary.terrain_size_m.y()}},
-            {"z_m", {summary.terrain_z_m.x(), summary.terrain_z_m.y()}},
-            {"triangles", summary.terrain_triangles}}},
-          {"models", summary.models},
-          {"plots", summary.plots},
-          {"field_size_m", {summary.field_size_m.x(), summary.field_size_m.y()}},
-          {"plants", summary.plants},
-          {"plant_triangles", summary.plant_triangles},
-          {"plant_height_m", json_of(summary.plant_height_m)},
-          {"plot_height_max_m", json_of(summary.plot_height_max_m)},
-          {"leaf_area_index", summary.leaf_area_index}};
+  nlohmann::json document = {{"name", made.name},
+                             {"seed", made.seed},
+                             {"terrain",
+                              {{"size_m", {summary.terrain_size_m.x(), summary.terrain_size_m.y()}},
+                               {"z_m", {summary.terrain_z_m.x(), summary.terrain_z_m.y()}},
+                               {"triangles", summary.terrain_triangles}}},
+                             {"models", summary.models},
+                             {"plots", summary.plots},
+                             {"field_size_m", {summary.field_size_m.x(), summary.field_size_m.y()}},
+                             {"plants", summary.plants},
+                             {"plant_triangles", summary.plant_triangles},
+                             {"plant_height_m", json_of(summary.plant_height_m)},
+                             {"plot_height_max_m", json_of(summary.plot_height_max_m)},
+                             {"leaf_area_index", summary.leaf_area_index}};
+  if (made.anchor) {
+    document["anchor"] = {{"latitude_deg", made.anchor->latitude_deg},
+                          {"longitude_deg", made.anchor->longitude_deg},
+                          {"altitude_m", made.anchor->altitude_m}};
+  }
+  return document;
 }
 
 void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
@@ -57,6 +63,11 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
   };
   program.say(formatted("farm            %s, seed %llu", made.name.c_str(),
                         static_cast<unsigned long long>(made.seed)));
+  if (made.anchor) {
+    program.say(formatted("anchor          latitude %.8f, longitude %.8f deg, %.2f m above WGS84",
+                          made.anchor->latitude_deg, made.anchor->longitude_deg,
+                          made.anchor->altitude_m));
+  }
   program.say(formatted("terrain         %.1f x %.1f m, z %.2f to %.2f m, %zu triangles",
                         summary.terrain_size_m.x(), summary.terrain_size_m.y(),
                         summary.terrain_z_m.x(), summary.terrain_z_m.y(),

@@ -5,6 +5,7 @@
 #include "crop/maize.h"
 #include "crop/soybean.h"
 #include "crop/textures.h"
+#include "crop/wheat.h"
 
 #include "core/error.h"
 #include "core/text.h"
@@ -18,7 +19,7 @@ struct Crop {
 };
 
 const std::vector<Crop>& known_crops() {
-  static const std::vector<Crop> kCrops = {{"maize", grow_maize}};
+  static const std::vector<Crop> kCrops = {{"maize", grow_maize}, {"wheat", grow_wheat}};
   return kCrops;
 }
 

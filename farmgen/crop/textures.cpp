@@ -202,7 +202,7 @@ std::string hex_of(const Eigen::Vector3f& colour) {
 Pattern pattern_of(const std::string& crop, const std::string& material) {
   const bool leaf = material.find("leaf") != std::string::npos;
   if (leaf) return crop == "soybean" ? Pattern::net_veins : Pattern::parallel_veins;
-  if (crop == "wheat" && material == "ear") return Pattern::spikelets;
+  if (crop == "wheat" && material.find("ear") != std::string::npos) return Pattern::spikelets;
   return material == "pod" ? Pattern::pod : Pattern::fibres;
 }
 

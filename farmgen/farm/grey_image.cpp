@@ -31,12 +31,15 @@ class PngReader {
     info_ = png_create_info_struct(png_);
     check(info_ != nullptr, "libpng does not start");
     png_init_io(png_, file_.get());
-    if (!read_header()) fail();
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
 
+  // Before all else.
+  void start() {
+    if (!read_header()) fail();
+  }
   std::size_t width() const { return png_get_image_width(png_, info_); }
   std::size_t height() const { return png_get_image_height(png_, info_); }
   int bits() const { return png_get_bit_depth(png_, info_); }
@@ -89,6 +92,7 @@ class PngReader {
 GreyImage read_grey_png(const std::filesystem::path& path, std::size_t most_pixels) {
   require_file(path);
   PngReader reader(path);
+  reader.start();
   if (!reader.is_grey()) throw InputError(path, "is an image in colour; a grey one is expected");
   GreyImage image{.width = reader.width(), .height = reader.height(), .white = 0, .pixels = {}};
   if (image.width * image.height > most_pixels) {

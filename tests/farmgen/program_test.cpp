@@ -79,6 +79,16 @@ TEST_F(Farmgen, GeneratesWhatCheckForetellsAndInfoTells) {
   EXPECT_THAT(run("info farm").out, HasSubstr("leaf area index"));
 }
 
+TEST_F(Farmgen, TellsTheAnchor) {
+  EXPECT_FALSE(json_of("check example.yaml").contains("anchor"));
+  const auto made = json_of(
+      "generate example.yaml -o farm --set 'anchor={latitude_deg: 37.2, longitude_deg: -80}'");
+  EXPECT_EQ(made["anchor"]["latitude_deg"], 37.2);
+  EXPECT_EQ(made["anchor"]["longitude_deg"], -80);
+  EXPECT_EQ(json_of("info farm")["anchor"], made["anchor"]);
+  EXPECT_THAT(run("info farm").out, HasSubstr("latitude 37.20000000, longitude -80.0"));
+}
+
 TEST_F(Farmgen, TheSeedIsTheUsersElseTheDescriptionsElseOne) {
   EXPECT_EQ(json_of("check example.yaml")["seed"], 1);
   EXPECT_EQ(json_of("check example.yaml --set seed=7")["seed"], 7);
@@ -95,6 +105,13 @@ TEST_F(Farmgen, BadInputEndsWithCodeTwoOneMessageAndNothingWritten) {
        "farmgen: --set terrain.sid=12: terrain.sid is not a known key"},
       {"check example.yaml --set plants.count=-1",
        "farmgen: --set plants.count=-1: plants.count -1 is not in [0, 1000000]\n"},
+      {"generate example.yaml -o farm --set 'terrain.clods={height_m: 0.03, size_m: 0.01}'",
+       "farmgen: example.yaml: terrain: vertices 0.00314 m apart over"},
+      {"generate example.yaml -o farm --set 'terrain={xyz: none.xyz}'",
+       "terrain.xyz \"none.xyz\" is no file"},
+      {"generate example.yaml -o farm --set 'terrain={heightmap: example.yaml, side_m: 20, "
+       "height_m: [0, 1]}'",
+       "farmgen: example.yaml: is not a sound PNG: "},
       {"info nowhere", "farmgen: nowhere: no such farm folder\n"},
       {"info .", "not a folder written by plotscan"},
       {"plant soybean -o s.ply", "farmgen: s.ply: does not end in .obj\n"},

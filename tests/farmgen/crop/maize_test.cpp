@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <complex>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "crop/grow.h"
+#include "farmgen/crop/mesh_parts.h"
 #include "mesh/measure.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -16,6 +15,10 @@ namespace {
 
 using Eigen::Vector3f;
 using mesh::Mesh;
+using plotscan::testing::axial_mean;
+using plotscan::testing::highest;
+using plotscan::testing::lowest;
+using plotscan::testing::vertices_of;
 
 Mesh maize(const std::string& stage, std::uint64_t seed, std::vector<std::string> assignments = {},
            Detail detail = Detail::scan) {
@@ -25,35 +28,6 @@ Mesh maize(const std::string& stage, std::uint64_t seed, std::vector<std::string
                .detail = detail,
                .cultivar_file = {}},
               seed);
-}
-
-// The vertices of a material's triangles.
-std::vector<Vector3f> vertices_of(const Mesh& mesh, const std::string& material) {
-  std::vector<Vector3f> vertices;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (mesh.materials[mesh.material_of(i)].name != material) continue;
-    for (const auto vertex : mesh.triangles[i]) vertices.push_back(mesh.vertices[vertex]);
-  }
-  return vertices;
-}
-
-float lowest(const std::vector<Vector3f>& vertices) {
-  float z = std::numeric_limits<float>::infinity();
-  for (const Vector3f& vertex : vertices) z = std::min(z, vertex.z());
-  return z;
-}
-
-// The axis about which the azimuths of points lie (Mardia's axial mean), weighted by distance
-// squared, and how narrowly: 1 for one plane through the stem, about 0 for all around it.
-std::complex<double> axial_mean(const std::vector<Vector3f>& points) {
-  std::complex<double> sum = 0;
-  double weights = 0;
-  for (const Vector3f& point : points) {
-    const double weight = point.head<2>().squaredNorm();
-    sum += std::polar(weight, 2.0 * std::atan2(point.y(), point.x()));
-    weights += weight;
-  }
-  return sum / weights;
 }
 
 TEST(Maize, LeavesStandInOnePlane) {
@@ -114,10 +88,8 @@ TEST(Maize, TasselFromTasselingEarAndSilksFromSilking) {
 
 TEST(Maize, TheTasselIsTheTop) {
   const Mesh mesh = maize("VT", 3);
-  float highest = 0;
-  for (const Vector3f& vertex : vertices_of(mesh, "tassel"))
-    highest = std::max(highest, vertex.z());
-  EXPECT_FLOAT_EQ(highest, static_cast<float>(mesh::mesh_height(mesh)));
+  EXPECT_FLOAT_EQ(highest(vertices_of(mesh, "tassel")),
+                  static_cast<float>(mesh::mesh_height(mesh)));
 }
 
 TEST(Maize, StaysOnItsFootAndWithinItsTriangles) {
