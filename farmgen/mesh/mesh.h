@@ -44,9 +44,11 @@ struct Mesh {
 // texture) become one.
 void append(Mesh& mesh, const Mesh& other);
 
-// Triangles that show the same surface with about `triangles` of them or fewer, by clustering
-// vertices; open sheets (leaves) keep their place and extent, and materials stay apart. The mesh
-// itself where it has no more.
+// Triangles that show the same surface with about `triangles` of them or fewer. Each connected part
+// of each material (a leaf, a stem) keeps its share of the triangles, its place, its texture and,
+// by being widened a little, its area; the mesh keeps its extent and height. Where the triangles
+// do not suffice for all parts, the smaller ones are left out, but never all. The mesh itself where
+// it has no more.
 Mesh simplified(const Mesh& mesh, std::size_t triangles);
 
 }  // namespace plotscan::mesh

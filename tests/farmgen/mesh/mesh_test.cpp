@@ -103,34 +103,5 @@ TEST(Mesh, ATextureThatIsAbsentIsLeftOut) {
   EXPECT_TRUE(mesh.texture_coordinates.empty());
 }
 
-TEST(Mesh, SimplifyingKeepsPlaceExtentAndMaterials) {
-  // A folded sheet of 40 x 40 squares and a straight one.
-  Mesh mesh;
-  for (const char* name : {"leaf", "stem"}) {
-    Mesh sheet{.vertices = {},
-               .triangles = {},
-               .materials = {{.name = name}},
-               .triangle_material = {},
-               .texture_coordinates = {}};
-    for (std::uint32_t i = 0; i <= 40; ++i) {
-      for (std::uint32_t j = 0; j <= 40; ++j) {
-        sheet.vertices.emplace_back(0.025F * i, 0.025F * j, name[0] == 'l' ? 0.01F * i : 0.0F);
-        if (i == 40 || j == 40) continue;
-        const std::uint32_t corner = 41 * i + j;
-        sheet.triangles.push_back({corner, corner + 41, corner + 42});
-        sheet.triangles.push_back({corner, corner + 42, corner + 1});
-      }
-    }
-    append(mesh, sheet);
-  }
-  const Mesh coarse = simplified(mesh, 300);
-  EXPECT_LE(coarse.triangles.size(), 300u);
-  EXPECT_GE(coarse.triangles.size(), 100u);
-  EXPECT_EQ(coarse.materials.size(), 2u);
-  EXPECT_NEAR(mesh_height(coarse), 0.4, 0.05);
-  EXPECT_NEAR(ScaledArea(coarse).at(), ScaledArea(mesh).at(), 0.15 * ScaledArea(mesh).at());
-  EXPECT_EQ(simplified(mesh, 6400).triangles.size(), 6400u) << "as it was";
-}
-
 }  // namespace
 }  // namespace plotscan::mesh
