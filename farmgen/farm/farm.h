@@ -81,7 +81,7 @@ struct Farm {
   std::optional<Anchor> anchor = {};  // where on Earth the origin lies, where that is known
   // The origin in the coordinates of the XYZ file that the terrain was made from, where they were
   // shifted.
-  std::optional<Eigen::Vector2d> terrain_origin_m = {};
+  std::optional<Eigen::Vector3d> terrain_origin_m = {};
 };
 
 // Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a

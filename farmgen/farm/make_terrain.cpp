@@ -47,15 +47,15 @@ Terrain mesh_terrain(const TerrainDescription& description) {
 
 MadeTerrain xyz_terrain(const XyzDescription& description) {
   std::vector<Eigen::Vector3d> vertices = read_xyz(description.file);
-  std::optional<Eigen::Vector2d> origin_m;
+  std::optional<Eigen::Vector3d> origin_m;
   if (!description.keep_coordinates) {
     Eigen::AlignedBox3d bounds;
     for (const Eigen::Vector3d& vertex : vertices) bounds.extend(vertex);
-    origin_m = bounds.center().head<2>();
+    origin_m = bounds.center();
   }
   std::vector<Eigen::Vector2d> places;
   for (Eigen::Vector3d& vertex : vertices) {
-    if (origin_m) vertex.head<2>() -= *origin_m;
+    if (origin_m) vertex -= *origin_m;
     places.emplace_back(vertex.head<2>());
   }
   try {

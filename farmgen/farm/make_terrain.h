@@ -16,7 +16,7 @@ namespace plotscan::farm {
 struct MadeTerrain {
   Terrain terrain;
   // Where the world's origin lies in the coordinates of the description's file, where that differs.
-  std::optional<Eigen::Vector2d> origin_m;
+  std::optional<Eigen::Vector3d> origin_m;
 };
 
 // The terrain of a description: its base, and the relief on it, fine enough to show in the plots'

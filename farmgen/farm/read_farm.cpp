@@ -29,7 +29,7 @@ struct FarmRecord {
   std::size_t plots = 0;
   std::size_t plants = 0;
   std::optional<Anchor> anchor = {};
-  std::optional<Eigen::Vector2d> terrain_origin_m = {};
+  std::optional<Eigen::Vector3d> terrain_origin_m = {};
 };
 
 Anchor anchor_of(const nlohmann::json& anchor) {
@@ -52,7 +52,8 @@ FarmRecord read_record(const fs::path& folder) {
     if (results.contains("anchor")) record.anchor = anchor_of(results["anchor"]);
     if (results.contains("terrain_origin_m")) {
       const nlohmann::json& origin = results["terrain_origin_m"];
-      record.terrain_origin_m = {origin.at(0).get<double>(), origin.at(1).get<double>()};
+      record.terrain_origin_m = Eigen::Vector3d(
+          origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>());
     }
     return record;
   } catch (const nlohmann::json::exception& error) {

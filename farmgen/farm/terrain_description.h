@@ -29,7 +29,7 @@ struct HeightmapDescription {
 
 struct XyzDescription {
   std::filesystem::path file;
-  bool keep_coordinates = false;  // else the centre of their bounding rectangle becomes the origin
+  bool keep_coordinates = false;  // else the centre of their bounding box becomes the origin
 };
 
 struct SlopeDescription {

@@ -89,7 +89,8 @@ nlohmann::json results_of(const Farm& farm) {
                             {"plants", farm.plants.size()}};
   if (farm.anchor) results["anchor"] = json_of(*farm.anchor);
   if (farm.terrain_origin_m)
-    results["terrain_origin_m"] = {farm.terrain_origin_m->x(), farm.terrain_origin_m->y()};
+    results["terrain_origin_m"] = {farm.terrain_origin_m->x(), farm.terrain_origin_m->y(),
+                                   farm.terrain_origin_m->z()};
   return results;
 }
 

@@ -127,11 +127,11 @@ TEST(Xyz, PointsOfAGridInAnyOrderAreMetExactly) {
   }
   folder.write("grid.xyz", text);
   const Farm farm = generate(on_terrain(folder, "xyz: grid.xyz"), 1);
-  EXPECT_EQ(farm.terrain_origin_m, Eigen::Vector2d(540007.5, 4118005));
+  EXPECT_EQ(farm.terrain_origin_m, Eigen::Vector3d(540007.5, 4118005, 600.25));
   EXPECT_EQ(farm.terrain.triangles().size(), 48u);
   for (const Eigen::Vector3d& point : points) {
-    EXPECT_NEAR(farm.terrain.height(point.x() - 540007.5, point.y() - 4118005).value(), point.z(),
-                1e-12);
+    EXPECT_NEAR(farm.terrain.height(point.x() - 540007.5, point.y() - 4118005).value(),
+                point.z() - 600.25, 1e-12);
   }
   write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
   EXPECT_EQ(read_farm(folder.path() / "farm").terrain_origin_m, farm.terrain_origin_m);
