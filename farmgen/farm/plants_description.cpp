@@ -30,7 +30,7 @@ constexpr std::size_t kMostCultivars = 10'000;
 constexpr std::size_t kMostPlots = 100'000;
 const std::vector<std::string> kCultivarKeys = {"models",     "count",    "density_m2", "pattern",
                                                 "drill_rows", "jitter_m", "scale",      "height_m",
-                                                "missing",    "lodging"};
+                                                "missing",    "lodging",  "yaw"};
 
 // A cultivar's section; what it does not say, `plants` says.
 class Inherited {
@@ -72,8 +72,9 @@ void read_pattern(const Inherited& section, CultivarDescription& cultivar) {
     cultivar.drill_rows =
         static_cast<std::uint32_t>(section.at("drill_rows").integer("drill_rows", 1, 10'000));
     cultivar.jitter_m = section.at("jitter_m").number("jitter_m", kJitter, 0.0);
+    cultivar.yaw_of_row = section.at("yaw").choice("yaw", {"random", "row"}, 0) == 1;
   }
-  for (const char* key : {"drill_rows", "jitter_m"}) {
+  for (const char* key : {"drill_rows", "jitter_m", "yaw"}) {
     if (cultivar.pattern == PlantPattern::random && section.own().has(key)) {
       section.own().fail(key, "belongs to pattern: drilled; the pattern is random");
     }

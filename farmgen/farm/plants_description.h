@@ -45,6 +45,7 @@ struct CultivarDescription {
   PlantPattern pattern = PlantPattern::random;
   std::uint32_t drill_rows = 1;  // drilled: rows along the plot's length
   double jitter_m = 0;           // drilled: uniform shift in [-jitter_m, jitter_m] along both axes
+  bool yaw_of_row = false;       // drilled: x of a model along its row, either way; else any yaw
   double min_scale = 1;          // each axis' scale is uniform in [min_scale, max_scale]
   double max_scale = 1;
   std::optional<HeightDescription> height = {};  // then the z scale follows from the drawn height

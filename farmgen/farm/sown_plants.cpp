@@ -138,7 +138,8 @@ class PlotPlants {
   Plant drawn_plant(std::uint64_t number) const {
     Plant plant;
     plant.model = cultivar_.models[stream("plant/model", number).below(cultivar_.models.size())];
-    const double yaw = stream("plant/yaw", number).uniform(0, 2 * kPi);
+    const double turn = stream("plant/yaw", number).uniform(0, 2 * kPi);
+    const double yaw = cultivar_.yaw_of_row ? plot_.box.heading_rad + (turn < kPi ? 0 : kPi) : turn;
     plant.rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
     if (lodging_) plant.rotation = lean_of(number) * plant.rotation;
     RandomStream scale = stream("plant/scale", number);

@@ -22,10 +22,11 @@ std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescripti
                           std::uint64_t seed);
 
 // The plants that come up: position uniform in the plot or drilled in rows, yaw uniform in
-// [0, 2 pi), each axis' scale uniform in [min, max] or, along z, from a drawn height; one of the
-// cultivar's models; feet on the terrain, heights measured, ids from 1. What is drawn for a plant
-// depends on the farm's seed and its own seed's number alone. Throws InputError when a plot lies
-// over a hole of the terrain, or a model would have to be stretched too far for its drawn height.
+// [0, 2 pi) or along the row, each axis' scale uniform in [min, max] or, along z, from a drawn
+// height; one of the cultivar's models; feet on the terrain, heights measured, ids from 1. What is
+// drawn for a plant depends on the farm's seed and its own seed's number alone. Throws InputError
+// when a plot lies over a hole of the terrain, or a model would have to be stretched too far for
+// its drawn height.
 std::vector<Plant> grow_plants(const std::vector<SownPlot>& plots,
                                const std::vector<PlantModel>& models, const Terrain& terrain,
                                std::uint64_t seed);

@@ -112,6 +112,24 @@ TEST(SownPlants, WhatACultivarDoesNotSayThePlantsSay) {
   }
 }
 
+// A tuft is a piece of a drill row along its mesh's x axis.
+TEST(SownPlants, YawOfTheRowTurnsModelsAlongItEitherWay) {
+  const Farm farm = trial(
+      "  count: 90\n"
+      "  pattern: drilled\n"
+      "  drill_rows: 2\n"
+      "  yaw: row\n");
+  std::size_t forward = 0;
+  for (const Plant& plant : farm.plants) {
+    const Eigen::Vector3d x = plant.rotation * Eigen::Vector3d::UnitX();
+    const double along = x.head<2>().dot(plot_of(farm, plant).box.length_axis());
+    EXPECT_NEAR(std::abs(along), 1, 1e-9);
+    forward += along > 0 ? 1 : 0;
+  }
+  const auto plants = static_cast<double>(farm.plants.size());
+  EXPECT_NEAR(static_cast<double>(forward), plants / 2, 2 * std::sqrt(plants));
+}
+
 TEST(SownPlants, SeedsFailAtTheRateAndTheOthersStay) {
   const Farm all = trial("  count: 90\n");
   const Farm some = trial("  count: 90\n  missing: {rate: 0.07}\n");
