@@ -193,7 +193,7 @@ class MaizePlant {
     const double young = static_cast<double>(rank - collars_) / (traits_["whorl_leaves"] + 1);
     GrassBlade grown = blade(rank, random);
     grown.collar = stem_.at(stem_.length_m());
-    grown.visible = std::max(0.1, 0.85 * (1 - young));
+    grown.visible = std::max(0.1, 0.78 * (1 - young));
     grown.elevation_rad = kUpright - (kUpright - grown.elevation_rad) * (0.75 - 0.5 * young);
     grown.bend_rad *= 0.75 * (1 - young);
     plant_.blade(grass_blade(grown), "leaf");
