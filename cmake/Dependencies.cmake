@@ -10,11 +10,12 @@ find_package(TBB REQUIRED)
 find_package(assimp REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(CGAL REQUIRED)
+find_package(sdformat12 REQUIRED)
+find_package(console_bridge REQUIRED)
 find_package(PNG REQUIRED)
 find_package(benchmark REQUIRED)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
-  find_package(sdformat12 REQUIRED)
 endif()
 
 # Embree 4 where the system has it (Debian 13, Ubuntu 24.04), else Embree 3 (Debian 12).

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "gazebo/read_world.h"
+
 #include "core/program.h"
 #include "core/text.h"
 #include "farm/farm.h"
@@ -15,16 +17,17 @@ namespace {
 using namespace plotscan;
 
 struct Arguments {
-  std::string farm;
+  std::string place;  // a farm's folder or a world's file
   std::string scan;
   std::string flight;
   std::vector<double> mount_deg = {0, 90, 0};
+  std::vector<std::string> resource_paths;
   lidar::FlyOptions options;
   bool force = false;
 };
 
 void report(const Program& program, const Arguments& arguments, const lidar::FlySummary& summary,
-            double elapsed_s) {
+            const std::vector<std::string>& notes, double elapsed_s) {
   const auto bytes =
       std::filesystem::file_size(std::filesystem::path(arguments.scan) / "cloud.pcd");
   const double shots_a_second = static_cast<double>(summary.shots) / elapsed_s;
@@ -34,13 +37,35 @@ void report(const Program& program, const Arguments& arguments, const lidar::Fly
                   {"points", summary.points},
                   {"shots_per_second", shots_a_second},
                   {"cloud_bytes", bytes},
+                  {"notes", notes},
                   {"seconds", elapsed_s}});
+  for (const std::string& note : notes) program.say("note: " + note);
   program.say(formatted("%s: a flight of %.1f s, %.2f million shots, %.2f million points",
                         arguments.scan.c_str(), summary.duration_s,
                         1e-6 * static_cast<double>(summary.shots),
                         1e-6 * static_cast<double>(summary.points)));
   program.say(formatted("cloud.pcd %.1f MB, simulated in %.2f s (%.1f million shots a second)",
                         1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
+}
+
+lidar::FlySummary fly_farm(const Program& program, Arguments& arguments) {
+  const farm::Farm farm = farm::read_farm(arguments.place);
+  // The farm's manifest holds the hashes of its other files.
+  arguments.options.inputs = {std::filesystem::path(arguments.place) / "manifest.json"};
+  return lidar::fly(farm, arguments.scan, arguments.options, arguments.force,
+                    program.progress("scanning"));
+}
+
+lidar::FlySummary fly_world(const Program& program, Arguments& arguments,
+                            std::vector<std::string>& notes) {
+  gazebo::ReadWorldOptions options;
+  options.resource_paths.assign(arguments.resource_paths.begin(), arguments.resource_paths.end());
+  const gazebo::StaticWorld world = gazebo::read_world(arguments.place, options);
+  notes = world.notes;
+  arguments.options.inputs = world.files;
+  const lidar::SceneContent content = lidar::scene_content(world);
+  return lidar::fly(lidar::site_of(world.name, content), lidar::Scene(content), arguments.scan,
+                    arguments.options, arguments.force, program.progress("scanning"));
 }
 
 void run_fly(const Program& program, Arguments& arguments) {
@@ -51,22 +76,26 @@ void run_fly(const Program& program, Arguments& arguments) {
   if (!arguments.flight.empty()) options.flight = arguments.flight;
   for (int angle = 0; angle < 3; ++angle)
     options.mount_rpy_rad[angle] = arguments.mount_deg[angle] * std::numbers::pi / 180;
-  const farm::Farm farm = farm::read_farm(arguments.farm);
-  // The farm's manifest holds the hashes of its other files.
-  options.inputs = {std::filesystem::path(arguments.farm) / "manifest.json"};
-  const lidar::FlySummary summary =
-      lidar::fly(farm, arguments.scan, options, arguments.force, program.progress("scanning"));
+  std::vector<std::string> notes;
+  const lidar::FlySummary summary = std::filesystem::is_directory(arguments.place)
+                                        ? fly_farm(program, arguments)
+                                        : fly_world(program, arguments, notes);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  report(program, arguments, summary, elapsed.count());
+  report(program, arguments, summary, notes, elapsed.count());
 }
 
 void add_options(CLI::App& fly, Arguments& arguments) {
   lidar::FlyOptions& options = arguments.options;
-  fly.add_option("FARM", arguments.farm, "farm folder, as farmgen writes it")->required();
+  fly.add_option("FARM|WORLD.sdf", arguments.place,
+                 "farm folder, as farmgen writes it, or the file of any SDF world or model")
+      ->required();
   fly.add_option("-o,--output", arguments.scan, "scan folder to write")->required();
+  fly.add_option("--resource-path", arguments.resource_paths,
+                 "folder that holds models of the world, searched before the world's own and those "
+                 "of GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; may be repeated");
   fly.add_option("--sensor", options.sensor, "sensor: vlp16");
   auto* altitude = fly.add_option("--altitude", options.altitude_m,
-                                  "metres over the mean terrain under the plots, 0.5 to 120");
+                                  "metres over the mean ground under the plots, 0.5 to 120");
   auto* speed = fly.add_option("--speed", options.speed_m_s, "metres a second, up to 6");
   auto* spacing =
       fly.add_option("--spacing", options.spacing_m, "metres between neighbouring strips");
@@ -90,9 +119,9 @@ void add_options(CLI::App& fly, Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("lidarsim", "Scan virtual farms with a simulated LiDAR drone.");
+  Program program("lidarsim", "Scan virtual farms and SDF worlds with a simulated LiDAR drone.");
   Arguments arguments;
-  CLI::App& fly = program.command("fly", "Fly over a farm and write the scan.",
+  CLI::App& fly = program.command("fly", "Fly over a farm or an SDF world and write the scan.",
                                   [&] { run_fly(program, arguments); });
   add_options(fly, arguments);
   return program.run(argc, argv);

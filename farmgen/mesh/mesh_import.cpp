@@ -193,11 +193,17 @@ Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned
   return corner;
 }
 
+// The triangles of a node's meshes and of the nodes below it; with an object's name, of those nodes
+// and meshes alone that have it.
 void add_node(const std::filesystem::path& path, const aiScene& scene, const aiNode& node,
-              const Eigen::Affine3d& model_from_parent, MeshBuilder& builder) {
+              const Eigen::Affine3d& model_from_parent, const std::string& object,
+              MeshBuilder& builder) {
   const Eigen::Affine3d model_from_node = model_from_parent * file_from_node(node.mTransformation);
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    const bool wanted =
+        object.empty() || object == node.mName.C_Str() || object == part.mName.C_Str();
+    if (!wanted) continue;
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;  // points and lines
@@ -209,7 +215,7 @@ void add_node(const std::filesystem::path& path, const aiScene& scene, const aiN
     }
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    add_node(path, scene, *node.mChildren[i], model_from_node, builder);
+    add_node(path, scene, *node.mChildren[i], model_from_node, object, builder);
   }
 }
 
@@ -237,9 +243,13 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& opt
     throw InputError(path, "has more than 65535 materials");
   }
   MeshBuilder builder(materials_of(path, *scene));
-  add_node(path, *scene, *scene->mRootNode, model_from_file(extension, options), builder);
+  add_node(path, *scene, *scene->mRootNode, model_from_file(extension, options), options.object,
+           builder);
   Mesh mesh = builder.take();
-  if (mesh.triangles.empty()) throw InputError(path, "has no triangle with an area");
+  if (mesh.triangles.empty()) {
+    throw InputError(path, "has no triangle with an area" +
+                               (options.object.empty() ? "" : " in an object " + options.object));
+  }
   if (options.foot == MeshFoot::lowest) put_lowest_at_zero(mesh);
   return mesh;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "mesh/mesh.h"
 
@@ -21,13 +22,14 @@ struct MeshImportOptions {
   // Metres a unit of the file; for DAE and glTF, which state their unit, a further factor.
   double unit_m = 1;
   MeshFoot foot = MeshFoot::origin;
+  std::string object = {};  // reads the file's object of this name alone; empty: all
 };
 
 // Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are
 // triangulated, all objects joined, equal vertices shared, and triangles without area dropped.
 // Materials keep their names, diffuse colours and textures (PNG or JPEG, inside the file or beside
 // it). Throws InputError when the file is missing or cannot be parsed, its format is another, a
-// coordinate is not finite, or no triangle with an area is left.
+// coordinate is not finite, it has no such object, or no triangle with an area is left.
 Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {});
 
 }  // namespace plotscan::mesh

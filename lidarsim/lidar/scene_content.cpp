@@ -49,4 +49,20 @@ SceneContent scene_content(const farm::Farm& farm) {
   return content;
 }
 
+SceneContent scene_content(const gazebo::StaticWorld& world) {
+  SceneContent content;
+  for (const mesh::Mesh& mesh : world.meshes)
+    content.meshes.push_back({.vertices = mesh.vertices, .triangles = mesh.triangles});
+  content.placed.reserve(world.surfaces.size());
+  for (const gazebo::PlacedSurface& surface : world.surfaces) {
+    // The numbers of both classes are the same (gazebo/labels.h).
+    content.placed.push_back({.mesh = surface.mesh,
+                              .world_from_mesh = surface.world_from_mesh,
+                              .surface = {.label = static_cast<scan::PointClass>(surface.kind),
+                                          .plot = surface.plot,
+                                          .plant = surface.plant}});
+  }
+  return content;
+}
+
 }  // namespace plotscan::lidar

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gazebo/static_world.h"
 #include "mesh/mesh.h"
 #include <Eigen/Geometry>
 
@@ -35,5 +36,7 @@ struct SceneContent {
 // A farm's plants in their order, then its terrain. Throws InputError when a plant names a missing
 // model.
 SceneContent scene_content(const farm::Farm& farm);
+// A world's surfaces in their order.
+SceneContent scene_content(const gazebo::StaticWorld& world);
 
 }  // namespace plotscan::lidar

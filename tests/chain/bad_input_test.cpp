@@ -41,6 +41,17 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
                "y\nproperty float z\n"
                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "0 0 0\n1 0 0\n0 0 1\n3 0 1 7\n");
+  folder.write("broken.sdf", "<sdf version='1.9'>\n<world name='w'>\n");
+  folder.write("fuel.sdf",
+               "<sdf version='1.9'><world name='w'><include>"
+               "<uri>https://fuel.gazebosim.org/x/models/y</uri></include></world></sdf>");
+  folder.write(
+      "bare.sdf",
+      "<sdf version='1.9'><model name='hut'><link name='l'><visual name='wall'><geometry>"
+      "<mesh><uri>model://hut/wall.dae</uri></mesh></geometry></visual></link></model></sdf>");
+  folder.write("posed.sdf",
+               "<sdf version='1.9'><model name='hut'><pose>1 2 nan 0 0 0</pose><link name='l'/>"
+               "</model></sdf>");
   const auto before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
   const Finished finished = run(GetParam().command, folder.path().string());
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
@@ -64,6 +75,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"farmgen generate " + kPaper + " -o out --seed minus", "seed"},
         BadCommand{"lidarsim fly not_a_farm -o out", "not_a_farm"},
         BadCommand{"lidarsim fly absent -o out", "absent"},
+        BadCommand{"lidarsim fly broken.sdf -o out", "broken.sdf:"},
+        BadCommand{"lidarsim fly broken.yaml -o out", "broken.yaml"},
+        BadCommand{"lidarsim fly absent.sdf -o out", "absent.sdf"},
+        BadCommand{"lidarsim fly fuel.sdf -o out", "network"},
+        BadCommand{"lidarsim fly bare.sdf -o out", "hut/wall.dae"},
+        BadCommand{"lidarsim fly posed.sdf -o out", "posed.sdf"},
+        BadCommand{"lidarsim fly bare.sdf -o out --resource-path nowhere", "nowhere"},
         BadCommand{"farmgen generate " + kPaper + " -o web --force", "web"},
         BadCommand{"farmgen generate " + kPaper + " -o ''", "no name"},
         BadCommand{"farmgen generate " + kPaper + " -o out --seed -1", "seed"},
