@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -33,6 +34,23 @@ nlohmann::json json_of(const farm::Spread& spread) {
   return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}};
 }
 
+nlohmann::json json_of(const std::vector<farm::CultivarSummary>& cultivars) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const farm::CultivarSummary& cultivar : cultivars) {
+    list.push_back({{"accession_name", cultivar.name},
+                    {"plots", cultivar.plots},
+                    {"plots_lodged", cultivar.lodged_plots},
+                    {"plants", cultivar.plants},
+                    {"plants_missing", cultivar.missing_plants},
+                    {"weeds", cultivar.weeds},
+                    {"height_mean_m", cultivar.height_mean_m},
+                    {"height_max_m", cultivar.height_max_m},
+                    {"plants_per_m2", cultivar.plants_per_m2},
+                    {"leaf_area_index", cultivar.leaf_area_index}});
+  }
+  return list;
+}
+
 nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary) {
   nlohmann::json document = {{"name", made.name},
                              {"seed", made.seed},
@@ -47,13 +65,34 @@ nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary)
                              {"plant_triangles", summary.plant_triangles},
                              {"plant_height_m", json_of(summary.plant_height_m)},
                              {"plot_height_max_m", json_of(summary.plot_height_max_m)},
-                             {"leaf_area_index", summary.leaf_area_index}};
+                             {"weeds", summary.weeds},
+                             {"leaf_area_index", summary.leaf_area_index},
+                             {"cultivars", json_of(summary.cultivars)}};
   if (made.anchor) {
     document["anchor"] = {{"latitude_deg", made.anchor->latitude_deg},
                           {"longitude_deg", made.anchor->longitude_deg},
                           {"altitude_m", made.anchor->altitude_m}};
   }
   return document;
+}
+
+void say_cultivars(const Program& program, const std::vector<farm::CultivarSummary>& cultivars) {
+  std::size_t width = std::char_traits<char>::length("cultivar");
+  for (const farm::CultivarSummary& cultivar : cultivars) {
+    width = std::max(width, cultivar.name.size());
+  }
+  const auto padded = [&](const std::string& name) {
+    return name + std::string(width - name.size(), ' ');
+  };
+  program.say(padded("cultivar") +
+              "  plots  lodged   plants  missing  weeds  mean m   max m  per m2   LAI");
+  for (const farm::CultivarSummary& cultivar : cultivars) {
+    program.say(padded(cultivar.name) +
+                formatted("  %5zu  %6zu  %7zu  %7zu  %5zu  %6.3f  %6.3f  %6.1f  %4.2f",
+                          cultivar.plots, cultivar.lodged_plots, cultivar.plants,
+                          cultivar.missing_plants, cultivar.weeds, cultivar.height_mean_m,
+                          cultivar.height_max_m, cultivar.plants_per_m2, cultivar.leaf_area_index));
+  }
 }
 
 void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
@@ -79,8 +118,10 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
                         static_cast<unsigned long long>(summary.plant_triangles)));
   say_spread("plant heights", summary.plant_height_m);
   say_spread("plot maxima", summary.plot_height_max_m);
-  program.say(formatted("leaf area index %.2f (area of all plant triangles over the plots' area)",
+  if (summary.weeds > 0) program.say(formatted("weeds           %zu", summary.weeds));
+  program.say(formatted("leaf area index %.2f (area of the crop's leaves over the plots' area)",
                         summary.leaf_area_index));
+  if (!summary.cultivars.empty()) say_cultivars(program, summary.cultivars);
 }
 
 farm::Farm generate_from(const Program& program, const Arguments& arguments,

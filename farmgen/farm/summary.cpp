@@ -2,6 +2,9 @@
 #include "farm/summary.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "mesh/measure.h"
@@ -41,6 +44,50 @@ double summarise_plots(const std::vector<Plot>& plots, FarmSummary& summary) {
   return area_m2;
 }
 
+// Sums of a cultivar's plots, which become means at the end.
+struct CultivarSums {
+  CultivarSummary summary;
+  double area_m2 = 0;
+  double leaves_m2 = 0;
+  double heights_m = 0;
+};
+
+CultivarSummary summary_of(const CultivarSums& sums) {
+  CultivarSummary summary = sums.summary;
+  if (summary.plants > 0) {
+    summary.height_mean_m = sums.heights_m / static_cast<double>(summary.plants);
+  }
+  summary.plants_per_m2 = static_cast<double>(summary.plants) / sums.area_m2;
+  summary.leaf_area_index = sums.leaves_m2 / sums.area_m2;
+  return summary;
+}
+
+// The leaves of each plot's crop, by plot id.
+using PlotLeaves = std::unordered_map<std::uint32_t, double>;
+
+std::vector<CultivarSummary> summarise_cultivars(const std::vector<Plot>& plots,
+                                                 const PlotLeaves& leaves_m2) {
+  std::map<std::string, CultivarSums> cultivars;
+  for (const Plot& plot : plots) {
+    CultivarSums& sums = cultivars[plot.accession];
+    CultivarSummary& own = sums.summary;
+    own.name = plot.accession;
+    ++own.plots;
+    own.lodged_plots += plot.lodging_rad > kLodged_rad ? 1 : 0;
+    own.plants += plot.plant_count;
+    own.missing_plants += plot.missing_plants;
+    own.weeds += plot.weed_count;
+    own.height_max_m = std::max(own.height_max_m, plot.heights.max);
+    sums.heights_m += plot.heights.mean * plot.plant_count;
+    sums.area_m2 += plot.box.area_m2();
+    const auto leaves = leaves_m2.find(plot.id);
+    if (leaves != leaves_m2.end()) sums.leaves_m2 += leaves->second;
+  }
+  std::vector<CultivarSummary> summaries;
+  for (const auto& [name, sums] : cultivars) summaries.push_back(summary_of(sums));
+  return summaries;
+}
+
 }  // namespace
 
 FarmSummary summarise(const Farm& farm) {
@@ -48,21 +95,28 @@ FarmSummary summarise(const Farm& farm) {
   summarise_terrain(farm.terrain, summary);
   const double plots_m2 = summarise_plots(farm.plots, summary);
   summary.models = farm.models.size();
-  summary.plants = farm.plants.size();
   std::vector<mesh::ScaledArea> leaves;
   for (const PlantModel& model : farm.models) {
     leaves.push_back(mesh::ScaledArea::of_leaves(model.mesh));
   }
   std::vector<double> heights;
   heights.reserve(farm.plants.size());
+  PlotLeaves plot_leaves_m2;
   double leaves_m2 = 0;
   for (const Plant& plant : farm.plants) {
-    heights.push_back(plant.height_m);
     summary.plant_triangles += farm.models[plant.model].mesh.triangles.size();
-    if (plant.plot != 0) leaves_m2 += leaves[plant.model].at(plant.scale);
+    if (plant.kind == PlantKind::weed) continue;
+    heights.push_back(plant.height_m);
+    if (plant.plot == 0) continue;
+    const double area_m2 = leaves[plant.model].at(plant.scale);
+    plot_leaves_m2[plant.plot] += area_m2;
+    leaves_m2 += area_m2;
   }
+  summary.plants = heights.size();
+  summary.weeds = farm.plants.size() - heights.size();
   summary.plant_height_m = spread_of(heights);
   summary.leaf_area_index = plots_m2 > 0 ? leaves_m2 / plots_m2 : 0;
+  summary.cultivars = summarise_cultivars(farm.plots, plot_leaves_m2);
   return summary;
 }
 

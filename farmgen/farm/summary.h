@@ -3,16 +3,36 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "farm/farm.h"
 
 namespace plotscan::farm {
+
+// A plot whose plants lean more than this on average is lodged.
+inline constexpr double kLodged_rad = 5 * std::numbers::pi / 180;
 
 // Least, mean and greatest of some values; all zero without values.
 struct Spread {
   double min = 0;
   double mean = 0;
   double max = 0;
+};
+
+// The plots of one cultivar.
+struct CultivarSummary {
+  std::string name;
+  std::size_t plots = 0;
+  std::size_t lodged_plots = 0;  // whose plants lean more than kLodged_rad on average
+  std::size_t plants = 0;
+  std::size_t missing_plants = 0;
+  std::size_t weeds = 0;
+  double height_mean_m = 0;    // over its plants
+  double height_max_m = 0;     // the highest of them
+  double plants_per_m2 = 0;    // of the plots' area
+  double leaf_area_index = 0;  // as of the farm
 };
 
 // A farm at a glance.
@@ -22,13 +42,15 @@ struct FarmSummary {
   std::size_t terrain_triangles = 0;
   std::size_t models = 0;
   std::size_t plots = 0;
-  std::size_t plants = 0;
-  std::uint64_t plant_triangles = 0;                       // of all placed plants
+  std::size_t plants = 0;                                  // of the crop
+  std::uint64_t plant_triangles = 0;                       // of all placed plants and weeds
   Eigen::Vector2d field_size_m = Eigen::Vector2d::Zero();  // bounding rectangle of the plots
-  Spread plant_height_m;
+  std::size_t weeds = 0;
+  Spread plant_height_m;  // of the crop
   Spread plot_height_max_m;
-  // Area of the plants' leaves (mesh::ScaledArea::of_leaves) over the area of the plots.
+  // Area of the crop's leaves (mesh::ScaledArea::of_leaves) over the area of the plots.
   double leaf_area_index = 0;
+  std::vector<CultivarSummary> cultivars;  // in the order of their names
 };
 
 FarmSummary summarise(const Farm& farm);
