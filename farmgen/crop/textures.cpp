@@ -200,10 +200,11 @@ std::string hex_of(const Eigen::Vector3f& colour) {
 }  // namespace
 
 Pattern pattern_of(const std::string& crop, const std::string& material) {
-  const bool leaf = material.find("leaf") != std::string::npos;
-  if (leaf) return crop == "soybean" ? Pattern::net_veins : Pattern::parallel_veins;
-  if (crop == "wheat" && material.find("ear") != std::string::npos) return Pattern::spikelets;
-  return material == "pod" ? Pattern::pod : Pattern::fibres;
+  const auto has = [&](const char* word) { return material.find(word) != std::string::npos; };
+  if (crop == "soybean" && (has("leaf") || has("cotyledon"))) return Pattern::net_veins;
+  if (crop == "soybean" && has("pod")) return Pattern::pod;
+  if (crop == "wheat" && has("ear")) return Pattern::spikelets;
+  return has("leaf") || has("dry") ? Pattern::parallel_veins : Pattern::fibres;
 }
 
 std::shared_ptr<const mesh::Image> organ_texture(const std::string& crop,

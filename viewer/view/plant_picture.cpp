@@ -35,7 +35,10 @@ namespace {
 constexpr double kDegrees = std::numbers::pi / 180;
 constexpr double kHeightsShowUpTo_deg = 60;  // steeper, the scale counts metres of ground
 constexpr double kCreaseAngle_deg = 50;      // sharper edges are not shaded as round
-constexpr double kLeastTick_px = 36;
+// Pixels drawn each way for one of the picture, so that awns and thin stems show.
+constexpr int kSamples = 2;
+constexpr Range kPlantPictureSize_px{64, 8192};
+constexpr double kLeastTick_px = 30;
 constexpr int kLabelFont_px = 15;
 constexpr int kTickFont_px = 13;
 // A wide letter of the label's font.
@@ -60,8 +63,8 @@ View view_from(const PlantPictureOptions& options) {
 }
 
 void validate(const std::vector<PicturedPlant>& plants, const PlantPictureOptions& options) {
-  require_range(options.width_px, kPictureSize_px, "picture width");
-  require_range(options.height_px, kPictureSize_px, "picture height");
+  require_range(options.width_px, kPlantPictureSize_px, "picture width");
+  require_range(options.height_px, kPlantPictureSize_px, "picture height");
   require_range(options.elevation_deg, {0, 90}, "camera elevation in degrees");
   require_range(options.azimuth_deg, {-360, 360}, "camera azimuth in degrees");
   require_range(options.columns, {0, 1000}, "number of columns");
@@ -102,7 +105,7 @@ void add_text(vtkRenderer& renderer, const std::string& text, const Eigen::Vecto
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   vtkTextProperty& style = *actor->GetTextProperty();
-  style.SetFontSize(font_px);
+  style.SetFontSize(kSamples * font_px);
   style.SetColor(0.15, 0.15, 0.15);
   style.SetVerticalJustificationToCentered();
   if (centred) {
@@ -110,7 +113,7 @@ void add_text(vtkRenderer& renderer, const std::string& text, const Eigen::Vecto
   } else {
     style.SetJustificationToRight();
   }
-  actor->SetPosition(place_px.x(), place_px.y());
+  actor->SetPosition(kSamples * place_px.x(), kSamples * place_px.y());
   renderer.AddActor2D(actor);
 }
 
@@ -140,7 +143,7 @@ class Lines {
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     actor->GetProperty()->SetColor(grey, grey, grey);
-    actor->GetProperty()->SetLineWidth(width_px);
+    actor->GetProperty()->SetLineWidth(kSamples * width_px);
     actor->GetProperty()->LightingOff();
     renderer.AddActor(actor);
   }
@@ -242,9 +245,9 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
   aim(*renderer, sheet);
 
   vtkNew<vtkRenderWindow> window;
-  prepare_offscreen(*window, options.width_px, options.height_px);
+  prepare_offscreen(*window, kSamples * options.width_px, kSamples * options.height_px);
   window->AddRenderer(renderer);
-  render_png(*window, png);
+  render_png(*window, png, kSamples);
 }
 
 }  // namespace plotscan::view

@@ -12,7 +12,7 @@ namespace plotscan::view {
 // What a picture of plants side by side shows. They are seen in parallel projection, all at one
 // scale.
 struct PlantPictureOptions {
-  int width_px = 1600;  // of the whole picture, 64 to 16384
+  int width_px = 1600;  // of the whole picture, 64 to 8192
   int height_px = 700;
   double azimuth_deg = -60;   // where the camera stands: counter-clockwise from east
   double elevation_deg = 10;  // of the camera over the horizon, 0 to 90

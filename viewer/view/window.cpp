@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/window.h"
 
+#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
@@ -23,14 +24,18 @@ void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
   window.SetSize(width_px, height_px);
 }
 
-void render_png(vtkRenderWindow& window, const std::filesystem::path& png) {
+void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples) {
   window.Render();
   const TemporaryPath partial(png.string() + ".partial");
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(&window);
   capture->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(capture->GetOutputPort());
+  vtkNew<vtkImageShrink3D> shrink;
+  shrink->SetInputConnection(capture->GetOutputPort());
+  shrink->SetShrinkFactors(samples, samples, 1);
+  shrink->AveragingOn();
+  writer->SetInputConnection(shrink->GetOutputPort());
   writer->SetFileName(partial.path().c_str());
   writer->SetCompressionLevel(9);
   writer->Write();
