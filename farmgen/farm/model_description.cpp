@@ -91,6 +91,7 @@ bool same(const ModelDescription& a, const ModelDescription& b) {
          a.options.unit_m == b.options.unit_m && a.options.foot == b.options.foot;
 }
 
+// The light mesh is for simulators, which show leaves as pictures; the scan mesh is for lasers.
 mesh::Mesh grown(const ModelDescription& model, crop::Detail detail,
                  const std::filesystem::path& source) {
   const GrownPlant& plant = *model.grown;
@@ -98,7 +99,8 @@ mesh::Mesh grown(const ModelDescription& model, crop::Detail detail,
     return crop::grow({.crop = plant.crop,
                        .stage = plant.stage,
                        .assignments = plant.assignments,
-                       .detail = detail},
+                       .detail = detail,
+                       .textured = detail == crop::Detail::light},
                       plant.seed);
   } catch (const InputError& error) {
     throw InputError(source, "model " + model.name + ": " + error.what());
