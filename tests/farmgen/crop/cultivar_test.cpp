@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crop/cultivar.h"
 
+#include <fstream>
+
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +36,8 @@ Cultivar reed() { return parse_cultivar(kReed, "reed.yaml"); }
 
 Cultivar with(const std::string& user_file) {
   const TemporaryFolder folder;
-  return override_cultivar(reed(), folder.write("mine.yaml", user_file));
+  std::ofstream(folder.path() / "mine.yaml") << user_file;
+  return override_cultivar(reed(), folder.path() / "mine.yaml");
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
