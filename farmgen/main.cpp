@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "crop/soybean.h"
-#include "mesh/measure.h"
-#include "mesh/obj.h"
+#include "plant_command.h"
 
 #include "core/error.h"
 #include "core/program.h"
@@ -21,7 +18,6 @@
 namespace {
 
 using namespace plotscan;
-namespace fs = std::filesystem;
 
 struct Arguments {
   std::string input;
@@ -170,27 +166,6 @@ void run_check(const Program& program, const Arguments& arguments) {
   say_summary(program, made, summary);
 }
 
-void run_plant_soybean(const Program& program, const Arguments& arguments) {
-  const fs::path output = arguments.output;
-  if (output.extension() != ".obj") throw InputError(output, "does not end in .obj");
-  if (fs::exists(output) && !arguments.force)
-    throw InputError(output, "exists; --force replaces it");
-  const mesh::Mesh mesh =
-      crop::soybean(crop::soybean_options(arguments.assignments), program.common().seed);
-  const fs::path partial = output.string() + ".partial";
-  mesh::write_obj(partial, mesh);
-  fs::rename(partial, output);
-  const double height_m = mesh::mesh_height(mesh);
-  const double area_m2 = mesh::ScaledArea(mesh).at();
-  program.result({{"mesh", arguments.output},
-                  {"height_m", height_m},
-                  {"area_m2", area_m2},
-                  {"vertices", mesh.vertices.size()},
-                  {"triangles", mesh.triangles.size()}});
-  program.say(formatted("%s: height %.3f m, area %.3f m2, %zu triangles", arguments.output.c_str(),
-                        height_m, area_m2, mesh.triangles.size()));
-}
-
 void add_farm_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("FARM", arguments.input,
@@ -226,17 +201,6 @@ int main(int argc, char** argv) {
                       [&] { run_check(program, arguments); });
   add_farm_options(check, arguments);
 
-  CLI::App& plant = program.command("plant", "Make a plant mesh from parameters and a seed.",
-                                    [&] { run_plant_soybean(program, arguments); });
-  plant.add_option("SPECIES", arguments.input, "soybean")
-      ->required()
-      ->check(CLI::IsMember({"soybean"}));
-  plant.add_option("--set", arguments.assignments, "key=value, see below; may be repeated")
-      ->expected(1)
-      ->take_all();
-  plant.add_option("-o,--output", arguments.output, "mesh to write (OBJ, metres, z up)")
-      ->required();
-  plant.add_flag("--force", arguments.force, "replace a mesh that is already there");
-  plant.footer("Keys of --set with their defaults:\n" + crop::soybean_options_help());
+  add_plant_command(program);
   return program.run(argc, argv);
 }

@@ -19,7 +19,11 @@ struct Crop {
 };
 
 const std::vector<Crop>& known_crops() {
-  static const std::vector<Crop> kCrops = {{"maize", grow_maize}, {"wheat", grow_wheat}};
+  static const std::vector<Crop> kCrops = {
+      {.name = "soybean", .grow = grow_soybean},
+      {.name = "wheat", .grow = grow_wheat},
+      {.name = "maize", .grow = grow_maize},
+  };
   return kCrops;
 }
 
@@ -33,13 +37,12 @@ const Crop& crop_named(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> crops() {
-  std::vector<std::string> names = {"soybean"};
+  std::vector<std::string> names;
   for (const Crop& crop : known_crops()) names.emplace_back(crop.name);
   return names;
 }
 
 std::vector<std::string> stages(const std::string& crop) {
-  if (crop == "soybean") return {"R2"};
   std::vector<std::string> names;
   for (const Stage& stage : cultivar(crop).stages) names.push_back(stage.name);
   return names;
@@ -59,10 +62,6 @@ StageFacts stage_facts(const std::string& crop, const std::string& stage) {
 }
 
 mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {
-  if (options.crop == "soybean") {
-    const mesh::Mesh mesh = soybean(soybean_options(options.assignments), seed);
-    return options.detail == Detail::scan ? mesh : mesh::simplified(mesh, 300);
-  }
   const Crop& crop = crop_named(options.crop);
   const Cultivar described = cultivar(options.crop, options.cultivar_file);
   const Traits traits(described, described.stage(options.stage), options.assignments);

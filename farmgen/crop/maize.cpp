@@ -167,11 +167,12 @@ class MaizePlant {
     grown.bend_rad *= age;
     const bool dry = rank <= traits_.count("shed_leaves") + traits_.count("dry_leaves");
     if (dry) {
-      // It hangs from its collar along the stem, narrow for its margins have rolled in.
-      grown.elevation_rad -= 0.3;
-      grown.bend_rad = grown.elevation_rad + 1.45;
-      grown.bend_exponent = 0.15;
+      // Broken at its collar it hangs beside the stem, narrow and short for it has shrivelled.
+      grown.elevation_rad = -1.15;
+      grown.bend_rad = 0.35;
+      grown.bend_exponent = 1;
       grown.width_m *= 0.5;
+      grown.length_m = std::min(0.7 * grown.length_m, grown.collar.z());
     }
     plant_.blade(grass_blade(grown), dry ? "dry" : "leaf");
   }

@@ -115,7 +115,12 @@ TEST_F(Farmgen, BadInputEndsWithCodeTwoOneMessageAndNothingWritten) {
       {"info nowhere", "farmgen: nowhere: no such farm folder\n"},
       {"info .", "not a folder written by plotscan"},
       {"plant soybean -o s.ply", "farmgen: s.ply: does not end in .obj\n"},
-      {"plant soybean -o s.obj --set nodes=0", "nodes is to be a whole number in [3, 30]\n"},
+      {"plant soybean -o s.obj --set nodes=0", "nodes is to be a whole number in [1, 30]\n"},
+      {"plant soybean -o s.obj --stage R9", "stage R9 is not one of soybean's, which are V2, V4"},
+      {"plant soybean -o s.obj --cultivar none.yaml", "farmgen: none.yaml: no such file\n"},
+      {"plant soybean -o s.obj --detail fine", "--detail"},
+      {"plant triffid -o s.obj", "triffid"},
+      {"plant soybean -o none/s.obj", "none"},
       {"generate example.yaml", "--output is required"},
       {"sow", ""}};
   for (const auto& [arguments, message] : mistakes) {
@@ -139,11 +144,25 @@ TEST_F(Farmgen, ReplacesOnlyWithForce) {
 }
 
 TEST_F(Farmgen, MakesPlants) {
-  const auto made = json_of("plant soybean --seed 4 --set nodes=10 -o s.obj");
+  const auto made = json_of("plant soybean --seed 4 --stage R2 --set nodes=10 -o s.obj");
   EXPECT_GT(made["height_m"], 0.3);
+  EXPECT_EQ(made["stage"], "R2");
   EXPECT_EQ(run("plant soybean -o s.obj").exit_code, 2) << "it exists";
   EXPECT_EQ(run("plant soybean -o s.obj --force").exit_code, 0);
-  EXPECT_THAT(left_behind(), ::testing::ElementsAre("s.obj"));
+  EXPECT_THAT(left_behind(), ::testing::UnorderedElementsAre("s.obj", "s.mtl"));
+  const auto light = json_of("plant soybean --detail light -o s.obj --force");
+  EXPECT_LT(light["triangles"], 300);
+  folder_.write("mine.yaml", "crop: soybean\nparameters: {leaflet_length_m: {value: 0.05}}\n");
+  const auto mine = json_of("plant soybean --cultivar mine.yaml -o s.obj --force");
+  EXPECT_LT(mine["leaf_area_m2"], 0.4 * light["leaf_area_m2"].get<double>());
+}
+
+TEST_F(Farmgen, PlantHelpListsCropsStagesAndKeys) {
+  const std::string help = run("plant --help").out;
+  for (const char* text : {"soybean (Glycine max", "maize", "R3", "(default)", "leaflet_length_m",
+                           "by stage", "[0.01, 0.3]"}) {
+    EXPECT_THAT(help, HasSubstr(text));
+  }
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crop/cultivar.h"
 
-#include <fstream>
-
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,8 +34,7 @@ Cultivar reed() { return parse_cultivar(kReed, "reed.yaml"); }
 
 Cultivar with(const std::string& user_file) {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "mine.yaml") << user_file;
-  return override_cultivar(reed(), folder.path() / "mine.yaml");
+  return override_cultivar(reed(), folder.write("mine.yaml", user_file));
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

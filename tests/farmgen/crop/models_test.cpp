@@ -74,7 +74,7 @@ TEST_P(ShippedModels, StandWithinThePublishedHeights) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Crops, ShippedModels, ::testing::Values("maize", "wheat"),
+INSTANTIATE_TEST_SUITE_P(Crops, ShippedModels, ::testing::ValuesIn(crops()),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Summary, CountsWhatTheFarmHolds) {
     const mesh::Mesh& mesh = farm.models[plant.model].mesh;
     least = std::min(least, plant.height_m);
     total += plant.height_m;
-    area += mesh::ScaledArea(mesh).at(plant.scale);
+    area += mesh::ScaledArea::of_leaves(mesh).at(plant.scale);
     triangles += mesh.triangles.size();
   }
   EXPECT_EQ(summary.plant_height_m.min, least);

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plant_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "crop/grow.h"
+#include "mesh/measure.h"
+#include "mesh/obj.h"
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/temporary_path.h"
+#include "core/text.h"
+
+namespace plotscan {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlantArguments {
+  crop::GrowOptions options;
+  std::string detail = "scan";
+  std::string output;
+  bool force = false;
+};
+
+// The mesh and its materials, written beside their places and renamed when they are whole.
+void write_mesh(const fs::path& output, const mesh::Mesh& mesh) {
+  const TemporaryPath partial(output.string() + ".partial");
+  std::error_code ignored;  // writing into the folder says what is wrong
+  fs::create_directory(partial.path(), ignored);
+  mesh::write_obj(partial.path() / output.filename(), mesh);
+  for (const auto& file : fs::directory_iterator(partial.path())) {
+    fs::rename(file.path(), output.parent_path() / file.path().filename());
+  }
+}
+
+void require_free(const fs::path& path) {
+  if (fs::exists(path)) throw InputError(path, "exists; --force replaces it");
+}
+
+void run_plant(const Program& program, const PlantArguments& arguments) {
+  const fs::path output = arguments.output;
+  if (output.extension() != ".obj") throw InputError(output, "does not end in .obj");
+  if (!arguments.force) {
+    require_free(output);
+    require_free(fs::path(output).replace_extension(".mtl"));
+  }
+  crop::GrowOptions options = arguments.options;
+  options.detail = arguments.detail == "light" ? crop::Detail::light : crop::Detail::scan;
+  const mesh::Mesh mesh = crop::grow(options, program.common().seed);
+  write_mesh(output, mesh);
+  const crop::StageFacts facts = crop::stage_facts(options.crop, options.stage);
+  const double height_m = mesh::mesh_height(mesh);
+  const double leaf_area_m2 = mesh::ScaledArea::of_leaves(mesh).at();
+  program.result({{"mesh", arguments.output},
+                  {"crop", options.crop},
+                  {"stage", facts.stage.name},
+                  {"detail", arguments.detail},
+                  {"height_m", height_m},
+                  {"leaf_area_m2", leaf_area_m2},
+                  {"area_m2", mesh::ScaledArea(mesh).at()},
+                  {"vertices", mesh.vertices.size()},
+                  {"triangles", mesh.triangles.size()}});
+  program.say(formatted("%s: %s at %s, height %.3f m, leaf area %.4f m2, %zu triangles",
+                        arguments.output.c_str(), options.crop.c_str(), facts.stage.name.c_str(),
+                        height_m, leaf_area_m2, mesh.triangles.size()));
+  program.say(
+      formatted("a plot of %g plants per m2 at %s: height %g to %g m, leaf area index %g to %g",
+                facts.plants_per_m2, facts.stage.name.c_str(), facts.stage.height_m.low,
+                facts.stage.height_m.high, facts.stage.leaf_area_index.low,
+                facts.stage.leaf_area_index.high));
+}
+
+std::string stages_help(const crop::Cultivar& cultivar) {
+  std::string text;
+  for (const crop::Stage& stage : cultivar.stages) {
+    const char* const mark = stage.name == cultivar.default_stage ? " (default)" : "";
+    text += formatted("  %-9s %s%s\n", stage.name.c_str(), stage.meaning.c_str(), mark);
+  }
+  return text;
+}
+
+std::string keys_help(const crop::Cultivar& cultivar) {
+  std::string text;
+  for (const crop::Parameter& parameter : cultivar.parameters) {
+    const std::string value = parameter.by_stage ? "by stage" : format_number(parameter.value);
+    text += formatted("  %-22s %-8s %-6s %-14s %s\n", parameter.name.c_str(), value.c_str(),
+                      parameter.unit.c_str(), parameter.range.text().c_str(),
+                      parameter.meaning.c_str());
+  }
+  return text;
+}
+
+std::string crops_help() {
+  std::string text;
+  for (const std::string& name : crop::crops()) {
+    const crop::Cultivar cultivar = crop::cultivar(name);
+    text += name + " (" + cultivar.species + ")\nStages:\n" + stages_help(cultivar) +
+            "Keys of --set with default, unit and range:\n" + keys_help(cultivar) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_plant_command(Program& program) {
+  const auto arguments = std::make_shared<PlantArguments>();
+  CLI::App& plant = program.command("plant", "Grow a plant mesh from parameters and a seed.",
+                                    [&program, arguments] { run_plant(program, *arguments); });
+  plant.add_option("CROP", arguments->options.crop, joined(crop::crops(), ", "))
+      ->required()
+      ->check(CLI::IsMember(crop::crops()));
+  plant.add_option("--stage", arguments->options.stage,
+                   "growth stage, see below; the crop's default where absent");
+  plant.add_option("--cultivar", arguments->options.cultivar_file,
+                   "YAML file of a cultivar, over the crop's own");
+  plant
+      .add_option("--set", arguments->options.assignments, "key=value, see below; may be repeated")
+      ->expected(1)
+      ->take_all();
+  plant.add_option("--detail", arguments->detail, "scan: every leaf's shape; light: few triangles")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"scan", "light"}));
+  plant.add_flag("--textured", arguments->options.textured,
+                 "pictures of the organs' surfaces in place of plain colours");
+  plant.add_option("-o,--output", arguments->output, "mesh to write (OBJ, metres, z up)")
+      ->required();
+  plant.add_flag("--force", arguments->force, "replace a mesh that is already there");
+  plant.footer(crops_help());
+}
+
+}  // namespace plotscan
