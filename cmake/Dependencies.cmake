@@ -16,6 +16,9 @@ find_package(PNG REQUIRED)
 find_package(benchmark REQUIRED)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
+  find_package(ignition-common4 REQUIRED COMPONENTS graphics)
+  # The elements of each version of SDF, as libsdformat ships them.
+  find_path(SDF_SPECIFICATIONS 1.6/root.sdf PATH_SUFFIXES share/sdformat12 REQUIRED)
 endif()
 
 # Embree 4 where the system has it (Debian 13, Ubuntu 24.04), else Embree 3 (Debian 12).

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "export_command.h"
 #include "plant_command.h"
 
 #include "core/error.h"
@@ -201,6 +202,7 @@ int main(int argc, char** argv) {
                       [&] { run_check(program, arguments); });
   add_farm_options(check, arguments);
 
+  add_export_command(program);
   add_plant_command(program);
   return program.run(argc, argv);
 }

@@ -10,6 +10,7 @@
 #include "farm/plot_table.h"
 #include "farm/sdf.h"
 #include "farm/sdf_elements.h"
+#include "farm/surface_colours.h"
 #include "farm/terrain_ply.h"
 
 namespace plotscan::farm {
@@ -19,8 +20,6 @@ namespace {
 // Shares of the time that are over once truth/ and world.sdf are written, for the progress bar.
 constexpr double kTruthShare = 0.35;
 constexpr double kWorldShare = 0.9;
-const Eigen::Vector3f kLeafGreen(0.24F, 0.46F, 0.16F);
-const Eigen::Vector3f kSoilBrown(0.45F, 0.34F, 0.24F);
 
 mesh::Mesh mesh_of(const Terrain& terrain) {
   mesh::Mesh mesh;

@@ -16,6 +16,8 @@ XmlFile::XmlFile(const std::filesystem::path& path)
 
 XmlFile::~XmlFile() = default;
 
+XmlFile::XmlFile(XmlFile&&) noexcept = default;
+
 void XmlFile::open(const char* element) { printer_->OpenElement(element); }
 
 void XmlFile::open(const char* element, const std::string& name) {

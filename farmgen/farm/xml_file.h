@@ -18,6 +18,7 @@ class XmlFile {
   // Throws InputError when the file cannot be written.
   explicit XmlFile(const std::filesystem::path& path);
   ~XmlFile();
+  XmlFile(XmlFile&&) noexcept;
 
   void open(const char* element);
   void open(const char* element, const std::string& name);  // with the attribute name="..."

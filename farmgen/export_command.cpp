@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "export_command.h"
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "gazebo/export_world.h"
+
+#include "core/text.h"
+
+namespace {
+
+using namespace plotscan;
+
+struct ExportArguments {
+  std::string farm;
+  std::string output;
+  std::string gazebo;
+  std::string merge = "plot";
+  std::string lod = "light";
+  std::string collision = "none";
+  bool drone = false;
+  bool force = false;
+};
+
+const std::map<std::string, gazebo::Gazebo> kGazebos = {{"classic", gazebo::Gazebo::classic},
+                                                        {"sim", gazebo::Gazebo::sim}};
+const std::map<std::string, gazebo::Merge> kMerges = {
+    {"plot", gazebo::Merge::plot}, {"row", gazebo::Merge::row}, {"none", gazebo::Merge::none}};
+const std::map<std::string, gazebo::Detail> kDetails = {{"light", gazebo::Detail::light},
+                                                        {"scan", gazebo::Detail::scan}};
+const std::map<std::string, gazebo::Collision> kCollisions = {{"none", gazebo::Collision::none},
+                                                              {"box", gazebo::Collision::box},
+                                                              {"mesh", gazebo::Collision::mesh}};
+
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
+                        const std::string& text, const std::map<std::string, Value>& choices) {
+  return command.add_option(name, value, text)->check(CLI::IsMember(&choices));
+}
+
+Manifest manifest_of(const ExportArguments& arguments) {
+  return {.command = "farmgen export",
+          .options = {{"gazebo", arguments.gazebo},
+                      {"merge", arguments.merge},
+                      {"lod", arguments.lod},
+                      {"collision", arguments.collision},
+                      {"drone", arguments.drone}},
+          .inputs = {std::filesystem::path(arguments.farm) / "manifest.json"}};
+}
+
+void run_export(const Program& program, const ExportArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  const gazebo::ExportSummary summary =
+      gazebo::export_world(farm::read_farm(arguments.farm), arguments.farm, arguments.output,
+                           {.gazebo = kGazebos.at(arguments.gazebo),
+                            .merge = kMerges.at(arguments.merge),
+                            .lod = kDetails.at(arguments.lod),
+                            .collision = kCollisions.at(arguments.collision),
+                            .drone = arguments.drone,
+                            .threads = program.common().threads},
+                           arguments.force, manifest_of(arguments), program.progress("exporting"));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const gazebo::EntityCounts& counts = summary.counts;
+  program.result({{"folder", arguments.output},
+                  {"plants", summary.plants},
+                  {"models", counts.models},
+                  {"links", counts.links},
+                  {"visuals", counts.visuals},
+                  {"collisions", counts.collisions},
+                  {"triangles", counts.triangles},
+                  {"bytes", summary.bytes},
+                  {"seconds", elapsed.count()}});
+  program.say(formatted(
+      "%s: %llu plants merged by %s, %.1f MB, %llu triangles, %llu models, %llu "
+      "links, %llu visuals, %llu collisions, in %.2f s",
+      arguments.output.c_str(), static_cast<unsigned long long>(summary.plants),
+      arguments.merge.c_str(), static_cast<double>(summary.bytes) * 1e-6,
+      static_cast<unsigned long long>(counts.triangles),
+      static_cast<unsigned long long>(counts.models), static_cast<unsigned long long>(counts.links),
+      static_cast<unsigned long long>(counts.visuals),
+      static_cast<unsigned long long>(counts.collisions), elapsed.count()));
+  program.say("README.md in it tells how it is opened");
+}
+
+}  // namespace
+
+void add_export_command(Program& program) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App& command = program.command("export", "Write a farm folder as a world for Gazebo.",
+                                      [&program, arguments] { run_export(program, *arguments); });
+  command.add_option("FARM", arguments->farm, "farm folder written by generate")->required();
+  add_choice(
+      command, "--gazebo", arguments->gazebo,
+      "classic: Gazebo Classic 9 and 11, SDF 1.6; sim: Gazebo Sim, Fortress to Jetty, SDF 1.9",
+      kGazebos)
+      ->required();
+  command.add_option("-o,--output", arguments->output, "folder to write")->required();
+  add_choice(
+      command, "--merge", arguments->merge,
+      "what becomes one model: the plants of a plot (a mesh a material), of a row, or each plant "
+      "(slow to load where there are thousands)",
+      kMerges)
+      ->capture_default_str();
+  add_choice(command, "--lod", arguments->lod,
+             "light: plants of at most about 300 triangles; scan: the meshes that lidarsim scans",
+             kDetails)
+      ->capture_default_str();
+  add_choice(
+      command, "--collision", arguments->collision,
+      "of the plants: none, a box around each plot's canopy (or each plant), or their meshes; "
+      "the terrain always collides",
+      kCollisions)
+      ->capture_default_str();
+  command.add_flag("--drone", arguments->drone,
+                   "a quadrotor with a VLP-16, and a script that flies it along a trajectory.csv");
+  command.add_flag("--force", arguments->force, "replace a world that is already there");
+}

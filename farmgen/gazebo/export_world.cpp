@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/export_world.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "gazebo/drone.h"
+#include "gazebo/fly_script.h"
+#include "gazebo/readme.h"
+#include "gazebo/world_file.h"
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
+#include "core/output_folder.h"
+#include "farm/sdf_elements.h"
+
+namespace plotscan::gazebo {
+namespace fs = std::filesystem;
+namespace {
+
+// Share of the time that is over when the meshes are written, for the progress bar.
+constexpr double kMeshShare = 0.9;
+
+// The names of model folders have to differ: a plant model may be called like a plot or the drone.
+void require_different_names(const farm::Farm& farm, const std::vector<PlantGroups>& groups,
+                             bool drone) {
+  std::set<std::string> taken = {farm::kTerrainModel};
+  if (drone) taken.insert(kDroneModel);
+  for (const PlantGroups& group : groups) taken.insert(group.name);
+  for (const farm::PlantModel& model : farm.models) {
+    if (!taken.insert(model.name).second) {
+      throw InputError("plant model \"" + model.name +
+                       "\" is called as another model of the world; give it another `name`");
+    }
+  }
+}
+
+EntityCounts write_models(const fs::path& folder, const farm::Farm& farm,
+                          const std::vector<PlantGroups>& groups, const PlantSurfaces& surfaces,
+                          const ExportOptions& options, const ProgressReport& progress) {
+  const ModelFolder models{.path = folder / "models", .gazebo = options.gazebo};
+  EntityCounts counts = write_terrain_model(models, farm);
+  counts += write_merged_plants(models, farm, groups, surfaces, options, progress);
+  if (options.drone) counts += write_drone_model(models, farm.anchor.has_value());
+  return counts;
+}
+
+EntityCounts write_worlds(const fs::path& folder, const World& world) {
+  if (world.options.gazebo == Gazebo::classic)
+    return write_world(folder / "world.sdf", world, PluginNames::none);
+  write_world(folder / "world_fortress.sdf", world, PluginNames::ignition);
+  return write_world(folder / "world.sdf", world, PluginNames::gz);
+}
+
+std::uint64_t folder_bytes(const fs::path& folder) {
+  std::uint64_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  return bytes;
+}
+
+nlohmann::json results_of(const EntityCounts& counts, const farm::Farm& farm) {
+  return {{"name", farm.name},
+          {"plots", farm.plots.size()},
+          {"plants", farm.plants.size()},
+          {"models", counts.models},
+          {"links", counts.links},
+          {"visuals", counts.visuals},
+          {"collisions", counts.collisions},
+          {"triangles", counts.triangles}};
+}
+
+ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
+                           const fs::path& folder, const ExportOptions& options, bool replace,
+                           Manifest origin, const ProgressReport& progress) {
+  const std::vector<PlantGroups> groups =
+      options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
+  require_different_names(farm, groups, options.drone);
+  OutputFolder output(folder, replace, origin.command);
+  const PlantSurfaces surfaces = plant_surfaces(farm, options.lod);
+  ExportSummary summary{.counts = {}, .plants = farm.plants.size()};
+  summary.counts = write_models(output.path(), farm, groups, surfaces, options,
+                                [&](double share) { progress(kMeshShare * share); });
+  const std::vector<SinglePlant> single_plants = write_single_plants(
+      {.path = output.path() / "models", .gazebo = options.gazebo}, farm, surfaces);
+  summary.counts += write_worlds(
+      output.path(),
+      {.farm = farm, .options = options, .groups = groups, .single_plants = single_plants});
+  fs::copy(farm_folder / "truth", output.path() / "truth", fs::copy_options::recursive);
+  if (options.drone) write_fly_script(output.path() / "fly_drone.sh", farm.name, options.gazebo);
+  write_readme(output.path() / "README.md", farm, options, summary.counts);
+  origin.seed = farm.seed;
+  origin.results = results_of(summary.counts, farm);
+  write_manifest(output.path(), origin);
+  summary.bytes = folder_bytes(output.path());
+  output.commit();
+  progress(1);
+  return summary;
+}
+
+}  // namespace
+
+ExportSummary export_world(const farm::Farm& farm, const fs::path& farm_folder,
+                           const fs::path& folder, const ExportOptions& options, bool replace,
+                           Manifest origin, const ProgressReport& progress) {
+  std::optional<tbb::global_control> more_threads;
+  if (options.threads > tbb::info::default_concurrency()) {
+    more_threads.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.threads));
+  }
+  ExportSummary summary;
+  tbb::task_arena(options.threads).execute([&] {
+    summary = write_export(
+        farm_folder, farm, folder, options, replace, std::move(origin),
+        progress ? progress : [](double) {});
+  });
+  return summary;
+}
+
+}  // namespace plotscan::gazebo

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exports as Gazebo itself reads them: libsdformat 12 and ign-common 4 are those of Fortress.
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "farmgen/gazebo/export_example.h"
+#include "gazebo/naming.h"
+#include <gtest/gtest.h>
+#include <ignition/common/Material.hh>
+#include <ignition/common/Mesh.hh>
+#include <ignition/common/MeshManager.hh>
+#include <ignition/common/SubMesh.hh>
+#include <sdf/sdf.hh>
+#include <tinyxml2.h>
+
+#include "core/error.h"
+#include "farm/sdf_elements.h"
+
+namespace plotscan::gazebo {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Variant {
+  std::string name;
+  ExportOptions options;
+};
+
+// Every Gazebo and merge, with the other options taken in turns.
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  int number = 0;
+  for (const Gazebo gazebo : {Gazebo::classic, Gazebo::sim}) {
+    for (const Merge merge : {Merge::plot, Merge::row, Merge::none}) {
+      for (const Collision collision : {Collision::none, Collision::box, Collision::mesh}) {
+        all.push_back({"world" + std::to_string(number),
+                       {.gazebo = gazebo,
+                        .merge = merge,
+                        .lod = number % 2 == 0 ? Detail::scan : Detail::light,
+                        .collision = collision,
+                        .drone = true}});
+        ++number;
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<fs::path> sdf_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".sdf") files.push_back(entry.path());
+  }
+  return files;
+}
+
+void load(const fs::path& folder, const fs::path& file, sdf::Root& root) {
+  sdf::ParserConfig config;
+  config.AddURIPath("model://", (folder / "models").string());
+  config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  for (const sdf::Error& error : root.Load((folder / file).string(), config)) {
+    ADD_FAILURE() << file << ": " << error.Message();
+  }
+}
+
+Eigen::Vector3d eigen(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+Eigen::Vector3d position_of(const sdf::Model& model) { return eigen(model.RawPose().Pos()); }
+
+double retro_of(const sdf::Visual& visual) { return visual.LaserRetro(); }
+
+// The elements <plugin> of a world or model.
+std::vector<sdf::ElementPtr> plugins_of(const sdf::ElementPtr& element) {
+  std::vector<sdf::ElementPtr> plugins;
+  if (!element->HasElement("plugin")) return plugins;
+  for (auto each = element->GetElement("plugin"); each; each = each->GetNextElement("plugin"))
+    plugins.push_back(each);
+  return plugins;
+}
+
+std::string label_of(const sdf::Model& model) {
+  for (const sdf::ElementPtr& plugin : plugins_of(model.Element())) {
+    if (plugin->Get<std::string>("name").ends_with("::systems::Label"))
+      return plugin->Get<std::string>("label");
+  }
+  return "";
+}
+
+TEST(ExportLoading, LibsdformatFindsEveryPlantWhereItStands) {
+  const ExportExample example;
+  const farm::Farm& farm = example.farm();
+  for (const Gazebo gazebo : {Gazebo::classic, Gazebo::sim}) {
+    const std::string name = gazebo == Gazebo::sim ? "sim" : "classic";
+    example.write(name, {.gazebo = gazebo, .merge = Merge::none, .lod = Detail::scan});
+    sdf::Root root;
+    load(example.path() / name, "world.sdf", root);
+    const sdf::World& world = *root.WorldByIndex(0);
+    EXPECT_EQ(world.Name(), farm.name);
+    ASSERT_EQ(world.ModelCount(), farm.plants.size() + 1);
+    for (const farm::Plant& plant : farm.plants) {
+      const sdf::Model* model = world.ModelByName(plant_model_name(plant.plot, plant.id));
+      ASSERT_NE(model, nullptr) << plant.id;
+      EXPECT_TRUE(model->Static());
+      EXPECT_EQ(position_of(*model), plant.position);
+      const auto& q = model->RawPose().Rot();
+      EXPECT_LT(Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).angularDistance(plant.rotation),
+                1e-6);
+      const sdf::Visual& visual = *model->LinkByIndex(0)->VisualByIndex(0);
+      const sdf::Mesh& mesh = *visual.Geom()->MeshShape();
+      EXPECT_EQ(eigen(mesh.Scale()), plant.scale);
+      EXPECT_EQ(mesh.Uri(), "model://" + farm.models[plant.model].name + "/meshes/" +
+                                farm.models[plant.model].name + ".obj");
+      const bool weed = plant.kind == farm::PlantKind::weed;
+      EXPECT_EQ(retro_of(visual), weed ? 3 : 2);
+      EXPECT_EQ(label_of(*model), gazebo == Gazebo::classic ? "" : (weed ? "3" : "2"));
+    }
+  }
+}
+
+TEST(ExportLoading, MergedModelsStandAtTheirPlotsWithTheirClass) {
+  const ExportExample example;
+  for (const Merge merge : {Merge::plot, Merge::row}) {
+    const std::string name = merge == Merge::plot ? "plot" : "row";
+    example.write(name, {.merge = merge, .drone = true});
+    for (const char* file : {"world.sdf", "world_fortress.sdf"}) {
+      sdf::Root root;
+      load(example.path() / name, file, root);
+      const sdf::World& world = *root.WorldByIndex(0);
+      EXPECT_EQ(label_of(*world.ModelByName("terrain")), "1");
+      EXPECT_EQ(retro_of(*world.ModelByName("terrain")->LinkByIndex(0)->VisualByIndex(0)), 1);
+      EXPECT_EQ(label_of(*world.ModelByName("drone")), "4");
+      for (const farm::Plot& plot : example.farm().plots) {
+        const Eigen::Vector3d place(
+            plot.box.center.x(), plot.box.center.y(),
+            *example.farm().terrain.height(plot.box.center.x(), plot.box.center.y()));
+        const std::string plot_name = farm::plot_element_name(plot.id);
+        for (const std::string& part : {plot_name, weeds_name(plot_name)}) {
+          const bool weed = part != plot_name;
+          const std::string row = row_model_name(plot.row);
+          const sdf::Model* model =
+              world.ModelByName(merge == Merge::plot ? part : (weed ? weeds_name(row) : row));
+          ASSERT_NE(model, nullptr) << part;
+          const sdf::Link* link = model->LinkByName(merge == Merge::plot ? "link" : part);
+          ASSERT_NE(link, nullptr) << part;
+          EXPECT_LT((position_of(*model) + eigen(link->RawPose().Pos()) - place).norm(), 1e-12);
+          EXPECT_EQ(label_of(*model), weed ? "3" : "2");
+          for (std::uint64_t i = 0; i < link->VisualCount(); ++i) {
+            const sdf::Visual& visual = *link->VisualByIndex(i);
+            EXPECT_EQ(retro_of(visual), weed ? 3 : 2);
+            EXPECT_TRUE(visual.Material()->DoubleSided());
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ExportLoading, EachGazeboGetsThePluginsItKnows) {
+  const ExportExample example;
+  example.write("sim", {.drone = true});
+  example.write("classic", {.gazebo = Gazebo::classic, .drone = true});
+  const auto plugins = [&](const fs::path& folder, const char* file) {
+    sdf::Root root;
+    load(example.path() / folder, file, root);
+    std::set<std::string> names;
+    for (const sdf::ElementPtr& plugin : plugins_of(root.WorldByIndex(0)->Element()))
+      names.insert(plugin->Get<std::string>("filename") + " " + plugin->Get<std::string>("name"));
+    return names;
+  };
+  const std::vector<std::pair<std::string, std::string>> systems = {
+      {"physics", "Physics"},
+      {"user-commands", "UserCommands"},
+      {"scene-broadcaster", "SceneBroadcaster"},
+      {"sensors", "Sensors"},
+      {"imu", "Imu"},
+      {"navsat", "NavSat"}};
+  std::set<std::string> gz;
+  std::set<std::string> ignition;
+  for (const auto& [file, name] : systems) {
+    gz.insert("gz-sim-" + file + "-system gz::sim::systems::" + name);
+    ignition.insert("ignition-gazebo-" + file + "-system ignition::gazebo::systems::" + name);
+  }
+  EXPECT_EQ(plugins("sim", "world.sdf"), gz);
+  EXPECT_EQ(plugins("sim", "world_fortress.sdf"), ignition);
+  EXPECT_TRUE(plugins("classic", "world.sdf").empty());
+}
+
+TEST(ExportLoading, TheDroneCarriesOurLidar) {
+  const ExportExample example;
+  for (const Gazebo gazebo : {Gazebo::classic, Gazebo::sim}) {
+    const std::string name = gazebo == Gazebo::sim ? "sim" : "classic";
+    example.write(name, {.gazebo = gazebo, .drone = true});
+    sdf::Root root;
+    load(example.path() / name, "world.sdf", root);
+    const sdf::World& world = *root.WorldByIndex(0);
+    EXPECT_NEAR(world.SphericalCoordinates()->LatitudeReference().Degree(), 37.2, 1e-9);
+    EXPECT_NEAR(world.SphericalCoordinates()->LongitudeReference().Degree(), -80.6, 1e-9);
+    EXPECT_EQ(world.SphericalCoordinates()->ElevationReference(), 600);
+    const sdf::Model& drone = *world.ModelByName("drone");
+    EXPECT_EQ(drone.Static(), gazebo == Gazebo::sim);
+    const sdf::Link& link = *drone.LinkByIndex(0);
+    const sdf::Sensor& sensor = *link.SensorByName("vlp16");
+    EXPECT_EQ(sensor.TypeStr(), "gpu_lidar");
+    EXPECT_EQ(sensor.UpdateRate(), 10);
+    EXPECT_EQ(eigen(sensor.RawPose().Pos()), Eigen::Vector3d::Zero()) << "trajectories are its own";
+    // The spin axis lies along the flight, azimuth 0 points down.
+    const auto& turn = sensor.RawPose().Rot();
+    EXPECT_LT((eigen(turn * ignition::math::Vector3d::UnitZ) - Eigen::Vector3d::UnitX()).norm(),
+              1e-12);
+    EXPECT_LT((eigen(turn * ignition::math::Vector3d::UnitX) + Eigen::Vector3d::UnitZ()).norm(),
+              1e-12);
+    const sdf::Lidar& lidar = *sensor.LidarSensor();
+    EXPECT_GE(lidar.HorizontalScanSamples(), 1800u);
+    EXPECT_NEAR((lidar.HorizontalScanMaxAngle() - lidar.HorizontalScanMinAngle()).Radian(),
+                2 * M_PI * (1 - 1.0 / lidar.HorizontalScanSamples()), 1e-9)
+        << "no azimuth twice";
+    EXPECT_EQ(lidar.VerticalScanSamples(), 16u);
+    EXPECT_NEAR(lidar.VerticalScanMinAngle().Degree(), -15, 1e-9);
+    EXPECT_NEAR(lidar.VerticalScanMaxAngle().Degree(), 15, 1e-9);
+    EXPECT_EQ(lidar.RangeMax(), 100);
+    EXPECT_NE(link.SensorByName("imu"), nullptr);
+    ASSERT_NE(link.SensorByName("gps"), nullptr);
+    EXPECT_EQ(link.SensorByName("gps")->TypeStr(), "navsat") << "gps is its old name";
+  }
+}
+
+TEST(ExportLoading, BoxesHoldTheirPlants) {
+  const ExportExample example;
+  example.write("world", {.lod = Detail::scan, .collision = Collision::box});
+  sdf::Root root;
+  load(example.path() / "world", "world.sdf", root);
+  for (const farm::Plant& plant : example.farm().plants) {
+    const std::string name = plant.plot == 0 ? std::string(farm::kPlantsOutsidePlots)
+                                             : farm::plot_element_name(plant.plot);
+    const bool weed = plant.kind == farm::PlantKind::weed;
+    const sdf::Model& model = *root.WorldByIndex(0)->ModelByName(weed ? weeds_name(name) : name);
+    const sdf::Collision& collision = *model.LinkByIndex(0)->CollisionByIndex(0);
+    const ignition::math::Vector3d half = collision.Geom()->BoxShape()->Size() / 2;
+    const ignition::math::Pose3d world_from_box = model.RawPose() * collision.RawPose();
+    for (const Eigen::Vector3f& vertex : example.farm().models[plant.model].mesh.vertices) {
+      const Eigen::Vector3d v =
+          plant.position + plant.rotation * plant.scale.cwiseProduct(vertex.cast<double>());
+      const Eigen::Vector3d inside = eigen(world_from_box.Rot().RotateVectorReverse(
+          ignition::math::Vector3d(v.x(), v.y(), v.z()) - world_from_box.Pos()));
+      EXPECT_TRUE((inside.cwiseAbs().array() <= eigen(half).array() + 1e-9).all());
+    }
+  }
+}
+
+TEST(ExportLoading, GazebosMeshLoaderShowsTheSameMeshes) {
+  const ExportExample example;
+  example.write("world", {.gazebo = Gazebo::classic, .lod = Detail::scan});
+  example.write("sim", {.lod = Detail::scan});
+  const fs::path models = example.path() / "world/models";
+  auto& loader = *ignition::common::MeshManager::Instance();
+  const farm::Farm& farm = example.farm();
+  const farm::Plot& plot = farm.plots.front();
+  const Eigen::Vector3d origin(plot.box.center.x(), plot.box.center.y(),
+                               *farm.terrain.height(plot.box.center.x(), plot.box.center.y()));
+  Eigen::AlignedBox3d leaves;
+  std::size_t bushes = 0;
+  for (const farm::Plant& plant : farm.plants) {
+    if (plant.plot != plot.id || plant.kind != farm::PlantKind::crop) continue;
+    const mesh::Mesh& mesh = farm.models[plant.model].mesh;
+    if (farm.models[plant.model].name != "bush") continue;
+    ++bushes;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (mesh.materials[mesh.material_of(i)].name != "leaf") continue;
+      for (const std::uint32_t vertex : mesh.triangles[i]) {
+        const Eigen::Vector3d v = mesh.vertices[vertex].cast<double>();
+        leaves.extend(plant.position + plant.rotation * plant.scale.cwiseProduct(v) - origin);
+      }
+    }
+  }
+  ASSERT_GT(bushes, 0u);
+  for (const bool sim : {false, true}) {
+    const fs::path file = (sim ? example.path() / "sim/models" : models) / "plot_1/meshes/leaf.obj";
+    const ignition::common::Mesh* leaf = loader.Load(file.string());
+    ASSERT_NE(leaf, nullptr);
+    EXPECT_EQ(leaf->SubMeshCount(), 1u);
+    EXPECT_EQ(leaf->VertexCount(), 3 * 2 * bushes * (sim ? 1 : 2)) << "Classic shows both sides";
+    EXPECT_EQ(leaf->NormalCount(), leaf->VertexCount());
+    EXPECT_EQ(leaf->TexCoordCount(), leaf->VertexCount());
+    EXPECT_LT((eigen(leaf->Min()) - leaves.min()).norm(), 1e-6);
+    EXPECT_LT((eigen(leaf->Max()) - leaves.max()).norm(), 1e-6);
+    ASSERT_EQ(leaf->MaterialCount(), 1u);
+    const auto material = leaf->MaterialByIndex(0);
+    EXPECT_EQ(material->Diffuse(), ignition::math::Color(0.2F, 0.5F, 0.1F));
+    EXPECT_EQ(material->Ambient(), material->Diffuse());
+    ASSERT_TRUE(fs::exists(material->TextureImage())) << material->TextureImage();
+    EXPECT_EQ(read_text(material->TextureImage()), png());
+  }
+  const ignition::common::Mesh* bush = loader.Load((models / "bush/meshes/bush.obj").string());
+  ASSERT_NE(bush, nullptr);
+  EXPECT_EQ(bush->SubMeshCount(), 2u) << "leaf and stem";
+  EXPECT_EQ(bush->VertexCount(), 3u * (2 * 2 + 4));
+  const ignition::common::Mesh* ground =
+      loader.Load((models / "terrain/meshes/terrain.obj").string());
+  ASSERT_NE(ground, nullptr);
+  EXPECT_EQ(ground->VertexCount(), 3 * farm.terrain.triangles().size());
+}
+
+// Fronts lie counter-clockwise about their normals, or light would come from below.
+TEST(ExportLoading, NormalsPointToTheFront) {
+  const ExportExample example;
+  example.write("world", {.gazebo = Gazebo::classic, .lod = Detail::scan});
+  auto& loader = *ignition::common::MeshManager::Instance();
+  const fs::path models = example.path() / "world/models";
+  const auto leaf =
+      loader.Load((models / "plot_1/meshes/leaf.obj").string())->SubMeshByIndex(0).lock();
+  for (unsigned i = 0; i + 2 < leaf->VertexCount(); i += 3) {
+    const auto front =
+        (leaf->Vertex(i + 1) - leaf->Vertex(i)).Cross(leaf->Vertex(i + 2) - leaf->Vertex(i));
+    for (unsigned k = i; k < i + 3; ++k) EXPECT_GT(front.Dot(leaf->Normal(k)), 0);
+  }
+  const auto ground =
+      loader.Load((models / "terrain/meshes/terrain.obj").string())->SubMeshByIndex(0).lock();
+  for (unsigned i = 0; i < ground->VertexCount(); ++i) EXPECT_GT(ground->Normal(i).Z(), 0);
+}
+
+TEST(ExportLoading, IgnitionFindsNothingToComplainAbout) {
+  if (std::system("command -v ign >/dev/null 2>&1") != 0) GTEST_SKIP() << "ign is absent";
+  const ExportExample example;
+  for (const Variant& variant : variants()) {
+    example.write(variant.name, variant.options);
+    const fs::path folder = example.path() / variant.name;
+    const std::string models = (folder / "models").string();
+    for (const fs::path& file : sdf_files(folder)) {
+      sdf::Root root;
+      load(folder, fs::relative(file, folder), root);
+      if (file.parent_path() != folder && variant.options.collision != Collision::box) continue;
+      const std::string output = (example.path() / "output.txt").string();
+      const std::string check = "SDF_PATH=" + models + " IGN_FILE_PATH=" + models +
+                                " ign sdf --check " + file.string() + " >" + output + " 2>" +
+                                output + ".err";
+      EXPECT_EQ(std::system(check.c_str()), 0) << file;
+      EXPECT_EQ(read_text(output), "Valid.\n") << file << read_text(output + ".err");
+      EXPECT_EQ(read_text(output + ".err").find("Warning"), std::string::npos)
+          << file << read_text(output + ".err");
+    }
+  }
+}
+
+// Walks a document beside the specification that libsdformat ships for a version.
+class Specification {
+ public:
+  explicit Specification(const std::string& version)
+      : folder_(fs::path(PLOTSCAN_SDF_SPECIFICATIONS) / version) {}
+
+  void expect_known(const tinyxml2::XMLElement& element, const tinyxml2::XMLElement& rule) {
+    std::set<std::string> attributes;
+    std::map<std::string, const tinyxml2::XMLElement*> children;
+    for (auto* part = rule.FirstChildElement(); part; part = part->NextSiblingElement()) {
+      const std::string kind = part->Name();
+      if (kind == "attribute") attributes.insert(part->Attribute("name"));
+      if (kind == "element" && part->Attribute("name")) children[part->Attribute("name")] = part;
+      if (kind == "include") {
+        const auto* included = rule_in(part->Attribute("filename"));
+        children[included->Attribute("name")] = included;
+      }
+    }
+    for (auto* a = element.FirstAttribute(); a; a = a->Next())
+      EXPECT_TRUE(attributes.contains(a->Name())) << element.Name() << " " << a->Name();
+    for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const auto known = children.find(child->Name());
+      if (known == children.end()) {
+        ADD_FAILURE() << "<" << child->Name() << "> is not in <" << element.Name() << ">, line "
+                      << child->GetLineNum();
+      } else {
+        expect_known(*child, *known->second);
+      }
+    }
+  }
+
+  const tinyxml2::XMLElement* rule_in(const std::string& file) {
+    auto& document = files_[file];
+    if (!document) {
+      document = std::make_unique<tinyxml2::XMLDocument>();
+      EXPECT_EQ(document->LoadFile((folder_ / file).c_str()), tinyxml2::XML_SUCCESS) << file;
+    }
+    return document->RootElement();
+  }
+
+ private:
+  fs::path folder_;
+  std::map<std::string, std::unique_ptr<tinyxml2::XMLDocument>> files_;
+};
+
+TEST(ExportLoading, EveryElementIsOneOfTheVersionThatTheFileStates) {
+  const ExportExample example;
+  Specification classic("1.6");
+  Specification sim("1.9");
+  for (const Variant& variant : variants()) {
+    // libsdformat knows Label's and Sensors' own elements as little as we may ask it to.
+    if (variant.options.gazebo == Gazebo::sim) continue;
+    example.write(variant.name, variant.options);
+    for (const fs::path& file : sdf_files(example.path() / variant.name)) {
+      tinyxml2::XMLDocument document;
+      ASSERT_EQ(document.LoadFile(file.c_str()), tinyxml2::XML_SUCCESS);
+      EXPECT_STREQ(document.RootElement()->Attribute("version"), "1.6");
+      classic.expect_known(*document.RootElement(), *classic.rule_in("root.sdf"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plotscan::gazebo
