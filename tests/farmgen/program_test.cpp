@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "farmgen/farm/example_farm.h"
 #include <gmock/gmock.h>
@@ -162,6 +163,69 @@ TEST_F(Farmgen, PlantHelpListsCropsStagesAndKeys) {
   for (const char* text : {"soybean (Glycine max", "maize", "R3", "(default)", "leaflet_length_m",
                            "by stage", "[0.01, 0.3]"}) {
     EXPECT_THAT(help, HasSubstr(text));
+  }
+}
+
+TEST_F(Farmgen, ExportsWorlds) {
+  ASSERT_EQ(run("generate example.yaml -o farm -q").exit_code, 0);
+  for (const char* gazebo : {"classic", "sim"}) {
+    const std::string folder = gazebo;
+    const auto made = json_of("export farm --gazebo " + folder + " -o " + folder);
+    EXPECT_EQ(made["models"], 5 + 1) << "plots and terrain";
+    EXPECT_EQ(made["plants"], 100);
+    EXPECT_TRUE(fs::exists(folder_.path() / folder / "world.sdf"));
+    const Outcome refused = run("export farm --gazebo " + folder + " -o " + folder);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--force"));
+    EXPECT_EQ(run("export farm --force --gazebo " + folder + " -o " + folder).exit_code, 0);
+  }
+}
+
+TEST_F(Farmgen, ExportsNothingOfBadInput) {
+  ASSERT_EQ(run("generate example.yaml -o farm -q").exit_code, 0);
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"export nowhere --gazebo sim -o w", "nowhere: no such farm folder"},
+           {"export farm -o w", "--gazebo is required"},
+           {"export farm --gazebo sim", "--output is required"},
+           {"export farm --gazebo gz -o w", "--gazebo"},
+           {"export farm --gazebo sim --merge all -o w", "--merge"},
+           {"export farm --gazebo sim --lod fine -o w", "--lod"},
+           {"export farm --gazebo sim --collision sphere -o w", "--collision"},
+           {"export farm --gazebo sim -o farm --force", "was not written by farmgen export"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
+    EXPECT_THAT(left_behind(), ::testing::ElementsAre("farm")) << arguments;
+  }
+}
+
+// Every file by its path, but the manifest, which tells the version.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    if (entry.is_regular_file() && name != "manifest.json") files[name] = read_text(entry.path());
+  }
+  return files;
+}
+
+TEST_F(Farmgen, TheShippedGazeboWorldsAreThoseOfTheirDescription) {
+  const fs::path worlds = fs::path(PLOTSCAN_SOURCE_DIR) / "worlds";
+  ASSERT_EQ(run("generate '" + (worlds / "demo.yaml").string() + "' -o demo -q").exit_code, 0);
+  for (const std::string gazebo : {"classic", "sim"}) {
+    ASSERT_EQ(run("export demo --drone --gazebo " + gazebo + " -o " + gazebo).exit_code, 0);
+    const auto made = files_in(folder_.path() / gazebo);
+    const auto shipped = files_in(worlds / "gazebo" / gazebo);
+    ASSERT_FALSE(made.empty());
+    std::size_t bytes = 0;
+    for (const auto& [name, text] : made) {
+      const auto same = shipped.find(name);
+      EXPECT_TRUE(same != shipped.end() && same->second == text)
+          << gazebo << "/" << name << " differs; scripts/demo_worlds makes it again";
+      bytes += text.size();
+    }
+    EXPECT_EQ(made.size(), shipped.size());
+    EXPECT_LT(bytes, 1'000'000u);
   }
 }
 
