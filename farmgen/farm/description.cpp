@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/description.h"
 
-#include <algorithm>
-#include <numbers>
-#include <set>
-#include <string_view>
-
 #include "core/error.h"
 #include "core/yaml_section.h"
 #include "farm/description_values.h"
@@ -14,21 +9,9 @@
 namespace plotscan::farm {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
-constexpr Range kScale = {0.01, 100};
 constexpr Range kLatitude = {-89, 89};  // at a pole there is no north
 constexpr Range kLongitude = {-180, 180};
 constexpr Range kAltitude = {-1000, 10000};
-constexpr Range kPlotSize = {0.05, 1000};
-constexpr Range kGap = {0, 1000};
-constexpr Range kPlace = {-100000, 100000};
-constexpr Range kHeading = {-360, 360};
-constexpr Range kJitter = {0, 10};
-constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
-constexpr std::size_t kMostRows = 10'000;
-constexpr std::uint64_t kMostPlots = 100'000;
-constexpr std::uint64_t kMostPlants = 10'000'000;
-constexpr std::size_t kMostModels = 1000;
 
 Anchor read_anchor(const YamlSection& section) {
   section.allow_only({"latitude_deg", "longitude_deg", "altitude_m"});

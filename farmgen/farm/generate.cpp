@@ -41,8 +41,9 @@ std::vector<Plot> plots_of(const std::vector<SownPlot>& sown) {
 }
 
 // The weeds come behind the crop, so that no plant of the crop changes its id.
-void add_weeds(const WeedsDescription& description, Farm& farm) {
-  for (Plant& weed : draw_weeds(description, farm.plots, farm.models, farm.terrain, farm.seed)) {
+void add_weeds(const FarmDescription& description, Farm& farm) {
+  for (Plant& weed : draw_weeds(*description.weeds, farm.plots, farm.models, farm.terrain,
+                                description.source, farm.seed)) {
     weed.id = static_cast<std::uint32_t>(farm.plants.size() + 1);
     farm.plants.push_back(weed);
   }
@@ -92,10 +93,15 @@ Farm generate(const FarmDescription& description, std::uint64_t seed) {
             .anchor = description.anchor,
             .terrain_origin_m = ground.origin_m};
   require_on_terrain(farm.plots, farm.terrain, description.source);
+  if (description.plots && farm.plots.empty()) {
+    throw InputError(description.source, "plots: all " +
+                                             std::to_string(plots_of(*description.plots)) +
+                                             " are missing; a lower missing_rate leaves some");
+  }
   farm.plants = description.plants
-                    ? grow_plants(sown, farm.models, farm.terrain, seed)
+                    ? grow_plants(sown, farm.models, farm.terrain, description.source, seed)
                     : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
-  if (description.weeds) add_weeds(*description.weeds, farm);
+  if (description.weeds) add_weeds(description, farm);
   measure_plots(farm);
   return farm;
 }

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "farm/heightmap.h"
+#include "farm/lattice.h"
 #include "farm/random_terrain.h"
 #include "farm/refine.h"
 #include "farm/xyz_file.h"
@@ -130,10 +131,28 @@ double chosen_step_m(const TerrainDescription& description, double needed_m) {
                 *description.step_m, kCoarsest * needed_m, needed_m));
 }
 
+// A lattice covers the patch with rows along the furrows, so that of one askew to a long strip only
+// few places are needed.
+void require_small_lattice(const Patch& patch) {
+  constexpr double kMostPlaces = 4.0 * static_cast<double>(kMostTerrainVertices);
+  const Lattice lattice = lattice_over(patch.box, patch.layout);
+  const double places = static_cast<double>(lattice.rows) * static_cast<double>(lattice.columns);
+  if (places <= kMostPlaces) return;
+  const Eigen::Vector2d size = patch.box.sizes();
+  throw InputError(formatted(
+      "terrain: rows along the furrows that cover %.1f m x %.1f m askew have %.3g places %.3g m "
+      "apart; at most %.3g are allowed: furrows along that rectangle, a shorter terrain.detail_m "
+      "or a greater terrain.step_m would fit",
+      size.x(), size.y(), places, patch.layout.column_step_m, kMostPlaces));
+}
+
 void require_countable(const Terrain& base, const std::vector<Patch>& patches) {
   const double count = refined_vertices(base, patches);
   const auto most = static_cast<double>(kMostTerrainVertices);
-  if (count <= most) return;
+  if (count <= most) {
+    for (const Patch& patch : patches) require_small_lattice(patch);
+    return;
+  }
   const Patch& finest = patches.back();
   const Eigen::Vector2d size = finest.box.sizes();
   throw InputError(formatted(

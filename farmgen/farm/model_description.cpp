@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kMostModels = 1000;
 constexpr std::size_t kMostAssignments = 1000;
 constexpr std::int64_t kMostVariants = 1000;
+constexpr std::size_t kMostTriangles = 20'000'000;  // of all models, scan and light: about 1 GB
 
 ModelDescription read_mesh_model(const YamlSection& section) {
   section.allow_only({"mesh", "name", "up", "unit_m", "foot", "light"});
@@ -142,6 +143,10 @@ std::vector<std::uint32_t> read_models(const YamlSection& section,
                                    "\", and another list names another one so; give one of them "
                                    "another name");
       }
+      if (known == models.end() && models.size() == kMostModels) {
+        section.fail("models",
+                     "make more than " + std::to_string(kMostModels) + " models in the whole farm");
+      }
       places.push_back(static_cast<std::uint32_t>(known - models.begin()));
       if (known == models.end()) models.push_back(std::move(model));
     }
@@ -162,7 +167,18 @@ std::vector<PlantModel> make_models(const std::vector<ModelDescription>& models,
                                     const std::filesystem::path& source) {
   std::vector<PlantModel> made;
   made.reserve(models.size());
-  for (const ModelDescription& model : models) made.push_back(make_model(model, source));
+  std::size_t triangles = 0;
+  for (const ModelDescription& model : models) {
+    made.push_back(make_model(model, source));
+    triangles += made.back().mesh.triangles.size();
+    if (made.back().light) triangles += made.back().light->triangles.size();
+    if (triangles <= kMostTriangles) continue;
+    throw InputError(source, "models: the first " + std::to_string(made.size()) + " of " +
+                                 std::to_string(models.size()) + " have " +
+                                 std::to_string(triangles) + " triangles; at most " +
+                                 std::to_string(kMostTriangles) +
+                                 " are allowed; fewer or simpler models would fit");
+  }
   return made;
 }
 

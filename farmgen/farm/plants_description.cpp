@@ -197,10 +197,17 @@ void read_trial(const YamlSection& section, const PlotGridDescription& grid,
   if (section.has("reps")) require_replicates(section, grid, plants.cultivars.size());
   std::vector<std::string> names(plants.cultivars.size());
   std::vector<Plot> plots = grid_plots(grid);
+  std::vector<std::size_t> assigned;
   try {
-    assign_cultivars(trial, names, 0, plots);
+    assigned = assign_cultivars(trial, names, 0, plots);
   } catch (const InputError& error) {
     section.fail("design", error.what());
+  }
+  std::vector<bool> sown(plants.cultivars.size(), false);
+  for (const std::size_t cultivar : assigned) sown[cultivar] = true;
+  for (std::size_t i = 0; i < sown.size(); ++i) {
+    if (sown[i]) continue;
+    section.fail("cultivars", "leave \"" + plants.cultivars[i].name + "\" without a plot");
   }
 }
 

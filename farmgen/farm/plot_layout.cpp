@@ -65,11 +65,15 @@ Eigen::Matrix2d axes_of(const PlotGridDescription& grid) {
   return axes;
 }
 
-// By how much the alleys before a row or column (from 0) are wider than the gaps they replace.
-double widened(const std::map<std::uint32_t, double>& alleys_m, std::size_t before, double gap_m) {
-  double wider_m = 0;
-  for (const auto& [after, alley_m] : alleys_m) {
-    if (after <= before) wider_m += alley_m - gap_m;
+// By how much the alleys before each row or column (from 0) are wider than the gaps they replace.
+std::vector<double> widened(const std::map<std::uint32_t, double>& alleys_m, std::size_t count,
+                            double gap_m) {
+  std::vector<double> wider_m(count, 0);
+  double sum_m = 0;
+  auto alley = alleys_m.begin();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (; alley != alleys_m.end() && alley->first <= i; ++alley) sum_m += alley->second - gap_m;
+    wider_m[i] = sum_m;
   }
   return wider_m;
 }
@@ -81,16 +85,19 @@ std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
   Eigen::AlignedBox2d bounds;  // along the grid's own axes
   const Eigen::Vector2d size(grid.width_m, grid.length_m);
   const Eigen::Vector2d pitch = pitch_of(grid);
+  const std::vector<double> row_wider_m =
+      widened(grid.row_alleys_m, grid.rows.size(), pitch.y() - grid.length_m);
+  const std::vector<double> column_wider_m =
+      widened(grid.column_alleys_m, columns_of(grid), pitch.x() - grid.width_m);
   const Eigen::Matrix2d world_from_grid = axes_of(grid);
   const double heading = std::atan2(world_from_grid(1, 1), world_from_grid(0, 1));
   for (std::size_t row = 0; row < grid.rows.size(); ++row) {
     for (std::uint32_t place = 0; place < grid.rows[row].plots; ++place) {
       const bool backward = grid.numbering == PlotNumbering::serpentine && row % 2 == 1;
       const std::uint32_t column = backward ? grid.rows[row].plots - 1 - place : place;
-      const Eigen::Vector2d low(grid.rows[row].offset_m + column * pitch.x() +
-                                    widened(grid.column_alleys_m, column, pitch.x() - grid.width_m),
-                                static_cast<double>(row) * pitch.y() +
-                                    widened(grid.row_alleys_m, row, pitch.y() - grid.length_m));
+      const Eigen::Vector2d low(
+          grid.rows[row].offset_m + column * pitch.x() + column_wider_m[column],
+          static_cast<double>(row) * pitch.y() + row_wider_m[row]);
       bounds.extend(low);
       bounds.extend(low + size);
       plots.push_back({.id = grid.first_number + static_cast<std::uint32_t>(plots.size()),
@@ -108,6 +115,35 @@ std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
     plot.box.center = grid.position_m + world_from_grid * (plot.box.center - bounds.center());
   }
   return plots;
+}
+
+std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
+    const std::vector<Plot>& plots) {
+  constexpr double kTouching_m2 = 1e-6;
+  if (plots.empty()) return {};
+  Eigen::AlignedBox2d centers;
+  for (const Plot& plot : plots) centers.extend(plot.box.center);
+  // Swept along the longer side of the field, so that few plots are near each other on the way.
+  const Eigen::Index way = centers.sizes().x() < centers.sizes().y() ? 1 : 0;
+  std::vector<const Plot*> sorted;
+  double reach_m = 0;  // farther apart than this, no two can touch
+  for (const Plot& plot : plots) {
+    sorted.push_back(&plot);
+    reach_m = std::max(reach_m, std::hypot(plot.box.width_m, plot.box.length_m));
+  }
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Plot* a, const Plot* b) {
+    return a->box.center[way] < b->box.center[way];
+  });
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    for (std::size_t j = i + 1; j < sorted.size(); ++j) {
+      const Eigen::Vector2d apart = sorted[j]->box.center - sorted[i]->box.center;
+      if (apart[way] > reach_m) break;
+      if (apart.norm() > reach_m) continue;
+      if (intersection_area(sorted[i]->box, sorted[j]->box) <= kTouching_m2) continue;
+      return std::minmax({sorted[i]->id, sorted[j]->id});
+    }
+  }
+  return {};
 }
 
 bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed) {

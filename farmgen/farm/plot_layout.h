@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "farm/description.h"
@@ -14,6 +15,11 @@ namespace plotscan::farm {
 // All plots of a grid in the order of their numbers, without plants, those that are missing among
 // them. Each box's length axis is the axis from row to row.
 std::vector<Plot> grid_plots(const PlotGridDescription& grid);
+
+// The numbers of two plots of which one lies on the other, the lower first; nothing where none
+// does.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
+    const std::vector<Plot>& plots);
 
 // Whether the plot of that number is missing: named by the description, or drawn.
 bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed);

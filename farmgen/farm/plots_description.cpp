@@ -9,6 +9,7 @@
 
 #include "core/text.h"
 #include "core/yaml_section.h"
+#include "farm/plot_layout.h"
 
 namespace plotscan::farm {
 namespace {
@@ -56,13 +57,6 @@ void read_pitch(const YamlSection& section, PlotGridDescription& grid) {
   }
 }
 
-// The widest of a row's plots is the whole grid's last column.
-std::uint32_t columns_of(const PlotGridDescription& grid) {
-  std::uint32_t columns = 0;
-  for (const PlotRowDescription& row : grid.rows) columns = std::max(columns, row.plots);
-  return columns;
-}
-
 void read_alleys(const YamlSection& section, PlotGridDescription& grid) {
   const std::int64_t rows = static_cast<std::int64_t>(grid.rows.size());
   for (const YamlSection& alley : section.list("alleys", kMostPlots)) {
@@ -91,6 +85,11 @@ void read_missing(const YamlSection& section, PlotGridDescription& grid) {
       grid.missing.push_back(static_cast<std::uint32_t>(entry.integer("number", first, last)));
     }
     std::sort(grid.missing.begin(), grid.missing.end());
+    const auto twice = std::adjacent_find(grid.missing.begin(), grid.missing.end());
+    if (twice != grid.missing.end()) {
+      section.fail("missing", "names plot " + std::to_string(*twice) + " twice");
+    }
+    if (grid.missing.size() == plots_of(grid)) section.fail("missing", "leaves no plot");
   }
   grid.missing_rate = section.number("missing_rate", kShare, 0.0);
 }
@@ -116,6 +115,13 @@ void require_apart(const YamlSection& section, const PlotGridDescription& grid) 
   for (const auto& [column, alley_m] : grid.column_alleys_m) {
     overlap((grid.width_m + alley_m) * cosine, grid.width_m, "wide, at an alley");
   }
+  // Where the axes are perpendicular, rows that keep apart do so however they are shifted.
+  if (cosine > 1 - kRounding) return;
+  if (const auto pair = overlapping_plots(grid_plots(grid))) {
+    section.fail(grid.pitch ? "pitch" : "skew_deg",
+                 formatted("makes plots %u and %u overlap, which are in different rows",
+                           pair->first, pair->second));
+  }
 }
 
 }  // namespace
@@ -124,6 +130,12 @@ std::uint64_t plots_of(const PlotGridDescription& grid) {
   std::uint64_t plots = 0;
   for (const PlotRowDescription& row : grid.rows) plots += row.plots;
   return plots;
+}
+
+std::uint32_t columns_of(const PlotGridDescription& grid) {
+  std::uint32_t columns = 0;
+  for (const PlotRowDescription& row : grid.rows) columns = std::max(columns, row.plots);
+  return columns;
 }
 
 PlotGridDescription read_plot_grid(const YamlSection& section) {

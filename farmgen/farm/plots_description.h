@@ -52,6 +52,8 @@ struct PlotGridDescription {
 };
 
 std::uint64_t plots_of(const PlotGridDescription& grid);
+// Columns of the longest row.
+std::uint32_t columns_of(const PlotGridDescription& grid);
 
 // Throws InputError as load_description does.
 PlotGridDescription read_plot_grid(const YamlSection& section);

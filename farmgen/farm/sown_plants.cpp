@@ -71,12 +71,13 @@ std::optional<Lodging> drawn_lodging(const SownPlot& sown, std::uint64_t seed) {
 class PlotPlants {
  public:
   PlotPlants(const SownPlot& sown, const std::vector<PlantModel>& models, const Terrain& terrain,
-             std::uint64_t seed)
+             const std::filesystem::path& source, std::uint64_t seed)
       : plot_(sown.plot),
         cultivar_(*sown.cultivar),
         first_seed_(sown.first_seed),
         models_(models),
         terrain_(terrain),
+        source_(source),
         seed_(seed),
         gaps_(drawn_gaps(sown, seed)),
         lodging_(drawn_lodging(sown, seed)) {}
@@ -158,9 +159,10 @@ class PlotPlants {
     const double scale = height_m / model.height_m;
     if (scale >= kSmallestScale && scale <= kLargestScale) return scale;
     throw InputError(
+        source_,
         "plants.height_m: a plant of " + cultivar_.name +
-        formatted(" is to be %.3f m high, but its model ", height_m) + model.name +
-        formatted(" is %.3f m high; its scale has to be in [0.01, 100]", model.height_m));
+            formatted(" is to be %.3f m high, but its model ", height_m) + model.name +
+            formatted(" is %.3f m high; its scale has to be in [0.01, 100]", model.height_m));
   }
 
   // What tilts an upright plant of a lodged plot.
@@ -179,8 +181,8 @@ class PlotPlants {
         plot_.box.center + place.x() * plot_.box.length_axis() + place.y() * plot_.box.width_axis();
     const auto ground = terrain_.height(world.x(), world.y());
     if (!ground) {
-      throw InputError("plots: plot " + std::to_string(plot_.id) +
-                       " lies over a hole of the terrain");
+      throw InputError(
+          source_, "plots: plot " + std::to_string(plot_.id) + " lies over a hole of the terrain");
     }
     plant.position = {world.x(), world.y(), *ground};
     plant.height_m = placed_height(models_[plant.model], plant, *ground);
@@ -191,6 +193,7 @@ class PlotPlants {
   std::uint64_t first_seed_;
   const std::vector<PlantModel>& models_;
   const Terrain& terrain_;
+  const std::filesystem::path& source_;
   std::uint64_t seed_;
   std::vector<Gap> gaps_;
   std::optional<Lodging> lodging_;
@@ -216,9 +219,10 @@ std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescripti
 
 std::vector<Plant> grow_plants(const std::vector<SownPlot>& plots,
                                const std::vector<PlantModel>& models, const Terrain& terrain,
-                               std::uint64_t seed) {
+                               const std::filesystem::path& source, std::uint64_t seed) {
   std::vector<Plant> plants;
-  for (const SownPlot& plot : plots) PlotPlants(plot, models, terrain, seed).put_into(plants);
+  for (const SownPlot& plot : plots)
+    PlotPlants(plot, models, terrain, source, seed).put_into(plants);
   return plants;
 }
 

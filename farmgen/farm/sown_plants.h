@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "farm/farm.h"
@@ -25,10 +26,10 @@ std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescripti
 // [0, 2 pi) or along the row, each axis' scale uniform in [min, max] or, along z, from a drawn
 // height; one of the cultivar's models; feet on the terrain, heights measured, ids from 1. What is
 // drawn for a plant depends on the farm's seed and its own seed's number alone. Throws InputError
-// when a plot lies over a hole of the terrain, or a model would have to be stretched too far for
-// its drawn height.
+// (naming `source`, the description) when a plot lies over a hole of the terrain, or a model would
+// have to be stretched too far for its drawn height.
 std::vector<Plant> grow_plants(const std::vector<SownPlot>& plots,
                                const std::vector<PlantModel>& models, const Terrain& terrain,
-                               std::uint64_t seed);
+                               const std::filesystem::path& source, std::uint64_t seed);
 
 }  // namespace plotscan::farm

@@ -49,11 +49,14 @@ Field field_of(const std::vector<Plot>& plots, const Terrain& terrain, double ma
           Eigen::AlignedBox2d(field.box.min() - margin, field.box.max() + margin)};
 }
 
-std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& field) {
+std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& field,
+                              const std::filesystem::path& source) {
   const double weeds = description.per_m2 * field.area_m2();
   if (weeds > kMostWeeds) {
-    throw InputError(formatted("weeds.per_m2 makes %.0f weeds on %.0f m2; at most %.0f are allowed",
-                               weeds, field.area_m2(), kMostWeeds));
+    throw InputError(
+        source, formatted("weeds.per_m2 makes %.0f weeds on %.0f m2; at most %.0f are allowed, "
+                          "%.3g a square metre, or more with a smaller weeds.margin_m",
+                          weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
   }
   return static_cast<std::uint64_t>(std::llround(weeds));
 }
@@ -81,11 +84,11 @@ Plant drawn_weed(const WeedsDescription& description, std::uint64_t number, std:
 
 std::vector<Plant> draw_weeds(const WeedsDescription& description, const std::vector<Plot>& plots,
                               const std::vector<PlantModel>& models, const Terrain& terrain,
-                              std::uint64_t seed) {
+                              const std::filesystem::path& source, std::uint64_t seed) {
   const Field field = field_of(plots, terrain, description.margin_m);
   const PlotFinder finder(plots);
   std::vector<Plant> weeds;
-  const std::uint64_t count = number_of_weeds(description, field);
+  const std::uint64_t count = number_of_weeds(description, field, source);
   for (std::uint64_t number = 1; number <= count; ++number) {
     RandomStream random(seed, random_purpose("weed/position"), number);
     const double along_x = random.uniform();

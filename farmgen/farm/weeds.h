@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "farm/farm.h"
@@ -11,9 +12,10 @@ namespace plotscan::farm {
 
 // Weeds at random places of the field, as many as per_m2 asks for before those are taken away that
 // stand where no weeds are wanted or off the terrain. Their ids are 0; what is drawn for a weed
-// depends on the seed and its number alone. Throws InputError when there are more than a million.
+// depends on the seed and its number alone. Throws InputError (naming `source`) when there are more
+// than a million.
 std::vector<Plant> draw_weeds(const WeedsDescription& description, const std::vector<Plot>& plots,
                               const std::vector<PlantModel>& models, const Terrain& terrain,
-                              std::uint64_t seed);
+                              const std::filesystem::path& source, std::uint64_t seed);
 
 }  // namespace plotscan::farm

@@ -209,6 +209,10 @@ TEST(RoughGround, TooFineOrTooCoarseIsRefusedSayingWhatWouldFit) {
               HasSubstr("farm.yaml: terrain.step_m 0.1 is too coarse"));
   EXPECT_THAT(refusal(folder, "side_m: 100000, rolling: {rms_m: 1, wavelength_m: [1, 2]}"),
               HasSubstr("or longer waves"));
+  EXPECT_THAT(refusal(folder,
+                      "side_m: 10000, detail_m: [10000, 1], "
+                      "furrows: {spacing_m: 0.8, depth_m: 0.1, heading_deg: 45}"),
+              HasSubstr("furrows along that rectangle, a shorter terrain.detail_m"));
   EXPECT_THAT(refusal(folder, "side_m: 9, rolling: {rms_m: 1, wavelength_m: [9, 2]}"),
               HasSubstr("terrain.rolling.wavelength_m is not [shortest, longest]"));
   EXPECT_THAT(refusal(folder, "side_m: 9, step_m: 0.1"), HasSubstr("terrain.step_m is of rolling"));

@@ -84,6 +84,22 @@ TEST(PlotGrid, SkewTurnsTheAxisFromRowToRow) {
   EXPECT_NEAR(plots[0].box.heading_rad, 120 * kDegree, 1e-12) << "of the length axis";
 }
 
+TEST(PlotGrid, OverlappingPlotsAreFoundAmongMany) {
+  PlotGridDescription grid = three_by_four();
+  grid.rows = std::vector<PlotRowDescription>(60, {.plots = 60});
+  grid.heading_rad = 30 * kDegree;
+  std::vector<Plot> plots = grid_plots(grid);
+  EXPECT_FALSE(overlapping_plots(plots));
+  plots[1234].box.center += 1.01 * plots[1234].box.width_axis();
+  const auto pair = overlapping_plots(plots);
+  ASSERT_TRUE(pair);
+  EXPECT_TRUE(pair->first == 1235 || pair->second == 1235);
+  EXPECT_EQ(pair->second - pair->first, 1u) << "neighbours in a row";
+  grid.gap_width_m = 0;
+  grid.gap_length_m = 0;
+  EXPECT_FALSE(overlapping_plots(grid_plots(grid))) << "plots may touch";
+}
+
 // The overlay that the authors of the paper laid over their field (28 steps one way, 4 the other).
 TEST(PlotGrid, TheKentlandLatticeIsExact) {
   const Eigen::Vector2d column(1.122, 0.956);

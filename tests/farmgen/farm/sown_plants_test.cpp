@@ -230,6 +230,12 @@ TEST(SownPlants, MissingPlotsLeaveTheirNumberAndTheOthersAsTheyAre) {
   }
 }
 
+TEST(SownPlants, AFarmWhosePlotsAreAllMissingIsRefused) {
+  EXPECT_THAT(
+      message_of<InputError>([] { trial("  count: 5\n", 6, ", missing_rate: 1"); }),
+      HasSubstr("trial.yaml: plots: all 100 are missing; a lower missing_rate leaves some"));
+}
+
 double highest_vertex(const Farm& farm, const Plant& plant) {
   double highest = -1e9;
   for (const Eigen::Vector3f& vertex : farm.models[plant.model].mesh.vertices) {
@@ -288,8 +294,10 @@ TEST(SownPlants, AModelIsNotStretchedWithoutBounds) {
       "  count: 1\n  cultivars:\n    - {name: a}\n"
       "    - {name: b, height_m: {mean: 1, sd: 0}, models: [" +
       tiny + "]}\n";
-  EXPECT_THAT(message_of<InputError>([&] { trial(plants); }),
-              HasSubstr("plants.height_m: a plant of b is to be 1.000 m high, but its model tiny"));
+  EXPECT_THAT(
+      message_of<InputError>([&] { trial(plants); }),
+      HasSubstr(
+          "trial.yaml: plants.height_m: a plant of b is to be 1.000 m high, but its model tiny"));
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(Weeds, GrowNoneWhereTheTerrainEnds) {
 
 TEST(Weeds, CannotBeMoreThanAMillion) {
   EXPECT_THAT(message_of<InputError>([] { weedy("per_m2: 1000, margin_m: 500"); }),
-              HasSubstr("weeds.per_m2 makes 10125"));
+              HasSubstr("weedy.yaml: weeds.per_m2 makes 10125"));
 }
 
 }  // namespace
