@@ -21,6 +21,9 @@ namespace plotscan::gazebo {
 namespace fs = std::filesystem;
 namespace {
 
+// What libsdformat puts for a <uri> that is not there.
+constexpr const char* kNoUri = "__default__";
+
 Eigen::Vector3d vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
 
 // The sizes of a primitive, or an InputError.
@@ -79,17 +82,33 @@ mesh::Mesh extruded_polyline(const sdf::ElementPtr& geometry, const std::string&
   }
 }
 
+mesh::Mesh imported(const fs::path& file, const std::string& object, const fs::path& from,
+                    const std::string& what) {
+  try {
+    return mesh::import_mesh(file, {.object = object});
+  } catch (const InputError& error) {
+    throw InputError(from, what + ": mesh " + error.what());
+  }
+}
+
 }  // namespace
 
 template <class Make>
 std::uint32_t ShapeCache::index(const std::string& key, Make&& make) {
   const auto [place, is_new] = index_.try_emplace(key, static_cast<std::uint32_t>(meshes_.size()));
-  if (is_new) meshes_.push_back(make());
+  if (is_new) {
+    meshes_.push_back(make());
+    bounds_.emplace_back();
+    for (const Eigen::Vector3f& v : meshes_.back().vertices)
+      bounds_.back().extend(v.cast<double>());
+  }
   return place->second;
 }
 
 Shape ShapeCache::of_mesh(const sdf::Mesh& given, const std::string& what) {
   const fs::path from = given.FilePath().empty() ? world_ : fs::path(given.FilePath());
+  if (given.Uri().empty() || given.Uri() == kNoUri)
+    throw InputError(from, what + ": <mesh> has no <uri>");
   const auto file = is_remote(given.Uri()) ? std::nullopt : finder_.find(given.Uri(), from);
   if (!file) throw InputError(from, what + ": mesh " + finder_.not_found(given.Uri(), from));
   const Eigen::Vector3d scale = vector_of(given.Scale());
@@ -98,7 +117,7 @@ Shape ShapeCache::of_mesh(const sdf::Mesh& given, const std::string& what) {
   const std::string key =
       file->string() + '\n' + given.Submesh() + (given.CenterSubmesh() ? "\ncentred" : "");
   const std::uint32_t mesh = index(key, [&] {
-    mesh::Mesh read = mesh::import_mesh(*file, {.object = given.Submesh()});
+    mesh::Mesh read = imported(*file, given.Submesh(), from, what);
     if (!given.Submesh().empty() && given.CenterSubmesh()) put_centre_at_origin(read);
     if (std::find(files_.begin(), files_.end(), *file) == files_.end()) files_.push_back(*file);
     return read;

@@ -33,6 +33,8 @@ class ShapeCache {
   // of a kind that is not read.
   std::optional<Shape> of(const sdf::Visual& visual, const std::string& what);
 
+  // Of a shape's mesh, in its own frame.
+  const Eigen::AlignedBox3d& bounds(std::uint32_t mesh) const { return bounds_[mesh]; }
   // The mesh files read.
   const std::vector<std::filesystem::path>& files() const { return files_; }
   std::vector<mesh::Mesh> take() { return std::move(meshes_); }
@@ -47,6 +49,7 @@ class ShapeCache {
   const ResourceFinder& finder_;
   std::map<std::string, std::uint32_t> index_;  // by what makes the mesh
   std::vector<mesh::Mesh> meshes_;
+  std::vector<Eigen::AlignedBox3d> bounds_;  // of meshes_
   std::vector<std::filesystem::path> files_;
 };
 

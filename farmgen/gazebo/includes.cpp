@@ -2,6 +2,8 @@
 #include "gazebo/includes.h"
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <string_view>
 
 #include <ignition/math/SemanticVersion.hh>
@@ -22,6 +24,28 @@ std::string trimmed(const char* text) {
   return whole.substr(begin, whole.find_last_not_of(blanks) - begin + 1);
 }
 
+// libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
+constexpr std::uint64_t kMostModels = 10000;
+
+// Whether it is made of whole numbers and dots, which is all that SemanticVersion survives.
+bool is_version(std::string_view text) {
+  int numbers = 1;
+  for (;; ++numbers) {
+    unsigned number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (text.empty()) return numbers <= 3;
+    if (text.front() != '.') return false;
+    text.remove_prefix(1);
+  }
+}
+
+bool is_too_new(const std::string& version) {
+  return ignition::math::SemanticVersion(version) >
+         ignition::math::SemanticVersion(sdf::SDF::Version());
+}
+
 // Of anything else libsdformat would print what it is not.
 void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
   const std::string_view name = root.Name();
@@ -30,10 +54,38 @@ void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
     throw InputError(file, "is not an SDF file: its root is <" + std::string(name) + ">");
   const char* version = root.Attribute("version");
   if (version == nullptr) throw InputError(file, "<sdf> has no version");
-  if (ignition::math::SemanticVersion(version) >
-      ignition::math::SemanticVersion(sdf::SDF::Version())) {
+  if (!is_version(version)) {
+    throw InputError(file, std::string("<sdf> has the version \"") + version +
+                               "\", which is no number such as 1.9");
+  }
+  if (is_too_new(version)) {
     throw InputError(
         file, std::string("is SDF ") + version + "; up to " + sdf::SDF::Version() + " is read");
+  }
+}
+
+// libsdformat crashes on a description of a model that lacks something.
+void require_config(const fs::path& config) {
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(config.c_str()) != tinyxml2::XML_SUCCESS) {
+    throw InputError(config, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
+                     std::string("cannot be parsed as XML: ") + document.ErrorName());
+  }
+  const tinyxml2::XMLElement* model = document.FirstChildElement("model");
+  const tinyxml2::XMLElement* sdf = model == nullptr ? nullptr : model->FirstChildElement("sdf");
+  if (sdf == nullptr) throw InputError(config, "has no <model> with an <sdf> that names its file");
+  bool readable = false;
+  for (; sdf != nullptr; sdf = sdf->NextSiblingElement("sdf")) {
+    const auto line = static_cast<std::size_t>(sdf->GetLineNum());
+    if (trimmed(sdf->GetText()).empty()) throw InputError(config, line, "<sdf> names no file");
+    const char* version = sdf->Attribute("version");
+    if (version == nullptr || !is_version(version))
+      throw InputError(config, line, "<sdf> has no version that is a number such as 1.9");
+    readable = readable || !is_too_new(version);
+  }
+  if (!readable) {
+    throw InputError(
+        config, std::string("names no file for SDF ") + sdf::SDF::Version() + " or an older one");
   }
 }
 
@@ -41,34 +93,46 @@ class Follower {
  public:
   explicit Follower(const ResourceFinder& finder) : finder_(finder) {}
 
-  void follow(const fs::path& file) {
-    if (std::find(includes_.files.begin(), includes_.files.end(), file) != includes_.files.end())
-      return;
+  // Returns how many models the file holds with all that it includes.
+  std::uint64_t follow(const fs::path& file) {
+    if (const auto known = models_.find(file); known != models_.end()) return known->second;
     require_file(file);
     tinyxml2::XMLDocument document;
     if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
       throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
                        std::string("cannot be parsed as XML: ") + document.ErrorName());
     }
+    if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
     require_sdf(*document.RootElement(), file);
     open_.push_back(file);
-    walk(*document.RootElement(), file);
+    const std::uint64_t models = walk(*document.RootElement(), file);
     open_.pop_back();
     includes_.files.push_back(file);
+    models_[file] = models;
+    return models;
   }
 
   Includes take() { return std::move(includes_); }
 
  private:
-  void walk(const tinyxml2::XMLElement& parent, const fs::path& file) {
+  std::uint64_t walk(const tinyxml2::XMLElement& parent, const fs::path& file) {
+    std::uint64_t models = 0;
     for (auto* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
       const std::string_view name = child->Name();
-      if (name == "include") follow_include(*child, file);
-      if (name == "world" || name == "model") walk(*child, file);
+      if (name == "include") models += follow_include(*child, file);
+      if (name == "model") ++models;
+      if (name == "world" || name == "model") models += walk(*child, file);
+      if (models > kMostModels) {
+        throw InputError(file, static_cast<std::size_t>(child->GetLineNum()),
+                         "more than " + std::to_string(kMostModels) +
+                             " models with those of includes; join them, as farmgen export "
+                             "--merge plot does");
+      }
     }
+    return models;
   }
 
-  void follow_include(const tinyxml2::XMLElement& include, const fs::path& file) {
+  std::uint64_t follow_include(const tinyxml2::XMLElement& include, const fs::path& file) {
     const auto line = static_cast<std::size_t>(include.GetLineNum());
     const tinyxml2::XMLElement* element = include.FirstChildElement("uri");
     const std::string uri = trimmed(element == nullptr ? nullptr : element->GetText());
@@ -84,10 +148,15 @@ class Follower {
     const fs::path sdf = fs::is_directory(*found) ? sdf_of_model(*found, file, line) : *found;
     if (std::find(open_.begin(), open_.end(), sdf) != open_.end())
       throw InputError(file, line, "<include> " + uri + " goes round in a circle: " + circle(sdf));
-    follow(sdf);
+    return follow(sdf);
   }
 
   static fs::path sdf_of_model(const fs::path& folder, const fs::path& file, std::size_t line) {
+    for (const char* config : {"model.config", "manifest.xml"}) {
+      if (!fs::exists(folder / config)) continue;
+      require_config(folder / config);
+      break;
+    }
     const std::string sdf = sdf::getModelFilePath(folder.string());
     if (sdf.empty()) {
       throw InputError(file, line,
@@ -106,6 +175,7 @@ class Follower {
 
   const ResourceFinder& finder_;
   std::vector<fs::path> open_;  // files being followed, each included by the one before it
+  std::map<fs::path, std::uint64_t> models_;  // of the files that were followed to their end
   Includes includes_;
 };
 

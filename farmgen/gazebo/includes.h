@@ -19,8 +19,10 @@ struct Includes {
 
 // Follows the includes of an SDF file, and of the files that it includes. libsdformat would follow
 // a circle for ever, asks the network, and cannot say where it looked. Throws InputError (file,
-// line) on such includes, on a missing one, on a file that is no SDF (or URDF), and where two files
-// mean different things by the same relative URI, which libsdformat cannot tell apart.
+// line) on such includes, on a missing one, on a file that is no SDF (or URDF), where two files
+// mean different things by the same relative URI, which libsdformat cannot tell apart, and where
+// there are more than 10,000 models in all, which libsdformat would need hours and the whole memory
+// for.
 Includes follow_includes(const std::filesystem::path& file, const ResourceFinder& finder);
 
 }  // namespace plotscan::gazebo

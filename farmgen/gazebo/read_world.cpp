@@ -17,6 +17,7 @@
 #include <sdf/World.hh>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -51,20 +52,27 @@ sdf::ParserConfig parser_config(const Includes& includes, const ResourceFinder& 
   return config;
 }
 
-// libsdformat's errors come back as values: nothing is printed while it loads, neither by itself
-// nor by the URDF parser that it tries on what it cannot read. To the files that it includes it
-// gives the global configuration, whatever it was called with.
+// libsdformat's errors come back as values: nothing is printed, neither by itself nor by the URDF
+// parser that it tries on what it cannot read.
+class Quiet {
+ public:
+  Quiet() {
+    sdf::Console::Instance()->SetQuiet(true);
+    console_bridge::noOutputHandler();
+  }
+  ~Quiet() { console_bridge::restorePreviousOutputHandler(); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+};
+
+// To the files that it includes libsdformat gives the global configuration, whatever it was called
+// with.
 class Loading {
  public:
   explicit Loading(const sdf::ParserConfig& config) : before_(sdf::ParserConfig::GlobalConfig()) {
     sdf::ParserConfig::GlobalConfig() = config;
-    sdf::Console::Instance()->SetQuiet(true);
-    console_bridge::noOutputHandler();
   }
-  ~Loading() {
-    console_bridge::restorePreviousOutputHandler();
-    sdf::ParserConfig::GlobalConfig() = before_;
-  }
+  ~Loading() { sdf::ParserConfig::GlobalConfig() = before_; }
   Loading(const Loading&) = delete;
   Loading& operator=(const Loading&) = delete;
 
@@ -83,6 +91,21 @@ sdf::Root loaded(const std::vector<fs::path>& files, const sdf::ParserConfig& co
     if (!errors.empty()) refuse(file, errors);
   }
   return root;
+}
+
+// Beyond it neither single precision nor a flight makes sense, and Embree aborts at about 1e18.
+constexpr double kFarthest_m = 1e7;
+
+void require_near(const Eigen::AlignedBox3d& box, const Eigen::Affine3d& world_from_mesh,
+                  const std::string& what, const fs::path& file) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d place =
+        world_from_mesh * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    if (!(place.cwiseAbs().maxCoeff() <= kFarthest_m)) {
+      throw InputError(file, what + " reaches further than " + formatted("%.0f", kFarthest_m) +
+                                 " m from the origin");
+    }
+  }
 }
 
 template <class Element>
@@ -141,6 +164,7 @@ class WorldReader {
       : file_(file), finder_(file, options.resource_paths), shapes_(file, finder_) {}
 
   StaticWorld read() {
+    const Quiet quiet;
     const Includes includes = follow_includes(file_, finder_);
     const sdf::Root root = loaded(includes.files, parser_config(includes, finder_));
     if (root.WorldCount() > 0) {
@@ -197,13 +221,14 @@ class WorldReader {
       ++empty_;
       return;
     }
-    world_.surfaces.push_back(
-        {.mesh = shape->mesh,
-         .world_from_mesh =
-             world_from_link * parent_from(visual, place.names, file_) * shape->visual_from_mesh,
-         .kind = kind_of(visual, place),
-         .plot = place.plot,
-         .plant = place.plant});
+    const Eigen::Affine3d world_from_mesh =
+        world_from_link * parent_from(visual, place.names, file_) * shape->visual_from_mesh;
+    require_near(shapes_.bounds(shape->mesh), world_from_mesh, place.names, file_);
+    world_.surfaces.push_back({.mesh = shape->mesh,
+                               .world_from_mesh = world_from_mesh,
+                               .kind = kind_of(visual, place),
+                               .plot = place.plot,
+                               .plant = place.plant});
   }
 
   void finish(const Includes& includes) {

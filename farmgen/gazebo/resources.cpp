@@ -26,6 +26,12 @@ void add_folders_of(const char* variable, std::vector<fs::path>& folders) {
   }
 }
 
+// Whether a name leads out of the folder that it is looked for in.
+bool leaves_folder(const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
+  return path.is_absolute() || (!path.empty() && *path.begin() == "..");
+}
+
 // The rest of the URI behind the scheme, where it has that one.
 std::optional<std::string> behind(const std::string& uri, std::string_view scheme) {
   if (!uri.starts_with(scheme)) return {};
@@ -53,6 +59,7 @@ std::vector<fs::path> ResourceFinder::candidates(const std::string& uri,
   const fs::path beside = fs::absolute(from).lexically_normal().parent_path();
   std::vector<fs::path> found;
   const auto in_folders = [&](const std::string& name) {
+    if (leaves_folder(name)) return;
     for (const fs::path& folder : folders_) found.push_back(folder / name);
     // A model names its own files as model://ITSELF/..., wherever its folder lies.
     found.push_back(beside.parent_path() / name);
@@ -89,6 +96,8 @@ std::string ResourceFinder::not_found(const std::string& uri, const fs::path& fr
     if (std::find(names.begin(), names.end(), path.string()) == names.end())
       names.push_back(path.string());
   }
+  if (names.empty() && (uri.starts_with("model://") || uri.starts_with("package://")))
+    return uri + " leads out of the folders of models; name what lies in one";
   if (names.empty()) return uri + " has a scheme that is not known: model, package or file";
   return uri + " is found nowhere: not as " + joined(names, ", ") +
          "; give the folder that holds it with --resource-path";

@@ -20,7 +20,7 @@ class ResourceFinder {
   // The file or folder that `uri` names in the file `from`; absent where none exists.
   std::optional<std::filesystem::path> find(const std::string& uri,
                                             const std::filesystem::path& from) const;
-  // What find() looks for, in its order.
+  // What find() looks for, in its order. None where a name leads out of its folder by "..".
   std::vector<std::filesystem::path> candidates(const std::string& uri,
                                                 const std::filesystem::path& from) const;
   // ": not found; it would be ..., or ...", the end of a message.

@@ -246,8 +246,13 @@ TEST_F(ReadWorld, BrokenFilesAreRefused) {
   EXPECT_THAT(refused("<sdf version='1.9'>\n<world name='x'>\n<model\n"),
               AllOf(HasSubstr("broken.sdf:"), HasSubstr("cannot be parsed as XML")));
   EXPECT_THAT(refused(""), HasSubstr("broken.sdf"));
+  EXPECT_THAT(refused("<!-- nothing else -->"), HasSubstr("broken.sdf: holds no XML element"));
   EXPECT_THAT(refused("<html/>"), HasSubstr("broken.sdf: is not an SDF file"));
   EXPECT_THAT(refused("<sdf/>"), HasSubstr("broken.sdf: <sdf> has no version"));
+  for (const std::string version : {"abc", "", "1.", "1.x", "1.9 ", "-1", "99999999999"}) {
+    EXPECT_THAT(refused("<sdf version='" + version + "'><world name='x'/></sdf>"),
+                HasSubstr("which is no number such as 1.9"));
+  }
   EXPECT_THAT(refused("<sdf version='1.9'/>"), HasSubstr("no world and no model"));
   EXPECT_THAT(refused("<sdf version='99'><world name='x'/></sdf>"), HasSubstr("is SDF 99; up to"));
   EXPECT_THAT(refused("<sdf version='1.9'><world name='x'><model name='m'/></world></sdf>"),
@@ -274,6 +279,56 @@ TEST_F(ReadWorld, IncludesThatLeadNowhereAreRefused) {
   EXPECT_THAT(refusal("<include><uri>gopher://x</uri></include>"), HasSubstr("scheme"));
   folder_.write("models/empty/readme", "");
   EXPECT_THAT(refusal("<include><uri>model://empty</uri></include>"), HasSubstr("model.config"));
+}
+
+TEST_F(ReadWorld, BrokenDescriptionsOfModelsAreRefused) {
+  for (const std::string config :
+       {"", "<!-- -->", "<model", "<model/>", "<other/>", "<model><sdf/></model>",
+        "<model><sdf>model.sdf</sdf></model>", "<model><sdf version='7'>model.sdf</sdf></model>",
+        "<model><sdf version='x'>model.sdf</sdf></model>"}) {
+    folder_.write("models/broken/model.config", config);
+    EXPECT_THAT(refusal("<include><uri>model://broken</uri></include>"),
+                HasSubstr("broken/model.config"))
+        << config;
+  }
+}
+
+TEST_F(ReadWorld, NamesOfModelsStayInTheirFolders) {
+  folder_.write("mesh.obj", kTriangle);
+  const std::string up = "model://../" + folder_.path().filename().string();
+  EXPECT_THAT(refusal("<include><uri>" + up + "</uri></include>"),
+              AllOf(HasSubstr(up), HasSubstr("leads out of the folders of models")));
+  const std::string mesh = "<mesh><uri>" + up + "/mesh.obj</uri></mesh>";
+  EXPECT_THAT(refusal(model_text("m", "0 0 0 0 0 0", visual_text(mesh))),
+              HasSubstr("leads out of the folders of models"));
+}
+
+// What libsdformat has to say comes in the exception alone.
+TEST_F(ReadWorld, NothingIsPrinted) {
+  folder_.write("models/bare/readme", "");
+  folder_.write("models/wrong/model.config", "<model><sdf version='1.9'>none.sdf</sdf></model>");
+  const std::string box = visual_text("<box><size>1 1 1</size><odd/></box>");
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  refusal("<include><uri>model://bare</uri></include>");
+  refusal("<include><uri>model://wrong</uri></include>");
+  refusal(model_text("m", "1 2 three", box));
+  read("<odd/>" + model_text("m", "0 0 0 0 0 0", box));
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// Each file includes the next twice: 2^20 models from a few lines.
+TEST_F(ReadWorld, TooManyModelsAreRefusedBeforeTheyAreLoaded) {
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = "<include><uri>part_" + std::to_string(i + 1) + ".sdf</uri><name>";
+    folder_.write("part_" + std::to_string(i) + ".sdf", "<sdf version='1.9'><model name='m'>" +
+                                                            next + "a</name></include>" + next +
+                                                            "b</name></include></model></sdf>");
+  }
+  folder_.write("part_20.sdf", "<sdf version='1.9'><model name='m'><link name='l'/></model></sdf>");
+  EXPECT_THAT(refusal("<include><uri>part_0.sdf</uri></include>"),
+              AllOf(HasSubstr(".sdf:1: more than 10000 models"), HasSubstr("--merge plot")));
 }
 
 TEST_F(ReadWorld, ErrorsDeepInIncludesAreRefused) {
@@ -313,7 +368,9 @@ TEST_F(ReadWorld, MissingMeshesNameModelVisualAndPlaces) {
   folder_.write("wall.obj", "v 0 0 0\n");
   EXPECT_THAT(
       refusal(model_text("hut", "0 0 0 0 0 0", visual_text("<mesh><uri>wall.obj</uri></mesh>"))),
-      HasSubstr("wall.obj"));
+      AllOf(HasSubstr("by_hand.sdf: model \"hut\""), HasSubstr("wall.obj")));
+  EXPECT_THAT(refusal(model_text("hut", "0 0 0 0 0 0", visual_text("<mesh/>"))),
+              AllOf(HasSubstr("model \"hut\""), HasSubstr("<mesh> has no <uri>")));
 }
 
 TEST_F(ReadWorld, NumbersThatAreNoneAreRefused) {
@@ -331,6 +388,20 @@ TEST_F(ReadWorld, NumbersThatAreNoneAreRefused) {
   EXPECT_THAT(shaped("<box><size>1 1 0</size></box>"), HasSubstr("size"));
   EXPECT_THAT(shaped("<polyline><point>0 0</point><point>1 1</point><height>1</height></polyline>"),
               HasSubstr("no area"));
+}
+
+TEST_F(ReadWorld, PlacesBeyondAnyFarmAreRefused) {
+  folder_.write("mesh.obj", kTriangle);
+  const auto refused = [&](const std::string& pose, const std::string& shape) {
+    EXPECT_THAT(refusal(model_text("m", pose, visual_text(shape))),
+                AllOf(HasSubstr("by_hand.sdf: model \"m\""), HasSubstr("further than 10000000 m")))
+        << pose << shape;
+  };
+  refused("1e8 0 0 0 0 0", kMesh);
+  refused("1e200 0 0 0 0 0", kMesh);
+  refused("0 0 0 0 0 0", "<box><size>1 1e39 1</size></box>");
+  refused("0 0 0 0 0 0", "<mesh><uri>mesh.obj</uri><scale>1 1 1e30</scale></mesh>");
+  EXPECT_NO_THROW(read(model_text("m", "1e6 0 0 0 0 0", visual_text(kMesh))));
 }
 
 // The bean, a quarter of its size, twice; the maize lying down.
