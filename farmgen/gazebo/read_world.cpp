@@ -13,6 +13,7 @@
 #include <sdf/Model.hh>
 #include <sdf/ParserConfig.hh>
 #include <sdf/Root.hh>
+#include <sdf/Sensor.hh>
 #include <sdf/Visual.hh>
 #include <sdf/World.hh>
 
@@ -158,6 +159,20 @@ SurfaceClass kind_of(const sdf::Visual& visual, const Place& place) {
   return SurfaceClass::other;
 }
 
+bool carries_lidar(const sdf::Model& model) {
+  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
+    const sdf::Link& link = *model.LinkByIndex(i);
+    for (std::uint64_t k = 0; k < link.SensorCount(); ++k) {
+      const sdf::SensorType type = link.SensorByIndex(k)->Type();
+      if (type == sdf::SensorType::LIDAR || type == sdf::SensorType::GPU_LIDAR) return true;
+    }
+  }
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
+    if (carries_lidar(*model.ModelByIndex(i))) return true;
+  }
+  return false;
+}
+
 class WorldReader {
  public:
   WorldReader(const fs::path& file, const ReadWorldOptions& options)
@@ -185,8 +200,17 @@ class WorldReader {
     const sdf::World& world = *root.WorldByIndex(0);
     world_.name = world.Name();
     note(root.WorldCount() - 1, "world(s) behind the file's first one left out");
-    for (std::uint64_t i = 0; i < world.ModelCount(); ++i)
-      add_model(*world.ModelByIndex(i), Eigen::Affine3d::Identity(), {});
+    std::uint64_t scanners = 0;
+    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
+      const sdf::Model& model = *world.ModelByIndex(i);
+      // It would scan itself, or stand in the way of what flies in its place.
+      if (carries_lidar(model)) {
+        ++scanners;
+      } else {
+        add_model(model, Eigen::Affine3d::Identity(), {});
+      }
+    }
+    note(scanners, "model(s) with a lidar left out");
     note(world.ActorCount(), "actor(s) left out");
     note(world.LightCount(), "light(s) left out");
   }

@@ -238,6 +238,25 @@ TEST_F(ReadWorld, TakesWhatALidarOfGazeboSees) {
                                        "1 visual(s) with visibility_flags 0 left out"));
 }
 
+// The drone of an exported world, or a robot, would scan itself and stand in the flight's way.
+TEST_F(ReadWorld, LeavesOutWhatCarriesALidar) {
+  const std::string box = visual_text("<box><size>1 1 1</size></box>");
+  for (const std::string type : {"gpu_lidar", "lidar", "ray", "gpu_ray"}) {
+    const std::string element = type.ends_with("ray") ? "ray" : "lidar";
+    const StaticWorld world =
+        read(model_text("post", "0 0 0 0 0 0", box) +
+             "<model name='drone'><static>true</static><link name='body'>" + box +
+             "</link><model name='head'><link name='link'>" + box + "<sensor name='s' type='" +
+             type + "'><" + element +
+             "><scan><horizontal><samples>8</samples><min_angle>0</min_angle>"
+             "<max_angle>1</max_angle></horizontal></scan><range><min>0.1</min><max>9</max></range>"
+             "</" +
+             element + "></sensor></link></model></model>");
+    EXPECT_EQ(world.surfaces.size(), 1u) << type;
+    EXPECT_THAT(world.notes, ElementsAre("1 model(s) with a lidar left out")) << type;
+  }
+}
+
 TEST_F(ReadWorld, BrokenFilesAreRefused) {
   const auto refused = [&](const std::string& text) {
     const fs::path file = folder_.write("broken.sdf", text);
