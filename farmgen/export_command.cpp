@@ -7,9 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "gazebo/export_world.h"
-
 #include "core/text.h"
+#include "gazebo/export_world.h"
 
 namespace {
 

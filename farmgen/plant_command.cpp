@@ -5,14 +5,13 @@
 #include <memory>
 #include <string>
 
-#include "crop/grow.h"
-#include "mesh/measure.h"
-#include "mesh/obj.h"
-
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
+#include "crop/grow.h"
+#include "mesh/measure.h"
+#include "mesh/obj.h"
 
 namespace plotscan {
 namespace {

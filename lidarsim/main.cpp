@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/read_world.h"
-
 #include "core/program.h"
 #include "core/text.h"
 #include "farm/farm.h"
+#include "gazebo/read_world.h"
 #include "lidar/fly.h"
 
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/mesh_import.h"
-
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/program.h"
 #include "farm/farm.h"
+#include "mesh/mesh_import.h"
 #include "view/picture.h"
 #include "view/plant_picture.h"
 

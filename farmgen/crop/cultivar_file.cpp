@@ -4,10 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "crop/cultivar.h"
-
 #include "core/error.h"
 #include "core/yaml_section.h"
+#include "crop/cultivar.h"
 
 namespace plotscan::crop {
 namespace {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "crop/axis.h"
 #include <Eigen/Geometry>
+
+#include "crop/axis.h"
 
 namespace plotscan::crop {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crop/plant_builder.h"
 #include <Eigen/Core>
+
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

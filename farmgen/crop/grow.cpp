@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crop/grow.h"
 
+#include "core/error.h"
+#include "core/text.h"
 #include "crop/crop_files.h"
 #include "crop/maize.h"
 #include "crop/soybean.h"
 #include "crop/textures.h"
 #include "crop/wheat.h"
-
-#include "core/error.h"
-#include "core/text.h"
 
 namespace plotscan::crop {
 namespace {

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/random.h"
 #include "crop/axis.h"
 #include "crop/grass.h"
-
-#include "core/random.h"
 
 namespace plotscan::crop {
 namespace {

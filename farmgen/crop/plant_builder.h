@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
 #include <Eigen/Core>
+
+#include "mesh/mesh.h"
 
 namespace plotscan::crop {
 

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <vector>
 
-#include "crop/axis.h"
-#include "crop/soybean_organs.h"
 #include <Eigen/Geometry>
 
 #include "core/random.h"
+#include "crop/axis.h"
+#include "crop/soybean_organs.h"
 
 namespace plotscan::crop {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "crop/cultivar.h"
-#include "crop/plant_builder.h"
 #include <Eigen/Core>
 
 #include "core/random.h"
+#include "crop/cultivar.h"
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

@@ -7,11 +7,10 @@
 #include <numbers>
 #include <vector>
 
-#include "crop/png.h"
-
 #include "core/error.h"
 #include "core/random.h"
 #include "core/text.h"
+#include "crop/png.h"
 
 namespace plotscan::crop {
 namespace {

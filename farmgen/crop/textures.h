@@ -4,8 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "mesh/mesh.h"
 #include <Eigen/Core>
+
+#include "mesh/mesh.h"
 
 namespace plotscan::crop {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "crop/axis.h"
-#include "crop/grass.h"
-#include "crop/wheat_ear.h"
 #include <Eigen/Geometry>
 
 #include "core/random.h"
+#include "crop/axis.h"
+#include "crop/grass.h"
+#include "crop/wheat_ear.h"
 
 namespace plotscan::crop {
 namespace {

@@ -3,10 +3,9 @@
 
 #include <string>
 
+#include "core/random.h"
 #include "crop/axis.h"
 #include "crop/plant_builder.h"
-
-#include "core/random.h"
 
 namespace plotscan::crop {
 

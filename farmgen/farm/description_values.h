@@ -6,9 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "mesh/mesh_import.h"
-
 #include "core/yaml_section.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::farm {
 

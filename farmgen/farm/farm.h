@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/mesh.h"
 #include <Eigen/Geometry>
 
 #include "core/plot_box.h"
 #include "farm/geodesy.h"
 #include "farm/terrain.h"
+#include "mesh/mesh.h"
 
 namespace plotscan::farm {
 

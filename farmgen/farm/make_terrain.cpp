@@ -7,8 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "mesh/mesh_import.h"
-
 #include "core/error.h"
 #include "core/text.h"
 #include "farm/heightmap.h"
@@ -16,6 +14,7 @@
 #include "farm/random_terrain.h"
 #include "farm/refine.h"
 #include "farm/xyz_file.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::farm {
 namespace {

@@ -5,13 +5,12 @@
 #include <limits>
 #include <set>
 
-#include "crop/grow.h"
-#include "mesh/measure.h"
-
 #include "core/error.h"
 #include "core/yaml_section.h"
+#include "crop/grow.h"
 #include "farm/description_values.h"
 #include "farm/farm.h"
+#include "mesh/measure.h"
 
 namespace plotscan::farm {
 namespace {

@@ -4,9 +4,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/measure.h"
-#include "mesh/mesh_import.h"
-
 #include "core/error.h"
 #include "core/manifest.h"
 #include "farm/farm.h"
@@ -15,6 +12,8 @@
 #include "farm/plot_table.h"
 #include "farm/sdf.h"
 #include "farm/terrain_ply.h"
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::farm {
 namespace fs = std::filesystem;

@@ -7,8 +7,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/measure.h"
 #include <Eigen/Geometry>
+
+#include "mesh/measure.h"
 
 namespace plotscan::farm {
 namespace {

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "mesh/obj.h"
-
 #include "core/output_folder.h"
 #include "farm/plant_table.h"
 #include "farm/plot_table.h"
@@ -12,6 +10,7 @@
 #include "farm/sdf_elements.h"
 #include "farm/surface_colours.h"
 #include "farm/terrain_ply.h"
+#include "mesh/obj.h"
 
 namespace plotscan::farm {
 namespace fs = std::filesystem;

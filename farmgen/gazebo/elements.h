@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <string>
 
-#include "gazebo/export_options.h"
-#include "gazebo/labels.h"
-#include "mesh/mesh.h"
 #include <Eigen/Geometry>
 
 #include "farm/xml_file.h"
+#include "gazebo/export_options.h"
+#include "gazebo/labels.h"
+#include "mesh/mesh.h"
 
 // SDF elements of exported worlds and models.
 namespace plotscan::gazebo {

@@ -6,10 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "gazebo/drone.h"
-#include "gazebo/fly_script.h"
-#include "gazebo/readme.h"
-#include "gazebo/world_file.h"
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
@@ -17,6 +13,10 @@
 #include "core/error.h"
 #include "core/output_folder.h"
 #include "farm/sdf_elements.h"
+#include "gazebo/drone.h"
+#include "gazebo/fly_script.h"
+#include "gazebo/readme.h"
+#include "gazebo/world_file.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "gazebo/export_options.h"
-#include "gazebo/plant_models.h"
-
 #include "core/manifest.h"
 #include "core/progress.h"
+#include "gazebo/export_options.h"
+#include "gazebo/plant_models.h"
 
 namespace plotscan::gazebo {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/fly_script.h"
 
-#include "gazebo/drone.h"
-#include "gazebo/world_file.h"
-
 #include "core/csv.h"
 #include "core/text_file.h"
+#include "gazebo/drone.h"
+#include "gazebo/world_file.h"
 
 namespace plotscan::gazebo {
 namespace {

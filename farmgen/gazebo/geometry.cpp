@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gazebo/shapes.h"
-#include "mesh/mesh_import.h"
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
@@ -16,6 +14,8 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "gazebo/shapes.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

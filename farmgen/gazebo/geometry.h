@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/resources.h"
-#include "mesh/mesh.h"
 #include <Eigen/Geometry>
 #include <sdf/Geometry.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Visual.hh>
+
+#include "gazebo/resources.h"
+#include "mesh/mesh.h"
 
 // Private to the library: libsdformat's headers are slow to compile.
 namespace plotscan::gazebo {

@@ -7,9 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "gazebo/naming.h"
-
 #include "farm/sdf_elements.h"
+#include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
 namespace {

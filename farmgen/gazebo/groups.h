@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/export_options.h"
-#include "gazebo/labels.h"
 #include <Eigen/Geometry>
 
 #include "farm/farm.h"
+#include "gazebo/export_options.h"
+#include "gazebo/labels.h"
 
 namespace plotscan::gazebo {
 

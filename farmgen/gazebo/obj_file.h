@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "gazebo/surfaces.h"
 #include <Eigen/Geometry>
+
+#include "gazebo/surfaces.h"
 
 namespace plotscan::gazebo {
 

@@ -6,12 +6,12 @@
 #include <mutex>
 #include <set>
 
-#include "gazebo/obj_file.h"
 #include <tbb/parallel_for.h>
 
 #include "core/text_file.h"
 #include "farm/sdf_elements.h"
 #include "farm/surface_colours.h"
+#include "gazebo/obj_file.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/progress.h"
+#include "farm/farm.h"
 #include "gazebo/elements.h"
 #include "gazebo/export_options.h"
 #include "gazebo/groups.h"
 #include "gazebo/surfaces.h"
-
-#include "core/progress.h"
-#include "farm/farm.h"
 
 namespace plotscan::gazebo {
 

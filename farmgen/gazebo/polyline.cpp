@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deque>
 
-#include "gazebo/shapes.h"
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "core/error.h"
+#include "gazebo/shapes.h"
 
 namespace plotscan::gazebo {
 namespace {

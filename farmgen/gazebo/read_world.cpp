@@ -3,10 +3,6 @@
 
 #include <algorithm>
 
-#include "gazebo/geometry.h"
-#include "gazebo/includes.h"
-#include "gazebo/naming.h"
-#include "gazebo/resources.h"
 #include <console_bridge/console.h>
 #include <sdf/Console.hh>
 #include <sdf/Link.hh>
@@ -19,6 +15,10 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "gazebo/geometry.h"
+#include "gazebo/includes.h"
+#include "gazebo/naming.h"
+#include "gazebo/resources.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

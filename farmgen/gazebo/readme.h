@@ -3,10 +3,9 @@
 
 #include <filesystem>
 
+#include "farm/farm.h"
 #include "gazebo/export_options.h"
 #include "gazebo/plant_models.h"
-
-#include "farm/farm.h"
 
 namespace plotscan::gazebo {
 

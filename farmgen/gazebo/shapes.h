@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "mesh/mesh.h"
 #include <Eigen/Core>
+
+#include "mesh/mesh.h"
 
 // SDF's geometric primitives as triangles. Round ones have their vertices on the true surface and
 // 360 of them around the axis: their triangles lie within 8e-5 of a radius under it.

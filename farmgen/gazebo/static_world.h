@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "gazebo/labels.h"
 #include "mesh/mesh.h"
-#include <Eigen/Geometry>
 
 namespace plotscan::gazebo {
 

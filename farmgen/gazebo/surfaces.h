@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/export_options.h"
-#include "mesh/mesh.h"
 #include <Eigen/Core>
 
 #include "farm/farm.h"
+#include "gazebo/export_options.h"
+#include "mesh/mesh.h"
 
 namespace plotscan::gazebo {
 

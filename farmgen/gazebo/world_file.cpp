@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
+#include "farm/sdf_elements.h"
 #include "gazebo/drone.h"
 #include "gazebo/naming.h"
-
-#include "farm/sdf_elements.h"
 
 namespace plotscan::gazebo {
 namespace {

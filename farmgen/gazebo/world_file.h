@@ -4,11 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "farm/farm.h"
 #include "gazebo/export_options.h"
 #include "gazebo/groups.h"
 #include "gazebo/plant_models.h"
-
-#include "farm/farm.h"
 
 namespace plotscan::gazebo {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "mesh/mesh.h"
 #include <Eigen/Core>
+
+#include "mesh/mesh.h"
 
 namespace plotscan::mesh {
 

@@ -5,10 +5,11 @@
 #include <numeric>
 #include <set>
 
-#include "mesh/mesh.h"
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <meshoptimizer.h>
+
+#include "mesh/mesh.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "gazebo/static_world.h"
-#include "mesh/mesh.h"
 #include <Eigen/Geometry>
 
 #include "farm/farm.h"
+#include "gazebo/static_world.h"
+#include "mesh/mesh.h"
 #include "scan/point.h"
 
 namespace plotscan::lidar {

@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "mesh/mesh.h"
 #include <vtkSmartPointer.h>
+
+#include "mesh/mesh.h"
 
 class vtkActor;
 class vtkPolyData;

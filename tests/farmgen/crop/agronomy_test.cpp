@@ -6,10 +6,11 @@
 #include <numbers>
 #include <ostream>
 
-#include "crop/grow.h"
-#include "mesh/measure.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "crop/grow.h"
+#include "mesh/measure.h"
 
 namespace plotscan::crop {
 namespace {

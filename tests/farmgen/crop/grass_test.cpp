@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <numbers>
 
-#include "crop/axis.h"
-#include "mesh/measure.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "crop/axis.h"
+#include "mesh/measure.h"
 
 namespace plotscan::crop {
 namespace {

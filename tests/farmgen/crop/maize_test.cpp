@@ -4,11 +4,12 @@
 #include <map>
 #include <numbers>
 
-#include "crop/grow.h"
 #include "farmgen/crop/mesh_parts.h"
-#include "mesh/measure.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "crop/grow.h"
+#include "mesh/measure.h"
 
 namespace plotscan::crop {
 namespace {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "crop/grow.h"
-#include "mesh/measure.h"
-#include "mesh/mesh_import.h"
-#include "mesh/obj.h"
 #include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.h"
+#include "crop/grow.h"
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
+#include "mesh/obj.h"
 
 namespace plotscan::crop {
 namespace {

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/measure.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "mesh/measure.h"
 
 namespace plotscan::crop {
 namespace {

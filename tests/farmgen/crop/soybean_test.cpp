@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 
-#include "crop/grow.h"
-#include "mesh/measure.h"
-#include "mesh/mesh_import.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "crop/grow.h"
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::crop {
 namespace {

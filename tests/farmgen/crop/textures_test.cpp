@@ -4,14 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "crop/plant_builder.h"
-#include "mesh/mesh_import.h"
-#include "mesh/obj.h"
 #include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include "core/error.h"
+#include "crop/plant_builder.h"
+#include "mesh/mesh_import.h"
+#include "mesh/obj.h"
 
 namespace plotscan::crop {
 namespace {

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <complex>
 
-#include "crop/grow.h"
 #include "farmgen/crop/mesh_parts.h"
-#include "mesh/measure.h"
 #include <gtest/gtest.h>
+
+#include "crop/grow.h"
+#include "mesh/measure.h"
 
 namespace plotscan::crop {
 namespace {

@@ -2,11 +2,11 @@
 // What `farmgen info` tells of a crop's default plot, against what was published of it.
 #include <cmath>
 
-#include "crop/grow.h"
 #include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
+#include "crop/grow.h"
 #include "farm/generate.h"
 #include "farm/summary.h"
 

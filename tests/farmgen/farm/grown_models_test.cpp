@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
-#include "crop/grow.h"
 #include "farmgen/farm/example_farm.h"
-#include "mesh/measure.h"
-#include "mesh/obj.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "crop/grow.h"
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "mesh/measure.h"
+#include "mesh/obj.h"
 
 namespace plotscan::farm {
 namespace {

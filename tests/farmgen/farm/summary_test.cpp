@@ -2,10 +2,10 @@
 #include "farm/summary.h"
 
 #include "farmgen/farm/example_farm.h"
-#include "mesh/measure.h"
 #include <gtest/gtest.h>
 
 #include "farm/generate.h"
+#include "mesh/measure.h"
 
 namespace plotscan::farm {
 namespace {

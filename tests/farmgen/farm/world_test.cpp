@@ -5,7 +5,6 @@
 #include <map>
 
 #include "farmgen/farm/example_farm.h"
-#include "mesh/mesh_import.h"
 #include <gtest/gtest.h>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
@@ -18,6 +17,7 @@
 #include "core/error.h"
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::farm {
 namespace {

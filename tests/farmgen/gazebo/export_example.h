@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "gazebo/export_world.h"
 #include "temporary_folder.h"
 
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "gazebo/export_world.h"
 
 namespace plotscan::gazebo {
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "farmgen/gazebo/export_example.h"
-#include "gazebo/naming.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -14,6 +13,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "farm/sdf_elements.h"
+#include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
 namespace {

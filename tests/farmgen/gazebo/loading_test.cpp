@@ -6,7 +6,6 @@
 #include <set>
 
 #include "farmgen/gazebo/export_example.h"
-#include "gazebo/naming.h"
 #include <gtest/gtest.h>
 #include <ignition/common/Material.hh>
 #include <ignition/common/Mesh.hh>
@@ -17,6 +16,7 @@
 
 #include "core/error.h"
 #include "farm/sdf_elements.h"
+#include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "mesh/mesh_import.h"
 #include "temporary_folder.h"
 #include "world_text.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "mesh/mesh_import.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -3,8 +3,9 @@
 
 #include <string>
 
-#include "gazebo/static_world.h"
 #include <Eigen/Core>
+
+#include "gazebo/static_world.h"
 
 namespace plotscan::testing {
 

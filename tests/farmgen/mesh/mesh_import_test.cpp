@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "mesh/measure.h"
 #include "temporary_folder.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -14,6 +13,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.h"
+#include "mesh/measure.h"
 
 namespace plotscan::mesh {
 namespace {

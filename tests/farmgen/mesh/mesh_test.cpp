@@ -3,15 +3,15 @@
 
 #include <filesystem>
 
-#include "mesh/measure.h"
-#include "mesh/mesh_import.h"
-#include "mesh/obj.h"
 #include "temporary_folder.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "mesh/measure.h"
+#include "mesh/mesh_import.h"
+#include "mesh/obj.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <functional>
 
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
 #include "mesh/measure.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_import.h"
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 namespace plotscan::mesh {
 namespace {

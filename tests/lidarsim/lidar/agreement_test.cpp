@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "farmgen/farm/example_farm.h"
-#include "gazebo/export_world.h"
-#include "gazebo/read_world.h"
 #include "simulated.h"
 #include <gtest/gtest.h>
 
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "gazebo/export_world.h"
+#include "gazebo/read_world.h"
 
 namespace plotscan::lidar {
 namespace {

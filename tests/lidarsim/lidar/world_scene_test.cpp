@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "farmgen/gazebo/world_text.h"
-#include "gazebo/read_world.h"
 #include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "gazebo/read_world.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
 
