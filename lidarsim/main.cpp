@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/program.h"
@@ -10,6 +11,7 @@
 #include "farm/farm.h"
 #include "gazebo/read_world.h"
 #include "lidar/fly.h"
+#include "lidar/fly_settings.h"
 
 namespace {
 
@@ -83,6 +85,17 @@ void run_fly(const Program& program, Arguments& arguments) {
   report(program, arguments, summary, notes, elapsed.count());
 }
 
+void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight) {
+  for (const lidar::FlySetting& setting : lidar::fly_settings()) {
+    auto* option = std::visit(
+        [&](const auto& value) {
+          return fly.add_option(setting.flag, value.of(options), setting.help);
+        },
+        setting.value);
+    if (setting.plans_flight) option->excludes(&flight);
+  }
+}
+
 void add_options(CLI::App& fly, Arguments& arguments) {
   lidar::FlyOptions& options = arguments.options;
   fly.add_option("FARM|WORLD.sdf", arguments.place,
@@ -92,21 +105,11 @@ void add_options(CLI::App& fly, Arguments& arguments) {
   fly.add_option("--resource-path", arguments.resource_paths,
                  "folder that holds models of the world, searched before the world's own and those "
                  "of GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; may be repeated");
-  fly.add_option("--sensor", options.sensor, "sensor: vlp16");
-  auto* altitude = fly.add_option("--altitude", options.altitude_m,
-                                  "metres over the mean ground under the plots, 0.5 to 120");
-  auto* speed = fly.add_option("--speed", options.speed_m_s, "metres a second, up to 6");
-  auto* spacing =
-      fly.add_option("--spacing", options.spacing_m, "metres between neighbouring strips");
-  fly.add_option("--flight", arguments.flight,
-                 "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
-                 "seconds, metres) or a scan's trajectory.csv")
-      ->excludes(altitude)
-      ->excludes(speed)
-      ->excludes(spacing);
-  fly.add_option("--spin", options.spin_hz, "turns of the sensor a second, 5 to 20");
-  fly.add_option("--noise", options.range_noise_m,
-                 "standard deviation of the range noise, metres, 0 to 1");
+  auto* flight =
+      fly.add_option("--flight", arguments.flight,
+                     "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
+                     "seconds, metres) or a scan's trajectory.csv");
+  add_settings(fly, options, *flight);
   fly.add_option("--mount", arguments.mount_deg,
                  "the sensor in the body's frame: roll,pitch,yaw in degrees; 0,90,0 lays the spin "
                  "axis along the flight, azimuth 0 down")

@@ -13,6 +13,7 @@
 #include "farm/write_farm.h"
 #include "farmbench/methods.h"
 #include "lidar/fly.h"
+#include "lidar/fly_settings.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -85,13 +86,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
           {"files", files},
           {"set", suite_case.overrides},
           {"seed", seed},
-          {"flight",
-           {{"sensor", suite.flight.sensor},
-            {"altitude_m", suite.flight.altitude_m},
-            {"speed_m_s", suite.flight.speed_m_s},
-            {"spacing_m", suite.flight.spacing_m},
-            {"spin_hz", suite.flight.spin_hz},
-            {"range_noise_m", suite.flight.range_noise_m}}},
+          {"flight", lidar::settings_json(suite.flight)},
           {"crop_margin_m", suite.crop_margin_m},
           {"methods", suite.methods}};
 }

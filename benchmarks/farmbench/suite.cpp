@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <set>
+#include <variant>
 
 #include "core/error.h"
 #include "core/yaml_section.h"
 #include "farm/description.h"
 #include "farmbench/methods.h"
+#include "lidar/fly_settings.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -80,16 +82,36 @@ std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
   return seeds;
 }
 
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = section.number(key, setting.range);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = static_cast<int>(section.integer(key, static_cast<int>(setting.range.low),
+                                                        static_cast<int>(setting.range.high)));
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = setting.choices.empty()
+                           ? section.text(key)
+                           : setting.choices[section.choice(key, setting.choices)];
+}
+
 lidar::FlyOptions read_flight(const YamlSection& root) {
   lidar::FlyOptions flight;
   if (!root.has("flight")) return flight;
   const YamlSection section = root.section("flight");
-  section.allow_only({"altitude_m", "speed_m_s", "spacing_m", "spin_hz", "range_noise_m"});
-  flight.altitude_m = section.number("altitude_m", {1, 100}, flight.altitude_m);
-  flight.speed_m_s = section.number("speed_m_s", {0.1, 20}, flight.speed_m_s);
-  flight.spacing_m = section.number("spacing_m", {0.1, 1000}, flight.spacing_m);
-  flight.spin_hz = section.number("spin_hz", {5, 20}, flight.spin_hz);
-  flight.range_noise_m = section.number("range_noise_m", {0, 1}, flight.range_noise_m);
+  std::vector<std::string> keys;
+  for (const lidar::FlySetting& setting : lidar::fly_settings()) {
+    keys.push_back(setting.key);
+    if (!section.has(setting.key)) continue;
+    std::visit([&](const auto& value) { read_setting(section, setting.key, value, flight); },
+               setting.value);
+  }
+  section.allow_only(keys);
   return flight;
 }
 

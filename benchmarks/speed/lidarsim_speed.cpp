@@ -16,15 +16,15 @@
 
 #include "core/error.h"
 #include "farm/farm.h"
+#include "flight/quadrotor.h"
 #include "lidar/embree.h"
 #include "lidar/flight_plan.h"
-#include "lidar/quadrotor.h"
 #include "lidar/scene.h"
-#include "lidar/sensor.h"
-#include "lidar/shots.h"
 #include "lidar/simulate.h"
 #include "scan/pcd_writer.h"
 #include "scan/trajectory.h"
+#include "sensor/sensor.h"
+#include "sensor/shots.h"
 
 namespace {
 
@@ -37,26 +37,26 @@ scan::Trajectory middle_strip(const farm::Farm& farm) {
   const lidar::Scene scene(lidar::scene_content(farm));
   const auto waypoints =
       lidar::plan_strips(lidar::site_of(farm), scene, {.altitude_m = 8, .spacing_m = 1000});
-  return lidar::fly_waypoints(lidar::Quadrotor(), waypoints, 2.0);
+  return flight::fly_waypoints(flight::Quadrotor(), waypoints, 2.0);
 }
 
 struct Work {
   Work(const farm::Farm& farm, const scan::Trajectory& trajectory)
-      : sensor(lidar::vlp16()),
+      : sensor(sensor::load_sensor("vlp16")),
         scene(lidar::scene_content(farm)),
         plan(sensor, kSpin_hz,
              Eigen::Isometry3d(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitY())),
              trajectory) {
-    lidar::SequenceShots shots;
+    sensor::SequenceShots shots;
     for (std::uint64_t sequence = 0; sequence < plan.sequences(); ++sequence) {
       plan.fire(sequence, shots);
       for (std::size_t k = 0; k < plan.lasers(); ++k) rays.push_back(lidar::ray_of(shots, k));
     }
   }
 
-  lidar::SpinningLidar sensor;
+  sensor::Sensor sensor;
   lidar::Scene scene;
-  lidar::ShotPlan plan;
+  sensor::ShotPlan plan;
   std::vector<lidar::Ray> rays;
 };
 
@@ -99,7 +99,8 @@ void cast_bare(const Work& work, int threads) {
 
 std::uint64_t simulate_to_file(const Work& work, int threads, const std::filesystem::path& file) {
   scan::PcdWriter cloud(file);
-  lidar::simulate(work.scene, work.sensor, work.plan, {.threads = threads},
+  lidar::simulate(work.scene, work.sensor, {.fired = work.plan, .placed = work.plan},
+                  {.threads = threads},
                   [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); });
   cloud.close();
   return cloud.points();

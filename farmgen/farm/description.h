@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "farm/geodesy.h"
+#include "core/geodesy.h"
 #include "farm/model_description.h"
 #include "farm/plants_description.h"
 #include "farm/plots_description.h"

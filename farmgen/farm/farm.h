@@ -10,8 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/geodesy.h"
 #include "core/plot_box.h"
-#include "farm/geodesy.h"
 #include "farm/terrain.h"
 #include "mesh/mesh.h"
 

@@ -95,7 +95,7 @@ class WorldFile {
   }
 
   void write_spherical_coordinates() {
-    const farm::Anchor& anchor = *farm_.anchor;
+    const Anchor& anchor = *farm_.anchor;
     xml_.open("spherical_coordinates");
     xml_.text("surface_model", "EARTH_WGS84");
     xml_.text("world_frame_orientation", "ENU");

@@ -9,12 +9,12 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "flight/strips.h"
 
 namespace plotscan::lidar {
 namespace {
 
-constexpr double kMaxAltitude_m = 120;  // where drones may fly without a waiver
-constexpr double kMaxPath_m = 100e3;
+constexpr double kMaxAltitude_m = 120;    // where drones may fly without a waiver
 constexpr double kClearance_m = 0.5;      // to either side of the path
 constexpr double kClearanceStep_m = 0.1;  // between rays
 
@@ -22,40 +22,6 @@ void require_in_range(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw InputError(std::string(name) + " " + format_number(value) + " m must be in [" +
                    format_number(low) + ", " + format_number(high) + "] m");
-}
-
-// The areas' direction: headings averaged as axes of four-fold symmetry, since the sides of a box
-// are two directions and each is the same as its opposite.
-double mean_heading(const std::vector<PlotBox>& areas) {
-  double sine = 0;
-  double cosine = 0;
-  for (const PlotBox& area : areas) {
-    sine += std::sin(4 * area.heading_rad);
-    cosine += std::cos(4 * area.heading_rad);
-  }
-  return std::atan2(sine, cosine) / 4;
-}
-
-// The areas' bounding rectangle in axes along and across the strips.
-struct Field {
-  Eigen::Rotation2Dd world_from_field{0};
-  Eigen::AlignedBox2d bounds;
-};
-
-Field field_with_heading(const std::vector<PlotBox>& areas, double heading_rad) {
-  Field field{.world_from_field = Eigen::Rotation2Dd(heading_rad), .bounds = {}};
-  for (const PlotBox& area : areas) {
-    for (const Eigen::Vector2d& corner : area.corners())
-      field.bounds.extend(field.world_from_field.inverse() * corner);
-  }
-  return field;
-}
-
-Field field_along_longer_side(const std::vector<PlotBox>& areas) {
-  const double heading = mean_heading(areas);
-  const Field field = field_with_heading(areas, heading);
-  const Eigen::Vector2d sides = field.bounds.sizes();
-  return sides.x() >= sides.y() ? field : field_with_heading(areas, heading + EIGEN_PI / 2);
 }
 
 double ground_of(const Site& site) {
@@ -103,27 +69,10 @@ std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
                                          const FlightPlanOptions& options) {
   require_in_range("altitude", options.altitude_m, 0.5, kMaxAltitude_m);
   require_in_range("spacing", options.spacing_m, 0.1, 1000);
-  const double z = ground_of(site) + options.altitude_m;
-  const Field field = field_along_longer_side(site.areas);
-  const Eigen::Vector2d sides = field.bounds.sizes();
-  const double strips = std::max(1.0, std::ceil(sides.y() / options.spacing_m));
-  const double strip_m = sides.x() + 2 * options.run_up_m;
-  if (strips * (strip_m + options.spacing_m) > kMaxPath_m) {
-    throw InputError("the flight would be longer than " + format_number(kMaxPath_m / 1000) +
-                     " km; give a wider spacing");
-  }
-  std::vector<Eigen::Vector3d> path;
-  for (int strip = 0; strip < static_cast<int>(strips); ++strip) {
-    const double across =
-        field.bounds.center().y() + (strip - (strips - 1) / 2) * options.spacing_m;
-    const double forth = strip % 2 == 0 ? 1 : -1;
-    for (const double end : {-forth, forth}) {
-      const Eigen::Vector2d place =
-          field.world_from_field *
-          Eigen::Vector2d(field.bounds.center().x() + end * strip_m / 2, across);
-      path.emplace_back(place.x(), place.y(), z);
-    }
-  }
+  const std::vector<Eigen::Vector3d> path =
+      flight::strips_over(site.areas, {.height_m = ground_of(site) + options.altitude_m,
+                                       .spacing_m = options.spacing_m,
+                                       .run_up_m = options.run_up_m});
   require_clearance(scene, path);
   return path;
 }

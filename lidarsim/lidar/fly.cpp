@@ -7,13 +7,17 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/text_file.h"
+#include "core/utc_time.h"
+#include "flight/quadrotor.h"
 #include "lidar/flight_plan.h"
-#include "lidar/quadrotor.h"
-#include "lidar/sensor.h"
-#include "lidar/shots.h"
+#include "lidar/fly_settings.h"
 #include "lidar/simulate.h"
+#include "record/scan_folder.h"
 #include "scan/pcd_writer.h"
 #include "scan/trajectory.h"
+#include "sensor/sensor.h"
+#include "sensor/shots.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -21,26 +25,27 @@ namespace {
 constexpr double kMaxFlight_s = 24 * 3600;
 constexpr int kMaxThreads = 1024;
 
-void validate(const FlyOptions& options, const SpinningLidar& sensor) {
+void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
   if (!(options.spin_hz >= sensor.min_spin_hz && options.spin_hz <= sensor.max_spin_hz)) {
     throw InputError("spin " + format_number(options.spin_hz) + " Hz must be in [" +
                      format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
                      "] Hz for sensor " + sensor.name);
   }
-  if (!(options.range_noise_m >= 0 && options.range_noise_m <= 1))
-    throw InputError("noise " + format_number(options.range_noise_m) + " m must be in [0, 1] m");
+  if (!parse_utc(options.start_utc))
+    throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   if (!options.mount_rpy_rad.allFinite()) throw InputError("the mount's angles must be finite");
   if (options.threads < 1 || options.threads > kMaxThreads)
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
 
 scan::Trajectory planned_flight(const Site& site, const Scene& scene, const FlyOptions& options) {
-  const Quadrotor quadrotor;
-  const MotionLimits limits = leg_limits(quadrotor, options.speed_m_s);
-  const auto waypoints = plan_strips(site, scene,
-                                     {.altitude_m = options.altitude_m,
-                                      .spacing_m = options.spacing_m,
-                                      .run_up_m = RestToRest::run_up(options.speed_m_s, limits)});
+  const flight::Quadrotor quadrotor;
+  const flight::MotionLimits limits = flight::leg_limits(quadrotor, options.speed_m_s);
+  const auto waypoints =
+      plan_strips(site, scene,
+                  {.altitude_m = options.altitude_m,
+                   .spacing_m = options.spacing_m,
+                   .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits)});
   double way_m = 0;
   for (std::size_t i = 1; i < waypoints.size(); ++i)
     way_m += (waypoints[i] - waypoints[i - 1]).norm();
@@ -49,7 +54,7 @@ scan::Trajectory planned_flight(const Site& site, const Scene& scene, const FlyO
                      " m takes more than 24 hours at " + format_number(options.speed_m_s) +
                      " m/s; fly faster, or wider strips");
   }
-  return fly_waypoints(quadrotor, waypoints, options.speed_m_s);
+  return flight::fly_waypoints(quadrotor, waypoints, options.speed_m_s);
 }
 
 scan::Trajectory read_flight(const std::filesystem::path& file) {
@@ -63,29 +68,34 @@ scan::Trajectory read_flight(const std::filesystem::path& file) {
   return scan::Trajectory(std::move(poses));
 }
 
-Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
-  using Eigen::AngleAxisd;
-  using Eigen::Vector3d;
-  return Eigen::Isometry3d(AngleAxisd(rpy_rad.z(), Vector3d::UnitZ()) *
-                           AngleAxisd(rpy_rad.y(), Vector3d::UnitY()) *
-                           AngleAxisd(rpy_rad.x(), Vector3d::UnitX()));
+// The drone's way as it was, and as it reports it.
+struct Flight {
+  scan::Trajectory truth;
+  scan::Trajectory reported;
+};
+
+Flight fly_drone(const Site& site, const Scene& scene, const FlyOptions& options) {
+  const scan::Trajectory truth =
+      options.flight ? read_flight(*options.flight) : planned_flight(site, scene, options);
+  return {.truth = truth, .reported = truth};
 }
 
-Manifest manifest_of(const Site& site, const FlyOptions& options, const FlySummary& summary) {
+Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOptions& options,
+                     const FlySummary& summary) {
   const Eigen::Vector3d mount_deg = options.mount_rpy_rad * 180 / std::numbers::pi;
   Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
-  manifest.options = {{site.kind, site.name},
-                      {"sensor", options.sensor},
-                      {"spin_hz", options.spin_hz},
-                      {"noise_m", options.range_noise_m},
-                      {"mount_rpy_deg", {mount_deg.x(), mount_deg.y(), mount_deg.z()}}};
+  manifest.options = settings_json(options);
+  manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
+  manifest.options[site.kind] = site.name;
+  manifest.options["mount_rpy_deg"] = {mount_deg.x(), mount_deg.y(), mount_deg.z()};
+  if (site.anchor) {
+    manifest.options["anchor"] = {{"latitude_deg", site.anchor->latitude_deg},
+                                  {"longitude_deg", site.anchor->longitude_deg},
+                                  {"altitude_m", site.anchor->altitude_m}};
+  }
   if (options.flight) {
     manifest.options["flight"] = options.flight->filename().string();
     manifest.inputs.push_back(*options.flight);
-  } else {
-    manifest.options["altitude_m"] = options.altitude_m;
-    manifest.options["speed_m_s"] = options.speed_m_s;
-    manifest.options["spacing_m"] = options.spacing_m;
   }
   manifest.results = {
       {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};
@@ -96,25 +106,30 @@ Manifest manifest_of(const Site& site, const FlyOptions& options, const FlySumma
 
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  const SpinningLidar sensor = sensor_named(options.sensor);
+  require_valid(options);
+  const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options, sensor);
   OutputFolder output(scan_folder, replace, "lidarsim fly");
-  const scan::Trajectory trajectory =
-      options.flight ? read_flight(*options.flight) : planned_flight(site, scene, options);
-  const ShotPlan plan(sensor, options.spin_hz, mount_pose(options.mount_rpy_rad), trajectory);
+  const Flight flight = fly_drone(site, scene, options);
+  const Eigen::Isometry3d mount = record::mount_pose(options.mount_rpy_rad);
+  const sensor::ShotPlan fired(sensor, options.spin_hz, mount, flight.truth);
 
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
   simulate(
-      scene, sensor, plan,
+      scene, sensor, {.fired = fired, .placed = fired},
       {.range_noise_m = options.range_noise_m, .seed = options.seed, .threads = options.threads},
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();
-  scan::write_trajectory(output.path() / "trajectory.csv", trajectory);
+  scan::write_trajectory(output.path() / "trajectory.csv", flight.truth);
+  scan::write_trajectory(output.path() / "poses.csv", flight.reported);
+  TextFile description(output.path() / "sensor.yaml");
+  description << sensor.description;
+  description.close();
 
-  const FlySummary summary{.shots = plan.sequences() * plan.lasers(),
+  const FlySummary summary{.shots = fired.sequences() * fired.lasers(),
                            .points = cloud.points(),
-                           .duration_s = trajectory.end_s()};
-  write_manifest(output.path(), manifest_of(site, options, summary));
+                           .duration_s = flight.truth.end_s()};
+  write_manifest(output.path(), manifest_of(site, sensor, options, summary));
   output.commit();
   return summary;
 }

@@ -19,13 +19,14 @@ namespace plotscan::lidar {
 
 // How a farm or a world is flown and scanned.
 struct FlyOptions {
-  std::string sensor = "vlp16";
-  double altitude_m = 8.0;  // over the mean ground under the plots
-  double speed_m_s = 2.0;   // along the strips
-  double spacing_m = 6.0;   // between neighbouring strips
+  std::string sensor = "vlp16";  // a name or a file, as sensor::load_sensor takes it
+  double altitude_m = 8.0;       // over the mean ground under the plots
+  double speed_m_s = 2.0;        // along the strips
+  double spacing_m = 6.0;        // between neighbouring strips
   // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
   // the flight's time 0.
   std::optional<std::filesystem::path> flight = {};
+  std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
   double spin_hz = 10.0;        // turns of the sensor a second, 5 to 20 for the VLP-16
   double range_noise_m = 0.03;  // standard deviation of the range noise, 0 to 1
   // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
@@ -42,7 +43,8 @@ struct FlySummary {
   double duration_s = 0;  // of the flight
 };
 
-// Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv, manifest.json
+// Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv
+// (reported), sensor.yaml, manifest.json
 // (docs/scan-format.md). The same scene, site and options give the same bytes for any number of
 // threads. Throws InputError on impossible options, a broken trajectory, or an existing folder that
 // `replace` does not cover.

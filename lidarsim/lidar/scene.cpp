@@ -141,6 +141,7 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
                                    Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     hits[i] = {.range_m = query.ray.tfar,
                .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),
+               .reflectance = surfaces_[surface].reflectance,
                .surface = surface};
   }
 }

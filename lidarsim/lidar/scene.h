@@ -20,6 +20,7 @@ struct Ray {
 struct Hit {
   float range_m = 0;          // infinite: nowhere
   float cos_incidence = 0;    // of the angle between the ray and the surface's normal, in [0, 1]
+  float reflectance = 0;      // of the surface there at 903 nm, diffuse, in [0, 1]
   std::uint32_t surface = 0;  // index for Scene::surface
 };
 

@@ -22,11 +22,20 @@ void require_model(const farm::Farm& farm, const farm::Plant& plant) {
                    std::to_string(farm.models.size()));
 }
 
+// Near 903 nm, typical of spectral libraries.
+constexpr float kSoilReflectance = 0.30f;
+constexpr float kLeafReflectance = 0.45f;
+
+float reflectance_of(scan::PointClass label) {
+  return label == scan::PointClass::ground ? kSoilReflectance : kLeafReflectance;
+}
+
 Surface surface_of(const farm::Plant& plant) {
   const bool weed = plant.kind == farm::PlantKind::weed;
   return {.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
           .plot = plant.plot,
-          .plant = plant.id};
+          .plant = plant.id,
+          .reflectance = kLeafReflectance};
 }
 
 }  // namespace
@@ -43,8 +52,9 @@ SceneContent scene_content(const farm::Farm& farm) {
     content.placed.push_back(
         {.mesh = plant.model, .world_from_mesh = world_from_model, .surface = surface_of(plant)});
   }
-  content.placed.push_back({.mesh = static_cast<std::uint32_t>(content.meshes.size()),
-                            .surface = {.label = scan::PointClass::ground}});
+  content.placed.push_back(
+      {.mesh = static_cast<std::uint32_t>(content.meshes.size()),
+       .surface = {.label = scan::PointClass::ground, .reflectance = kSoilReflectance}});
   content.meshes.push_back(shape_of(farm.terrain));
   return content;
 }
@@ -56,11 +66,13 @@ SceneContent scene_content(const gazebo::StaticWorld& world) {
   content.placed.reserve(world.surfaces.size());
   for (const gazebo::PlacedSurface& surface : world.surfaces) {
     // The numbers of both classes are the same (gazebo/labels.h).
+    const auto label = static_cast<scan::PointClass>(surface.kind);
     content.placed.push_back({.mesh = surface.mesh,
                               .world_from_mesh = surface.world_from_mesh,
-                              .surface = {.label = static_cast<scan::PointClass>(surface.kind),
+                              .surface = {.label = label,
                                           .plot = surface.plot,
-                                          .plant = surface.plant}});
+                                          .plant = surface.plant,
+                                          .reflectance = reflectance_of(label)}});
   }
   return content;
 }

@@ -18,6 +18,7 @@ struct Surface {
   scan::PointClass label = scan::PointClass::unlabelled;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // Plant::id; 0: none
+  float reflectance = 0;    // at 903 nm, diffuse, in [0, 1]
 };
 
 // A mesh somewhere in the world.

@@ -63,31 +63,34 @@ double rounded(double value) {
 
 class Simulator {
  public:
-  Simulator(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,
+  Simulator(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
             const SimulateOptions& options)
-      : scene_(scene), sensor_(sensor), plan_(plan), options_(options) {}
+      : scene_(scene), sensor_(sensor), shots_(shots), options_(options) {}
 
   Batch run(std::uint64_t begin_sequence) const {
-    const std::uint64_t end = std::min(begin_sequence + kBatchSequences, plan_.sequences());
-    const std::vector<Ray> rays = fire(begin_sequence, end);
+    const std::uint64_t end = std::min(begin_sequence + kBatchSequences, shots_.fired.sequences());
+    std::vector<Ray> rays = fire(shots_.fired, begin_sequence, end);
     std::vector<Hit> hits(rays.size());
     const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
     scene_.cast(rays, static_cast<float>(reach_m), hits);
+    if (&shots_.placed != &shots_.fired) rays = fire(shots_.placed, begin_sequence, end);
     return {.end_sequence = end, .points = measure(begin_sequence, rays, hits)};
   }
 
  private:
-  std::vector<Ray> fire(std::uint64_t begin, std::uint64_t end) const {
+  static std::vector<Ray> fire(const sensor::ShotPlan& plan, std::uint64_t begin,
+                               std::uint64_t end) {
     std::vector<Ray> rays;
-    rays.reserve((end - begin) * plan_.lasers());
-    SequenceShots shots;
+    rays.reserve((end - begin) * plan.lasers());
+    sensor::SequenceShots shots;
     for (std::uint64_t sequence = begin; sequence < end; ++sequence) {
-      plan_.fire(sequence, shots);
-      for (std::size_t k = 0; k < plan_.lasers(); ++k) rays.push_back(ray_of(shots, k));
+      plan.fire(sequence, shots);
+      for (std::size_t k = 0; k < plan.lasers(); ++k) rays.push_back(ray_of(shots, k));
     }
     return rays;
   }
 
+  // The rays say where the points are put.
   std::vector<scan::LabelledPoint> measure(std::uint64_t begin_sequence,
                                            const std::vector<Ray>& rays,
                                            const std::vector<Hit>& hits) const {
@@ -98,10 +101,10 @@ class Simulator {
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const Hit& hit = hits[i];
       if (!std::isfinite(hit.range_m)) continue;
-      const std::uint64_t sequence = begin_sequence + i / plan_.lasers();
-      const std::size_t laser = i % plan_.lasers();
+      const std::uint64_t sequence = begin_sequence + i / shots_.fired.lasers();
+      const std::size_t laser = i % shots_.fired.lasers();
       const double range =
-          measured_range(hit.range_m + noise.of_shot(sequence * plan_.lasers() + laser));
+          measured_range(hit.range_m + noise.of_shot(sequence * shots_.fired.lasers() + laser));
       if (range < sensor_.min_range_m || range > sensor_.max_range_m) continue;
       const Eigen::Vector3f position =
           rays[i].origin_m + static_cast<float>(range) * rays[i].direction;
@@ -109,9 +112,9 @@ class Simulator {
       points.push_back({.x = position.x(),
                         .y = position.y(),
                         .z = position.z(),
-                        .intensity = return_intensity(surface.label, hit.cos_incidence),
+                        .intensity = return_intensity(hit.reflectance, hit.cos_incidence),
                         .ring = sensor_.lasers[laser].ring,
-                        .time = plan_.time_s(sequence, laser),
+                        .time = shots_.fired.time_s(sequence, laser),
                         .label = surface.label,
                         .plot = surface.plot,
                         .plant = surface.plant});
@@ -127,34 +130,34 @@ class Simulator {
   }
 
   const Scene& scene_;
-  const SpinningLidar& sensor_;
-  const ShotPlan& plan_;
+  const sensor::Sensor& sensor_;
+  const Shots& shots_;
   const SimulateOptions& options_;
 };
 
 }  // namespace
 
-Ray ray_of(const SequenceShots& shots, std::size_t laser) {
+Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser) {
   const auto k = static_cast<Eigen::Index>(laser);
-  const auto vector = [k](const std::array<PerLaser, 3>& v) -> Eigen::Vector3f {
+  const auto vector = [k](const std::array<sensor::PerLaser, 3>& v) -> Eigen::Vector3f {
     return Eigen::Vector3d(v[0][k], v[1][k], v[2][k]).cast<float>();
   };
   return {vector(shots.origin_m), vector(shots.direction)};
 }
 
-float return_intensity(scan::PointClass label, float cos_incidence) {
-  const float reflectance_percent = label == scan::PointClass::ground ? 30.0f : 45.0f;
-  return static_cast<float>(rounded(reflectance_percent * cos_incidence));
+float return_intensity(float reflectance, float cos_incidence) {
+  return static_cast<float>(rounded(100.0 * reflectance * cos_incidence));
 }
 
-void simulate(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,
-              const SimulateOptions& options, const PointSink& sink,
+void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
+              const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress) {
-  const Simulator simulator(scene, sensor, plan, options);
+  const Simulator simulator(scene, sensor, shots, options);
+  const std::uint64_t sequences = shots.fired.sequences();
   std::uint64_t next_sequence = 0;
   const auto take = [&](tbb::flow_control& control) {
     const std::uint64_t begin = next_sequence;
-    if (begin >= plan.sequences()) control.stop();
+    if (begin >= sequences) control.stop();
     next_sequence += kBatchSequences;
     return begin;
   };
@@ -162,7 +165,7 @@ void simulate(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& p
   const auto hand_on = [&](const Batch& batch) {
     sink(batch.points);
     if (progress)
-      progress(static_cast<double>(batch.end_sequence) / static_cast<double>(plan.sequences()));
+      progress(static_cast<double>(batch.end_sequence) / static_cast<double>(sequences));
   };
   // oneTBB keeps to the number of processors unless it is asked for more; asking for less here
   // would bind other work of the process too.

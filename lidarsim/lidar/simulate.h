@@ -2,14 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 
 #include "core/progress.h"
 #include "lidar/scene.h"
-#include "lidar/sensor.h"
-#include "lidar/shots.h"
 #include "scan/point.h"
+#include "sensor/sensor.h"
+#include "sensor/shots.h"
 
 namespace plotscan::lidar {
 
@@ -19,21 +17,25 @@ struct SimulateOptions {
   int threads = 1;
 };
 
-// Receives the returns piece by piece in the order of firing, from one thread at a time.
-using PointSink = std::function<void(std::span<const scan::LabelledPoint>)>;
+// The same shots twice: as they truly were fired, which decides what they meet, and as the drone's
+// reported poses and the sensor's stated mount have them, which decides where their points are put.
+struct Shots {
+  const sensor::ShotPlan& fired;
+  const sensor::ShotPlan& placed;
+};
 
 // Fires every shot of the plan at the scene and hands the returns on. Memory does not grow with the
 // number of shots; the points are the same for any number of threads. Shots that meet nothing, or
 // whose measured range is beyond the sensor's limits, leave no point.
-void simulate(const Scene& scene, const SpinningLidar& sensor, const ShotPlan& plan,
-              const SimulateOptions& options, const PointSink& sink,
+void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
+              const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress = {});
 
 // A shot as the ray tracer takes it.
-Ray ray_of(const SequenceShots& shots, std::size_t laser);
+Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser);
 
 // The intensity of a return, a calibrated reflectivity as the VLP-16 reports it: percent of a
-// diffuse white target's, from the class's reflectance near 903 nm and Lambert's cosine law.
-float return_intensity(scan::PointClass label, float cos_incidence);
+// diffuse white target's, by Lambert's cosine law.
+float return_intensity(float reflectance, float cos_incidence);
 
 }  // namespace plotscan::lidar

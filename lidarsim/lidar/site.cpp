@@ -107,7 +107,11 @@ std::optional<double> mean_height(const SceneContent& ground, const Eigen::Align
 }  // namespace
 
 Site site_of(const farm::Farm& farm) {
-  Site site{.kind = "farm", .name = farm.name, .areas = {}, .ground_m = mean_ground(farm)};
+  Site site{.kind = "farm",
+            .name = farm.name,
+            .areas = {},
+            .ground_m = mean_ground(farm),
+            .anchor = farm.anchor};
   for (const farm::Plot& plot : farm.plots) site.areas.push_back(plot.box);
   return site;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geodesy.h"
 #include "core/plot_box.h"
 #include "farm/farm.h"
 #include "lidar/scene_content.h"
@@ -17,6 +18,7 @@ struct Site {
   std::string name;
   std::vector<PlotBox> areas;      // world frame
   std::optional<double> ground_m;  // mean height of the ground under the areas; absent: none there
+  std::optional<Anchor> anchor = {};  // of the world frame's origin
 };
 
 // A farm's plots over its terrain: the mean of its heights at their centres and corners.

@@ -27,10 +27,10 @@ std::string pcd_header(std::uint64_t points) {
   const std::string count = std::to_string(points);
   const std::string entries =
       "VERSION 0.7\n"
-      "FIELDS x y z intensity ring time class plot plant\n"
-      "SIZE 4 4 4 4 2 8 1 4 4\n"
-      "TYPE F F F F U F U U U\n"
-      "COUNT 1 1 1 1 1 1 1 1 1\n"
+      "FIELDS x y z intensity ring time return_number return_count class plot plant\n"
+      "SIZE 4 4 4 4 2 8 1 1 1 4 4\n"
+      "TYPE F F F F U F U U U U U\n"
+      "COUNT 1 1 1 1 1 1 1 1 1 1 1\n"
       "WIDTH " +
       count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   std::string comment = "# .PCD v0.7 - Point Cloud Data file format";
@@ -51,6 +51,8 @@ char* pack_point(const LabelledPoint& point, char* record) {
   put(point.intensity);
   put(point.ring);
   put(point.time);
+  put(point.return_number);
+  put(point.return_count);
   put(point.label);
   put(point.plot);
   put(point.plant);

@@ -101,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(
                  "known key"},
         BadSuite{with(".yaml}", ".yaml}\n  - {name: a, farm: " + kFlat + "}"),
                  ":4: cases.1.name \"a\" is the name of another case as well"},
-        BadSuite{kSound + "flight: {spin_hz: 100}\n", ":6: flight.spin_hz 100 is not in [5, 20]"},
+        BadSuite{kSound + "flight: {altitude_m: 200}\n",
+                 ":6: flight.altitude_m 200 is not in [0.5, 120]"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/geodesy.h"
+#include "core/geodesy.h"
 
 #include <cmath>
 #include <numbers>

@@ -30,12 +30,13 @@ farm::Farm farm_with_weeds(const TemporaryFolder& folder) {
 }
 
 Points scan_of(const SceneContent& content) {
-  const SpinningLidar sensor = testing::exact_vlp16();
+  const sensor::Sensor sensor = testing::exact_vlp16();
   const scan::Trajectory flight(
       {{.time_s = 0, .position_m = {-5, -2, 7}}, {.time_s = 2, .position_m = {6, -2, 7}}});
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), flight);
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(), flight);
   Points points;
-  simulate(Scene(content), sensor, plan, {.range_noise_m = 0, .seed = 1, .threads = 2},
+  simulate(Scene(content), sensor, {.fired = plan, .placed = plan},
+           {.range_noise_m = 0, .seed = 1, .threads = 2},
            [&](std::span<const scan::LabelledPoint> piece) {
              points.insert(points.end(), piece.begin(), piece.end());
            });

@@ -199,8 +199,8 @@ Seen scanned(const Stand& stand, const std::string& material) {
                             .surface = {.label = scan::PointClass::ground}});
   const scan::Trajectory flight(
       {{.time_s = 0, .position_m = {-4, 0, 8}}, {.time_s = 2, .position_m = {4, 0, 8}}});
-  const SpinningLidar sensor = testing::exact_vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), flight);
+  const sensor::Sensor sensor = testing::exact_vlp16();
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(), flight);
   Seen seen;
   double all = 0;
   double plants = 0;
@@ -223,7 +223,8 @@ Seen scanned(const Stand& stand, const std::string& material) {
       ++marked;
     }
   };
-  simulate(Scene(content), sensor, plan, {.range_noise_m = 0, .seed = 1, .threads = 2}, take);
+  simulate(Scene(content), sensor, {.fired = plan, .placed = plan},
+           {.range_noise_m = 0, .seed = 1, .threads = 2}, take);
   seen.ground /= all;
   for (int i = 0; i < 10; ++i) {
     seen.plants[i] /= plants;

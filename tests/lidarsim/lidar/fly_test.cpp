@@ -89,14 +89,15 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   const auto refusal = [&](const FlyOptions& options) {
     return message_of<InputError>([&] { fly(farm, scan, options, false); });
   };
-  EXPECT_THAT(refusal({.sensor = "os1"}), HasSubstr("\"os1\" is unknown; there is vlp16"));
+  EXPECT_THAT(refusal({.sensor = "os1"}), HasSubstr("\"os1\" is unknown; there are vlp16"));
   EXPECT_THAT(refusal({.spin_hz = 4.9}), HasSubstr("spin 4.9 Hz must be in [5, 20]"));
-  EXPECT_THAT(refusal({.spin_hz = std::nan("")}), HasSubstr("spin"));
-  EXPECT_THAT(refusal({.range_noise_m = -0.1}), HasSubstr("noise -0.1 m must be in [0, 1]"));
+  EXPECT_THAT(refusal({.spin_hz = std::nan("")}), HasSubstr("--spin nan must be in"));
+  EXPECT_THAT(refusal({.range_noise_m = -0.1}), HasSubstr("--noise -0.1 must be in [0, 1]"));
+  EXPECT_THAT(refusal({.start_utc = "noon"}), HasSubstr("--start \"noon\" must be like 2026-"));
   EXPECT_THAT(refusal({.mount_rpy_rad = {0, INFINITY, 0}}), HasSubstr("mount"));
   EXPECT_THAT(refusal({.threads = 0}), HasSubstr("threads 0"));
-  EXPECT_THAT(refusal({.speed_m_s = 50}), HasSubstr("speed 50 m/s"));
-  EXPECT_THAT(refusal({.altitude_m = -1}), HasSubstr("altitude -1 m"));
+  EXPECT_THAT(refusal({.speed_m_s = 50}), HasSubstr("--speed 50 must be in [0.01, 6]"));
+  EXPECT_THAT(refusal({.altitude_m = -1}), HasSubstr("--altitude -1 must be in"));
   EXPECT_THAT(refusal({.flight = folder.path() / "none"}), HasSubstr("no such file"));
   EXPECT_THAT(refusal({.flight = folder.write("long", "0 0 0 5 0 0 0 1\n1e9 0 0 5 0 0 0 1\n")}),
               HasSubstr("at most 86400 s"));

@@ -29,9 +29,9 @@ farm::Farm farm_of(farm::Terrain terrain) {
 // Every shot that meets the plane normal . x = offset within the square of half side 1000 m must
 // have come back with the range to it.
 void expect_ranges_to_plane(const farm::Farm& farm, const Eigen::Vector3d& normal, double offset) {
-  const SpinningLidar sensor = testing::exact_vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(),
-                      testing::hover({0.5, 0.2, kHeight_m}, 0.2));
+  const sensor::Sensor sensor = testing::exact_vlp16();
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0.5, 0.2, kHeight_m}, 0.2));
   std::map<std::uint64_t, scan::LabelledPoint> by_shot;
   for (const auto& point : testing::simulated(farm, sensor, plan, kNoiseless))
     by_shot[testing::shot_of(point)] = point;
@@ -126,8 +126,9 @@ TEST(Ranges, ToASphere) {
   const double inner_m = kRadius_m * inner_radius(farm.models[0].mesh);
   ASSERT_LT(kRadius_m - inner_m, 1e-3);
 
-  const SpinningLidar sensor = testing::exact_vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.2));
+  const sensor::Sensor sensor = testing::exact_vlp16();
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.2));
   std::map<std::uint64_t, scan::LabelledPoint> on_sphere;
   for (const auto& point : testing::simulated(farm, sensor, plan, kNoiseless)) {
     if (point.plant == 5) on_sphere[testing::shot_of(point)] = point;

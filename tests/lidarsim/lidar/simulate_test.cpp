@@ -42,10 +42,10 @@ double distance(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& 
 
 TEST(Simulate, EveryPointLiesOnWhatItsLabelsSay) {
   const farm::Farm farm = testing::small_farm();
-  const SpinningLidar sensor = testing::exact_vlp16();
+  const sensor::Sensor sensor = testing::exact_vlp16();
   const scan::Trajectory flight(
       {{.time_s = 0, .position_m = {-4, 0.3, 4}}, {.time_s = 0.4, .position_m = {4, 0.3, 4}}});
-  const ShotPlan plan(sensor, 20, testing::spin_along_flight(), flight);
+  const sensor::ShotPlan plan(sensor, 20, testing::spin_along_flight(), flight);
   const Points points = testing::simulated(farm, sensor, plan, {.range_noise_m = 0});
   const auto triangles = testing::world_triangles(farm);
   std::set<std::uint32_t> plants;
@@ -65,8 +65,9 @@ TEST(Simulate, EveryPointLiesOnWhatItsLabelsSay) {
 }
 
 TEST(Simulate, PointsComeInTheOrderOfFiring) {
-  const SpinningLidar sensor = vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.3));
+  const sensor::Sensor sensor = sensor::load_sensor("vlp16");
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.3));
   const Points points = testing::simulated(flat_farm(), sensor, plan, {.threads = 3});
   ASSERT_GT(points.size(), 1000u);
   for (std::size_t i = 1; i < points.size(); ++i) ASSERT_LT(points[i - 1].time, points[i].time);
@@ -74,10 +75,11 @@ TEST(Simulate, PointsComeInTheOrderOfFiring) {
 
 // Straight down the intensity is the reflectance; elsewhere it falls with the cosine.
 TEST(Simulate, IntensityFollowsLambert) {
-  EXPECT_EQ(return_intensity(scan::PointClass::ground, 1), 30);
-  EXPECT_EQ(return_intensity(scan::PointClass::crop, 1), 45);
-  const SpinningLidar sensor = testing::exact_vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.1));
+  EXPECT_EQ(return_intensity(0.3f, 1), 30);
+  EXPECT_EQ(return_intensity(0.45f, 0.8f), 36);
+  const sensor::Sensor sensor = testing::exact_vlp16();
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.1));
   for (const auto& point : testing::simulated(flat_farm(), sensor, plan, {.range_noise_m = 0})) {
     const Eigen::Vector3d ray =
         testing::position(point) - testing::world_shot(plan, testing::shot_of(point)).origin;
@@ -86,9 +88,10 @@ TEST(Simulate, IntensityFollowsLambert) {
 }
 
 // Signed range errors of the returns of a hover by their shots, against the closed form.
-std::map<std::uint64_t, double> errors_by_shot(const farm::Farm& farm, const SpinningLidar& sensor,
+std::map<std::uint64_t, double> errors_by_shot(const farm::Farm& farm, const sensor::Sensor& sensor,
                                                const SimulateOptions& options) {
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.3));
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.3));
   std::map<std::uint64_t, double> errors;
   for (const auto& point : testing::simulated(farm, sensor, plan, options)) {
     const std::uint64_t number = testing::shot_of(point);
@@ -100,7 +103,7 @@ std::map<std::uint64_t, double> errors_by_shot(const farm::Farm& farm, const Spi
   return errors;
 }
 
-std::vector<double> range_errors(const SpinningLidar& sensor, const SimulateOptions& options) {
+std::vector<double> range_errors(const sensor::Sensor& sensor, const SimulateOptions& options) {
   std::vector<double> errors;
   for (const auto& [shot, error] : errors_by_shot(flat_farm(), sensor, options))
     errors.push_back(error);
@@ -127,8 +130,9 @@ TEST(Simulate, NoiseIsGaussianWithItsStandardDeviation) {
 }
 
 TEST(Simulate, RangesAreMultiplesOfTheStep) {
-  const SpinningLidar sensor = vlp16();
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.1));
+  const sensor::Sensor sensor = sensor::load_sensor("vlp16");
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.1));
   for (const auto& point : testing::simulated(flat_farm(), sensor, plan, {.seed = 2})) {
     const testing::WorldShot shot = testing::world_shot(plan, testing::shot_of(point));
     const double steps = (testing::position(point) - shot.origin).norm() / 0.002;
@@ -139,10 +143,11 @@ TEST(Simulate, RangesAreMultiplesOfTheStep) {
 }
 
 TEST(Simulate, RangesBeyondTheLimitsLeaveNoPoint) {
-  SpinningLidar sensor = vlp16();
+  sensor::Sensor sensor = sensor::load_sensor("vlp16");
   sensor.min_range_m = 9;
   sensor.max_range_m = 12;
-  const ShotPlan plan(sensor, 10, testing::spin_along_flight(), testing::hover({0, 0, 8}, 0.1));
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 8}, 0.1));
   int expected = 0;
   for (std::uint64_t shot = 0; shot < 16 * plan.sequences(); ++shot) {
     const testing::WorldShot ray = testing::world_shot(plan, shot);
@@ -156,7 +161,7 @@ TEST(Simulate, RangesBeyondTheLimitsLeaveNoPoint) {
 
 // A shot's noise is the same whatever else is seen.
 TEST(Simulate, NoiseBelongsToTheShotAndTheSeed) {
-  const SpinningLidar sensor = testing::exact_vlp16();
+  const sensor::Sensor sensor = testing::exact_vlp16();
   const auto wide = errors_by_shot(flat_farm(), sensor, {.seed = 3});
   const auto narrow = errors_by_shot(flat_farm(2.5), sensor, {.seed = 3, .threads = 4});
   ASSERT_GT(narrow.size(), 1000u);

@@ -6,14 +6,14 @@
 
 #include "farm/farm.h"
 #include "lidar/scene.h"
-#include "lidar/shots.h"
 #include "lidar/simulate.h"
+#include "sensor/shots.h"
 
 namespace plotscan::testing {
 
 // A VLP-16 whose ranges are neither quantised nor limited.
-inline lidar::SpinningLidar exact_vlp16() {
-  lidar::SpinningLidar sensor = lidar::vlp16();
+inline sensor::Sensor exact_vlp16() {
+  sensor::Sensor sensor = sensor::load_sensor("vlp16");
   sensor.range_step_m = 0;
   sensor.min_range_m = 0;
   sensor.max_range_m = 1000;
@@ -32,12 +32,12 @@ inline scan::Trajectory hover(const Eigen::Vector3d& position_m, double duration
 }
 
 inline std::vector<scan::LabelledPoint> simulated(const farm::Farm& farm,
-                                                  const lidar::SpinningLidar& sensor,
-                                                  const lidar::ShotPlan& plan,
+                                                  const sensor::Sensor& sensor,
+                                                  const sensor::ShotPlan& plan,
                                                   const lidar::SimulateOptions& options) {
   std::vector<scan::LabelledPoint> points;
-  lidar::simulate(lidar::Scene(lidar::scene_content(farm)), sensor, plan, options,
-                  [&](std::span<const scan::LabelledPoint> piece) {
+  lidar::simulate(lidar::Scene(lidar::scene_content(farm)), sensor, {.fired = plan, .placed = plan},
+                  options, [&](std::span<const scan::LabelledPoint> piece) {
                     points.insert(points.end(), piece.begin(), piece.end());
                   });
   return points;
@@ -60,8 +60,8 @@ struct WorldShot {
   Eigen::Vector3d direction;
 };
 
-inline WorldShot world_shot(const lidar::ShotPlan& plan, std::uint64_t shot) {
-  lidar::SequenceShots shots;
+inline WorldShot world_shot(const sensor::ShotPlan& plan, std::uint64_t shot) {
+  sensor::SequenceShots shots;
   plan.fire(shot / 16, shots);
   const auto k = static_cast<Eigen::Index>(shot % 16);
   return {.origin = {shots.origin_m[0][k], shots.origin_m[1][k], shots.origin_m[2][k]},

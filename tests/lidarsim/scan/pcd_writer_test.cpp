@@ -24,6 +24,8 @@ LabelledPoint numbered_point(std::uint32_t i) {
           .intensity = static_cast<float>(i % 256),
           .ring = static_cast<std::uint16_t>(i % 16),
           .time = 1e-6 * i,
+          .return_number = static_cast<std::uint8_t>(1 + i % 2),
+          .return_count = static_cast<std::uint8_t>(1 + i % 3),
           .label = static_cast<PointClass>(i % 5),
           .plot = i / 2,
           .plant = 4000000000u + i};
@@ -62,7 +64,7 @@ TEST(PcdWriter, PclReadsEveryField) {
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(file.string(), cloud), 0);
   ASSERT_EQ(cloud.width * cloud.height, 1001u);
-  ASSERT_EQ(cloud.fields.size(), 9u);
+  ASSERT_EQ(cloud.fields.size(), 11u);
   using Field = pcl::PCLPointField;
   for (std::uint32_t i = 0; i < 1001; ++i) {
     const LabelledPoint point = numbered_point(i);
@@ -72,6 +74,8 @@ TEST(PcdWriter, PclReadsEveryField) {
     EXPECT_EQ(value<float>(cloud, "intensity", Field::FLOAT32, i), point.intensity);
     EXPECT_EQ(value<std::uint16_t>(cloud, "ring", Field::UINT16, i), point.ring);
     EXPECT_EQ(value<double>(cloud, "time", Field::FLOAT64, i), point.time);
+    EXPECT_EQ(value<std::uint8_t>(cloud, "return_number", Field::UINT8, i), point.return_number);
+    EXPECT_EQ(value<std::uint8_t>(cloud, "return_count", Field::UINT8, i), point.return_count);
     EXPECT_EQ(value<PointClass>(cloud, "class", Field::UINT8, i), point.label);
     EXPECT_EQ(value<std::uint32_t>(cloud, "plot", Field::UINT32, i), point.plot);
     EXPECT_EQ(value<std::uint32_t>(cloud, "plant", Field::UINT32, i), point.plant);

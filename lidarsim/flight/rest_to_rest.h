@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 
 struct MotionLimits {
   double speed = 0;         // m/s, or rad/s for a turn
@@ -44,4 +44,4 @@ class RestToRest {
   double duration_s_ = 0;
 };
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/shots.h"
+#include "sensor/shots.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace plotscan::lidar {
+namespace plotscan::sensor {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -42,7 +42,7 @@ PlainShot plain_shot(std::uint64_t shot, double spin_hz, const Eigen::Isometry3d
 
 void expect_plain(std::uint64_t first, std::uint64_t shots, double spin_hz,
                   const Eigen::Isometry3d& body_from_lidar, const scan::Trajectory& trajectory) {
-  const ShotPlan plan(vlp16(), spin_hz, body_from_lidar, trajectory);
+  const ShotPlan plan(load_sensor("vlp16"), spin_hz, body_from_lidar, trajectory);
   SequenceShots fired;
   for (std::uint64_t shot = first; shot < first + shots; ++shot) {
     if (shot == first || shot % 16 == 0) plan.fire(shot / 16, fired);
@@ -83,7 +83,7 @@ TEST(Shots, FirstTenThousandAreTheManuals) {
 }
 
 TEST(Shots, TimesAreTheManuals) {
-  const ShotPlan plan(vlp16(), 10, Eigen::Isometry3d::Identity(), hovering());
+  const ShotPlan plan(load_sensor("vlp16"), 10, Eigen::Isometry3d::Identity(), hovering());
   for (std::uint64_t shot = 0; shot < 10000; ++shot) {
     const double expected_us =
         static_cast<double>(shot / 16) * 55.296 + static_cast<double>(shot % 16) * 2.304;
@@ -109,7 +109,7 @@ TEST(Shots, WildTrajectoriesAreExactToo) {
 }
 
 TEST(Shots, SensorIsConsistent) {
-  const SpinningLidar sensor = vlp16();
+  const Sensor sensor = load_sensor("vlp16");
   ASSERT_EQ(sensor.lasers.size(), 16u);
   for (std::size_t id = 0; id < 16; ++id) {
     int below = 0;
@@ -120,4 +120,4 @@ TEST(Shots, SensorIsConsistent) {
 }
 
 }  // namespace
-}  // namespace plotscan::lidar
+}  // namespace plotscan::sensor

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace plotscan::farm {
+namespace plotscan {
 
 // A place on WGS84: geodetic latitude and longitude, and the height above the ellipsoid.
 struct GeodeticPoint {
@@ -21,4 +21,4 @@ using Anchor = GeodeticPoint;
 GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& point);
 Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& point);
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

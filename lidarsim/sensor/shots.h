@@ -7,10 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include "lidar/sensor.h"
 #include "scan/trajectory.h"
+#include "sensor/sensor.h"
 
-namespace plotscan::lidar {
+namespace plotscan::sensor {
 
 // One number a laser, in the order of firing; vectors are kept by component so that several lasers
 // are worked on at once.
@@ -27,7 +27,7 @@ struct SequenceShots {
 // 360 degrees * spin * time.
 class ShotPlan {
  public:
-  ShotPlan(const SpinningLidar& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
+  ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
            const scan::Trajectory& trajectory);
 
   // Whole firing sequences within the trajectory.
@@ -68,4 +68,4 @@ class ShotPlan {
   std::uint64_t sequences_ = 0;
 };
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::sensor

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-namespace plotscan::lidar {
+namespace plotscan::sensor {
 
 // One laser of a spinning sensor. Lidar frame as in the ROS velodyne driver: x forward at azimuth
 // 0, y left, z the spin axis; azimuth grows clockwise seen from +z.
@@ -17,8 +18,9 @@ struct Laser {
 };
 
 // A sensor that spins and fires its lasers one after the other, over and over.
-struct SpinningLidar {
+struct Sensor {
   std::string name;
+  std::string title;          // "Velodyne VLP-16 (Puck)"
   std::vector<Laser> lasers;  // in the order of firing; at most kMaxLasers
   double sequence_s = 0;      // from one firing sequence to the next
   double min_range_m = 0;
@@ -26,15 +28,19 @@ struct SpinningLidar {
   double range_step_m = 0;  // ranges are multiples of it; 0: not quantised
   double min_spin_hz = 0;
   double max_spin_hz = 0;
+  std::string description;  // the text of the file that says all this, kept with a scan
 };
 
 inline constexpr std::size_t kMaxLasers = 128;
 
-// Velodyne VLP-16 (user manual 63-9243, chapter 9 and appendix on its firing sequence); its least
-// range is that of the ROS driver.
-SpinningLidar vlp16();
+// The names of the sensors shipped (models/sensors).
+const std::vector<std::string>& sensor_names();
 
-// The sensor called `name`, or InputError naming those there are.
-SpinningLidar sensor_named(const std::string& name);
+// A shipped sensor by its name, or a user's by the path of its file, NAME.yaml (docs/sensors.md).
+// Throws InputError: a missing file, or file:line, key and what is allowed.
+Sensor load_sensor(const std::string& name_or_file);
 
-}  // namespace plotscan::lidar
+// A sensor from its description; errors name it as `file`.
+Sensor parse_sensor(const std::string& description, const std::filesystem::path& file);
+
+}  // namespace plotscan::sensor

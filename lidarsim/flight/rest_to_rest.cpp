@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/rest_to_rest.h"
+#include "flight/rest_to_rest.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 namespace {
 
 // The acceleration grows for this long on the way from rest to `speed`.
@@ -69,4 +69,4 @@ RestToRest::State RestToRest::speeding_up(double t) const {
           .acceleration = jerk_ * left};
 }
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farm/geodesy.h"
+#include "core/geodesy.h"
 
 #include <cmath>
 
 #include <GeographicLib/LocalCartesian.hpp>
 
-namespace plotscan::farm {
+namespace plotscan {
 namespace {
 
 GeographicLib::LocalCartesian frame_at(const Anchor& anchor) {
@@ -30,4 +30,4 @@ Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& p
   return world;
 }
 
-}  // namespace plotscan::farm
+}  // namespace plotscan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/quadrotor.h"
+#include "flight/quadrotor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 namespace {
 
 constexpr double kStep_s = 0.01;
@@ -123,4 +123,4 @@ TEST(Quadrotor, LittleTiltMeansLittleAcceleration) {
 }
 
 }  // namespace
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

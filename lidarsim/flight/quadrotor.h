@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "lidar/rest_to_rest.h"
+#include "flight/rest_to_rest.h"
 #include "scan/trajectory.h"
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 
 // A quadrotor as a point mass under thrust, weight and drag. The numbers are those of the Hector
 // quadrotor, which flies in the paper's simulation (Meyer et al., SIMPAR 2012; hector_quadrotor:
@@ -43,4 +43,4 @@ MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s);
 scan::Trajectory fly_waypoints(const Quadrotor& quadrotor,
                                const std::vector<Eigen::Vector3d>& waypoints, double speed_m_s);
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

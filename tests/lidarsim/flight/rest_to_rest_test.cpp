@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/rest_to_rest.h"
+#include "flight/rest_to_rest.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 namespace {
 
 // Long, without cruise, without steady acceleration, and none at all.
@@ -54,4 +54,4 @@ TEST(RestToRest, UsesItsLimitsInFull) {
 }
 
 }  // namespace
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

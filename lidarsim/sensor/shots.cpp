@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/shots.h"
+#include "sensor/shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace plotscan::lidar {
+namespace plotscan::sensor {
 namespace {
 
 // Turning by an angle below this within one firing sequence is taken to second order: the error,
@@ -50,8 +50,8 @@ Components turned(const Components& vectors, const Eigen::Vector3d& rate, const 
 
 }  // namespace
 
-ShotPlan::ShotPlan(const SpinningLidar& sensor, double spin_hz,
-                   const Eigen::Isometry3d& body_from_lidar, const scan::Trajectory& trajectory)
+ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
+                   const scan::Trajectory& trajectory)
     : sequence_s_(sensor.sequence_s), spin_hz_(spin_hz) {
   check(sensor.lasers.size() <= kMaxLasers, "the sensor has too many lasers");
   const auto lasers = static_cast<Eigen::Index>(sensor.lasers.size());
@@ -143,4 +143,4 @@ void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index be
   }
 }
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::sensor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/quadrotor.h"
+#include "flight/quadrotor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 
-namespace plotscan::lidar {
+namespace plotscan::flight {
 namespace {
 
 constexpr double kPosesPerSecond = 100;
@@ -110,4 +110,4 @@ scan::Trajectory fly_waypoints(const Quadrotor& quadrotor,
   return scan::Trajectory(std::move(poses));
 }
 
-}  // namespace plotscan::lidar
+}  // namespace plotscan::flight

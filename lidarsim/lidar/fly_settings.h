@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/range.h"
+#include "lidar/fly.h"
+
+namespace plotscan::lidar {
+
+struct NumberSetting {
+  Range range;
+  double& (*of)(FlyOptions&);
+};
+
+struct WholeSetting {
+  Range range;
+  int& (*of)(FlyOptions&);
+};
+
+struct TextSetting {
+  std::vector<std::string> choices;  // empty: any text
+  std::string& (*of)(FlyOptions&);
+};
+
+// One option of a flight: the command line, suites and manifests all know it from here.
+struct FlySetting {
+  std::string key;   // in suites and manifests, "altitude_m"
+  std::string flag;  // on the command line, "--altitude"
+  std::string help;  // unit, range, meaning
+  std::variant<NumberSetting, WholeSetting, TextSetting> value;
+  bool plans_flight = false;  // means nothing when a trajectory is given
+};
+
+const std::vector<FlySetting>& fly_settings();
+
+// The value of every setting that counts, by its key.
+nlohmann::json settings_json(const FlyOptions& options);
+
+// Throws InputError, naming the flag, when a value is outside its setting's range or choices.
+void require_valid(const FlyOptions& options);
+
+}  // namespace plotscan::lidar

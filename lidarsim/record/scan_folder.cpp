@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/scan_folder.h"
+
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/manifest.h"
+
+namespace plotscan::record {
+namespace {
+
+using nlohmann::json;
+
+std::optional<Anchor> anchor_of(const json& options) {
+  if (!options.contains("anchor")) return std::nullopt;
+  const json& anchor = options["anchor"];
+  return Anchor{.latitude_deg = anchor.at("latitude_deg"),
+                .longitude_deg = anchor.at("longitude_deg"),
+                .altitude_m = anchor.at("altitude_m")};
+}
+
+UtcTime start_of(const json& options) {
+  const auto start = parse_utc(options.at("start_utc"));
+  if (!start) throw InputError("start_utc is no time");
+  return *start;
+}
+
+Eigen::Isometry3d mount_of(const json& options) {
+  const json& rpy_deg = options.at("mount_rpy_deg");
+  return mount_pose(Eigen::Vector3d(rpy_deg.at(0), rpy_deg.at(1), rpy_deg.at(2)) *
+                    std::numbers::pi / 180);
+}
+
+}  // namespace
+
+Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return Eigen::Isometry3d(AngleAxisd(rpy_rad.z(), Vector3d::UnitZ()) *
+                           AngleAxisd(rpy_rad.y(), Vector3d::UnitY()) *
+                           AngleAxisd(rpy_rad.x(), Vector3d::UnitX()));
+}
+
+FlightRecord read_flight_record(const std::filesystem::path& scan_folder) {
+  const json manifest = read_manifest(scan_folder);
+  try {
+    const json& options = manifest.at("options");
+    return {.sensor = sensor::load_sensor(scan_folder / "sensor.yaml"),
+            .spin_hz = options.at("spin_hz"),
+            .body_from_lidar = mount_of(options),
+            .reported = scan::read_trajectory(scan_folder / "poses.csv"),
+            .start = start_of(options),
+            .anchor = anchor_of(options)};
+  } catch (const json::exception&) {
+    throw InputError(scan_folder, "is no scan folder (its manifest.json is not lidarsim fly's)");
+  }
+}
+
+}  // namespace plotscan::record

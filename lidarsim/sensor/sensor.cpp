@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sensor/sensor.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "core/yaml_section.h"
+#include "sensor/sensor_files.h"
+
+namespace plotscan::sensor {
+namespace {
+
+constexpr Range kElevation_deg{-90, 90};
+constexpr Range kOffset_mm{-1000, 1000};
+constexpr Range kRange_m{0, 10'000};
+constexpr Range kSpin_hz{0.01, 1000};
+constexpr Range kSequence_us{0.1, 1e6};
+
+std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
+  std::vector<Laser> lasers;
+  for (const YamlSection& section : root.list("lasers", kMaxLasers)) {
+    section.allow_only({"fires_us", "elevation_deg", "offset_mm"});
+    const double before_us = lasers.empty() ? 0 : 1e6 * lasers.back().fires_s;
+    lasers.push_back(
+        {.elevation_rad = section.number("elevation_deg", kElevation_deg) * std::numbers::pi / 180,
+         .offset_m = 1e-3 * section.number("offset_mm", kOffset_mm, 0.0),
+         .fires_s = 1e-6 * section.number("fires_us", {before_us, sequence_us})});
+  }
+  if (lasers.empty()) root.fail("lasers", "must name at least one laser");
+  for (Laser& laser : lasers) {
+    laser.ring = static_cast<std::uint16_t>(std::ranges::count_if(
+        lasers, [&](const Laser& other) { return other.elevation_rad < laser.elevation_rad; }));
+  }
+  return lasers;
+}
+
+}  // namespace
+
+const std::vector<std::string>& sensor_names() {
+  static const std::vector<std::string> names = {"vlp16"};
+  return names;
+}
+
+Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
+  const YamlSection root = YamlSection::parse(description, file);
+  root.allow_only(
+      {"name", "title", "kind", "range", "spin_hz", "firing_sequence_us", "lasers", "sources"});
+  Sensor sensor{.name = root.text("name"),
+                .title = root.text("title"),
+                .lasers = {},
+                .description = description};
+  root.choice("kind", {"spinning"});
+  const YamlSection range = root.section("range");
+  range.allow_only({"least_m", "most_m", "step_m"});
+  sensor.min_range_m = range.number("least_m", kRange_m);
+  sensor.max_range_m = range.number("most_m", {sensor.min_range_m, kRange_m.high});
+  sensor.range_step_m = range.number("step_m", {0, 1}, 0.0);
+  const YamlSection spin = root.section("spin_hz");
+  spin.allow_only({"least", "most"});
+  sensor.min_spin_hz = spin.number("least", kSpin_hz);
+  sensor.max_spin_hz = spin.number("most", {sensor.min_spin_hz, kSpin_hz.high});
+  const double sequence_us = root.number("firing_sequence_us", kSequence_us);
+  sensor.sequence_s = 1e-6 * sequence_us;
+  sensor.lasers = read_lasers(root, sequence_us);
+  return sensor;
+}
+
+Sensor load_sensor(const std::string& name_or_file) {
+  if (std::ranges::count(sensor_names(), name_or_file) > 0)
+    return parse_sensor(sensor_file(name_or_file), "models/sensors/" + name_or_file + ".yaml");
+  if (!name_or_file.ends_with(".yaml")) {
+    throw InputError("sensor \"" + name_or_file + "\" is unknown; there are " +
+                     joined(sensor_names(), ", ") + ", or give a sensor's own file, NAME.yaml");
+  }
+  return parse_sensor(read_text(name_or_file), name_or_file);
+}
+
+}  // namespace plotscan::sensor

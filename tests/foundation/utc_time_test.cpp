@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/utc_time.h"
+
+#include <gtest/gtest.h>
+
+namespace plotscan {
+namespace {
+
+TEST(UtcTime, ReadsWhatItWrites) {
+  for (const char* text : {"2026-06-01T10:00:00Z", "2000-02-29T23:59:59.25Z",
+                           "1980-01-06T00:00:00Z", "2099-12-31T00:00:00.000001Z"}) {
+    ASSERT_TRUE(parse_utc(text)) << text;
+    EXPECT_EQ(format_utc(*parse_utc(text)), text);
+  }
+}
+
+TEST(UtcTime, WhatIsNoInstantIsRefused) {
+  for (const char* text : {"", "2026-06-01", "2026-06-01T10:00:00", "2026-02-29T10:00:00Z",
+                           "2026-06-01T24:00:00Z", "2026-06-01T10:60:00Z", "1979-06-01T10:00:00Z",
+                           "2026-06-01T10:00:00.0000001Z", "2026-13-01T10:00:00Z"})
+    EXPECT_FALSE(parse_utc(text)) << text;
+}
+
+// Both from the tables of the US Naval Observatory: Unix time of the instant, and GPS weeks.
+TEST(UtcTime, GpsTimeIsEighteenSecondsAhead) {
+  EXPECT_EQ(gps_seconds(*parse_utc("1980-01-06T00:00:00Z")), 18);
+  // Week 2238 began on 2022-11-27.
+  EXPECT_EQ(gps_seconds(*parse_utc("2022-11-27T00:00:00Z")), 2238 * 604800.0 + 18);
+  EXPECT_EQ(parse_utc("2022-11-27T00:00:00Z")->time_since_epoch().count(), 1669507200000000);
+  EXPECT_EQ(format_utc(later(*parse_utc("2026-12-31T23:59:59Z"), 1.5)), "2027-01-01T00:00:00.5Z");
+}
+
+}  // namespace
+}  // namespace plotscan
