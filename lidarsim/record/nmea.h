@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/geodesy.h"
+#include "core/utc_time.h"
+
+namespace plotscan::record {
+
+// What a GPS receiver says once a second.
+struct GpsFix {
+  UtcTime time;
+  std::optional<GeodeticPoint> position = {};  // none: the receiver knows the time alone
+  double speed_m_s = 0;                        // over ground
+  double track_deg = 0;                        // clockwise from true north
+};
+
+// The recommended minimum sentence of NMEA 0183 version 2.3, "$GPRMC,...*CS" without CR LF, its
+// position to a ten millionth of a minute (0.2 mm). Without a position its status is V and its
+// position, speed and track are empty.
+std::string gprmc(const GpsFix& fix);
+
+// Time (and position where the status is A) of a GPRMC or GNRMC sentence of any version; nothing
+// where it is none, or its checksum is wrong.
+std::optional<GpsFix> parse_rmc(const std::string& sentence);
+
+// The exclusive or of the characters between '$' and '*'.
+unsigned nmea_checksum(std::string_view characters);
+
+}  // namespace plotscan::record
