@@ -17,6 +17,9 @@ constexpr Range kOffset_mm{-1000, 1000};
 constexpr Range kRange_m{0, 10'000};
 constexpr Range kSpin_hz{0.01, 1000};
 constexpr Range kSequence_us{0.1, 1e6};
+constexpr Range kDivergence_mrad{0, 100};
+constexpr Range kPulse_ns{0.01, 1000};
+constexpr Range kReflectance{0, 1};
 
 std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   std::vector<Laser> lasers;
@@ -36,6 +39,19 @@ std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   return lasers;
 }
 
+Beam read_beam(const YamlSection& section) {
+  section.allow_only({"divergence_mrad", "pulse_ns", "faintest", "least_separation_m"});
+  const auto [along_mrad, across_mrad] = section.pair("divergence_mrad", kDivergence_mrad);
+  const YamlSection faintest = section.section("faintest");
+  faintest.allow_only({"reflectance", "range_m"});
+  return {.along_rad = 1e-3 * along_mrad,
+          .across_rad = 1e-3 * across_mrad,
+          .pulse_s = 1e-9 * section.number("pulse_ns", kPulse_ns),
+          .faintest_reflectance = faintest.number("reflectance", kReflectance),
+          .faintest_range_m = faintest.number("range_m", {0.01, kRange_m.high}),
+          .least_separation_m = section.number("least_separation_m", {0, 100}, 0.0)};
+}
+
 }  // namespace
 
 const std::vector<std::string>& sensor_names() {
@@ -45,8 +61,8 @@ const std::vector<std::string>& sensor_names() {
 
 Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
   const YamlSection root = YamlSection::parse(description, file);
-  root.allow_only(
-      {"name", "title", "kind", "range", "spin_hz", "firing_sequence_us", "lasers", "sources"});
+  root.allow_only({"name", "title", "kind", "range", "spin_hz", "beam", "firing_sequence_us",
+                   "lasers", "sources"});
   Sensor sensor{.name = root.text("name"),
                 .title = root.text("title"),
                 .lasers = {},
@@ -61,6 +77,7 @@ Sensor parse_sensor(const std::string& description, const std::filesystem::path&
   spin.allow_only({"least", "most"});
   sensor.min_spin_hz = spin.number("least", kSpin_hz);
   sensor.max_spin_hz = spin.number("most", {sensor.min_spin_hz, kSpin_hz.high});
+  if (root.has("beam")) sensor.beam = read_beam(root.section("beam"));
   const double sequence_us = root.number("firing_sequence_us", kSequence_us);
   sensor.sequence_s = 1e-6 * sequence_us;
   sensor.lasers = read_lasers(root, sequence_us);

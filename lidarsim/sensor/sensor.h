@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,20 @@ struct Laser {
   std::uint16_t ring = 0;    // rank by elevation, 0 the lowest
 };
 
+// A laser's beam and what is made of its echoes (docs/beam.md). The beam is Gaussian about the
+// shot's axis; an angle is the full one between the directions where its intensity is 1/e^2 of the
+// axis', four standard deviations (ISO 11146).
+struct Beam {
+  double along_rad = 0;   // in the direction of the spin
+  double across_rad = 0;  // across it
+  double pulse_s = 0;     // the pulse's full width at half its maximum
+  // Weaker echoes are not detected: a pulse from a facing Lambertian surface of this reflectance
+  // that fills the beam at this range.
+  double faintest_reflectance = 0;
+  double faintest_range_m = 0;
+  double least_separation_m = 0;  // of two returns of a shot; of closer ones the stronger counts
+};
+
 // A sensor that spins and fires its lasers one after the other, over and over.
 struct Sensor {
   std::string name;
@@ -28,7 +43,8 @@ struct Sensor {
   double range_step_m = 0;  // ranges are multiples of it; 0: not quantised
   double min_spin_hz = 0;
   double max_spin_hz = 0;
-  std::string description;  // the text of the file that says all this, kept with a scan
+  std::optional<Beam> beam = {};  // where the file states one
+  std::string description;        // the text of the file that says all this, kept with a scan
 };
 
 inline constexpr std::size_t kMaxLasers = 128;
