@@ -104,6 +104,21 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
 
 }  // namespace
 
+flight::WindOptions wind_of(const FlyOptions& options) {
+  flight::WindOptions wind = options.wind;
+  wind.height_m = options.altitude_m;
+  wind.seed = options.seed;
+  return wind;
+}
+
+bool wind_moves_drone(const FlyOptions& options) {
+  return options.wind.mean_m_s > 0 && options.wind_acts_on != "plants" && !options.flight;
+}
+
+bool wind_moves_plants(const FlyOptions& options) {
+  return options.wind.mean_m_s > 0 && options.wind_acts_on != "drone";
+}
+
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
   require_valid(options);

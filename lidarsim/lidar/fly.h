@@ -12,6 +12,7 @@
 
 #include "core/progress.h"
 #include "farm/farm.h"
+#include "flight/wind.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
 
@@ -26,6 +27,9 @@ struct FlyOptions {
   // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
   // the flight's time 0.
   std::optional<std::filesystem::path> flight = {};
+  // Its seed and height are set from this flight's; without wind all is still.
+  flight::WindOptions wind = {};
+  std::string wind_acts_on = "both";               // "both", "drone" or "plants"
   std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
   double spin_hz = 10.0;        // turns of the sensor a second, 5 to 20 for the VLP-16
   double range_noise_m = 0.03;  // standard deviation of the range noise, 0 to 1
@@ -36,6 +40,11 @@ struct FlyOptions {
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
 };
+
+// The wind of the flight, and whom it moves.
+flight::WindOptions wind_of(const FlyOptions& options);
+bool wind_moves_drone(const FlyOptions& options);
+bool wind_moves_plants(const FlyOptions& options);
 
 struct FlySummary {
   std::uint64_t shots = 0;
