@@ -33,6 +33,14 @@ Eigen::Isometry3d mount_of(const json& options) {
                     std::numbers::pi / 180);
 }
 
+ReturnMode returns_of(const json& options) {
+  const std::string mode = options.value("returns", "strongest");
+  if (mode == "strongest") return ReturnMode::strongest;
+  if (mode == "last") return ReturnMode::last;
+  if (mode == "dual") return ReturnMode::dual;
+  throw InputError("returns \"" + mode + "\" is none of strongest, last, dual");
+}
+
 }  // namespace
 
 Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
@@ -52,7 +60,8 @@ FlightRecord read_flight_record(const std::filesystem::path& scan_folder) {
             .body_from_lidar = mount_of(options),
             .reported = scan::read_trajectory(scan_folder / "poses.csv"),
             .start = start_of(options),
-            .anchor = anchor_of(options)};
+            .anchor = anchor_of(options),
+            .returns = returns_of(options)};
   } catch (const json::exception&) {
     throw InputError(scan_folder, "is no scan folder (its manifest.json is not lidarsim fly's)");
   }

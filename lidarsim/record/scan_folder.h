@@ -8,6 +8,7 @@
 
 #include "core/geodesy.h"
 #include "core/utc_time.h"
+#include "record/velodyne_packet.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"
 #include "sensor/shots.h"
@@ -19,10 +20,11 @@ namespace plotscan::record {
 struct FlightRecord {
   sensor::Sensor sensor;
   double spin_hz = 10;
-  Eigen::Isometry3d body_from_lidar;  // as stated; the true one may differ
-  scan::Trajectory reported;          // what places the points
-  UtcTime start;                      // at time 0 of the points and the trajectory
-  std::optional<Anchor> anchor = {};  // of the world frame's origin
+  Eigen::Isometry3d body_from_lidar;           // as stated; the true one may differ
+  scan::Trajectory reported;                   // what places the points
+  UtcTime start;                               // at time 0 of the points and the trajectory
+  std::optional<Anchor> anchor = {};           // of the world frame's origin
+  ReturnMode returns = ReturnMode::strongest;  // what the sensor reports of a shot
 
   // The shots as the points were placed.
   sensor::ShotPlan placed() const { return {sensor, spin_hz, body_from_lidar, reported}; }

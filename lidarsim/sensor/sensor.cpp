@@ -20,6 +20,8 @@ constexpr Range kSequence_us{0.1, 1e6};
 constexpr Range kDivergence_mrad{0, 100};
 constexpr Range kPulse_ns{0.01, 1000};
 constexpr Range kReflectance{0, 1};
+constexpr Range kDistanceStep_mm{0.1, 100};
+constexpr double kMostPacketSteps = 65'535;  // 16 bits
 
 std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   std::vector<Laser> lasers;
@@ -52,6 +54,20 @@ Beam read_beam(const YamlSection& section) {
           .least_separation_m = section.number("least_separation_m", {0, 100}, 0.0)};
 }
 
+std::optional<PacketFormat> read_packets(const YamlSection& root, const Sensor& sensor) {
+  if (!root.has("packets")) return std::nullopt;
+  const YamlSection section = root.section("packets");
+  section.allow_only({"product", "distance_mm"});
+  const PacketFormat format{
+      .product = static_cast<std::uint8_t>(section.integer("product", 0, 255)),
+      .distance_step_m = 1e-3 * section.number("distance_mm", kDistanceStep_mm)};
+  if (sensor.lasers.size() != 16 && sensor.lasers.size() != 32)
+    section.fail("product", "needs 16 or 32 lasers: Velodyne's packets hold no other number");
+  if (sensor.max_range_m > kMostPacketSteps * format.distance_step_m)
+    section.fail("distance_mm", "is too fine: range.most_m is beyond 65535 steps of it");
+  return format;
+}
+
 }  // namespace
 
 const std::vector<std::string>& sensor_names() {
@@ -62,7 +78,7 @@ const std::vector<std::string>& sensor_names() {
 Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
   const YamlSection root = YamlSection::parse(description, file);
   root.allow_only({"name", "title", "kind", "range", "spin_hz", "beam", "firing_sequence_us",
-                   "lasers", "sources"});
+                   "lasers", "packets", "sources"});
   Sensor sensor{.name = root.text("name"),
                 .title = root.text("title"),
                 .lasers = {},
@@ -81,6 +97,7 @@ Sensor parse_sensor(const std::string& description, const std::filesystem::path&
   const double sequence_us = root.number("firing_sequence_us", kSequence_us);
   sensor.sequence_s = 1e-6 * sequence_us;
   sensor.lasers = read_lasers(root, sequence_us);
+  sensor.packets = read_packets(root, sensor);
   return sensor;
 }
 

@@ -32,6 +32,13 @@ struct Beam {
   double least_separation_m = 0;  // of two returns of a shot; of closer ones the stronger counts
 };
 
+// How a sensor's raw data packets tell of it, for sensors that send Velodyne's (record/
+// velodyne_packet.h): 16 or 32 lasers, whose order is that of the packets' laser ids.
+struct PacketFormat {
+  std::uint8_t product = 0;        // the packets' product byte
+  double distance_step_m = 0.002;  // of their distances
+};
+
 // A sensor that spins and fires its lasers one after the other, over and over.
 struct Sensor {
   std::string name;
@@ -43,8 +50,9 @@ struct Sensor {
   double range_step_m = 0;  // ranges are multiples of it; 0: not quantised
   double min_spin_hz = 0;
   double max_spin_hz = 0;
-  std::optional<Beam> beam = {};  // where the file states one
-  std::string description;        // the text of the file that says all this, kept with a scan
+  std::optional<Beam> beam = {};             // where the file states one
+  std::optional<PacketFormat> packets = {};  // none: it sends others
+  std::string description;  // the text of the file that says all this, kept with a scan
 };
 
 inline constexpr std::size_t kMaxLasers = 128;
