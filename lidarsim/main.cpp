@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "convert_command.h"
+
 #include "core/program.h"
 #include "core/text.h"
 #include "farm/farm.h"
@@ -126,5 +128,6 @@ int main(int argc, char** argv) {
   CLI::App& fly = program.command("fly", "Fly over a farm or an SDF world and write the scan.",
                                   [&] { run_fly(program, arguments); });
   add_options(fly, arguments);
+  declare_convert(program);
   return program.run(argc, argv);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <type_traits>
 
 #include <pcl/io/lzf.h>
 
@@ -16,48 +18,68 @@ constexpr std::size_t kChunkPoints = 8192;
 // LZF turns at most 264 bytes into 3 of a back reference.
 constexpr std::uint64_t kMaxLzfRatio = 88;
 
-// Collects finite positions and hands them on in chunks.
-class Chunk {
- public:
-  explicit Chunk(const PositionSink& sink) : sink_(sink) { positions_.reserve(kChunkPoints); }
+// The bytes of a number, read as unsigned of its size.
+template <class Bits>
+Bits load(const char* bytes, bool swap) {
+  Bits bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  if (!swap || sizeof bits == 1) return bits;
+  if constexpr (sizeof bits == 2) return __builtin_bswap16(bits);
+  if constexpr (sizeof bits == 4) return __builtin_bswap32(bits);
+  if constexpr (sizeof bits == 8) return __builtin_bswap64(bits);
+  return bits;
+}
 
-  void add(const Eigen::Vector3d& position) {
-    if (!position.allFinite()) {
-      ++summary_.not_finite;
-      return;
+template <class Bits>
+double integer(char kind, Bits bits) {
+  return kind == 'I' ? static_cast<double>(static_cast<std::make_signed_t<Bits>>(bits))
+                     : static_cast<double>(bits);
+}
+
+double decode(const ScalarField& field, const char* bytes, bool swap) {
+  switch (field.size) {
+    case 1:
+      return integer(field.kind, load<std::uint8_t>(bytes, swap));
+    case 2:
+      return integer(field.kind, load<std::uint16_t>(bytes, swap));
+    case 4: {
+      const auto bits = load<std::uint32_t>(bytes, swap);
+      return field.kind == 'F' ? std::bit_cast<float>(bits) : integer(field.kind, bits);
     }
-    positions_.push_back(position);
-    if (positions_.size() == kChunkPoints) flush();
+    default: {
+      const auto bits = load<std::uint64_t>(bytes, swap);
+      return field.kind == 'F' ? std::bit_cast<double>(bits) : integer(field.kind, bits);
+    }
   }
-  CloudSummary finish() {
-    if (!positions_.empty()) flush();
-    return summary_;
+}
+
+// What the readers below share: which points and fields are wanted, and where they go.
+struct Wanted {
+  std::uint64_t points;
+  std::span<const ScalarField> fields;
+  const RowSink& sink;
+};
+
+// Collects rows and hands them on in chunks.
+class Rows {
+ public:
+  explicit Rows(const Wanted& wanted) : wanted_(wanted) {
+    numbers_.reserve(kChunkPoints * wanted.fields.size());
+  }
+
+  void add(double number) { numbers_.push_back(number); }
+  void end_row() {
+    if (numbers_.size() == kChunkPoints * wanted_.fields.size()) flush();
+  }
+  void flush() {
+    if (!numbers_.empty()) wanted_.sink(numbers_);
+    numbers_.clear();
   }
 
  private:
-  void flush() {
-    sink_(positions_);
-    summary_.points += positions_.size();
-    positions_.clear();
-  }
-
-  const PositionSink& sink_;
-  std::vector<Eigen::Vector3d> positions_;
-  CloudSummary summary_;
+  const Wanted& wanted_;
+  std::vector<double> numbers_;
 };
-
-template <class Float, class Bits>
-double decode(const char* bytes, bool swap) {
-  Bits bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  if (swap) bits = sizeof bits == 4 ? __builtin_bswap32(bits) : __builtin_bswap64(bits);
-  return std::bit_cast<Float>(bits);
-}
-
-double decode(const char* bytes, std::size_t element_size, bool swap) {
-  return element_size == 4 ? decode<float, std::uint32_t>(bytes, swap)
-                           : decode<double, std::uint64_t>(bytes, swap);
-}
 
 bool must_swap(const CloudLayout& layout) {
   return layout.big_endian != (std::endian::native == std::endian::big);
@@ -70,30 +92,27 @@ bool must_swap(const CloudLayout& layout) {
                              " bytes, the file holds " + std::to_string(body_size) + " bytes");
 }
 
-CloudSummary read_binary(const std::filesystem::path& file, std::ifstream& in,
-                         const CloudLayout& layout, const PositionSink& sink) {
+void read_binary(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
+                 const Wanted& wanted) {
   const std::uint64_t body_size = std::filesystem::file_size(file) - layout.body_offset;
   if (layout.points > body_size / layout.record_size) fail_truncated(file, layout, body_size);
   const bool swap = must_swap(layout);
   const std::size_t records_a_read = std::max<std::size_t>(1, (1u << 20) / layout.record_size);
   std::vector<char> buffer(records_a_read * layout.record_size);
-  Chunk chunk(sink);
-  for (std::uint64_t done = 0; done < layout.points;) {
-    const std::size_t records = std::min<std::uint64_t>(records_a_read, layout.points - done);
+  Rows rows(wanted);
+  for (std::uint64_t done = 0; done < wanted.points;) {
+    const std::size_t records = std::min<std::uint64_t>(records_a_read, wanted.points - done);
     in.read(buffer.data(), static_cast<std::streamsize>(records * layout.record_size));
     if (!in) throw InputError(file, "cannot be read to its end");
     for (std::size_t i = 0; i < records; ++i) {
-      Eigen::Vector3d position;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Coordinate& c = layout.xyz[axis];
-        position[axis] =
-            decode(buffer.data() + i * layout.record_size + c.offset, c.element_size, swap);
-      }
-      chunk.add(position);
+      const char* record = buffer.data() + i * layout.record_size;
+      for (const ScalarField& field : wanted.fields)
+        rows.add(decode(field, record + field.offset, swap));
+      rows.end_row();
     }
     done += records;
   }
-  return chunk.finish();
+  rows.flush();
 }
 
 // A binary_compressed body: two 32-bit sizes, then LZF over all x, all y, and so on.
@@ -118,24 +137,21 @@ std::vector<char> decompress(const std::filesystem::path& file, std::ifstream& i
   return body;
 }
 
-CloudSummary read_compressed(const std::filesystem::path& file, std::ifstream& in,
-                             const CloudLayout& layout, const PositionSink& sink) {
+void read_compressed(const std::filesystem::path& file, std::ifstream& in,
+                     const CloudLayout& layout, const Wanted& wanted) {
   const std::vector<char> body = decompress(file, in, layout);
-  Chunk chunk(sink);
-  for (std::uint64_t i = 0; i < layout.points; ++i) {
-    Eigen::Vector3d position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Coordinate& c = layout.xyz[axis];
-      position[axis] = decode(body.data() + c.offset * layout.points + i * c.element_size,
-                              c.element_size, must_swap(layout));
-    }
-    chunk.add(position);
+  const bool swap = must_swap(layout);
+  Rows rows(wanted);
+  for (std::uint64_t i = 0; i < wanted.points; ++i) {
+    for (const ScalarField& field : wanted.fields)
+      rows.add(decode(field, body.data() + field.offset * layout.points + i * field.size, swap));
+    rows.end_row();
   }
-  return chunk.finish();
+  rows.flush();
 }
 
-double parse_coordinate(const std::filesystem::path& file, std::size_t line_number,
-                        std::string_view word) {
+double parse_number(const std::filesystem::path& file, std::size_t line_number,
+                    std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -154,13 +170,13 @@ void split_words(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-CloudSummary read_ascii(const std::filesystem::path& file, std::ifstream& in,
-                        const CloudLayout& layout, const PositionSink& sink) {
+void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
+                const Wanted& wanted) {
   std::size_t line_number = layout.body_line - 1;
   std::string line;
   std::vector<std::string_view> words;
-  Chunk chunk(sink);
-  for (std::uint64_t read = 0; read < layout.points;) {
+  Rows rows(wanted);
+  for (std::uint64_t read = 0; read < wanted.points;) {
     if (!std::getline(in, line)) {
       throw InputError(file, "is truncated: the header promises " + std::to_string(layout.points) +
                                  " points, the file holds " + std::to_string(read));
@@ -173,28 +189,28 @@ CloudSummary read_ascii(const std::filesystem::path& file, std::ifstream& in,
                        "has " + std::to_string(words.size()) + " values; the header names " +
                            std::to_string(layout.columns));
     }
-    Eigen::Vector3d position;
-    for (int axis = 0; axis < 3; ++axis)
-      position[axis] = parse_coordinate(file, line_number, words[layout.xyz[axis].column]);
-    chunk.add(position);
+    for (const ScalarField& field : wanted.fields)
+      rows.add(parse_number(file, line_number, words[field.column]));
+    rows.end_row();
     ++read;
   }
-  return chunk.finish();
+  rows.flush();
 }
 
 }  // namespace
 
-CloudSummary read_body(const std::filesystem::path& file, const CloudLayout& layout,
-                       const PositionSink& sink) {
+void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
+               std::span<const ScalarField> fields, const RowSink& sink, std::uint64_t limit) {
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(layout.body_offset));
+  const Wanted wanted{std::min(layout.points, limit), fields, sink};
   switch (layout.body) {
     case CloudBody::ascii:
-      return read_ascii(file, in, layout, sink);
+      return read_ascii(file, in, layout, wanted);
     case CloudBody::binary:
-      return read_binary(file, in, layout, sink);
+      return read_binary(file, in, layout, wanted);
     case CloudBody::compressed:
-      return read_compressed(file, in, layout, sink);
+      return read_compressed(file, in, layout, wanted);
   }
   throw std::logic_error("unknown kind of cloud body");
 }

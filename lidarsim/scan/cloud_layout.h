@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what a PCD or PLY header tells about the points that follow it.
+// Private to the library: what a cloud's header tells about the points that follow it.
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "scan/cloud_reader.h"
 
 namespace plotscan::scan {
 
@@ -21,11 +20,14 @@ enum class CloudBody {
   compressed,  // PCD: LZF over field after field
 };
 
-// Where x, y or z lies.
-struct Coordinate {
-  std::size_t column = 0;        // of an ascii line
-  std::size_t offset = 0;        // in a binary record, bytes
-  std::size_t element_size = 0;  // 4: float, 8: double
+// Where one number of a point lies, and how it is read.
+struct ScalarField {
+  std::string name;
+  char kind = 'F';         // I: signed, U: unsigned, F: float
+  std::size_t size = 4;    // of one element, bytes: 1, 2, 4 or 8; a float has 4 or 8
+  std::size_t count = 1;   // elements
+  std::size_t column = 0;  // of an ascii line
+  std::size_t offset = 0;  // in a binary record, bytes
 };
 
 struct CloudLayout {
@@ -34,9 +36,14 @@ struct CloudLayout {
   std::uint64_t points = 0;
   std::size_t columns = 0;      // of an ascii line
   std::size_t record_size = 0;  // of a point, bytes
-  std::array<Coordinate, 3> xyz;
+  std::vector<ScalarField> fields;
   std::uint64_t body_offset = 0;  // of the first point, bytes from the file's start
   std::size_t body_line = 0;      // of the first point, lines from 1
+
+  // Adds a field behind the others; its column and offset are set here.
+  void append(ScalarField field);
+  // Nothing when there is none of that name.
+  const ScalarField* find(std::string_view name) const;
 };
 
 // A cloud's file while its header is read: lines with their numbers, refusing what is no text.
@@ -68,9 +75,19 @@ inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 40;
 
 CloudLayout read_pcd_header(const std::filesystem::path& file);
 CloudLayout read_ply_header(const std::filesystem::path& file);
+// By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
+CloudLayout read_cloud_header(const std::filesystem::path& file);
 
-// Hands on the points that the layout describes.
-CloudSummary read_body(const std::filesystem::path& file, const CloudLayout& layout,
-                       const PositionSink& sink);
+// x, y and z of a PCD or PLY layout. InputError at the header's last line unless each is one float.
+void require_coordinates(const HeaderLines& lines, const CloudLayout& layout);
+
+// Receives points as rows of numbers, row after row, a number for each field asked for.
+using RowSink = std::function<void(std::span<const double> rows)>;
+
+// Hands on these fields (of one element each) of the first `limit` points that the layout
+// describes. InputError when the file is truncated or broken.
+void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
+               std::span<const ScalarField> fields, const RowSink& sink,
+               std::uint64_t limit = kMaxPoints);
 
 }  // namespace plotscan::scan

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/cloud_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 
@@ -30,6 +32,19 @@ CloudFormat cloud_format(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+void CloudLayout::append(ScalarField field) {
+  field.column = columns;
+  field.offset = record_size;
+  columns += field.count;
+  record_size += field.count * field.size;
+  fields.push_back(std::move(field));
+}
+
+const ScalarField* CloudLayout::find(std::string_view name) const {
+  const auto found = std::ranges::find(fields, name, &ScalarField::name);
+  return found == fields.end() ? nullptr : &*found;
+}
 
 HeaderLines::HeaderLines(const std::filesystem::path& file)
     : file_(file), in_(file, std::ios::binary) {}
@@ -65,11 +80,38 @@ std::uint64_t HeaderLines::whole_number(const std::string& word, std::uint64_t l
   return value;
 }
 
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink) {
+void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
+  for (const char axis : {'x', 'y', 'z'}) {
+    const std::string name(1, axis);
+    const ScalarField* field = layout.find(name);
+    if (field == nullptr) lines.fail("the cloud has no field \"" + name + "\"");
+    if (field->kind != 'F' || field->size < 4 || field->count != 1)
+      lines.fail("field \"" + name + "\" must be one float of 4 or 8 bytes");
+  }
+}
+
+CloudLayout read_cloud_header(const std::filesystem::path& file) {
   const CloudLayout layout =
-      cloud_format(cloud) == CloudFormat::ply ? read_ply_header(cloud) : read_pcd_header(cloud);
-  if (layout.points == 0) throw InputError(cloud, "the cloud is empty: its header says 0 points");
-  const CloudSummary summary = read_body(cloud, layout, sink);
+      cloud_format(file) == CloudFormat::ply ? read_ply_header(file) : read_pcd_header(file);
+  if (layout.points == 0) throw InputError(file, "the cloud is empty: its header says 0 points");
+  return layout;
+}
+
+CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink) {
+  const CloudLayout layout = read_cloud_header(cloud);
+  const std::array<ScalarField, 3> xyz = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  CloudSummary summary;
+  std::vector<Eigen::Vector3d> positions;
+  read_rows(cloud, layout, xyz, [&](std::span<const double> rows) {
+    positions.clear();
+    for (std::size_t i = 0; i < rows.size(); i += 3) {
+      const Eigen::Vector3d position(rows[i], rows[i + 1], rows[i + 2]);
+      if (position.allFinite()) positions.push_back(position);
+    }
+    summary.points += positions.size();
+    summary.not_finite += rows.size() / 3 - positions.size();
+    if (!positions.empty()) sink(positions);
+  });
   if (summary.points == 0) throw InputError(cloud, "no point of the cloud has finite x, y and z");
   return summary;
 }

@@ -10,15 +10,8 @@ namespace {
 
 // PCL's own header parser allocates whatever the header promises; this one allocates nothing.
 
-struct PcdField {
-  std::string name;
-  std::size_t size = 0;  // of one element, bytes
-  char type = 0;         // I, U or F
-  std::size_t count = 1;
-};
-
 struct PcdHeader {
-  std::vector<PcdField> fields;
+  std::vector<ScalarField> fields;
   bool has_size = false;
   bool has_type = false;
   std::optional<std::uint64_t> width;
@@ -52,7 +45,7 @@ void read_types(const HeaderLines& lines, const Words& words, PcdHeader& header)
   require_one_a_field(lines, words, header);
   for (std::size_t i = 1; i < words.size(); ++i) {
     if (words[i] != "I" && words[i] != "U" && words[i] != "F") lines.fail("TYPE must be I, U or F");
-    header.fields[i - 1].type = words[i][0];
+    header.fields[i - 1].kind = words[i][0];
   }
   header.has_type = true;
 }
@@ -104,27 +97,6 @@ CloudBody body_kind(const HeaderLines& lines, const std::string& data) {
   lines.fail("DATA \"" + data + "\" must be ascii, binary or binary_compressed");
 }
 
-void place_coordinates(const HeaderLines& lines, const PcdHeader& header, CloudLayout& layout) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    std::size_t column = 0;
-    std::size_t offset = 0;
-    const PcdField* found = nullptr;
-    for (const PcdField& field : header.fields) {
-      if (field.name == name) {
-        found = &field;
-        break;
-      }
-      column += field.count;
-      offset += field.count * field.size;
-    }
-    if (found == nullptr) lines.fail("the cloud has no field \"" + name + "\"");
-    if (found->type != 'F' || found->size < 4 || found->count != 1)
-      lines.fail("field \"" + name + "\" must be one float of 4 or 8 bytes");
-    layout.xyz[axis] = {.column = column, .offset = offset, .element_size = found->size};
-  }
-}
-
 }  // namespace
 
 CloudLayout read_pcd_header(const std::filesystem::path& file) {
@@ -139,13 +111,12 @@ CloudLayout read_pcd_header(const std::filesystem::path& file) {
   CloudLayout layout;
   layout.body = body_kind(lines, header.data);
   layout.points = point_count(lines, header);
-  for (const PcdField& field : header.fields) {
-    layout.columns += field.count;
-    layout.record_size += field.count * field.size;
+  for (const ScalarField& field : header.fields) {
+    layout.append(field);
     if (layout.record_size > kMaxRecordSize)
       lines.fail("a point has more than " + std::to_string(kMaxRecordSize) + " bytes");
   }
-  place_coordinates(lines, header, layout);
+  require_coordinates(lines, layout);
   layout.body_offset = lines.offset();
   layout.body_line = lines.line() + 1;
   return layout;

@@ -7,14 +7,20 @@
 namespace plotscan::scan {
 namespace {
 
+struct ScalarType {
+  char kind;
+  std::size_t size;
+};
+
 // PLY's scalar types, by both of their names.
-std::size_t scalar_size(const HeaderLines& lines, const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes = {
-      {"char", 1},   {"int8", 1},    {"uchar", 1},  {"uint8", 1},  {"short", 2}, {"int16", 2},
-      {"ushort", 2}, {"uint16", 2},  {"int", 4},    {"int32", 4},  {"uint", 4},  {"uint32", 4},
-      {"float", 4},  {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = sizes.find(type);
-  if (found == sizes.end()) lines.fail("unknown PLY property type \"" + type + "\"");
+ScalarType scalar_type(const HeaderLines& lines, const std::string& type) {
+  static const std::map<std::string, ScalarType> types = {
+      {"char", {'I', 1}},  {"int8", {'I', 1}},    {"uchar", {'U', 1}},  {"uint8", {'U', 1}},
+      {"short", {'I', 2}}, {"int16", {'I', 2}},   {"ushort", {'U', 2}}, {"uint16", {'U', 2}},
+      {"int", {'I', 4}},   {"int32", {'I', 4}},   {"uint", {'U', 4}},   {"uint32", {'U', 4}},
+      {"float", {'F', 4}}, {"float32", {'F', 4}}, {"double", {'F', 8}}, {"float64", {'F', 8}}};
+  const auto found = types.find(type);
+  if (found == types.end()) lines.fail("unknown PLY property type \"" + type + "\"");
   return found->second;
 }
 
@@ -34,16 +40,8 @@ void read_vertex_property(const HeaderLines& lines, const std::vector<std::strin
   if (words.size() > 1 && words[1] == "list")
     lines.fail("a list property of element vertex is not supported");
   if (words.size() != 3) lines.fail("a property needs a type and a name");
-  const std::size_t size = scalar_size(lines, words[1]);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (words[2] != std::string(1, "xyz"[axis])) continue;
-    const bool is_float = words[1][0] == 'f' || words[1][0] == 'd';
-    if (!is_float) lines.fail("property \"" + words[2] + "\" must be float or double");
-    layout.xyz[axis] = {
-        .column = layout.columns, .offset = layout.record_size, .element_size = size};
-  }
-  ++layout.columns;
-  layout.record_size += size;
+  const ScalarType type = scalar_type(lines, words[1]);
+  layout.append({.name = words[2], .kind = type.kind, .size = type.size});
   if (layout.record_size > kMaxRecordSize)
     lines.fail("a vertex has more than " + std::to_string(kMaxRecordSize) + " bytes");
 }
@@ -76,10 +74,7 @@ CloudLayout read_ply_header(const std::filesystem::path& file) {
       lines.fail("unknown PLY header entry \"" + key + "\"");
     }
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    if (layout.xyz[axis].element_size == 0)
-      lines.fail("the cloud has no vertex property \"" + std::string(1, "xyz"[axis]) + "\"");
-  }
+  require_coordinates(lines, layout);
   layout.body_offset = lines.offset();
   layout.body_line = lines.line() + 1;
   return layout;

@@ -47,4 +47,7 @@ Trajectory read_trajectory(const std::filesystem::path& file);
 // Header t_s,x_m,y_m,z_m,qx,qy,qz,qw; every number reads back as the same double.
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory);
 
+// TUM text: "t x y z qx qy qz qw" a line behind a comment; the same numbers.
+void write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
+
 }  // namespace plotscan::scan

@@ -93,6 +93,21 @@ bool has_commas(const std::filesystem::path& file) {
   return false;
 }
 
+void write_poses(const std::filesystem::path& file, const Trajectory& trajectory,
+                 const std::string& header, char separator) {
+  std::ofstream out(file, std::ios::binary);
+  out << header << '\n';
+  for (const StampedPose& pose : trajectory.poses()) {
+    const Eigen::Vector3d& p = pose.position_m;
+    const Eigen::Quaterniond& q = pose.attitude;
+    const std::array<double, kColumns> values = {pose.time_s, p.x(), p.y(), p.z(),
+                                                 q.x(),       q.y(), q.z(), q.w()};
+    for (std::size_t i = 0; i < kColumns; ++i)
+      out << format_number(values[i]) << (i + 1 < kColumns ? separator : '\n');
+  }
+  if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
+}
+
 }  // namespace
 
 Trajectory read_trajectory(const std::filesystem::path& file) {
@@ -105,17 +120,11 @@ Trajectory read_trajectory(const std::filesystem::path& file) {
 }
 
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
-  std::ofstream out(file, std::ios::binary);
-  out << "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
-  for (const StampedPose& pose : trajectory.poses()) {
-    const Eigen::Vector3d& p = pose.position_m;
-    const Eigen::Quaterniond& q = pose.attitude;
-    const std::array<double, kColumns> values = {pose.time_s, p.x(), p.y(), p.z(),
-                                                 q.x(),       q.y(), q.z(), q.w()};
-    for (std::size_t i = 0; i < kColumns; ++i)
-      out << format_number(values[i]) << (i + 1 < kColumns ? ',' : '\n');
-  }
-  if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
+  write_poses(file, trajectory, "t_s,x_m,y_m,z_m,qx,qy,qz,qw", ',');
+}
+
+void write_tum(const std::filesystem::path& file, const Trajectory& trajectory) {
+  write_poses(file, trajectory, "# t x y z qx qy qz qw", ' ');
 }
 
 }  // namespace plotscan::scan

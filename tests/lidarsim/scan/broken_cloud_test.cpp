@@ -59,12 +59,14 @@ TEST(BrokenCloud, BrokenPlyHeadersAreRefused) {
   const std::string start = "ply\nformat ascii 1.0\n";
   EXPECT_THAT(refusal("ply\nformat text 1.0\n"), HasSubstr("format \"text\""));
   EXPECT_THAT(refusal(start + "element vertex 1\nproperty float x\nend_header\n1\n"),
-              HasSubstr("no vertex property \"y\""));
+              HasSubstr("no field \"y\""));
   EXPECT_THAT(refusal(start + "element face 1\n"), HasSubstr("vertex must come first"));
   EXPECT_THAT(refusal(start + "element vertex 1\nproperty list uchar int x\n"),
               HasSubstr("list property"));
-  EXPECT_THAT(refusal(start + "element vertex 1\nproperty int x\n"),
-              HasSubstr("must be float or double"));
+  EXPECT_THAT(
+      refusal(start + "element vertex 1\nproperty int x\nproperty float y\nproperty float z\n"
+                      "end_header\n1 2 3\n"),
+      HasSubstr("must be one float"));
   EXPECT_THAT(refusal(start + "element vertex 1\nproperty half x\n"), HasSubstr("\"half\""));
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "convert_command.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/text.h"
+#include "record/convert.h"
+
+namespace plotscan {
+namespace {
+
+struct ConvertArguments {
+  std::string in;
+  std::string out;
+  record::ConvertOptions options;
+  record::FlightOptions flight;
+  std::string trajectory;
+  std::vector<double> mount_deg = {0, 90, 0};
+  std::vector<CLI::Option*> of_flight;  // the options that tell of a flight
+};
+
+void run_convert(const Program& program, ConvertArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  record::FlightOptions& flight = arguments.flight;
+  if (!arguments.trajectory.empty()) flight.trajectory = arguments.trajectory;
+  flight.mount_rpy_deg = Eigen::Vector3d(arguments.mount_deg.data());
+  for (const CLI::Option* option : arguments.of_flight)
+    if (option->count() > 0) arguments.options.flight = flight;
+  const record::ConvertSummary summary = record::convert(
+      arguments.in, arguments.out, arguments.options, program.progress("converting"));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const auto bytes = std::filesystem::file_size(arguments.out);
+  program.result({{"file", arguments.out},
+                  {"points", summary.points},
+                  {"poses", summary.poses},
+                  {"bytes", bytes},
+                  {"seconds", elapsed.count()}});
+  const bool poses = summary.poses > 0;
+  program.say(formatted("%s: %llu %s, %.1f MB", arguments.out.c_str(),
+                        static_cast<unsigned long long>(poses ? summary.poses : summary.points),
+                        poses ? "poses" : "points", 1e-6 * static_cast<double>(bytes)));
+}
+
+void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
+  arguments.of_flight = {
+      convert.add_option("--trajectory", arguments.trajectory,
+                         "of a bare cloud: where the drone was, TUM text or trajectory.csv, in the "
+                         "cloud's frame and time"),
+      convert.add_option("--sensor", arguments.flight.sensor,
+                         "of a bare cloud: a shipped sensor's name or the file of your own"),
+      convert.add_option("--spin", arguments.flight.spin_hz,
+                         "of a bare cloud: turns of the sensor a second"),
+      convert
+          .add_option("--mount", arguments.mount_deg,
+                      "of a bare cloud: the sensor in the body's frame, roll,pitch,yaw in degrees")
+          ->delimiter(',')
+          ->expected(3),
+      convert.add_option("--start", arguments.flight.start_utc,
+                         "of a bare cloud: when its time 0 was, UTC")};
+}
+
+}  // namespace
+
+void declare_convert(Program& program) {
+  const auto arguments = std::make_shared<ConvertArguments>();
+  CLI::App& convert =
+      program.command("convert", "Convert scans, clouds, recordings and trajectories.",
+                      [&program, arguments] { run_convert(program, *arguments); });
+  convert
+      .add_option("IN", arguments->in,
+                  "scan folder, cloud (PCD, PLY), or trajectory (TUM text, trajectory.csv)")
+      ->required();
+  convert
+      .add_option("OUT", arguments->out,
+                  "file to write; its extension says the format (docs/formats.md)")
+      ->required();
+  add_flight_options(convert, *arguments);
+  convert.add_flag("--force", arguments->options.replace, "replace an existing file");
+}
+
+}  // namespace plotscan

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/progress.h"
+#include "record/formats.h"
+
+namespace plotscan::record {
+
+// What a bare cloud does not say of its flight; all but the trajectory has lidarsim fly's defaults.
+struct FlightOptions {
+  std::optional<std::filesystem::path> trajectory =
+      {};                        // of the body, in the points' frame and time
+  std::string sensor = "vlp16";  // as sensor::load_sensor takes it
+  double spin_hz = 10;
+  Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
+  std::string start_utc = "2026-06-01T10:00:00Z";
+};
+
+struct ConvertOptions {
+  std::optional<FlightOptions> flight = {};  // for a source that is no scan folder
+  WriteOptions write = {};
+  bool replace = false;  // an existing file
+};
+
+struct ConvertSummary {
+  std::uint64_t points = 0;  // written
+  std::uint64_t poses = 0;   // written, where a trajectory is
+};
+
+// Converts `in`, a scan folder, a cloud, a recording or a trajectory, to the file `out`, whose
+// format its extension says (docs/formats.md). Points stream: memory does not grow with them, but
+// for compressed PCD. `out` appears whole or not at all. Throws InputError on broken input, an
+// extension that no format has, a file that exists, and where `out` needs what `in` does not say.
+ConvertSummary convert(const std::filesystem::path& in, const std::filesystem::path& out,
+                       const ConvertOptions& options, const ProgressReport& progress = {});
+
+// The second half of convert: the points of an open source to a file of `out`'s extension, which
+// may not appear whole.
+ConvertSummary write_points(const Source& source, const std::filesystem::path& out,
+                            const WriteOptions& options, const ProgressReport& progress = {});
+
+}  // namespace plotscan::record

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "record/scan_folder.h"
+#include "scan/point.h"
+#include "scan/point_reader.h"
+
+namespace plotscan::record {
+
+// Points to be converted, and what is known of their flight.
+struct Source {
+  std::filesystem::path path;  // for messages
+  scan::CloudInfo info;
+  std::optional<FlightRecord> flight;  // relative to info.origin_m, as the points are
+  // Streams the points in the order of firing; may be called once.
+  std::function<void(const scan::PointSink&)> stream;
+};
+
+// How a file is written.
+struct WriteOptions {
+  std::string encoding = "binary";  // PCD: binary, compressed or ascii
+};
+
+// A kind of file that points are read from, written to, or both, found by its extension.
+struct Format {
+  std::string name;                     // "binary PCD", for messages
+  std::vector<std::string> extensions;  // with their dot, in lower case
+  // Whether only a flight's record turns points into this format; where it is set, source.flight is
+  // there when `create` is called.
+  bool needs_flight = false;
+  // Opens a file: reads its header, not its points. `flight` is what the user tells of the flight;
+  // a recording that is not self-contained throws InputError without it. Empty when the format is
+  // only written.
+  std::function<Source(const std::filesystem::path& file,
+                       const std::optional<FlightRecord>& flight)>
+      open = {};
+  // A writer to the file. `source` outlives it. Empty when the format is only read.
+  std::function<std::unique_ptr<scan::PointWriter>(
+      const std::filesystem::path& file, const Source& source, const WriteOptions& options)>
+      create = {};
+};
+
+// Every format, one entry each: reading, writing, messages and help know them from here.
+const std::vector<Format>& formats();
+
+// The format of a file by its extension, whatever its case; nothing when there is none.
+const Format* find_format(const std::filesystem::path& file);
+
+}  // namespace plotscan::record

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scan/point_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "scan/cloud_layout.h"
+
+namespace plotscan::scan {
+namespace {
+
+constexpr double kOriginStep_m = 1000;
+// Rows looked through for a finite point.
+constexpr std::uint64_t kFirstRows = 8192;
+
+// Puts a field's number into a point; false when it does not fit.
+using Put = bool (*)(LabelledPoint&, double);
+
+template <class Whole>
+bool assign(Whole& field, double value) {
+  const double rounded = std::round(value);
+  if (!(rounded >= 0 && rounded <= std::numeric_limits<Whole>::max())) return false;
+  field = static_cast<Whole>(rounded);
+  return true;
+}
+
+PointClass class_of(double number) {
+  if (number == 0) return PointClass::unlabelled;
+  if (number == 1) return PointClass::ground;
+  if (number == 2) return PointClass::crop;
+  if (number == 3) return PointClass::weed;
+  return PointClass::other;
+}
+
+// ASPRS' standard classes: 0 and 1 are unclassified, 2 ground, 3 to 5 vegetation.
+PointClass class_of_asprs(double number) {
+  if (number == 0 || number == 1) return PointClass::unlabelled;
+  if (number == 2) return PointClass::ground;
+  return number >= 3 && number <= 5 ? PointClass::crop : PointClass::other;
+}
+
+struct KnownField {
+  std::string name;                  // in PCD and PLY files of ours
+  std::vector<std::string> aliases;  // as plain_name leaves them, the first found counts
+  Put put;
+};
+
+const std::vector<KnownField>& known_fields() {
+  static const std::vector<KnownField> fields = {
+      {"intensity",
+       {"intensity", "reflectivity"},
+       [](LabelledPoint& p, double v) {
+         p.intensity = static_cast<float>(v);
+         return true;
+       }},
+      {"ring",
+       {"ring", "laserid", "channel"},
+       [](LabelledPoint& p, double v) { return assign(p.ring, v); }},
+      {"time",
+       {"time", "timestamp", "gpstime", "t"},
+       [](LabelledPoint& p, double v) {
+         p.time = v;
+         return std::isfinite(v);
+       }},
+      {"return_number",
+       {"returnnumber"},
+       [](LabelledPoint& p, double v) { return assign(p.return_number, v); }},
+      {"return_count",
+       {"returncount", "numberofreturns"},
+       [](LabelledPoint& p, double v) { return assign(p.return_count, v); }},
+      {"class",
+       {"class", "label"},
+       [](LabelledPoint& p, double v) {
+         p.label = class_of(v);
+         return true;
+       }},
+      {"plot", {"plot"}, [](LabelledPoint& p, double v) { return assign(p.plot, v); }},
+      {"plant", {"plant"}, [](LabelledPoint& p, double v) { return assign(p.plant, v); }},
+  };
+  return fields;
+}
+
+// Stands in for "class" where a file has none.
+const KnownField& asprs_class() {
+  static const KnownField field = {"class", {"classification"}, [](LabelledPoint& p, double v) {
+                                     p.label = class_of_asprs(v);
+                                     return true;
+                                   }};
+  return field;
+}
+
+// "ReturnNumber", "return_number" and CloudCompare's "scalar_ReturnNumber" are one name.
+std::string plain_name(const std::string& name) {
+  std::string plain;
+  for (const char c : name)
+    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::string_view kPrefix = "scalar";
+  return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
+}
+
+const ScalarField* find_known(const CloudLayout& layout, const KnownField& known) {
+  for (const std::string& alias : known.aliases) {
+    for (const ScalarField& field : layout.fields) {
+      const bool readable = field.count == 1 && (field.kind != 'F' || field.size >= 4);
+      if (readable && plain_name(field.name) == alias) return &field;
+    }
+  }
+  return nullptr;
+}
+
+struct SelectedField {
+  const KnownField* known;
+  double unit;  // of the file's numbers in ours
+};
+
+// The fields to read: x, y, z, and behind them the known ones that the file has.
+struct Selection {
+  std::vector<ScalarField> fields;
+  std::vector<SelectedField> known;
+};
+
+// ROS drivers write whole numbers of nanoseconds where they do not write seconds.
+double unit_of(const KnownField& known, const ScalarField& field) {
+  return known.name == "time" && field.kind != 'F' ? 1e-9 : 1;
+}
+
+Selection select(const CloudLayout& layout) {
+  Selection selection;
+  for (const char* axis : {"x", "y", "z"}) selection.fields.push_back(*layout.find(axis));
+  for (const KnownField& named : known_fields()) {
+    const KnownField* known = &named;
+    const ScalarField* field = find_known(layout, named);
+    if (field == nullptr && named.name == "class") {
+      known = &asprs_class();
+      field = find_known(layout, *known);
+    }
+    if (field == nullptr) continue;
+    selection.fields.push_back(*field);
+    selection.known.push_back({known, unit_of(*known, *field)});
+  }
+  return selection;
+}
+
+Eigen::Vector3d position(std::span<const double> row) { return {row[0], row[1], row[2]}; }
+
+// The first finite point of the cloud's beginning; zero where there is none.
+Eigen::Vector3d first_point(const std::filesystem::path& cloud, const CloudLayout& layout,
+                            std::span<const ScalarField> xyz) {
+  std::optional<Eigen::Vector3d> first;
+  read_rows(
+      cloud, layout, xyz,
+      [&](std::span<const double> rows) {
+        for (std::size_t i = 0; i < rows.size() && !first; i += 3)
+          if (position(rows.subspan(i)).allFinite()) first = position(rows.subspan(i));
+      },
+      kFirstRows);
+  return first.value_or(Eigen::Vector3d::Zero());
+}
+
+Eigen::Vector3d origin_of(const std::filesystem::path& cloud, const CloudLayout& layout,
+                          const Selection& selection) {
+  const auto xyz = std::span(selection.fields).first(3);
+  const bool floats = std::ranges::all_of(
+      xyz, [](const ScalarField& field) { return field.kind == 'F' && field.size == 4; });
+  if (floats) return Eigen::Vector3d::Zero();
+  return (first_point(cloud, layout, xyz) / kOriginStep_m).array().round() * kOriginStep_m;
+}
+
+}  // namespace
+
+CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
+  const CloudLayout layout = read_cloud_header(cloud);
+  const Selection selection = select(layout);
+  CloudInfo info{.points = layout.points, .origin_m = origin_of(cloud, layout, selection)};
+  for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);
+  return info;
+}
+
+CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& info,
+                         const PointSink& sink) {
+  const CloudLayout layout = read_cloud_header(cloud);
+  const Selection selection = select(layout);
+  CloudSummary summary;
+  std::vector<LabelledPoint> points;
+  const auto read = [&](std::span<const double> row) {
+    if (!position(row).allFinite()) {
+      ++summary.not_finite;
+      return;
+    }
+    const Eigen::Vector3f xyz = (position(row) - info.origin_m).cast<float>();
+    LabelledPoint point{.x = xyz.x(), .y = xyz.y(), .z = xyz.z()};
+    for (std::size_t i = 0; i < selection.known.size(); ++i) {
+      const auto& [known, unit] = selection.known[i];
+      if (known->put(point, row[3 + i] * unit)) continue;
+      throw InputError(cloud, "point " + std::to_string(summary.points + summary.not_finite + 1) +
+                                  ": \"" + selection.fields[3 + i].name + "\" is " +
+                                  format_number(row[3 + i]) + ", which is no " + known->name);
+    }
+    points.push_back(point);
+    ++summary.points;
+  };
+  read_rows(cloud, layout, selection.fields, [&](std::span<const double> rows) {
+    points.clear();
+    for (std::size_t i = 0; i < rows.size(); i += selection.fields.size())
+      read(rows.subspan(i, selection.fields.size()));
+    if (!points.empty()) sink(points);
+  });
+  if (summary.points == 0) throw InputError(cloud, "no point of the cloud has finite x, y and z");
+  return summary;
+}
+
+}  // namespace plotscan::scan
