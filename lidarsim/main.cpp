@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,7 +22,6 @@ struct Arguments {
   std::string place;  // a farm's folder or a world's file
   std::string scan;
   std::string flight;
-  std::vector<double> mount_deg = {0, 90, 0};
   std::vector<std::string> resource_paths;
   lidar::FlyOptions options;
   bool force = false;
@@ -77,8 +75,6 @@ void run_fly(const Program& program, Arguments& arguments) {
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   if (!arguments.flight.empty()) options.flight = arguments.flight;
-  for (int angle = 0; angle < 3; ++angle)
-    options.mount_rpy_rad[angle] = arguments.mount_deg[angle] * std::numbers::pi / 180;
   std::vector<std::string> notes;
   const lidar::FlySummary summary = std::filesystem::is_directory(arguments.place)
                                         ? fly_farm(program, arguments)
@@ -87,13 +83,28 @@ void run_fly(const Program& program, Arguments& arguments) {
   report(program, arguments, summary, notes, elapsed.count());
 }
 
+template <class Setting>
+CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting, const Setting& value,
+                         lidar::FlyOptions& options) {
+  return fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
+}
+
+CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
+                         const lidar::VectorSetting& value, lidar::FlyOptions& options) {
+  const auto read = [&vector = value.of(options)](const std::vector<double>& numbers) {
+    vector = Eigen::Vector3d(numbers.at(0), numbers.at(1), numbers.at(2));
+  };
+  return fly.add_option_function<std::vector<double>>(setting.flag, read, setting.help)
+      ->delimiter(',')
+      ->expected(3);
+}
+
 void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight) {
   for (const lidar::FlySetting& setting : lidar::fly_settings()) {
-    auto* option = std::visit(
-        [&](const auto& value) {
-          return fly.add_option(setting.flag, value.of(options), setting.help);
-        },
-        setting.value);
+    CLI::Option* option =
+        std::visit([&](const auto& value) { return add_setting(fly, setting, value, options); },
+                   setting.value);
+    option->group(setting.group);
     if (setting.plans_flight) option->excludes(&flight);
   }
 }
@@ -112,11 +123,6 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                      "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
                      "seconds, metres) or a scan's trajectory.csv");
   add_settings(fly, options, *flight);
-  fly.add_option("--mount", arguments.mount_deg,
-                 "the sensor in the body's frame: roll,pitch,yaw in degrees; 0,90,0 lays the spin "
-                 "axis along the flight, azimuth 0 down")
-      ->delimiter(',')
-      ->expected(3);
   fly.add_flag("--force", arguments.force, "replace an existing scan folder");
 }
 

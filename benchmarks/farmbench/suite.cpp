@@ -94,6 +94,12 @@ void read_setting(const YamlSection& section, const std::string& key,
 }
 
 void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::VectorSetting& setting, lidar::FlyOptions& flight) {
+  const std::vector<double> numbers = section.numbers(key, 3, setting.range);
+  setting.of(flight) = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
                   const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = setting.choices.empty()
                            ? section.text(key)

@@ -2,6 +2,7 @@
 #include "lidar/fly.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/csv.h"
 #include "core/error.h"
@@ -33,7 +34,6 @@ void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
   }
   if (!parse_utc(options.start_utc))
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
-  if (!options.mount_rpy_rad.allFinite()) throw InputError("the mount's angles must be finite");
   if (options.threads < 1 || options.threads > kMaxThreads)
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
@@ -74,20 +74,19 @@ struct Flight {
   scan::Trajectory reported;
 };
 
-Flight fly_drone(const Site& site, const Scene& scene, const FlyOptions& options) {
+Flight fly_drone(const Site& site, const Scene& scene, const flight::PoseErrors& errors,
+                 const FlyOptions& options) {
   const scan::Trajectory truth =
       options.flight ? read_flight(*options.flight) : planned_flight(site, scene, options);
-  return {.truth = truth, .reported = truth};
+  return {.truth = truth, .reported = flight::reported_trajectory(truth, errors, options.seed)};
 }
 
 Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOptions& options,
                      const FlySummary& summary) {
-  const Eigen::Vector3d mount_deg = options.mount_rpy_rad * 180 / std::numbers::pi;
   Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
   manifest.options = settings_json(options);
   manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
   manifest.options[site.kind] = site.name;
-  manifest.options["mount_rpy_deg"] = {mount_deg.x(), mount_deg.y(), mount_deg.z()};
   if (site.anchor) {
     manifest.options["anchor"] = {{"latitude_deg", site.anchor->latitude_deg},
                                   {"longitude_deg", site.anchor->longitude_deg},
@@ -125,13 +124,18 @@ FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options, sensor);
   OutputFolder output(scan_folder, replace, "lidarsim fly");
-  const Flight flight = fly_drone(site, scene, options);
-  const Eigen::Isometry3d mount = record::mount_pose(options.mount_rpy_rad);
-  const sensor::ShotPlan fired(sensor, options.spin_hz, mount, flight.truth);
+  const flight::PoseErrors errors =
+      flight::combined(flight::pose_error_preset(options.pose_error), options.pose_errors);
+  const Flight flight = fly_drone(site, scene, errors, options);
+  const Eigen::Isometry3d mount =
+      record::mount_pose(options.mount_rpy_deg * std::numbers::pi / 180);
+  const sensor::ShotPlan fired(sensor, options.spin_hz, flight::true_mount(mount, errors),
+                               flight.truth);
+  const sensor::ShotPlan placed(sensor, options.spin_hz, mount, flight.reported);
 
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
   simulate(
-      scene, sensor, {.fired = fired, .placed = fired},
+      scene, sensor, {.fired = fired, .placed = errors.none() ? fired : placed},
       {.range_noise_m = options.range_noise_m, .seed = options.seed, .threads = options.threads},
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();

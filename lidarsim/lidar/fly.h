@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 
 #include "core/progress.h"
 #include "farm/farm.h"
+#include "flight/pose_errors.h"
 #include "flight/wind.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
@@ -35,7 +35,9 @@ struct FlyOptions {
   double range_noise_m = 0.03;  // standard deviation of the range noise, 0 to 1
   // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
   // axis lies along the flight and azimuth 0 points down.
-  Eigen::Vector3d mount_rpy_rad = {0, std::numbers::pi / 2, 0};
+  Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
+  std::string pose_error = "none";      // a preset's name
+  flight::PoseErrors pose_errors = {};  // on top of the preset's
   std::uint64_t seed = 1;
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest

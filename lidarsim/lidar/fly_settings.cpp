@@ -10,6 +10,8 @@
 namespace plotscan::lidar {
 namespace {
 
+constexpr const char* kPoseErrors = "Pose errors (docs/pose-errors.md)";
+
 template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
@@ -20,6 +22,13 @@ template <class Setting>
 const auto& value_of(const Setting& setting, const FlyOptions& options) {
   return setting.of(const_cast<FlyOptions&>(options));  // NOLINT(*-const-cast)
 }
+
+template <class Value>
+nlohmann::json json_of(const Value& value) {
+  return value;
+}
+
+nlohmann::json json_of(const Eigen::Vector3d& value) { return {value.x(), value.y(), value.z()}; }
 
 void require_in_range(const std::string& flag, double value, const Range& range) {
   if (range.contains(value)) return;
@@ -79,6 +88,113 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--start",
        .help = "when the flight starts, UTC: for GPS times and ROS stamps",
        .value = TextSetting{{}, [](FlyOptions& o) -> std::string& { return o.start_utc; }}},
+      {.key = "mount_rpy_deg",
+       .flag = "--mount",
+       .help = "the sensor in the body's frame: roll,pitch,yaw in degrees; 0,90,0 lays the spin "
+               "axis along the flight, azimuth 0 down",
+       .value = VectorSetting{{-360, 360},
+                              [](FlyOptions& o) -> Eigen::Vector3d& { return o.mount_rpy_deg; }}},
+      {.key = "pose_error",
+       .flag = "--pose-error",
+       .help = "how the reported poses err: none, or as an rtk, ppk or gps system's "
+               "(docs/pose-errors.md); the errors below come on top",
+       .value = TextSetting{flight::pose_error_presets(),
+                            [](FlyOptions& o) -> std::string& { return o.pose_error; }},
+       .group = kPoseErrors},
+      {.key = "position_noise_m",
+       .flag = "--position-noise",
+       .help = "standard deviation of each GNSS fix, east and north, metres, 0 to 100",
+       .value =
+           NumberSetting{{0, 100},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.position_noise_m; }},
+       .group = kPoseErrors},
+      {.key = "height_noise_m",
+       .flag = "--height-noise",
+       .help = "the same, up",
+       .value =
+           NumberSetting{{0, 100},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.height_noise_m; }},
+       .group = kPoseErrors},
+      {.key = "position_drift_m",
+       .flag = "--position-drift",
+       .help = "standard deviation of the slowly drifting error, east and north, metres, 0 to 100",
+       .value =
+           NumberSetting{{0, 100},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.position_drift_m; }},
+       .group = kPoseErrors},
+      {.key = "height_drift_m",
+       .flag = "--height-drift",
+       .help = "the same, up",
+       .value =
+           NumberSetting{{0, 100},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.height_drift_m; }},
+       .group = kPoseErrors},
+      {.key = "position_drift_s",
+       .flag = "--position-drift-time",
+       .help = "correlation time of these drifts, seconds, 0.1 to 100000",
+       .value =
+           NumberSetting{{0.1, 100000.0},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.position_drift_s; }},
+       .group = kPoseErrors},
+      {.key = "tilt_noise_deg",
+       .flag = "--tilt-noise",
+       .help = "standard deviation of each attitude, roll and pitch, degrees, 0 to 20",
+       .value =
+           NumberSetting{{0, 20},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.tilt_noise_deg; }},
+       .group = kPoseErrors},
+      {.key = "heading_noise_deg",
+       .flag = "--heading-noise",
+       .help = "the same, heading",
+       .value =
+           NumberSetting{{0, 20},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.heading_noise_deg; }},
+       .group = kPoseErrors},
+      {.key = "tilt_drift_deg",
+       .flag = "--tilt-drift",
+       .help = "standard deviation of the slowly drifting error, roll and pitch, degrees, 0 to 20",
+       .value =
+           NumberSetting{{0, 20},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.tilt_drift_deg; }},
+       .group = kPoseErrors},
+      {.key = "heading_drift_deg",
+       .flag = "--heading-drift",
+       .help = "the same, heading",
+       .value =
+           NumberSetting{{0, 20},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.heading_drift_deg; }},
+       .group = kPoseErrors},
+      {.key = "attitude_drift_s",
+       .flag = "--attitude-drift-time",
+       .help = "correlation time of these drifts, seconds, 0.1 to 100000",
+       .value =
+           NumberSetting{{0.1, 100000.0},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.attitude_drift_s; }},
+       .group = kPoseErrors},
+      {.key = "boresight_rpy_deg",
+       .flag = "--boresight",
+       .help = "how the sensor is truly turned from its mount, about the body's axes: "
+               "roll,pitch,yaw in degrees",
+       .value =
+           VectorSetting{
+               {-20, 20},
+               [](FlyOptions& o) -> Eigen::Vector3d& { return o.pose_errors.boresight_rpy_deg; }},
+       .group = kPoseErrors},
+      {.key = "lever_arm_m",
+       .flag = "--lever-arm",
+       .help = "how far the sensor truly sits from its stated place: x,y,z in the body, metres",
+       .value =
+           VectorSetting{
+               {-10, 10},
+               [](FlyOptions& o) -> Eigen::Vector3d& { return o.pose_errors.lever_arm_m; }},
+       .group = kPoseErrors},
+      {.key = "clock_offset_s",
+       .flag = "--clock-offset",
+       .help = "the pose reported for a time is that of so many seconds later, -1 to 1",
+       .value =
+           NumberSetting{{-1, 1},
+                         [](FlyOptions& o) -> double& { return o.pose_errors.clock_offset_s; }},
+       .group = kPoseErrors},
   };
   return settings;
 }
@@ -87,8 +203,9 @@ nlohmann::json settings_json(const FlyOptions& options) {
   nlohmann::json document = nlohmann::json::object();
   for (const FlySetting& setting : fly_settings()) {
     if (options.flight && setting.plans_flight) continue;
-    std::visit([&](const auto& value) { document[setting.key] = value_of(value, options); },
-               setting.value);
+    std::visit(
+        [&](const auto& value) { document[setting.key] = json_of(value_of(value, options)); },
+        setting.value);
   }
   return document;
 }
@@ -102,6 +219,10 @@ void require_valid(const FlyOptions& options) {
                               return;
                             throw InputError(setting.flag + " \"" + value + "\" must be one of " +
                                              joined(text.choices, ", "));
+                          },
+                          [&](const VectorSetting& vector) {
+                            for (const double value : value_of(vector, options))
+                              require_in_range(setting.flag, value, vector.range);
                           },
                           [&](const auto& number) {
                             require_in_range(setting.flag, value_of(number, options), number.range);

@@ -22,6 +22,11 @@ struct WholeSetting {
   int& (*of)(FlyOptions&);
 };
 
+struct VectorSetting {
+  Range range;  // of each of the three
+  Eigen::Vector3d& (*of)(FlyOptions&);
+};
+
 struct TextSetting {
   std::vector<std::string> choices;  // empty: any text
   std::string& (*of)(FlyOptions&);
@@ -32,8 +37,9 @@ struct FlySetting {
   std::string key;   // in suites and manifests, "altitude_m"
   std::string flag;  // on the command line, "--altitude"
   std::string help;  // unit, range, meaning
-  std::variant<NumberSetting, WholeSetting, TextSetting> value;
-  bool plans_flight = false;  // means nothing when a trajectory is given
+  std::variant<NumberSetting, WholeSetting, VectorSetting, TextSetting> value;
+  bool plans_flight = false;                // means nothing when a trajectory is given
+  std::string group = "Flight and sensor";  // heading in --help
 };
 
 const std::vector<FlySetting>& fly_settings();

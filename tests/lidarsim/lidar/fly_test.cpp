@@ -94,7 +94,7 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   EXPECT_THAT(refusal({.spin_hz = std::nan("")}), HasSubstr("--spin nan must be in"));
   EXPECT_THAT(refusal({.range_noise_m = -0.1}), HasSubstr("--noise -0.1 must be in [0, 1]"));
   EXPECT_THAT(refusal({.start_utc = "noon"}), HasSubstr("--start \"noon\" must be like 2026-"));
-  EXPECT_THAT(refusal({.mount_rpy_rad = {0, INFINITY, 0}}), HasSubstr("mount"));
+  EXPECT_THAT(refusal({.mount_rpy_deg = {0, INFINITY, 0}}), HasSubstr("--mount inf must be in"));
   EXPECT_THAT(refusal({.threads = 0}), HasSubstr("threads 0"));
   EXPECT_THAT(refusal({.speed_m_s = 50}), HasSubstr("--speed 50 must be in [0.01, 6]"));
   EXPECT_THAT(refusal({.altitude_m = -1}), HasSubstr("--altitude -1 must be in"));

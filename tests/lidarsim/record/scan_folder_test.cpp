@@ -23,12 +23,13 @@ TEST(ScanFolder, SaysHowThePointsWerePlaced) {
   farm::Farm farm = testing::small_farm();
   farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
   const lidar::FlyOptions options{
-      .start_utc = "2025-07-01T08:30:00Z", .spin_hz = 20, .mount_rpy_rad = {0.1, 1.5, -0.2}};
+      .start_utc = "2025-07-01T08:30:00Z", .spin_hz = 20, .mount_rpy_deg = {10, 80, -20}};
   const auto summary = lidar::fly(farm, folder.path() / "scan", options, false);
   const FlightRecord flight = read_flight_record(folder.path() / "scan");
   EXPECT_EQ(flight.sensor.name, "vlp16");
   EXPECT_EQ(flight.spin_hz, 20);
-  EXPECT_TRUE(flight.body_from_lidar.isApprox(mount_pose({0.1, 1.5, -0.2}), 1e-12));
+  EXPECT_TRUE(flight.body_from_lidar.isApprox(
+      mount_pose(Eigen::Vector3d(10, 80, -20) * EIGEN_PI / 180), 1e-12));
   EXPECT_EQ(format_utc(flight.start), "2025-07-01T08:30:00Z");
   EXPECT_EQ(flight.anchor->latitude_deg, 37.2);
   EXPECT_EQ(flight.anchor->altitude_m, 610);
