@@ -53,7 +53,7 @@ void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
       convert.add_option("--sensor", arguments.flight.sensor,
                          "of a bare cloud: a shipped sensor's name or the file of your own"),
       convert.add_option("--spin", arguments.flight.spin_hz,
-                         "of a bare cloud: turns of the sensor a second"),
+                         "of a bare cloud: turns of the sensor a second; by default its own"),
       convert
           .add_option("--mount", arguments.mount_deg,
                       "of a bare cloud: the sensor in the body's frame, roll,pitch,yaw in degrees")

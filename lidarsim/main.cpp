@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convert_command.h"
+#include "sensors_command.h"
 
 #include "core/program.h"
 #include "core/text.h"
@@ -90,6 +91,11 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting, const 
 }
 
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
+                         const lidar::OptionalSetting& value, lidar::FlyOptions& options) {
+  return fly.add_option(setting.flag, value.of(options), setting.help);
+}
+
+CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
                          const lidar::VectorSetting& value, lidar::FlyOptions& options) {
   const auto read = [&vector = value.of(options)](const std::vector<double>& numbers) {
     vector = Eigen::Vector3d(numbers.at(0), numbers.at(1), numbers.at(2));
@@ -135,5 +141,6 @@ int main(int argc, char** argv) {
                                   [&] { run_fly(program, arguments); });
   add_options(fly, arguments);
   declare_convert(program);
+  declare_sensors(program);
   return program.run(argc, argv);
 }

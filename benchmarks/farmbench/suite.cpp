@@ -88,6 +88,11 @@ void read_setting(const YamlSection& section, const std::string& key,
 }
 
 void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = section.number(key, setting.range);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
                   const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = static_cast<int>(section.integer(key, static_cast<int>(setting.range.low),
                                                         static_cast<int>(setting.range.high)));

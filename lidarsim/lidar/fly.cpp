@@ -26,12 +26,7 @@ namespace {
 constexpr double kMaxFlight_s = 24 * 3600;
 constexpr int kMaxThreads = 1024;
 
-void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
-  if (!(options.spin_hz >= sensor.min_spin_hz && options.spin_hz <= sensor.max_spin_hz)) {
-    throw InputError("spin " + format_number(options.spin_hz) + " Hz must be in [" +
-                     format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
-                     "] Hz for sensor " + sensor.name);
-  }
+void validate(const FlyOptions& options) {
   if (!parse_utc(options.start_utc))
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   if (options.threads < 1 || options.threads > kMaxThreads)
@@ -86,6 +81,7 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
   Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
   manifest.options = settings_json(options);
   manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
+  if (!sensor.wedges) manifest.options["spin_hz"] = sensor::chosen_spin_hz(sensor, options.spin_hz);
   manifest.options[site.kind] = site.name;
   if (site.anchor) {
     manifest.options["anchor"] = {{"latitude_deg", site.anchor->latitude_deg},
@@ -122,16 +118,16 @@ FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
   require_valid(options);
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
-  validate(options, sensor);
+  validate(options);
+  const double spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz);
   OutputFolder output(scan_folder, replace, "lidarsim fly");
   const flight::PoseErrors errors =
       flight::combined(flight::pose_error_preset(options.pose_error), options.pose_errors);
   const Flight flight = fly_drone(site, scene, errors, options);
   const Eigen::Isometry3d mount =
       record::mount_pose(options.mount_rpy_deg * std::numbers::pi / 180);
-  const sensor::ShotPlan fired(sensor, options.spin_hz, flight::true_mount(mount, errors),
-                               flight.truth);
-  const sensor::ShotPlan placed(sensor, options.spin_hz, mount, flight.reported);
+  const sensor::ShotPlan fired(sensor, spin_hz, flight::true_mount(mount, errors), flight.truth);
+  const sensor::ShotPlan placed(sensor, spin_hz, mount, flight.reported);
 
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
   simulate(

@@ -31,8 +31,8 @@ struct FlyOptions {
   flight::WindOptions wind = {};
   std::string wind_acts_on = "both";               // "both", "drone" or "plants"
   std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
-  double spin_hz = 10.0;        // turns of the sensor a second, 5 to 20 for the VLP-16
-  double range_noise_m = 0.03;  // standard deviation of the range noise, 0 to 1
+  std::optional<double> spin_hz = {};  // turns of the sensor a second; else its own default
+  double range_noise_m = 0.03;         // standard deviation of the range noise, 0 to 1
   // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
   // axis lies along the flight and azimuth 0 points down.
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};

@@ -60,8 +60,9 @@ const std::vector<FlySetting>& fly_settings() {
        .plans_flight = true},
       {.key = "spin_hz",
        .flag = "--spin",
-       .help = "turns of the sensor a second, 5 to 20 for the VLP-16",
-       .value = NumberSetting{{0.01, 1000}, [](FlyOptions& o) -> double& { return o.spin_hz; }}},
+       .help = "turns of the sensor a second; by default the sensor's own (lidarsim sensors)",
+       .value = OptionalSetting{{0.01, 1000},
+                                [](FlyOptions& o) -> std::optional<double>& { return o.spin_hz; }}},
       {.key = "range_noise_m",
        .flag = "--noise",
        .help = "standard deviation of the range noise, metres, 0 to 1",
@@ -203,9 +204,14 @@ nlohmann::json settings_json(const FlyOptions& options) {
   nlohmann::json document = nlohmann::json::object();
   for (const FlySetting& setting : fly_settings()) {
     if (options.flight && setting.plans_flight) continue;
-    std::visit(
-        [&](const auto& value) { document[setting.key] = json_of(value_of(value, options)); },
-        setting.value);
+    std::visit(Overloaded{[&](const OptionalSetting& value) {
+                            const auto& set = value_of(value, options);
+                            if (set) document[setting.key] = *set;
+                          },
+                          [&](const auto& value) {
+                            document[setting.key] = json_of(value_of(value, options));
+                          }},
+               setting.value);
   }
   return document;
 }
@@ -223,6 +229,10 @@ void require_valid(const FlyOptions& options) {
                           [&](const VectorSetting& vector) {
                             for (const double value : value_of(vector, options))
                               require_in_range(setting.flag, value, vector.range);
+                          },
+                          [&](const OptionalSetting& number) {
+                            const auto& set = value_of(number, options);
+                            if (set) require_in_range(setting.flag, *set, number.range);
                           },
                           [&](const auto& number) {
                             require_in_range(setting.flag, value_of(number, options), number.range);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,6 +16,12 @@ namespace plotscan::lidar {
 struct NumberSetting {
   Range range;
   double& (*of)(FlyOptions&);
+};
+
+// What is not set is the sensor's or the flight's own.
+struct OptionalSetting {
+  Range range;
+  std::optional<double>& (*of)(FlyOptions&);
 };
 
 struct WholeSetting {
@@ -37,7 +44,7 @@ struct FlySetting {
   std::string key;   // in suites and manifests, "altitude_m"
   std::string flag;  // on the command line, "--altitude"
   std::string help;  // unit, range, meaning
-  std::variant<NumberSetting, WholeSetting, VectorSetting, TextSetting> value;
+  std::variant<NumberSetting, OptionalSetting, WholeSetting, VectorSetting, TextSetting> value;
   bool plans_flight = false;                // means nothing when a trajectory is given
   std::string group = "Flight and sensor";  // heading in --help
 };

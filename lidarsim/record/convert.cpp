@@ -30,14 +30,11 @@ std::string writable_extensions() {
 
 FlightRecord flight_record(const FlightOptions& options) {
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
-  if (!(options.spin_hz >= sensor.min_spin_hz && options.spin_hz <= sensor.max_spin_hz))
-    throw InputError(formatted("--spin %g must be in [%g, %g] Hz for sensor %s", options.spin_hz,
-                               sensor.min_spin_hz, sensor.max_spin_hz, sensor.name.c_str()));
   const auto start = parse_utc(options.start_utc);
   if (!start)
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   return {.sensor = sensor,
-          .spin_hz = options.spin_hz,
+          .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
           .body_from_lidar = mount_pose(options.mount_rpy_deg * std::numbers::pi / 180),
           .reported = scan::read_trajectory(*options.trajectory),
           .start = *start};

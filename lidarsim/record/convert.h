@@ -16,9 +16,9 @@ namespace plotscan::record {
 // What a bare cloud does not say of its flight; all but the trajectory has lidarsim fly's defaults.
 struct FlightOptions {
   std::optional<std::filesystem::path> trajectory =
-      {};                        // of the body, in the points' frame and time
-  std::string sensor = "vlp16";  // as sensor::load_sensor takes it
-  double spin_hz = 10;
+      {};                              // of the body, in the points' frame and time
+  std::string sensor = "vlp16";        // as sensor::load_sensor takes it
+  std::optional<double> spin_hz = {};  // else the sensor's own
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
   std::string start_utc = "2026-06-01T10:00:00Z";
 };

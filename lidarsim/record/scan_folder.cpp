@@ -56,7 +56,7 @@ FlightRecord read_flight_record(const std::filesystem::path& scan_folder) {
   try {
     const json& options = manifest.at("options");
     return {.sensor = sensor::load_sensor(scan_folder / "sensor.yaml"),
-            .spin_hz = options.at("spin_hz"),
+            .spin_hz = options.value("spin_hz", 0.0),
             .body_from_lidar = mount_of(options),
             .reported = scan::read_trajectory(scan_folder / "poses.csv"),
             .start = start_of(options),

@@ -19,7 +19,7 @@ namespace plotscan::record {
 // the sensor measured, and to say when and where on Earth that was.
 struct FlightRecord {
   sensor::Sensor sensor;
-  double spin_hz = 10;
+  double spin_hz = 10;                         // 0 of a sensor that does not spin
   Eigen::Isometry3d body_from_lidar;           // as stated; the true one may differ
   scan::Trajectory reported;                   // what places the points
   UtcTime start;                               // at time 0 of the points and the trajectory

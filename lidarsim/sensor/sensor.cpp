@@ -2,17 +2,22 @@
 #include "sensor/sensor.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numbers>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "core/yaml_section.h"
+#include "sensor/risley.h"
 #include "sensor/sensor_files.h"
 
 namespace plotscan::sensor {
 namespace {
 
 constexpr Range kElevation_deg{-90, 90};
+constexpr Range kAzimuth_deg{-360, 360};
 constexpr Range kOffset_mm{-1000, 1000};
 constexpr Range kRange_m{0, 10'000};
 constexpr Range kSpin_hz{0.01, 1000};
@@ -23,17 +28,36 @@ constexpr Range kReflectance{0, 1};
 constexpr Range kDistanceStep_mm{0.1, 100};
 constexpr double kMostPacketSteps = 65'535;  // 16 bits
 
+constexpr Range kSlant_deg{0, 45};
+constexpr Range kRefractiveIndex{1, 4};
+constexpr Range kPrism_rpm{-1e6, 1e6};
+constexpr Range kPhase_deg{-360, 360};
+constexpr std::size_t kMaxSources = 100;
+constexpr int kMaxColumns = 1'000'000;
+// A Risley scanner's shots are worked on this many at once: enough to keep a processor's vectors
+// full, and so few that the drone turns little meanwhile.
+constexpr int kRisleyShots = 32;
+
+const std::vector<std::string> kSpinningKeys = {"spin_hz", "firing_sequence_us", "columns_per_turn",
+                                                "lasers", "packets"};
+const std::vector<std::string> kRisleyKeys = {"shot_period_us", "prisms"};
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+// The lasers fire within the firing sequence, which takes at least so long.
 std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   std::vector<Laser> lasers;
+  double before_us = 0;
   for (const YamlSection& section : root.list("lasers", kMaxLasers)) {
-    section.allow_only({"fires_us", "elevation_deg", "offset_mm"});
-    const double before_us = lasers.empty() ? 0 : 1e6 * lasers.back().fires_s;
-    lasers.push_back(
-        {.elevation_rad = section.number("elevation_deg", kElevation_deg) * std::numbers::pi / 180,
-         .offset_m = 1e-3 * section.number("offset_mm", kOffset_mm, 0.0),
-         .fires_s = 1e-6 * section.number("fires_us", {before_us, sequence_us})});
+    section.allow_only({"fires_us", "elevation_deg", "azimuth_deg", "offset_mm", "radius_mm"});
+    const double fires_us = section.number("fires_us", {before_us, sequence_us});
+    lasers.push_back({.elevation_rad = radians(section.number("elevation_deg", kElevation_deg)),
+                      .azimuth_rad = radians(section.number("azimuth_deg", kAzimuth_deg, 0.0)),
+                      .offset_m = 1e-3 * section.number("offset_mm", kOffset_mm, 0.0),
+                      .radius_m = 1e-3 * section.number("radius_mm", kOffset_mm, 0.0),
+                      .fires_s = 1e-6 * fires_us});
+    before_us = fires_us;
   }
-  if (lasers.empty()) root.fail("lasers", "must name at least one laser");
   for (Laser& laser : lasers) {
     laser.ring = static_cast<std::uint16_t>(std::ranges::count_if(
         lasers, [&](const Laser& other) { return other.elevation_rad < laser.elevation_rad; }));
@@ -68,35 +92,98 @@ std::optional<PacketFormat> read_packets(const YamlSection& root, const Sensor& 
   return format;
 }
 
+void read_spin(const YamlSection& root, Sensor& sensor) {
+  const YamlSection spin = root.section("spin_hz");
+  spin.allow_only({"least", "most", "default"});
+  sensor.min_spin_hz = spin.number("least", kSpin_hz);
+  sensor.max_spin_hz = spin.number("most", {sensor.min_spin_hz, kSpin_hz.high});
+  sensor.default_spin_hz = spin.number("default", {sensor.min_spin_hz, sensor.max_spin_hz});
+}
+
+// Firing sequences follow the clock or the spin.
+void read_sequence(const YamlSection& root, Sensor& sensor) {
+  const bool by_clock = root.has("firing_sequence_us");
+  if (by_clock == root.has("columns_per_turn")) {
+    root.fail(by_clock ? "columns_per_turn" : "",
+              "give either firing_sequence_us, for a sensor that fires by the clock, or "
+              "columns_per_turn, for one that fires by its azimuth");
+  }
+  if (by_clock) {
+    sensor.sequence_s = 1e-6 * root.number("firing_sequence_us", kSequence_us);
+  } else {
+    sensor.columns_per_turn = static_cast<int>(root.integer("columns_per_turn", 1, kMaxColumns));
+  }
+}
+
+void read_spinning(const YamlSection& root, Sensor& sensor) {
+  read_spin(root, sensor);
+  read_sequence(root, sensor);
+  sensor.lasers = read_lasers(root, 1e6 * sequence_time_s(sensor, sensor.max_spin_hz));
+}
+
+void read_risley(const YamlSection& root, Sensor& sensor) {
+  const double period_s = 1e-6 * root.number("shot_period_us", kSequence_us);
+  for (int shot = 0; shot < kRisleyShots; ++shot)
+    sensor.lasers.push_back({.fires_s = shot * period_s});
+  sensor.sequence_s = kRisleyShots * period_s;
+  const auto sections = root.list("prisms", 2);
+  if (sections.size() != 2) root.fail("prisms", "must be two");
+  std::array<Wedge, 2> wedges;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const YamlSection& section = sections[i];
+    section.allow_only({"wedge_deg", "refractive_index", "rpm", "phase_deg"});
+    wedges[i] = {.slant_rad = radians(section.number("wedge_deg", kSlant_deg)),
+                 .refractive_index = section.number("refractive_index", kRefractiveIndex),
+                 .turns_hz = section.number("rpm", kPrism_rpm) / 60,
+                 .phase_rad = radians(section.number("phase_deg", kPhase_deg, 0.0))};
+  }
+  if (std::isnan(deflections_rad(wedges)[0]))
+    root.fail("prisms", "are so steep that they reflect the beam back; smaller wedges would not");
+  sensor.wedges = wedges;
+}
+
 }  // namespace
 
-const std::vector<std::string>& sensor_names() {
-  static const std::vector<std::string> names = {"vlp16"};
-  return names;
+double sequence_time_s(const Sensor& sensor, double spin_hz) {
+  return sensor.columns_per_turn > 0 ? 1 / (spin_hz * sensor.columns_per_turn) : sensor.sequence_s;
+}
+
+double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz) {
+  if (sensor.wedges) {
+    if (!asked_hz) return 0;
+    throw InputError("sensor " + sensor.name + " does not spin; leave out --spin (spin_hz)");
+  }
+  const double spin_hz = asked_hz.value_or(sensor.default_spin_hz);
+  if (spin_hz >= sensor.min_spin_hz && spin_hz <= sensor.max_spin_hz) return spin_hz;
+  throw InputError("--spin " + format_number(spin_hz) + " must be in [" +
+                   format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
+                   "] Hz for sensor " + sensor.name);
 }
 
 Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
   const YamlSection root = YamlSection::parse(description, file);
-  root.allow_only({"name", "title", "kind", "range", "spin_hz", "beam", "firing_sequence_us",
-                   "lasers", "packets", "sources"});
+  const bool is_risley = root.choice("kind", {"spinning", "risley"}) == 1;
+  std::vector<std::string> keys = {"name", "title", "kind", "range", "beam", "sources"};
+  std::ranges::copy(is_risley ? kRisleyKeys : kSpinningKeys, std::back_inserter(keys));
+  root.allow_only(keys);
   Sensor sensor{.name = root.text("name"),
                 .title = root.text("title"),
                 .lasers = {},
                 .description = description};
-  root.choice("kind", {"spinning"});
   const YamlSection range = root.section("range");
   range.allow_only({"least_m", "most_m", "step_m"});
   sensor.min_range_m = range.number("least_m", kRange_m);
   sensor.max_range_m = range.number("most_m", {sensor.min_range_m, kRange_m.high});
   sensor.range_step_m = range.number("step_m", {0, 1}, 0.0);
-  const YamlSection spin = root.section("spin_hz");
-  spin.allow_only({"least", "most"});
-  sensor.min_spin_hz = spin.number("least", kSpin_hz);
-  sensor.max_spin_hz = spin.number("most", {sensor.min_spin_hz, kSpin_hz.high});
+  if (root.has("sources")) {
+    for (const YamlSection& source : root.list("sources", kMaxSources, "source"))
+      source.text("source");
+  }
   if (root.has("beam")) sensor.beam = read_beam(root.section("beam"));
-  const double sequence_us = root.number("firing_sequence_us", kSequence_us);
-  sensor.sequence_s = 1e-6 * sequence_us;
-  sensor.lasers = read_lasers(root, sequence_us);
+  if (is_risley)
+    read_risley(root, sensor);
+  else
+    read_spinning(root, sensor);
   sensor.packets = read_packets(root, sensor);
   return sensor;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -13,8 +14,10 @@ namespace plotscan::sensor {
 // 0, y left, z the spin axis; azimuth grows clockwise seen from +z.
 struct Laser {
   double elevation_rad = 0;  // over the x-y plane
+  double azimuth_rad = 0;    // ahead of the head's azimuth: the beam leaves it askew
   double offset_m = 0;       // of the ray's origin along the spin axis
-  double fires_s = 0;        // after the firing sequence's start
+  double radius_m = 0;       // of the ray's origin from the spin axis, at the head's azimuth
+  double fires_s = 0;        // after the firing sequence's start; several may fire at once
   std::uint16_t ring = 0;    // rank by elevation, 0 the lowest
 };
 
@@ -39,23 +42,44 @@ struct PacketFormat {
   double distance_step_m = 0.002;  // of their distances
 };
 
-// A sensor that spins and fires its lasers one after the other, over and over.
+// A wedge prism that turns about the x axis, one of a Risley scanner's two (sensor/risley.h).
+struct Wedge {
+  double slant_rad = 0;  // between its flat and its slanted side
+  double refractive_index = 1;
+  double turns_hz = 0;   // from y towards z; negative: from z towards y
+  double phase_rad = 0;  // of its thick side at time 0, from y towards z
+};
+
+// A sensor that fires its lasers in sequence, over and over. It spins, and fires by the clock or so
+// many times a turn; or it is a Risley scanner, which stands still and sends one laser through two
+// turning prisms.
 struct Sensor {
   std::string name;
-  std::string title;          // "Velodyne VLP-16 (Puck)"
-  std::vector<Laser> lasers;  // in the order of firing; at most kMaxLasers
-  double sequence_s = 0;      // from one firing sequence to the next
+  std::string title;  // "Velodyne VLP-16 (Puck)"
+  // In the order of firing, at most kMaxLasers; of a Risley scanner its one laser's shots in a row.
+  std::vector<Laser> lasers;
+  std::optional<std::array<Wedge, 2>> wedges = {};  // of a Risley scanner, in the light's order
+  double sequence_s = 0;     // from one firing sequence to the next; 0: by the spin
+  int columns_per_turn = 0;  // firing sequences a turn where they follow the spin
   double min_range_m = 0;
   double max_range_m = 0;
   double range_step_m = 0;  // ranges are multiples of it; 0: not quantised
-  double min_spin_hz = 0;
+  double min_spin_hz = 0;   // 0 of what does not spin
   double max_spin_hz = 0;
+  double default_spin_hz = 0;
   std::optional<Beam> beam = {};             // where the file states one
   std::optional<PacketFormat> packets = {};  // none: it sends others
   std::string description;  // the text of the file that says all this, kept with a scan
 };
 
 inline constexpr std::size_t kMaxLasers = 128;
+
+// Seconds from one firing sequence to the next.
+double sequence_time_s(const Sensor& sensor, double spin_hz);
+
+// Turns a second as asked for, or the sensor's own: 0 where it does not spin. Throws InputError
+// when the sensor cannot.
+double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz);
 
 // The names of the sensors shipped (models/sensors).
 const std::vector<std::string>& sensor_names();

@@ -31,18 +31,17 @@ Eigen::Vector3d turn_between(const Eigen::Quaterniond& a, const Eigen::Quaternio
   return angle * turn.axis();
 }
 
-using Components = std::array<PerLaser, 3>;
-
-Components cross(const Eigen::Vector3d& a, const Components& b) {
+VectorPerLaser cross(const Eigen::Vector3d& a, const VectorPerLaser& b) {
   return {a.y() * b[2] - a.z() * b[1], a.z() * b[0] - a.x() * b[2], a.x() * b[1] - a.y() * b[0]};
 }
 
 // Vectors turned by the rate times each laser's time, to second order.
-Components turned(const Components& vectors, const Eigen::Vector3d& rate, const PerLaser& time_s) {
+VectorPerLaser turned(const VectorPerLaser& vectors, const Eigen::Vector3d& rate,
+                      const PerLaser& time_s) {
   if (rate.isZero(0)) return vectors;
-  const Components first = cross(rate, vectors);
-  const Components second = cross(rate, first);
-  Components result;
+  const VectorPerLaser first = cross(rate, vectors);
+  const VectorPerLaser second = cross(rate, first);
+  VectorPerLaser result;
   for (int axis = 0; axis < 3; ++axis)
     result[axis] = vectors[axis] + time_s * (first[axis] + 0.5 * time_s * second[axis]);
   return result;
@@ -52,7 +51,7 @@ Components turned(const Components& vectors, const Eigen::Vector3d& rate, const 
 
 ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
                    const scan::Trajectory& trajectory)
-    : sequence_s_(sensor.sequence_s), spin_hz_(spin_hz) {
+    : sequence_s_(sequence_time_s(sensor, spin_hz)), spin_hz_(spin_hz) {
   check(sensor.lasers.size() <= kMaxLasers, "the sensor has too many lasers");
   const auto lasers = static_cast<Eigen::Index>(sensor.lasers.size());
   const auto of_each = [&](auto&& value) {
@@ -63,9 +62,17 @@ ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d
   fires_s_ = of_each([](const Laser& laser) { return laser.fires_s; });
   cos_elevation_ = of_each([](const Laser& laser) { return std::cos(laser.elevation_rad); });
   sin_elevation_ = of_each([](const Laser& laser) { return std::sin(laser.elevation_rad); });
-  const PerLaser advance_rad = 2 * std::numbers::pi * spin_hz * fires_s_;
+  if (sensor.wedges) risley_.emplace(*sensor.wedges, fires_s_);
+  const PerLaser head_rad = 2 * std::numbers::pi * spin_hz * fires_s_;
+  const PerLaser advance_rad =
+      head_rad + of_each([](const Laser& laser) { return laser.azimuth_rad; });
   cos_advance_ = advance_rad.cos();
   sin_advance_ = advance_rad.sin();
+  const PerLaser radius_m = of_each([](const Laser& laser) { return laser.radius_m; });
+  if ((radius_m != 0).any()) {
+    radius_cos_m_ = radius_m * head_rad.cos();
+    radius_sin_m_ = radius_m * head_rad.sin();
+  }
   const Eigen::Matrix3d lidar_from_body = body_from_lidar.linear().transpose();
   const Eigen::Vector3d lever = lidar_from_body * body_from_lidar.translation();
   for (int axis = 0; axis < 3; ++axis) lever_m_[axis] = PerLaser::Constant(lasers, lever[axis]);
@@ -111,6 +118,17 @@ void ShotPlan::fire(std::uint64_t sequence, SequenceShots& shots) const {
     fire_lasers(segment(time_s + fires_s_[k]), time_s, k, 1, shots);
 }
 
+// Where the lasers point when the head is at an azimuth as their sequence starts.
+VectorPerLaser ShotPlan::spun_directions(double cos_azimuth, double sin_azimuth, Eigen::Index begin,
+                                         Eigen::Index count) const {
+  const auto these = [begin, count](const PerLaser& all) { return all.segment(begin, count); };
+  return {these(cos_elevation_) *
+              (cos_azimuth * these(cos_advance_) - sin_azimuth * these(sin_advance_)),
+          -these(cos_elevation_) *
+              (sin_azimuth * these(cos_advance_) + cos_azimuth * these(sin_advance_)),
+          these(sin_elevation_)};
+}
+
 // `count` lasers of the sequence that starts at time_s, all within one segment. The attitude is
 // exact when the first of them fires and turned on from there to second order.
 void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index begin,
@@ -126,13 +144,15 @@ void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index be
   const double azimuth = 2 * std::numbers::pi * (turns - std::floor(turns));
   const double cosine = std::cos(azimuth);
   const double sine = std::sin(azimuth);
-  const PerLaser cos_azimuth = cosine * these(cos_advance_) - sine * these(sin_advance_);
-  const PerLaser sin_azimuth = sine * these(cos_advance_) + cosine * these(sin_advance_);
-  const Components direction = turned({these(cos_elevation_) * cos_azimuth,
-                                       -these(cos_elevation_) * sin_azimuth, these(sin_elevation_)},
-                                      motion.turn_rad_s, later_s);
-  const Components lever = turned({these(lever_m_[0]), these(lever_m_[1]), these(lever_m_[2])},
-                                  motion.turn_rad_s, later_s);
+  const VectorPerLaser direction = turned(risley_ ? risley_->directions(time_s, begin, count)
+                                                  : spun_directions(cosine, sine, begin, count),
+                                          motion.turn_rad_s, later_s);
+  VectorPerLaser arm = {these(lever_m_[0]), these(lever_m_[1]), these(lever_m_[2])};
+  if (radius_cos_m_.size() > 0) {
+    arm[0] += cosine * these(radius_cos_m_) - sine * these(radius_sin_m_);
+    arm[1] -= sine * these(radius_cos_m_) + cosine * these(radius_sin_m_);
+  }
+  const VectorPerLaser lever = turned(arm, motion.turn_rad_s, later_s);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::RowVector3d row = world_from_lidar.row(axis);
     shots.direction[axis].segment(begin, count) =

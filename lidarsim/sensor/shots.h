@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "scan/trajectory.h"
+#include "sensor/per_laser.h"
+#include "sensor/risley.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::sensor {
 
-// One number a laser, in the order of firing; vectors are kept by component so that several lasers
-// are worked on at once.
-using PerLaser = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxLasers, 1>;
-
 // The shots of one firing sequence in the world frame.
 struct SequenceShots {
-  std::array<PerLaser, 3> origin_m;
-  std::array<PerLaser, 3> direction;  // unit vectors
+  VectorPerLaser origin_m;
+  VectorPerLaser direction;  // unit vectors
 };
 
-// Every shot of a flight: laser k of firing sequence n is fired n * sequence_s + fires_s(k) seconds
-// after the trajectory's start, from where the sensor is at that instant, at the azimuth
-// 360 degrees * spin * time.
+// Every shot of a flight: laser k of firing sequence n is fired n * sequence time + fires_s(k)
+// seconds after the trajectory's start, from where the sensor is at that instant. The head is then
+// at the azimuth 360 degrees * spin * time, the beam at that and the laser's own azimuth; a Risley
+// scanner's beam is where its prisms send it at that instant.
 class ShotPlan {
  public:
   ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
@@ -50,18 +49,26 @@ class ShotPlan {
     Eigen::Vector3d turn_rad_s;        // lidar frame
   };
   const Segment& segment(double time_s) const;
+  VectorPerLaser spun_directions(double cos_azimuth, double sin_azimuth, Eigen::Index begin,
+                                 Eigen::Index count) const;
   void fire_lasers(const Segment& motion, double time_s, Eigen::Index begin, Eigen::Index count,
                    SequenceShots& shots) const;
 
   // What does not change from sequence to sequence: of each laser, when it fires after the
-  // sequence's start, its direction at azimuth 0, how far the azimuth advances until it fires, and
-  // the ray's origin seen from the body's, in the lidar frame's axes.
+  // sequence's start, its direction at azimuth 0, how far ahead its beam's azimuth then is, and the
+  // ray's origin seen from the body's, in the lidar frame's axes, but for the part that turns with
+  // the head.
   PerLaser fires_s_;
   PerLaser cos_elevation_;
   PerLaser sin_elevation_;
   PerLaser cos_advance_;
   PerLaser sin_advance_;
-  std::array<PerLaser, 3> lever_m_;
+  VectorPerLaser lever_m_;
+  // Of lasers off the spin axis: radius times cosine and sine of how far the head turns until the
+  // laser fires. Empty where all are on it.
+  PerLaser radius_cos_m_;
+  PerLaser radius_sin_m_;
+  std::optional<Risley> risley_;
   std::vector<Segment> segments_;
   double sequence_s_ = 0;
   double spin_hz_ = 0;

@@ -82,6 +82,23 @@ TEST(Fly, PlannedFlightRepeatsFromItsTrajectory) {
   EXPECT_TRUE(read_text(planned / "cloud.pcd") == read_text(repeated / "cloud.pcd"));
 }
 
+TEST(Fly, SpinIsTheSensorsOwnUnlessAskedFor) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto options_of = [&](const char* name, const FlyOptions& options) {
+    fly(farm, folder.path() / name, options, false);
+    return read_manifest(folder.path() / name)["options"];
+  };
+  EXPECT_EQ(options_of("own", {.speed_m_s = 4})["spin_hz"], 10.0);
+  EXPECT_EQ(options_of("asked", {.speed_m_s = 4, .spin_hz = 10})["spin_hz"], 10.0);
+  EXPECT_EQ(options_of("faster", {.speed_m_s = 4, .spin_hz = 15})["spin_hz"], 15.0);
+  const auto cloud = [&](const char* name) {
+    return read_text(folder.path() / name / "cloud.pcd");
+  };
+  EXPECT_TRUE(cloud("own") == cloud("asked"));
+  EXPECT_FALSE(cloud("own") == cloud("faster"));
+}
+
 TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   const TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
@@ -90,7 +107,8 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
     return message_of<InputError>([&] { fly(farm, scan, options, false); });
   };
   EXPECT_THAT(refusal({.sensor = "os1"}), HasSubstr("\"os1\" is unknown; there are vlp16"));
-  EXPECT_THAT(refusal({.spin_hz = 4.9}), HasSubstr("spin 4.9 Hz must be in [5, 20]"));
+  EXPECT_THAT(refusal({.spin_hz = 4.9}), HasSubstr("--spin 4.9 must be in [5, 20] Hz"));
+  EXPECT_THAT(refusal({.spin_hz = 20.5}), HasSubstr("--spin 20.5 must be in [5, 20] Hz for"));
   EXPECT_THAT(refusal({.spin_hz = std::nan("")}), HasSubstr("--spin nan must be in"));
   EXPECT_THAT(refusal({.range_noise_m = -0.1}), HasSubstr("--noise -0.1 must be in [0, 1]"));
   EXPECT_THAT(refusal({.start_utc = "noon"}), HasSubstr("--start \"noon\" must be like 2026-"));

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 std::string with_beam(const std::string& beam) {
   return "name: mine\ntitle: Mine\nkind: spinning\nrange: {least_m: 1, most_m: 50}\n"
-         "spin_hz: {least: 5, most: 20}\nfiring_sequence_us: 50\n" +
+         "spin_hz: {least: 5, most: 20, default: 10}\nfiring_sequence_us: 50\n" +
          beam + "lasers: [{fires_us: 0, elevation_deg: 0}]\n";
 }
 

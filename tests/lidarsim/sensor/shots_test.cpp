@@ -108,6 +108,57 @@ TEST(Shots, WildTrajectoriesAreExactToo) {
   expect_plain(0, 100000, 10, tilted_mount(), tumbling(0.01, 1.5));
 }
 
+// Beams askew to the head and off its axis, several at once, locked to the azimuth.
+constexpr const char* kAskew = R"(name: askew
+title: A made-up sensor
+kind: spinning
+range: {least_m: 0.5, most_m: 50}
+spin_hz: {least: 5, most: 20, default: 10}
+columns_per_turn: 500
+lasers:
+  - {fires_us: 0, elevation_deg: 20, azimuth_deg: 3, radius_mm: 15, offset_mm: -4}
+  - {fires_us: 0, elevation_deg: -10, azimuth_deg: -2, radius_mm: 15}
+  - {fires_us: 40, elevation_deg: 5, radius_mm: -7}
+sources: ["made up"]
+)";
+
+TEST(Shots, BeamsAskewAndLockedToTheAzimuth) {
+  constexpr double kAskewElevation_deg[] = {20, -10, 5};
+  constexpr double kAskewAzimuth_deg[] = {3, -2, 0};
+  const Eigen::Vector3d askew_origin_m[] = {{0.015, 0, -0.004}, {0.015, 0, 0}, {-0.007, 0, 0}};
+  constexpr double kAskewFires_s[] = {0, 0, 40e-6};
+  constexpr double kSpin_hz = 8;
+  const scan::Trajectory trajectory = tumbling(0.01, 0.02);
+  const Eigen::Isometry3d mount = tilted_mount();
+  const ShotPlan plan(parse_sensor(kAskew, "askew.yaml"), kSpin_hz, mount, trajectory);
+  EXPECT_NEAR(static_cast<double>(plan.sequences()), 0.59 * 8 * 500, 1);
+  SequenceShots fired;
+  for (std::uint64_t column = 0; column < plan.sequences(); ++column) {
+    plan.fire(column, fired);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double time_s = static_cast<double>(column) / (kSpin_hz * 500) + kAskewFires_s[k];
+      ASSERT_NEAR(plan.time_s(column, k), time_s, 1e-12);
+      const Eigen::Isometry3d world_from_lidar =
+          trajectory.world_from_body(trajectory.start_s() + time_s) * mount;
+      // Clockwise from above, hence the minus.
+      const auto about_z = [](double angle_deg) {
+        return Eigen::AngleAxisd(-angle_deg * kPi / 180, Eigen::Vector3d::UnitZ());
+      };
+      const double head_deg = std::fmod(360 * kSpin_hz * time_s, 360);
+      const double elevation = kAskewElevation_deg[k] * kPi / 180;
+      const Eigen::Vector3d origin = world_from_lidar * (about_z(head_deg) * askew_origin_m[k]);
+      const Eigen::Vector3d direction =
+          world_from_lidar.linear() *
+          (about_z(head_deg + kAskewAzimuth_deg[k]) *
+           Eigen::Vector3d(std::cos(elevation), 0, std::sin(elevation)));
+      for (int axis = 0; axis < 3; ++axis) {
+        ASSERT_NEAR(fired.origin_m[axis][static_cast<Eigen::Index>(k)], origin[axis], 1e-9);
+        ASSERT_NEAR(fired.direction[axis][static_cast<Eigen::Index>(k)], direction[axis], 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Shots, SensorIsConsistent) {
   const Sensor sensor = load_sensor("vlp16");
   ASSERT_EQ(sensor.lasers.size(), 16u);
