@@ -23,6 +23,7 @@ struct Arguments {
   std::string place;  // a farm's folder or a world's file
   std::string scan;
   std::string flight;
+  std::string waypoints;
   std::vector<std::string> resource_paths;
   lidar::FlyOptions options;
   bool force = false;
@@ -76,6 +77,7 @@ void run_fly(const Program& program, Arguments& arguments) {
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   if (!arguments.flight.empty()) options.flight = arguments.flight;
+  if (!arguments.waypoints.empty()) options.waypoints = arguments.waypoints;
   std::vector<std::string> notes;
   const lidar::FlySummary summary = std::filesystem::is_directory(arguments.place)
                                         ? fly_farm(program, arguments)
@@ -105,13 +107,15 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
       ->expected(3);
 }
 
-void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight) {
+void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight,
+                  CLI::Option& waypoints) {
   for (const lidar::FlySetting& setting : lidar::fly_settings()) {
     CLI::Option* option =
         std::visit([&](const auto& value) { return add_setting(fly, setting, value, options); },
                    setting.value);
     option->group(setting.group);
     if (setting.plans_flight) option->excludes(&flight);
+    if (setting.plans_strips) option->excludes(&waypoints);
   }
 }
 
@@ -127,8 +131,13 @@ void add_options(CLI::App& fly, Arguments& arguments) {
   auto* flight =
       fly.add_option("--flight", arguments.flight,
                      "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
-                     "seconds, metres) or a scan's trajectory.csv");
-  add_settings(fly, options, *flight);
+                     "seconds, metres) or a scan's trajectory.csv; flown as it is, "
+                     "wind does not move it");
+  auto* waypoints = fly.add_option("--waypoints", arguments.waypoints,
+                                   "YAML file of waypoints to fly in place of planned strips "
+                                   "(docs/flight.md)")
+                        ->excludes(flight);
+  add_settings(fly, options, *flight, *waypoints);
   fly.add_flag("--force", arguments.force, "replace an existing scan folder");
 }
 

@@ -16,7 +16,7 @@
 
 #include "core/error.h"
 #include "farm/farm.h"
-#include "flight/quadrotor.h"
+#include "flight/route.h"
 #include "lidar/embree.h"
 #include "lidar/flight_plan.h"
 #include "lidar/scene.h"
@@ -37,7 +37,9 @@ scan::Trajectory middle_strip(const farm::Farm& farm) {
   const lidar::Scene scene(lidar::scene_content(farm));
   const auto waypoints =
       lidar::plan_strips(lidar::site_of(farm), scene, {.altitude_m = 8, .spacing_m = 1000});
-  return flight::fly_waypoints(flight::Quadrotor(), waypoints, 2.0);
+  const flight::Quadrotor quadrotor;
+  return flight::fly_exactly(quadrotor,
+                             flight::Route(quadrotor, flight::waypoints_at(waypoints), 2.0));
 }
 
 struct Work {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Geometry>
 
 #include "flight/rest_to_rest.h"
-#include "scan/trajectory.h"
 
 namespace plotscan::flight {
 
@@ -14,12 +11,14 @@ namespace plotscan::flight {
 // quadrotor, which flies in the paper's simulation (Meyer et al., SIMPAR 2012; hector_quadrotor:
 // mass in quadrotor_base.urdf.xacro, C_wxy in quadrotor_aerodynamics.yaml, attitude, speed and yaw
 // limits in limits.yaml); acceleration, jerk and turning are gentler than its limits, as survey
-// autopilots fly.
+// autopilots fly; climb and descent are PX4's defaults (MPC_Z_VEL_MAX_UP, MPC_Z_VEL_MAX_DN).
 struct Quadrotor {
   double mass_kg = 1.477;
-  double drag_n_s2_m2 = 0.12;  // force = -drag |v| v
+  double drag_n_s2_m2 = 0.12;  // force = -drag |v| v, v through the air
   double max_tilt_rad = 0.5;
   double max_speed_m_s = 6;
+  double max_climb_m_s = 3;
+  double max_descent_m_s = 1.5;
   double acceleration_m_s2 = 2;
   double jerk_m_s3 = 4;
   MotionLimits turn = {.speed = 1.5, .acceleration = 3, .jerk = 12};  // of the nose, rad
@@ -33,14 +32,15 @@ inline constexpr double kGravity_m_s2 = 9.80665;
 Eigen::Quaterniond attitude_for(const Quadrotor& quadrotor, const Eigen::Vector3d& acceleration,
                                 const Eigen::Vector3d& velocity, double heading_rad);
 
-// Limits of a straight leg flown at speed_m_s: the acceleration is lowered where tilt against drag
-// leaves less. Throws InputError when the speed is not in [0.01, max_speed_m_s].
-MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s);
+// The same for a thrust (world frame, any unit, not zero).
+Eigen::Quaterniond attitude_along(const Eigen::Vector3d& thrust, double heading_rad);
 
-// Flies level from waypoint to waypoint (world frame, metres; neighbours apart), nose ahead: at
-// each it brakes to a stop and turns on the spot to the next leg. Starts and ends at rest. One pose
-// each 0.01 s from time 0.
-scan::Trajectory fly_waypoints(const Quadrotor& quadrotor,
-                               const std::vector<Eigen::Vector3d>& waypoints, double speed_m_s);
+// Slower, a flight over the smallest farm takes hours.
+inline constexpr double kMinSpeed_m_s = 0.01;
+
+// Limits of a straight leg flown at speed_m_s: the acceleration is lowered where tilt against drag
+// leaves less, in a headwind of wind_m_s. Throws InputError when the speed is not in
+// [kMinSpeed_m_s, max_speed_m_s]; the wind is one that the quadrotor holds (holdable_wind_m_s).
+MotionLimits leg_limits(const Quadrotor& quadrotor, double speed_m_s, double wind_m_s = 0);
 
 }  // namespace plotscan::flight

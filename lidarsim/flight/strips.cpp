@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flight/strips.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -10,8 +11,6 @@
 
 namespace plotscan::flight {
 namespace {
-
-constexpr double kMaxPath_m = 100e3;
 
 // The areas' direction: headings averaged as axes of four-fold symmetry, since the sides of a box
 // are two directions and each is the same as its opposite.
@@ -40,26 +39,21 @@ Field field_with_heading(const std::vector<PlotBox>& areas, double heading_rad) 
   return field;
 }
 
-Field field_along_longer_side(const std::vector<PlotBox>& areas) {
+double heading_of_strips(const std::vector<PlotBox>& areas, const StripOptions& options) {
+  if (options.heading_rad) return *options.heading_rad;
   const double heading = mean_heading(areas);
-  const Field field = field_with_heading(areas, heading);
-  const Eigen::Vector2d sides = field.bounds.sizes();
-  return sides.x() >= sides.y() ? field : field_with_heading(areas, heading + EIGEN_PI / 2);
+  const Eigen::Vector2d sides = field_with_heading(areas, heading).bounds.sizes();
+  return sides.x() >= sides.y() ? heading : heading + EIGEN_PI / 2;
 }
 
-}  // namespace
+double strips_needed(const Field& field, const StripOptions& options) {
+  if (options.pattern == Pattern::single) return 1;
+  return std::max(1.0, std::ceil(field.bounds.sizes().y() / options.spacing_m));
+}
 
-std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas,
-                                         const StripOptions& options) {
-  check(!areas.empty(), "strips have something to cover");
-  const Field field = field_along_longer_side(areas);
-  const Eigen::Vector2d sides = field.bounds.sizes();
-  const double strips = std::max(1.0, std::ceil(sides.y() / options.spacing_m));
-  const double strip_m = sides.x() + 2 * options.run_up_m;
-  if (strips * (strip_m + options.spacing_m) > kMaxPath_m) {
-    throw InputError("the flight would be longer than " + format_number(kMaxPath_m / 1000) +
-                     " km; give a wider spacing");
-  }
+std::vector<Eigen::Vector3d> strips_along(const Field& field, const StripOptions& options) {
+  const double strips = strips_needed(field, options);
+  const double strip_m = field.bounds.sizes().x() + 2 * options.run_up_m;
   std::vector<Eigen::Vector3d> path;
   for (int strip = 0; strip < static_cast<int>(strips); ++strip) {
     const double across =
@@ -71,6 +65,38 @@ std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas,
           Eigen::Vector2d(field.bounds.center().x() + end * strip_m / 2, across);
       path.emplace_back(place.x(), place.y(), options.height_m);
     }
+  }
+  return path;
+}
+
+// Before any strip is made: there may be more of them than memory holds.
+void require_length(const std::vector<Field>& fields, const StripOptions& options) {
+  double length_m = 0;
+  for (const Field& field : fields) {
+    const double strip_m = field.bounds.sizes().x() + 2 * options.run_up_m;
+    length_m += strips_needed(field, options) * (strip_m + options.spacing_m);
+  }
+  if (length_m <= kMaxPath_m) return;
+  throw InputError("the flight would be longer than " + format_number(kMaxPath_m / 1000) +
+                   " km; give a wider spacing");
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas,
+                                         const StripOptions& options) {
+  check(!areas.empty(), "strips have something to cover");
+  const double heading = heading_of_strips(areas, options);
+  std::vector<Field> fields = {field_with_heading(areas, heading)};
+  if (options.pattern == Pattern::crosshatch)
+    fields.push_back(field_with_heading(areas, heading + EIGEN_PI / 2));
+  require_length(fields, options);
+  std::vector<Eigen::Vector3d> path = strips_along(fields.front(), options);
+  if (options.pattern == Pattern::crosshatch) {
+    std::vector<Eigen::Vector3d> across = strips_along(fields.back(), options);
+    const Eigen::Vector3d& end = path.back();
+    if ((across.back() - end).norm() < (across.front() - end).norm()) std::ranges::reverse(across);
+    path.insert(path.end(), across.begin(), across.end());
   }
   return path;
 }

@@ -8,9 +8,12 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/text.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
+#include "flight/follow.h"
 #include "flight/quadrotor.h"
+#include "flight/route.h"
 #include "lidar/flight_plan.h"
 #include "lidar/fly_settings.h"
 #include "lidar/simulate.h"
@@ -33,23 +36,56 @@ void validate(const FlyOptions& options) {
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
 
+flight::Pattern pattern_of(const FlyOptions& options) {
+  if (options.pattern == "crosshatch") return flight::Pattern::crosshatch;
+  if (options.pattern == "single") return flight::Pattern::single;
+  return flight::Pattern::lawnmower;
+}
+
+std::vector<flight::Waypoint> plan(const Site& site, const Scene& scene, const FlyOptions& options,
+                                   const flight::MotionLimits& limits) {
+  if (options.waypoints) return plan_waypoints(scene, *options.waypoints);
+  FlightPlanOptions strips{.altitude_m = options.altitude_m,
+                           .spacing_m = options.spacing_m,
+                           .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits),
+                           .pattern = pattern_of(options)};
+  if (options.heading_deg) strips.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  return flight::waypoints_at(plan_strips(site, scene, strips));
+}
+
+// The wind that tilts the drone, which must hold it.
+double wind_on_drone(const flight::Quadrotor& quadrotor, const FlyOptions& options,
+                     double speed_m_s) {
+  if (!wind_moves_drone(options)) return 0;
+  const double most = flight::holdable_wind_m_s(quadrotor, speed_m_s, options.wind.turbulence);
+  if (options.wind.mean_m_s <= most) return options.wind.mean_m_s;
+  throw InputError("--wind " + format_number(options.wind.mean_m_s) + ": at " +
+                   format_number(speed_m_s) + " m/s, with gusts of " +
+                   format_number(options.wind.turbulence) + " of the wind, the drone holds " +
+                   formatted("%.2f m/s", std::floor(100 * most) / 100) +
+                   " at most; fly slower, or let it act on plants alone (--wind-acts-on plants)");
+}
+
+void require_duration(double duration_s) {
+  if (duration_s <= kMaxFlight_s) return;
+  throw InputError("the flight takes " + format_number(std::round(duration_s)) +
+                   " s, more than 24 hours; fly faster, or wider strips");
+}
+
 scan::Trajectory planned_flight(const Site& site, const Scene& scene, const FlyOptions& options) {
   const flight::Quadrotor quadrotor;
-  const flight::MotionLimits limits = flight::leg_limits(quadrotor, options.speed_m_s);
-  const auto waypoints =
-      plan_strips(site, scene,
-                  {.altitude_m = options.altitude_m,
-                   .spacing_m = options.spacing_m,
-                   .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits)});
-  double way_m = 0;
-  for (std::size_t i = 1; i < waypoints.size(); ++i)
-    way_m += (waypoints[i] - waypoints[i - 1]).norm();
-  if (way_m / options.speed_m_s > kMaxFlight_s) {
-    throw InputError("the flight of " + format_number(std::round(way_m)) +
-                     " m takes more than 24 hours at " + format_number(options.speed_m_s) +
-                     " m/s; fly faster, or wider strips");
-  }
-  return flight::fly_waypoints(quadrotor, waypoints, options.speed_m_s);
+  const double wind_m_s = wind_on_drone(quadrotor, options, options.speed_m_s);
+  const std::vector<flight::Waypoint> waypoints =
+      plan(site, scene, options, flight::leg_limits(quadrotor, options.speed_m_s, wind_m_s));
+  for (const flight::Waypoint& waypoint : waypoints)
+    wind_on_drone(quadrotor, options, waypoint.speed_m_s.value_or(options.speed_m_s));
+  const flight::Route route(quadrotor, waypoints, options.speed_m_s, wind_m_s);
+  require_duration(route.duration_s());
+  if (!wind_moves_drone(options)) return flight::fly_exactly(quadrotor, route);
+  const flight::Wind wind(wind_of(options), route.duration_s());
+  return flight::follow(quadrotor, route,
+                        {.velocity_m_s = [&](double time_s) { return wind.velocity_m_s(time_s); },
+                         .expected_m_s = wind.mean_m_s()});
 }
 
 scan::Trajectory read_flight(const std::filesystem::path& file) {
@@ -91,6 +127,10 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
   if (options.flight) {
     manifest.options["flight"] = options.flight->filename().string();
     manifest.inputs.push_back(*options.flight);
+  }
+  if (options.waypoints) {
+    manifest.options["waypoints"] = options.waypoints->filename().string();
+    manifest.inputs.push_back(*options.waypoints);
   }
   manifest.results = {
       {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};

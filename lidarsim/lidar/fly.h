@@ -20,10 +20,16 @@ namespace plotscan::lidar {
 
 // How a farm or a world is flown and scanned.
 struct FlyOptions {
-  std::string sensor = "vlp16";  // a name or a file, as sensor::load_sensor takes it
-  double altitude_m = 8.0;       // over the mean ground under the plots
-  double speed_m_s = 2.0;        // along the strips
-  double spacing_m = 6.0;        // between neighbouring strips
+  std::string sensor = "vlp16";       // a name or a file, as sensor::load_sensor takes it
+  double altitude_m = 8.0;            // over the mean ground under the plots
+  double speed_m_s = 2.0;             // along the strips
+  double spacing_m = 6.0;             // between neighbouring strips
+  std::string pattern = "lawnmower";  // or "crosshatch", "single": flight::Pattern
+  // Of the strips, counter-clockwise from east; absent: along the plots' longer side.
+  std::optional<double> heading_deg = {};
+  // A waypoint file (docs/flight.md) in place of strips; its speed where it states none is the
+  // flight's.
+  std::optional<std::filesystem::path> waypoints = {};
   // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
   // the flight's time 0.
   std::optional<std::filesystem::path> flight = {};

@@ -47,7 +47,8 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--altitude",
        .help = "metres over the mean ground under the plots, 0.5 to 120",
        .value = NumberSetting{{0.5, 120}, [](FlyOptions& o) -> double& { return o.altitude_m; }},
-       .plans_flight = true},
+       .plans_flight = true,
+       .plans_strips = true},
       {.key = "speed_m_s",
        .flag = "--speed",
        .help = "metres a second, up to 6",
@@ -57,7 +58,24 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--spacing",
        .help = "metres between neighbouring strips",
        .value = NumberSetting{{0.1, 1000}, [](FlyOptions& o) -> double& { return o.spacing_m; }},
-       .plans_flight = true},
+       .plans_flight = true,
+       .plans_strips = true},
+      {.key = "pattern",
+       .flag = "--pattern",
+       .help = "lawnmower: strips to and fro; crosshatch: then strips across them; single: one",
+       .value = TextSetting{{"lawnmower", "crosshatch", "single"},
+                            [](FlyOptions& o) -> std::string& { return o.pattern; }},
+       .plans_flight = true,
+       .plans_strips = true},
+      {.key = "heading_deg",
+       .flag = "--heading",
+       .help = "of the strips, degrees counter-clockwise from east, -360 to 360; without it they "
+               "run along the longer side of the plots",
+       .value =
+           OptionalSetting{
+               {-360, 360}, [](FlyOptions& o) -> std::optional<double>& { return o.heading_deg; }},
+       .plans_flight = true,
+       .plans_strips = true},
       {.key = "spin_hz",
        .flag = "--spin",
        .help = "turns of the sensor a second; by default the sensor's own (lidarsim sensors)",
@@ -69,8 +87,7 @@ const std::vector<FlySetting>& fly_settings() {
        .value = NumberSetting{{0, 1}, [](FlyOptions& o) -> double& { return o.range_noise_m; }}},
       {.key = "wind_m_s",
        .flag = "--wind",
-       .help =
-           "mean wind, metres a second, 0 to 30; a trajectory given by --flight is flown as it is",
+       .help = "mean wind, metres a second, 0 to 30",
        .value = NumberSetting{{0, 30}, [](FlyOptions& o) -> double& { return o.wind.mean_m_s; }}},
       {.key = "wind_from_deg",
        .flag = "--wind-from",
@@ -200,10 +217,14 @@ const std::vector<FlySetting>& fly_settings() {
   return settings;
 }
 
+bool counts(const FlySetting& setting, const FlyOptions& options) {
+  return !(options.flight && setting.plans_flight) && !(options.waypoints && setting.plans_strips);
+}
+
 nlohmann::json settings_json(const FlyOptions& options) {
   nlohmann::json document = nlohmann::json::object();
   for (const FlySetting& setting : fly_settings()) {
-    if (options.flight && setting.plans_flight) continue;
+    if (!counts(setting, options)) continue;
     std::visit(Overloaded{[&](const OptionalSetting& value) {
                             const auto& set = value_of(value, options);
                             if (set) document[setting.key] = *set;
@@ -218,7 +239,7 @@ nlohmann::json settings_json(const FlyOptions& options) {
 
 void require_valid(const FlyOptions& options) {
   for (const FlySetting& setting : fly_settings()) {
-    if (options.flight && setting.plans_flight) continue;
+    if (!counts(setting, options)) continue;
     std::visit(Overloaded{[&](const TextSetting& text) {
                             const std::string& value = value_of(text, options);
                             if (text.choices.empty() || std::ranges::count(text.choices, value) > 0)

@@ -46,10 +46,14 @@ struct FlySetting {
   std::string help;  // unit, range, meaning
   std::variant<NumberSetting, OptionalSetting, WholeSetting, VectorSetting, TextSetting> value;
   bool plans_flight = false;                // means nothing when a trajectory is given
+  bool plans_strips = false;                // means nothing when waypoints are given
   std::string group = "Flight and sensor";  // heading in --help
 };
 
 const std::vector<FlySetting>& fly_settings();
+
+// Whether the setting means something beside the trajectory or waypoints that the options name.
+bool counts(const FlySetting& setting, const FlyOptions& options);
 
 // The value of every setting that counts, by its key.
 nlohmann::json settings_json(const FlyOptions& options);

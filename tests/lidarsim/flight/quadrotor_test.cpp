@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "flight/route.h"
 
 namespace plotscan::flight {
 namespace {
@@ -26,8 +27,11 @@ double heading(const Eigen::Quaterniond& attitude) {
 
 // Two strips and the way between them.
 scan::Trajectory two_strips(double speed_m_s) {
-  return fly_waypoints(Quadrotor(), {{-20, -3, 8}, {20, -3, 8}, {20, 3, 8}, {-20, 3, 8}},
-                       speed_m_s);
+  const Quadrotor quadrotor;
+  return fly_exactly(
+      quadrotor,
+      Route(quadrotor, waypoints_at({{-20, -3, 8}, {20, -3, 8}, {20, 3, 8}, {-20, 3, 8}}),
+            speed_m_s));
 }
 
 TEST(Quadrotor, LeansAgainstDragAtConstantSpeed) {

@@ -89,6 +89,51 @@ TEST_P(StripsOver, RunAlongTheLongerSideThereAndBack) {
   }
 }
 
+// Of the corners of all plots, the one furthest from the strips along `direction`.
+double furthest_corner(const farm::Farm& farm, const std::vector<Eigen::Vector3d>& path,
+                       const Eigen::Vector2d& direction) {
+  double furthest = 0;
+  for (const farm::Plot& plot : farm.plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) {
+      double nearest = 1e9;
+      for (std::size_t i = 0; i < path.size(); i += 2) {
+        const Eigen::Vector2d from = path[i].head<2>();
+        const Eigen::Vector2d to = path[i + 1].head<2>();
+        if (std::abs((to - from).normalized().dot(direction)) < 0.999) continue;
+        nearest = std::min(nearest, distance_to_segment(corner, from, to));
+      }
+      furthest = std::max(furthest, nearest);
+    }
+  }
+  return furthest;
+}
+
+TEST_P(StripsOver, CrosshatchCoversEveryPlotBothWays) {
+  const farm::Farm farm = plots_on_a_grid(GetParam());
+  const auto path = strips_over(farm, {.spacing_m = 5, .pattern = flight::Pattern::crosshatch});
+  const Eigen::Vector2d along(std::cos(GetParam()), std::sin(GetParam()));
+  EXPECT_LE(furthest_corner(farm, path, along), 2.5 + 1e-9);
+  EXPECT_LE(furthest_corner(farm, path, {-along.y(), along.x()}), 2.5 + 1e-9);
+  EXPECT_EQ(path.size(), 2u * (2 + 6));  // 9.5 m and 28 m of plots
+}
+
+TEST_P(StripsOver, SinglePassIsOverTheMiddleOfTheLongerSide) {
+  const farm::Farm farm = plots_on_a_grid(GetParam());
+  const auto path = strips_over(farm, {.run_up_m = 1, .pattern = flight::Pattern::single});
+  ASSERT_EQ(path.size(), 2u);
+  const Eigen::Vector2d along(std::cos(GetParam()), std::sin(GetParam()));
+  const Eigen::Vector2d way = (path[1] - path[0]).head<2>();
+  EXPECT_NEAR(std::abs(way.dot(along)), 30, 1e-9);
+  const Eigen::Vector2d middle = Eigen::Rotation2Dd(GetParam()) * Eigen::Vector2d(3, 6);
+  EXPECT_NEAR(((path[0] + path[1]).head<2>() / 2 - middle).norm(), 0, 1e-9);
+}
+
+TEST_P(StripsOver, AHeadingOfOnesOwnIsKept) {
+  const farm::Farm farm = plots_on_a_grid(GetParam());
+  const auto path = strips_over(farm, {.spacing_m = 4, .heading_rad = 0.3});
+  EXPECT_LE(furthest_corner(farm, path, {std::cos(0.3), std::sin(0.3)}), 2 + 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Headings, StripsOver, ::testing::Values(0.0, 0.4, -1.2, 1.5707963, 3.0));
 
 TEST(FlightPlan, ImpossibleFlightsAreRefused) {
@@ -115,6 +160,48 @@ TEST(FlightPlan, ImpossibleFlightsAreRefused) {
   farm::Farm elsewhere = plots_on_a_grid(0);
   for (farm::Plot& plot : elsewhere.plots) plot.box.center.x() += 1000;
   EXPECT_THAT(refusal(elsewhere, {}), HasSubstr("no plot of the farm lies on its terrain"));
+}
+
+std::string waypoint_refusal(const std::string& entries) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("way.yaml", "waypoints:\n" + entries);
+  const Scene scene(scene_content(testing::small_farm()));
+  return message_of<InputError>([&] { plan_waypoints(scene, file); });
+}
+
+// The small farm's plants stand under some of these; altitudes count from the ground.
+TEST(FlightPlan, AltitudesOfWaypointsCountFromTheGroundBelow) {
+  const farm::Farm farm = testing::small_farm();
+  const testing::TemporaryFolder folder;
+  std::string entries = "waypoints:\n";
+  for (const farm::Plant& plant : farm.plants) {
+    entries += "  - {x_m: " + std::to_string(plant.position.x()) +
+               ", y_m: " + std::to_string(plant.position.y()) + ", altitude_m: 6}\n";
+  }
+  const auto waypoints =
+      plan_waypoints(Scene(scene_content(farm)), folder.write("way.yaml", entries));
+  ASSERT_EQ(waypoints.size(), farm.plants.size());
+  for (std::size_t i = 0; i < waypoints.size(); ++i)
+    EXPECT_NEAR(waypoints[i].position_m.z(), farm.plants[i].position.z() + 6, 1e-4);
+}
+
+TEST(FlightPlan, ImpossibleWaypointsAreRefused) {
+  EXPECT_THAT(waypoint_refusal("  - {x_m: 0, y_m: 0, z_m: 5}\n  - {x_m: 0, y_m: 0, z_m: 5}\n"),
+              ::testing::AllOf(HasSubstr("way.yaml"), HasSubstr("waypoint 2 is where")));
+  EXPECT_THAT(waypoint_refusal("  - {x_m: 0, y_m: 0, z_m: 5}\n  - {x_m: 3, y_m: 0, z_m: 200}\n"),
+              HasSubstr("waypoint 2: its height over the ground below"));
+  EXPECT_THAT(
+      waypoint_refusal("  - {x_m: 99, y_m: 0, altitude_m: 5}\n  - {x_m: 3, y_m: 0, z_m: 9}\n"),
+      HasSubstr("waypoint 1: no ground lies below it; give z_m"));
+  EXPECT_THAT(waypoint_refusal("  - {x_m: 99000, y_m: 0, z_m: 5}\n"
+                               "  - {x_m: -9000, y_m: 0, z_m: 5}\n"),
+              HasSubstr("at most 100000 m"));
+  // A slope whose ends are clear and whose middle meets the bushes' ground.
+  EXPECT_THAT(
+      waypoint_refusal("  - {x_m: 30, y_m: 0, z_m: 11}\n  - {x_m: -30, y_m: 0, z_m: -10}\n"),
+      HasSubstr("meet the ground or the crop"));
+  EXPECT_THAT(waypoint_refusal("  - {x_m: -2, y_m: 0, z_m: 9}\n  - {x_m: -2, y_m: 0, z_m: 0.55}\n"),
+              HasSubstr("meet the ground or the crop"));
 }
 
 }  // namespace

@@ -99,6 +99,44 @@ TEST(Fly, SpinIsTheSensorsOwnUnlessAskedFor) {
   EXPECT_FALSE(cloud("own") == cloud("faster"));
 }
 
+TEST(Fly, WindMovesThePlannedFlightAndNoOther) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = testing::small_farm();
+  const auto trajectory = [&](const std::string& name, FlyOptions options) {
+    options.altitude_m = 5;
+    options.speed_m_s = 3;
+    options.pattern = "single";
+    const auto scan = folder.path() / name;
+    fly(farm, scan, options, false);
+    return read_text(scan / "trajectory.csv");
+  };
+  const std::string still = trajectory("still", {});
+  EXPECT_EQ(trajectory("plants", {.wind = {.mean_m_s = 3}, .wind_acts_on = "plants"}), still);
+  EXPECT_EQ(trajectory("calm", {.wind = {.from_deg = 90, .turbulence = 1}}), still);
+  const std::string windy = trajectory("windy", {.wind = {.mean_m_s = 3}});
+  EXPECT_NE(windy, still);
+  EXPECT_EQ(trajectory("again", {.wind = {.mean_m_s = 3}, .threads = 3}), windy);
+  const FlyOptions given{.flight = folder.path() / "still" / "trajectory.csv",
+                         .wind = {.mean_m_s = 3}};
+  EXPECT_EQ(trajectory("given", given), still);
+}
+
+TEST(Fly, FliesWaypoints) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("way.yaml",
+                                 "waypoints:\n  - {x_m: -3, y_m: 0, z_m: 5}\n"
+                                 "  - {x_m: 3, y_m: 0, z_m: 7, hold_s: 1}\n");
+  const auto scan = folder.path() / "scan";
+  fly(testing::small_farm(), scan, {.waypoints = file}, false);
+  const scan::Trajectory flown = scan::read_trajectory(scan / "trajectory.csv");
+  EXPECT_NEAR(
+      (flown.world_from_body(flown.end_s()).translation() - Eigen::Vector3d(3, 0, 7)).norm(), 0,
+      1e-9);
+  const nlohmann::json manifest = read_manifest(scan);
+  EXPECT_EQ(manifest["options"]["waypoints"], "way.yaml");
+  EXPECT_FALSE(manifest["options"].contains("pattern"));
+}
+
 TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   const TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
@@ -115,6 +153,12 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   EXPECT_THAT(refusal({.mount_rpy_deg = {0, INFINITY, 0}}), HasSubstr("--mount inf must be in"));
   EXPECT_THAT(refusal({.threads = 0}), HasSubstr("threads 0"));
   EXPECT_THAT(refusal({.speed_m_s = 50}), HasSubstr("--speed 50 must be in [0.01, 6]"));
+  EXPECT_THAT(refusal({.pattern = "spiral"}), HasSubstr("must be one of lawnmower, crosshatch"));
+  EXPECT_THAT(refusal({.heading_deg = 400}), HasSubstr("--heading 400 must be in [-360, 360]"));
+  EXPECT_THAT(refusal({.wind = {.mean_m_s = 6}}),
+              HasSubstr("the drone holds 4.09 m/s at most; fly slower"));
+  EXPECT_THAT(refusal({.wind = {.mean_m_s = -1}}), HasSubstr("--wind -1 must be in [0, 30]"));
+  EXPECT_THAT(refusal({.wind_acts_on = "birds"}), HasSubstr("--wind-acts-on"));
   EXPECT_THAT(refusal({.altitude_m = -1}), HasSubstr("--altitude -1 must be in"));
   EXPECT_THAT(refusal({.flight = folder.path() / "none"}), HasSubstr("no such file"));
   EXPECT_THAT(refusal({.flight = folder.write("long", "0 0 0 5 0 0 0 1\n1e9 0 0 5 0 0 0 1\n")}),

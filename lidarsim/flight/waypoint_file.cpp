@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "flight/waypoint_file.h"
+
+#include <numbers>
+
+#include "core/yaml_section.h"
+
+namespace plotscan::flight {
+namespace {
+
+constexpr std::size_t kMostWaypoints = 100'000;
+constexpr Range kPlace_m{-100e3, 100e3};
+constexpr Range kAltitude_m{0.5, 120};
+constexpr Range kHeading_deg{-360, 360};
+constexpr Range kHold_s{0, 3600};
+
+StatedWaypoint read_waypoint(const YamlSection& section) {
+  section.allow_only({"x_m", "y_m", "z_m", "altitude_m", "speed_m_s", "heading_deg", "hold_s"});
+  if (section.has("z_m") == section.has("altitude_m"))
+    section.fail("altitude_m", "either z_m or altitude_m must be given");
+  StatedWaypoint stated;
+  Waypoint& waypoint = stated.waypoint;
+  waypoint.position_m = {section.number("x_m", kPlace_m), section.number("y_m", kPlace_m),
+                         section.number("z_m", kPlace_m, 0.0)};
+  if (section.has("altitude_m")) stated.altitude_m = section.number("altitude_m", kAltitude_m);
+  if (section.has("speed_m_s"))
+    waypoint.speed_m_s = section.number("speed_m_s", {kMinSpeed_m_s, Quadrotor().max_speed_m_s});
+  if (section.has("heading_deg"))
+    waypoint.heading_rad = section.number("heading_deg", kHeading_deg) * std::numbers::pi / 180;
+  waypoint.hold_s = section.number("hold_s", kHold_s, 0.0);
+  return stated;
+}
+
+}  // namespace
+
+std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file) {
+  const YamlSection root = YamlSection::load(file, {});
+  root.allow_only({"waypoints"});
+  const std::vector<YamlSection> sections = root.list("waypoints", kMostWaypoints);
+  if (sections.size() < 2) root.fail("waypoints", "must list at least two");
+  std::vector<StatedWaypoint> waypoints;
+  for (const YamlSection& section : sections) waypoints.push_back(read_waypoint(section));
+  if (waypoints.back().waypoint.speed_m_s)
+    sections.back().fail("speed_m_s", "is of the way from a waypoint on, and this is the last");
+  return waypoints;
+}
+
+}  // namespace plotscan::flight
