@@ -121,8 +121,8 @@ void require_path(const std::filesystem::path& file, const std::vector<Eigen::Ve
   }
   if (length_m > flight::kMaxPath_m) {
     throw InputError(file, "the flight would be " + format_number(std::round(length_m)) +
-                               " m long; at most " + format_number(flight::kMaxPath_m) +
-                               " m are allowed");
+                               " m long; at most " + format_number(flight::kMaxPath_m / 1000) +
+                               " km are allowed");
   }
 }
 

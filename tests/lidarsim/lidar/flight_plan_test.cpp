@@ -195,13 +195,11 @@ TEST(FlightPlan, ImpossibleWaypointsAreRefused) {
       HasSubstr("waypoint 1: no ground lies below it; give z_m"));
   EXPECT_THAT(waypoint_refusal("  - {x_m: 99000, y_m: 0, z_m: 5}\n"
                                "  - {x_m: -9000, y_m: 0, z_m: 5}\n"),
-              HasSubstr("at most 100000 m"));
+              HasSubstr("at most 100 km"));
   // A slope whose ends are clear and whose middle meets the bushes' ground.
   EXPECT_THAT(
       waypoint_refusal("  - {x_m: 30, y_m: 0, z_m: 11}\n  - {x_m: -30, y_m: 0, z_m: -10}\n"),
       HasSubstr("meet the ground or the crop"));
-  EXPECT_THAT(waypoint_refusal("  - {x_m: -2, y_m: 0, z_m: 9}\n  - {x_m: -2, y_m: 0, z_m: 0.55}\n"),
-              HasSubstr("meet the ground or the crop"));
 }
 
 }  // namespace
