@@ -30,6 +30,8 @@ endif()
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+# Without it lidarsim neither writes nor reads Velodyne's recordings.
+pkg_check_modules(pcap QUIET IMPORTED_TARGET libpcap)
 
 # Random123 is headers without a package config.
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "record/pcap_format.h"
 #include "scan/pcd_writer.h"
 
 namespace plotscan::record {
@@ -29,6 +30,10 @@ const std::vector<Format>& formats() {
        .create = [](const path& file, const Source&,
                     const WriteOptions&) { return std::make_unique<scan::PcdWriter>(file); }},
       {.name = "PLY cloud", .extensions = {".ply"}, .open = open_cloud},
+#ifdef PLOTSCAN_HAVE_PCAP
+      pcap_format(),
+      pcapng_format(),
+#endif
   };
   return all;
 }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "record/scan_folder.h"
+#include "scan/point.h"
+
+namespace plotscan::record {
+
+// Streams a flight's points to a pcap file as the sensor broadcast them: its data packets
+// (VelodyneEncoder), and after every 14th a position packet, as often as the VLP-16 sends them
+// (manual, section 9.3.3). Each is captured when the sensor has it whole. Memory does not grow.
+class PcapWriter : public scan::PointWriter {
+ public:
+  // Throws InputError when the sensor sends no Velodyne packets, std::runtime_error when the file
+  // cannot be created.
+  PcapWriter(const std::filesystem::path& path, const FlightRecord& flight);
+  ~PcapWriter() override;
+
+  // Throws InputError as VelodyneEncoder::write does.
+  void write(std::span<const scan::LabelledPoint> points) override;
+  void close() override;
+
+ private:
+  class Recording;
+  std::unique_ptr<Recording> recording_;
+};
+
+}  // namespace plotscan::record
