@@ -14,15 +14,37 @@
 
 namespace plotscan::lidar {
 
-// Casts one ray for the nearest hit.
-inline void intersect(RTCScene scene, RTCRayHit& ray) {
 #if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene, &ray);
+using QueryContext = RTCRayQueryContext;
 #else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, &ray);
+using QueryContext = RTCIntersectContext;
 #endif
+
+// What Embree hands on to the callbacks of a cast, which get it as a QueryContext.
+struct CastContext {
+  QueryContext query;
+  double time_s = 0;  // of the ray, from take-off
+};
+
+// Casts one ray for the nearest hit, at a time that moving things ask for.
+inline void intersect(RTCScene scene, RTCRayHit& ray, double time_s = 0) {
+  CastContext context;
+  context.time_s = time_s;
+#if RTC_VERSION_MAJOR >= 4
+  rtcInitRayQueryContext(&context.query);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context.query;
+  rtcIntersect1(scene, &ray, &arguments);
+#else
+  rtcInitIntersectContext(&context.query);
+  rtcIntersect1(scene, &context.query, &ray);
+#endif
+}
+
+// The time that a callback's ray was cast for.
+inline double time_of(const QueryContext* context) {
+  return reinterpret_cast<const CastContext*>(context)->time_s;  // NOLINT(*-reinterpret-cast)
 }
 
 template <auto release>

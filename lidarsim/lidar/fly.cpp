@@ -2,6 +2,7 @@
 #include "lidar/fly.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "core/csv.h"
@@ -17,6 +18,7 @@
 #include "lidar/flight_plan.h"
 #include "lidar/fly_settings.h"
 #include "lidar/simulate.h"
+#include "lidar/sway.h"
 #include "record/scan_folder.h"
 #include "scan/pcd_writer.h"
 #include "scan/trajectory.h"
@@ -154,8 +156,20 @@ bool wind_moves_plants(const FlyOptions& options) {
   return options.wind.mean_m_s > 0 && options.wind_acts_on != "drone";
 }
 
-FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress) {
+namespace {
+
+// The scene in the wind of the flight; null where nothing sways.
+std::unique_ptr<const Scene> swaying_scene(const SceneContent* plants, const FlyOptions& options,
+                                           double duration_s) {
+  if (plants == nullptr || !wind_moves_plants(options)) return nullptr;
+  return std::make_unique<const Scene>(
+      *plants, Sway(options.sway, wind_of(options), duration_s, crop_of(*plants)));
+}
+
+// `plants`: what the scene was made from, where it can sway.
+FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* plants,
+                    const std::filesystem::path& scan_folder, const FlyOptions& options,
+                    bool replace, const ProgressReport& progress) {
   require_valid(options);
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options);
@@ -169,9 +183,11 @@ FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path
   const sensor::ShotPlan fired(sensor, spin_hz, flight::true_mount(mount, errors), flight.truth);
   const sensor::ShotPlan placed(sensor, spin_hz, mount, flight.reported);
 
+  const auto swaying = swaying_scene(plants, options, flight.truth.end_s());
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
   simulate(
-      scene, sensor, {.fired = fired, .placed = errors.none() ? fired : placed},
+      swaying ? *swaying : scene, sensor,
+      {.fired = fired, .placed = errors.none() ? fired : placed},
       {.range_noise_m = options.range_noise_m, .seed = options.seed, .threads = options.threads},
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();
@@ -189,9 +205,17 @@ FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path
   return summary;
 }
 
+}  // namespace
+
+FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
+               const FlyOptions& options, bool replace, const ProgressReport& progress) {
+  return fly_over(site, scene, nullptr, scan_folder, options, replace, progress);
+}
+
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  return fly(site_of(farm), Scene(scene_content(farm)), scan_folder, options, replace, progress);
+  const SceneContent content = scene_content(farm);
+  return fly_over(site_of(farm), Scene(content), &content, scan_folder, options, replace, progress);
 }
 
 }  // namespace plotscan::lidar

@@ -15,6 +15,7 @@
 #include "flight/wind.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
+#include "lidar/sway.h"
 
 namespace plotscan::lidar {
 
@@ -36,6 +37,7 @@ struct FlyOptions {
   // Its seed and height are set from this flight's; without wind all is still.
   flight::WindOptions wind = {};
   std::string wind_acts_on = "both";               // "both", "drone" or "plants"
+  SwayOptions sway = {};                           // of a farm's plants in the wind
   std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
   std::optional<double> spin_hz = {};  // turns of the sensor a second; else its own default
   double range_noise_m = 0.03;         // standard deviation of the range noise, 0 to 1
@@ -68,7 +70,8 @@ struct FlySummary {
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 
-// The same for a farm. Throws InputError when a plant names a missing model, too.
+// The same for a farm, whose plants sway where the wind acts on them. Throws InputError when a
+// plant names a missing model, too.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 

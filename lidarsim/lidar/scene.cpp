@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "lidar/embree.h"
+#include "lidar/swaying_plants.h"
 
 namespace plotscan::lidar {
 
 struct Scene::Trees {
   Device device;
+  std::optional<SwayingPlants> swaying;
   std::vector<SceneHandle> meshes;  // null where no instance needs one
   SceneHandle world;
 };
@@ -65,7 +68,8 @@ Geometry instance_of(RTCDevice device, RTCScene mesh, const Eigen::Affine3d& wor
 
 }  // namespace
 
-Scene::Scene(const SceneContent& content) : trees_(std::make_unique<Trees>()) {
+Scene::Scene(const SceneContent& content, const Sway* sway) : trees_(std::make_unique<Trees>()) {
+  if (sway != nullptr) trees_->swaying.emplace(*sway);
   for (const PlacedMesh& placed : content.placed) {
     check(placed.mesh < content.meshes.size(), "every placed mesh is there");
     surfaces_.push_back(placed.surface);
@@ -93,7 +97,8 @@ void Scene::build_trees(const SceneContent& content) {
     const PlacedMesh& placed = content.placed[id];
     const mesh::Mesh& mesh = content.meshes[placed.mesh];
     SceneHandle& tree = trees_->meshes[placed.mesh];
-    if (!is_instance(placed)) {
+    const bool sways = trees_->swaying && placed.rooted;
+    if (!sways && !is_instance(placed)) {
       rtcAttachGeometryByID(world, triangle_geometry(device, mesh).get(), id);
       continue;
     }
@@ -102,7 +107,9 @@ void Scene::build_trees(const SceneContent& content) {
       rtcAttachGeometry(tree.get(), triangle_geometry(device, mesh).get());
       rtcCommitScene(tree.get());
     }
-    rtcAttachGeometryByID(world, instance_of(device, tree.get(), placed.world_from_mesh).get(), id);
+    const Geometry geometry = sways ? trees_->swaying->add(device, tree.get(), mesh, placed)
+                                    : instance_of(device, tree.get(), placed.world_from_mesh);
+    rtcAttachGeometryByID(world, geometry.get(), id);
   }
   rtcCommitScene(world);
   require_success(device, "the scene");
@@ -133,7 +140,7 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
     query.ray.tfar = max_range_m;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    intersect(world, query);
+    intersect(world, query, ray.time_s);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     const bool in_instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t surface = in_instance ? query.hit.instID[0] : query.hit.geomID;

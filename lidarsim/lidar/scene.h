@@ -11,9 +11,12 @@
 
 namespace plotscan::lidar {
 
+class Sway;
+
 struct Ray {
   Eigen::Vector3f origin_m;   // world frame
   Eigen::Vector3f direction;  // unit vector
+  double time_s = 0;          // from take-off; where plants sway it decides what is met
 };
 
 // Where a ray first meets a surface.
@@ -28,7 +31,9 @@ struct Hit {
 // placed without a transform (a terrain) as it is.
 class Scene {
  public:
-  explicit Scene(const SceneContent& content);
+  explicit Scene(const SceneContent& content) : Scene(content, nullptr) {}
+  // The rooted meshes sway.
+  Scene(const SceneContent& content, const Sway& sway) : Scene(content, &sway) {}
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -47,6 +52,7 @@ class Scene {
  private:
   struct Trees;
 
+  Scene(const SceneContent& content, const Sway* sway);
   void build_trees(const SceneContent& content);
 
   std::unique_ptr<Trees> trees_;

@@ -49,8 +49,10 @@ SceneContent scene_content(const farm::Farm& farm) {
     require_model(farm, plant);
     const Eigen::Affine3d world_from_model =
         Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
-    content.placed.push_back(
-        {.mesh = plant.model, .world_from_mesh = world_from_model, .surface = surface_of(plant)});
+    content.placed.push_back({.mesh = plant.model,
+                              .world_from_mesh = world_from_model,
+                              .surface = surface_of(plant),
+                              .rooted = true});
   }
   content.placed.push_back(
       {.mesh = static_cast<std::uint32_t>(content.meshes.size()),

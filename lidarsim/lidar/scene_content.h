@@ -26,6 +26,7 @@ struct PlacedMesh {
   std::uint32_t mesh = 0;  // index into SceneContent::meshes
   Eigen::Affine3d world_from_mesh = Eigen::Affine3d::Identity();
   Surface surface;
+  bool rooted = false;  // a plant whose foot is the mesh's origin: it may sway
 };
 
 // All that a laser can meet, wherever it comes from; metres, z up.

@@ -85,7 +85,10 @@ class Simulator {
     sensor::SequenceShots shots;
     for (std::uint64_t sequence = begin; sequence < end; ++sequence) {
       plan.fire(sequence, shots);
-      for (std::size_t k = 0; k < plan.lasers(); ++k) rays.push_back(ray_of(shots, k));
+      for (std::size_t k = 0; k < plan.lasers(); ++k) {
+        rays.push_back(ray_of(shots, k));
+        rays.back().time_s = plan.time_s(sequence, k);
+      }
     }
     return rays;
   }

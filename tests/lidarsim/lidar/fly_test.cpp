@@ -177,5 +177,35 @@ TEST(Fly, ReplacesOnlyWhenAskedTo) {
   fly(farm, scan, options, true);
 }
 
+std::string flown_cloud(const TemporaryFolder& folder, const FlyOptions& options) {
+  const auto scan = folder.path() / "scan";
+  fly(testing::small_farm(), scan, options, true);
+  return read_text(scan / "cloud.pcd");
+}
+
+// The crop of a swaying farm comes back to rest with wind 0.
+TEST(Fly, CropIsAtRestWithoutWind) {
+  const TemporaryFolder folder;
+  FlyOptions options{.flight = short_flight(folder), .wind_acts_on = "drone"};
+  const std::string rest = flown_cloud(folder, options);
+  options.wind_acts_on = "plants";
+  EXPECT_TRUE(flown_cloud(folder, options) == rest);
+  options.wind.mean_m_s = 8;
+  EXPECT_FALSE(flown_cloud(folder, options) == rest);
+  options.wind.mean_m_s = 0;
+  EXPECT_TRUE(flown_cloud(folder, options) == rest);
+}
+
+TEST(Fly, SwayingCropHasTheSameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  FlyOptions options{.flight = short_flight(folder)};
+  options.wind.mean_m_s = 8;
+  const std::string one = flown_cloud(folder, options);
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    EXPECT_TRUE(flown_cloud(folder, options) == one) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace plotscan::lidar
