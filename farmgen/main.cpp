@@ -129,6 +129,12 @@ farm::Farm generate_from(const Program& program, const Arguments& arguments,
                         common.seed_given ? common.seed : description.seed.value_or(common.seed));
 }
 
+void say_notes(const Program& program, const farm::Farm& made) {
+  for (const farm::PlantModel& model : made.models) {
+    for (const std::string& note : model.notes) program.say("note: " + note);
+  }
+}
+
 void run_generate(const Program& program, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   farm::FarmDescription description;
@@ -149,6 +155,7 @@ void run_generate(const Program& program, const Arguments& arguments) {
                         arguments.output.c_str(), summary.plots, summary.plants,
                         summary.terrain_size_m.x(), summary.terrain_size_m.y(),
                         static_cast<unsigned long long>(made.seed), elapsed.count()));
+  say_notes(program, made);
 }
 
 void run_info(const Program& program, const Arguments& arguments) {
@@ -165,6 +172,7 @@ void run_check(const Program& program, const Arguments& arguments) {
   program.result(json_of(made, summary));
   program.say(arguments.input + " is sound; it makes");
   say_summary(program, made, summary);
+  say_notes(program, made);
 }
 
 void add_farm_options(CLI::App& command, Arguments& arguments) {

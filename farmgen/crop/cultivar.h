@@ -47,6 +47,8 @@ struct Cultivar {
   double row_spacing_m = 0;
   std::string plot_source;
   std::map<std::string, Eigen::Vector3f> colours;  // by material
+  // At 903 nm, by material; of the others by their names (mesh/reflectance.h).
+  std::map<std::string, float> reflectance = {};
   std::vector<Parameter> parameters;
   std::vector<Stage> stages;  // in the order in which the crop passes through them
 

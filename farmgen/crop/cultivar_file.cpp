@@ -22,8 +22,8 @@ class CultivarFile {
       : file_(file), complete_(base == nullptr), cultivar_(base == nullptr ? Cultivar{} : *base) {}
 
   Cultivar read() {
-    file_.allow_only(
-        {"crop", "species", "default_stage", "sources", "plot", "colours", "parameters", "stages"});
+    file_.allow_only({"crop", "species", "default_stage", "sources", "plot", "colours",
+                      "reflectance", "parameters", "stages"});
     const std::string crop = file_.text("crop");
     if (!complete_ && crop != cultivar_.crop) {
       file_.fail("crop", "is " + crop + ", but the plant is a " + cultivar_.crop);
@@ -33,6 +33,7 @@ class CultivarFile {
     if (given("sources")) sources_ = file_.section("sources").keys();
     if (given("plot")) read_plot(file_.section("plot"));
     if (given("colours")) read_colours(file_.section("colours"));
+    if (file_.has("reflectance")) read_reflectance(file_.section("reflectance"));
     if (given("parameters")) read_parameters(file_.section("parameters"));
     if (given("stages")) {
       for (const YamlSection& stage : file_.list("stages", kMostStages)) read_stage(stage);
@@ -86,6 +87,15 @@ class CultivarFile {
       }
       const std::vector<double> rgb = colours.numbers(name, 3, {0, 1});
       cultivar_.colours[name] = Eigen::Vector3d(rgb[0], rgb[1], rgb[2]).cast<float>();
+    }
+  }
+
+  void read_reflectance(const YamlSection& reflectance) {
+    for (const std::string& name : reflectance.keys()) {
+      if (!cultivar_.colours.contains(name)) {
+        reflectance.fail(name, "is not a material of " + cultivar_.crop);
+      }
+      cultivar_.reflectance[name] = static_cast<float>(reflectance.number(name, {0, 1}));
     }
   }
 

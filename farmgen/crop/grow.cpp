@@ -68,6 +68,10 @@ mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {
   crop.grow(traits, seed, plant);
   mesh::Mesh mesh = plant.take(options.textured);
   if (options.textured) add_textures(mesh, options.crop);
+  for (mesh::Material& material : mesh.materials) {
+    const auto stated = described.reflectance.find(material.name);
+    if (stated != described.reflectance.end()) material.reflectance = stated->second;
+  }
   return mesh;
 }
 

@@ -7,6 +7,7 @@ namespace plotscan::farm {
 namespace {
 
 constexpr Range kUnit = {1e-6, 1e6};
+constexpr Range kReflectance = {0, 1};
 constexpr Range kScale = {0.01, 100};
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kNameCharacters =
@@ -47,6 +48,10 @@ std::string name_at(const YamlSection& section, const std::string& key,
                           "with '.'");
   }
   return name;
+}
+
+double reflectance_at(const YamlSection& section, const std::string& key) {
+  return section.number(key, kReflectance);
 }
 
 std::pair<double, double> scale_at(const YamlSection& section) {

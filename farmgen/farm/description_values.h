@@ -25,6 +25,9 @@ mesh::MeshImportOptions read_mesh_options(const YamlSection& section);
 std::string name_at(const YamlSection& section, const std::string& key,
                     std::optional<std::string> fallback = {});
 
+// A diffuse reflectance, in [0, 1].
+double reflectance_at(const YamlSection& section, const std::string& key);
+
 // The key `scale`: least and greatest scale of an axis.
 std::pair<double, double> scale_at(const YamlSection& section);
 

@@ -24,6 +24,8 @@ struct PlantModel {
   mesh::Mesh mesh;
   double height_m = 0;                   // highest vertex over the origin, measured from the mesh
   std::optional<mesh::Mesh> light = {};  // the same plant in few triangles, where there is one
+  // What its import left out, one line each; not kept in the farm's folder.
+  std::vector<std::string> notes = {};
 };
 
 enum class PlantKind : std::uint8_t { crop, weed };
@@ -82,6 +84,8 @@ struct Farm {
   // The origin in the coordinates of the XYZ file that the terrain was made from, where they were
   // shifted.
   std::optional<Eigen::Vector3d> terrain_origin_m = {};
+  // Of the ground, diffuse, at 903 nm, in [0, 1]; absent: mesh::kSoilReflectance.
+  std::optional<double> soil_reflectance = {};
 };
 
 // Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a

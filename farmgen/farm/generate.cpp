@@ -91,7 +91,8 @@ Farm generate(const FarmDescription& description, std::uint64_t seed) {
             .plots = std::move(plots),
             .plants = {},
             .anchor = description.anchor,
-            .terrain_origin_m = ground.origin_m};
+            .terrain_origin_m = ground.origin_m,
+            .soil_reflectance = description.terrain.reflectance};
   require_on_terrain(farm.plots, farm.terrain, description.source);
   if (description.plots && farm.plots.empty()) {
     throw InputError(description.source, "plots: all " +

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/yaml_section.h"
 #include "crop/grow.h"
 #include "farm/description_values.h"
@@ -20,8 +21,27 @@ constexpr std::size_t kMostAssignments = 1000;
 constexpr std::int64_t kMostVariants = 1000;
 constexpr std::size_t kMostTriangles = 20'000'000;  // of all models, scan and light: about 1 GB
 
+std::map<std::string, float> read_reflectance(const YamlSection& section) {
+  std::map<std::string, float> reflectance;
+  if (!section.has("reflectance")) return reflectance;
+  const YamlSection given = section.section("reflectance");
+  for (const std::string& material : given.keys())
+    reflectance[material] = static_cast<float>(reflectance_at(given, material));
+  return reflectance;
+}
+
+// Of a crop's materials, all of which its file names; a plant may lack some at its stage.
+std::map<std::string, float> read_crop_reflectance(const YamlSection& section,
+                                                   const std::string& crop) {
+  if (!section.has("reflectance")) return {};
+  std::vector<std::string> materials;
+  for (const auto& [material, colour] : crop::cultivar(crop).colours) materials.push_back(material);
+  section.section("reflectance").allow_only(materials);
+  return read_reflectance(section);
+}
+
 ModelDescription read_mesh_model(const YamlSection& section) {
-  section.allow_only({"mesh", "name", "up", "unit_m", "foot", "light"});
+  section.allow_only({"mesh", "name", "up", "unit_m", "foot", "light", "reflectance"});
   ModelDescription model;
   model.mesh = file_at(section, "mesh");
   model.name = name_at(section, "name", model.mesh.stem().string());
@@ -29,6 +49,7 @@ ModelDescription read_mesh_model(const YamlSection& section) {
   if (section.choice("foot", {"origin", "lowest"}, 0) == 1)
     model.options.foot = mesh::MeshFoot::lowest;
   if (section.has("light")) model.light = file_at(section, "light");
+  model.reflectance = read_reflectance(section);
   return model;
 }
 
@@ -50,8 +71,9 @@ GrownPlant read_grown_plant(const YamlSection& section) {
 
 // One plant, or as many variants of it, each of the next seed.
 std::vector<ModelDescription> read_grown_models(const YamlSection& section) {
-  section.allow_only({"crop", "stage", "seed", "set", "name", "variants"});
+  section.allow_only({"crop", "stage", "seed", "set", "name", "variants", "reflectance"});
   const GrownPlant first = read_grown_plant(section);
+  const std::map<std::string, float> reflectance = read_crop_reflectance(section, first.crop);
   const std::int64_t variants = section.integer("variants", 1, kMostVariants, 1);
   const std::string kind = first.crop + (first.stage.empty() ? "" : "_") + first.stage;
   const std::string name = name_at(section, "name", kind);
@@ -65,7 +87,11 @@ std::vector<ModelDescription> read_grown_models(const YamlSection& section) {
     } else if (section.has("variants")) {
       own += "_" + std::to_string(i + 1);
     }
-    models.push_back({.name = own, .mesh = {}, .options = {}, .grown = std::move(plant)});
+    models.push_back({.name = own,
+                      .mesh = {},
+                      .options = {},
+                      .grown = std::move(plant),
+                      .reflectance = reflectance});
   }
   return models;
 }
@@ -88,7 +114,8 @@ bool same(const GrownPlant& a, const GrownPlant& b) {
 bool same(const ModelDescription& a, const ModelDescription& b) {
   const bool same_grown = a.grown && b.grown ? same(*a.grown, *b.grown) : !a.grown && !b.grown;
   return same_grown && a.mesh == b.mesh && a.light == b.light && a.options.up == b.options.up &&
-         a.options.unit_m == b.options.unit_m && a.options.foot == b.options.foot;
+         a.options.unit_m == b.options.unit_m && a.options.foot == b.options.foot &&
+         a.reflectance == b.reflectance;
 }
 
 // The light mesh is for simulators, which show leaves as pictures; the scan mesh is for lasers.
@@ -107,15 +134,42 @@ mesh::Mesh grown(const ModelDescription& model, crop::Detail detail,
   }
 }
 
+// Gives the mesh's materials the reflectances stated for their names; returns the names it has.
+std::set<std::string> apply_reflectance(const std::map<std::string, float>& stated,
+                                        mesh::Mesh& mesh) {
+  std::set<std::string> names;
+  for (mesh::Material& material : mesh.materials) {
+    names.insert(material.name);
+    const auto found = stated.find(material.name);
+    if (found != stated.end()) material.reflectance = found->second;
+  }
+  return names;
+}
+
+// Throws InputError when a mesh file has no material that is named. (Of a grown plant
+// read_crop_reflectance has seen to it.)
+void apply_reflectance(const ModelDescription& description, const std::filesystem::path& source,
+                       PlantModel& model) {
+  const std::set<std::string> names = apply_reflectance(description.reflectance, model.mesh);
+  if (model.light) apply_reflectance(description.reflectance, *model.light);
+  for (const auto& [name, reflectance] : description.reflectance) {
+    if (description.grown || names.contains(name)) continue;
+    throw InputError(source, "model " + model.name + ": reflectance: " + name +
+                                 " is not a material of " + description.mesh.string() +
+                                 ", which has " + joined({names.begin(), names.end()}, ", "));
+  }
+}
+
 PlantModel make_model(const ModelDescription& description, const std::filesystem::path& source) {
   PlantModel model{.name = description.name, .mesh = {}};
   if (description.grown) {
     model.mesh = grown(description, crop::Detail::scan, source);
     model.light = grown(description, crop::Detail::light, source);
   } else {
-    model.mesh = mesh::import_mesh(description.mesh, description.options);
+    model.mesh = mesh::import_mesh(description.mesh, description.options, &model.notes);
     if (description.light) model.light = mesh::import_mesh(*description.light, description.options);
   }
+  apply_reflectance(description, source, model);
   model.height_m = mesh::mesh_height(model.mesh);
   if (model.height_m > 0) return model;
   if (description.grown) throw InputError(source, "model " + model.name + ": has no height");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct ModelDescription {
   mesh::MeshImportOptions options;
   std::optional<std::filesystem::path> light = {};  // the same plant in few triangles
   std::optional<GrownPlant> grown = {};             // then there are no files
+  std::map<std::string, float> reflectance = {};    // of materials by their names; over the model's
 };
 
 // Reads the list at the section's key "models" and puts those that `models` does not hold yet
@@ -44,7 +46,8 @@ std::vector<std::uint32_t> read_models(const YamlSection& section,
 std::vector<std::filesystem::path> model_files(const std::vector<ModelDescription>& models);
 
 // Reads or grows the models. Throws InputError when a file cannot be read, a plant cannot be grown
-// (naming `source`, the description) or has no height.
+// (naming `source`, the description), has no height, or lacks a material that is given a
+// reflectance.
 std::vector<PlantModel> make_models(const std::vector<ModelDescription>& models,
                                     const std::filesystem::path& source);
 

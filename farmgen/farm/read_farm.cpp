@@ -29,12 +29,20 @@ struct FarmRecord {
   std::size_t plants = 0;
   std::optional<Anchor> anchor = {};
   std::optional<Eigen::Vector3d> terrain_origin_m = {};
+  std::optional<double> soil_reflectance = {};
 };
 
 Anchor anchor_of(const nlohmann::json& anchor) {
   return {.latitude_deg = anchor.at("latitude_deg"),
           .longitude_deg = anchor.at("longitude_deg"),
           .altitude_m = anchor.at("altitude_m")};
+}
+
+double share_of(const fs::path& folder, const nlohmann::json& value) {
+  const auto share = value.get<double>();
+  if (share >= 0 && share <= 1) return share;
+  throw InputError(folder / "manifest.json",
+                   "results.soil_reflectance is " + value.dump() + "; it is to be in [0, 1]");
 }
 
 FarmRecord read_record(const fs::path& folder) {
@@ -54,6 +62,8 @@ FarmRecord read_record(const fs::path& folder) {
       record.terrain_origin_m = Eigen::Vector3d(
           origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>());
     }
+    if (results.contains("soil_reflectance"))
+      record.soil_reflectance = share_of(folder, results["soil_reflectance"]);
     return record;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(folder / "manifest.json",
@@ -124,7 +134,8 @@ Farm read_farm(const fs::path& folder) {
             .plots = read_plots(truth / "plots.geojson"),
             .plants = {},
             .anchor = record.anchor,
-            .terrain_origin_m = record.terrain_origin_m};
+            .terrain_origin_m = record.terrain_origin_m,
+            .soil_reflectance = record.soil_reflectance};
   farm.plants = read_plants(truth / "plants.csv", farm.models);
   require_count(truth / "plots.geojson", "plots", farm.plots.size(), record.plots);
   require_count(truth / "plants.csv", "plants", farm.plants.size(), record.plants);

@@ -12,14 +12,16 @@ namespace {
 constexpr const char* kSdfVersion = "1.6";
 
 void write_one_mesh_model(XmlFile& xml, const std::string& name, const std::string& uri,
-                          bool with_collision) {
+                          SurfaceClass label) {
   open_static_model(xml, name);
   xml.open("visual", "visual");
   write_mesh_geometry(xml, uri);
+  write_class(xml, label);
   xml.close();
-  if (with_collision) {
+  if (label == SurfaceClass::ground) {
     xml.open("collision", "collision");
     write_mesh_geometry(xml, uri);
+    write_class(xml, label);
     xml.close();
   }
   close_static_model(xml);
@@ -29,6 +31,7 @@ void write_plant(XmlFile& xml, const Plant& plant, const std::string& uri) {
   xml.open("visual", plant_element_name(plant.id));
   xml.text("pose", sdf_pose(plant.position, plant.rotation));
   write_mesh_geometry(xml, uri, plant.scale);
+  write_class(xml, class_of(plant.kind));
   xml.close();
 }
 
@@ -66,7 +69,8 @@ void write_world(const std::filesystem::path& path, const Farm& farm,
   xml.attribute("version", kSdfVersion);
   xml.open("world", farm.name);
   write_sun(xml);
-  write_one_mesh_model(xml, kTerrainModel, model_mesh_path(kTerrainModel).generic_string(), true);
+  write_one_mesh_model(xml, kTerrainModel, model_mesh_path(kTerrainModel).generic_string(),
+                       SurfaceClass::ground);
   write_plants_by_plot(xml, farm, progress);
   xml.close();
   xml.close();
@@ -74,12 +78,12 @@ void write_world(const std::filesystem::path& path, const Farm& farm,
 }
 
 void write_model_description(const std::filesystem::path& models_folder, const std::string& name,
-                             const std::string& text, bool with_collision) {
+                             const std::string& text, SurfaceClass label) {
   write_model_config(models_folder / name / "model.config", name, kSdfVersion, text);
   XmlFile sdf(models_folder / name / "model.sdf");
   sdf.open("sdf");
   sdf.attribute("version", kSdfVersion);
-  write_one_mesh_model(sdf, name, "model://" + name + "/meshes/" + name + ".obj", with_collision);
+  write_one_mesh_model(sdf, name, "model://" + name + "/meshes/" + name + ".obj", label);
   sdf.close();
   sdf.finish();
 }

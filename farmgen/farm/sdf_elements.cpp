@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/csv.h"
 
@@ -46,6 +47,21 @@ void write_mesh_geometry(XmlFile& xml, const std::string& uri, const Eigen::Vect
   }
   xml.close();
   xml.close();
+}
+
+std::vector<SurfaceClass> classes_of_models(const Farm& farm) {
+  std::vector<std::optional<SurfaceClass>> first(farm.models.size());
+  for (const Plant& plant : farm.plants) {
+    std::optional<SurfaceClass>& label = first.at(plant.model);
+    if (!label) label = class_of(plant.kind);
+  }
+  std::vector<SurfaceClass> classes;
+  for (const auto& label : first) classes.push_back(label.value_or(SurfaceClass::crop));
+  return classes;
+}
+
+void write_class(XmlFile& xml, SurfaceClass label) {
+  xml.text("laser_retro", std::to_string(static_cast<int>(label)));
 }
 
 void write_sun(XmlFile& xml) {

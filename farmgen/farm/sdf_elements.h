@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "farm/surface_class.h"
 #include "farm/xml_file.h"
 
 // What SDF worlds of any kind are made of.
@@ -33,6 +34,9 @@ std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& 
 // <geometry><mesh>, with the scale where it is not 1.
 void write_mesh_geometry(XmlFile& xml, const std::string& uri,
                          const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+
+// <laser_retro>: the class of what a ray meets.
+void write_class(XmlFile& xml, SurfaceClass label);
 
 // A directional light from the south-east, high up.
 void write_sun(XmlFile& xml);

@@ -32,7 +32,8 @@ double angle_at(const YamlSection& section, const std::string& key) {
 }
 
 void allow_with_relief(const YamlSection& section, std::vector<std::string> keys) {
-  for (const char* key : {"slope", "rolling", "furrows", "clods", "step_m", "detail_m"})
+  for (const char* key :
+       {"slope", "rolling", "furrows", "clods", "step_m", "detail_m", "reflectance"})
     keys.emplace_back(key);
   section.allow_only(keys);
 }
@@ -142,6 +143,7 @@ TerrainDescription read_terrain(const YamlSection& section) {
     const auto [x, y] = section.pair("detail_m", kSide);
     terrain.detail_m = {x, y};
   }
+  if (section.has("reflectance")) terrain.reflectance = reflectance_at(section, "reflectance");
   if (terrain.detail_m && !terrain.furrows && !terrain.clods)
     section.fail("detail_m", "bounds furrows and clods; the terrain has none");
   if (terrain.step_m && !terrain.rolling && !terrain.furrows && !terrain.clods)

@@ -77,6 +77,7 @@ struct TerrainDescription {
   // Extent along x and y, about the origin, of the rectangle with furrows and clods; else that of
   // the plots with a margin.
   std::optional<std::array<double, 2>> detail_m;
+  std::optional<double> reflectance;  // diffuse, at 903 nm, in [0, 1]
 };
 
 // Throws InputError as load_description does.

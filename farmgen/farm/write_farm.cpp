@@ -33,25 +33,33 @@ mesh::Mesh mesh_of(const Terrain& terrain) {
 mesh::Mesh coloured(mesh::Mesh mesh, const std::string& name, const Eigen::Vector3f& colour) {
   if (mesh.materials.empty()) mesh.materials.emplace_back();
   for (mesh::Material& material : mesh.materials) {
-    if (material.name.empty()) material = {.name = name, .colour = colour, .texture = {}};
+    if (!material.name.empty()) continue;
+    material.name = name;
+    material.colour = colour;
+    material.texture.reset();
   }
   return mesh;
 }
 
 void write_model(const fs::path& folder, const std::string& name, const mesh::Mesh& mesh,
-                 const std::string& text, bool with_collision) {
+                 const std::string& text, SurfaceClass label) {
   const fs::path path = folder / model_mesh_path(name);
   fs::create_directories(path.parent_path());
   mesh::write_obj(path, mesh);
-  write_model_description(folder / "models", name, text, with_collision);
+  write_model_description(folder / "models", name, text, label);
 }
 
 void write_models(const fs::path& folder, const Farm& farm) {
-  write_model(folder, kTerrainModel, coloured(mesh_of(farm.terrain), "soil", kSoilBrown),
-              "Terrain of the farm " + farm.name, true);
-  for (const PlantModel& model : farm.models) {
+  mesh::Mesh ground = coloured(mesh_of(farm.terrain), "soil", kSoilBrown);
+  if (farm.soil_reflectance)
+    ground.materials.front().reflectance = static_cast<float>(*farm.soil_reflectance);
+  write_model(folder, kTerrainModel, ground, "Terrain of the farm " + farm.name,
+              SurfaceClass::ground);
+  const std::vector<SurfaceClass> classes = classes_of_models(farm);
+  for (std::size_t i = 0; i < farm.models.size(); ++i) {
+    const PlantModel& model = farm.models[i];
     write_model(folder, model.name, coloured(model.mesh, "plant", kLeafGreen),
-                "Plant of the farm " + farm.name + ", foot at the origin", false);
+                "Plant of the farm " + farm.name + ", foot at the origin", classes[i]);
     if (!model.light) continue;
     mesh::write_obj(folder / light_mesh_path(model.name),
                     coloured(*model.light, "plant", kLeafGreen));
@@ -89,6 +97,7 @@ nlohmann::json results_of(const Farm& farm) {
   if (farm.terrain_origin_m)
     results["terrain_origin_m"] = {farm.terrain_origin_m->x(), farm.terrain_origin_m->y(),
                                    farm.terrain_origin_m->z()};
+  if (farm.soil_reflectance) results["soil_reflectance"] = *farm.soil_reflectance;
   return results;
 }
 

@@ -50,10 +50,6 @@ std::string colour_text(const Eigen::Vector3f& colour) {
   return text + "1";
 }
 
-void write_class(farm::XmlFile& xml, SurfaceClass label) {
-  xml.text("laser_retro", std::to_string(static_cast<int>(label)));
-}
-
 void write_sim_material(farm::XmlFile& xml, const Eigen::Vector3f& colour,
                         const std::string& image) {
   const std::string rgba = colour_text(colour);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "farm/sdf_elements.h"
 #include "farm/xml_file.h"
 #include "gazebo/export_options.h"
 #include "gazebo/labels.h"
@@ -32,8 +33,7 @@ farm::XmlFile begin_model(const ModelFolder& models, const std::string& name,
                           const std::string& description, bool is_static = true);
 void end_model(farm::XmlFile& xml);
 
-// <laser_retro>: the class of what a ray meets.
-void write_class(farm::XmlFile& xml, SurfaceClass label);
+using farm::write_class;
 
 // "r g b 1", of an opaque colour.
 std::string colour_text(const Eigen::Vector3f& colour);

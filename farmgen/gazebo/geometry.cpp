@@ -83,9 +83,9 @@ mesh::Mesh extruded_polyline(const sdf::ElementPtr& geometry, const std::string&
 }
 
 mesh::Mesh imported(const fs::path& file, const std::string& object, const fs::path& from,
-                    const std::string& what) {
+                    const std::string& what, std::vector<std::string>& notes) {
   try {
-    return mesh::import_mesh(file, {.object = object});
+    return mesh::import_mesh(file, {.object = object}, &notes);
   } catch (const InputError& error) {
     throw InputError(from, what + ": mesh " + error.what());
   }
@@ -117,7 +117,7 @@ Shape ShapeCache::of_mesh(const sdf::Mesh& given, const std::string& what) {
   const std::string key =
       file->string() + '\n' + given.Submesh() + (given.CenterSubmesh() ? "\ncentred" : "");
   const std::uint32_t mesh = index(key, [&] {
-    mesh::Mesh read = imported(*file, given.Submesh(), from, what);
+    mesh::Mesh read = imported(*file, given.Submesh(), from, what, notes_);
     if (!given.Submesh().empty() && given.CenterSubmesh()) put_centre_at_origin(read);
     if (std::find(files_.begin(), files_.end(), *file) == files_.end()) files_.push_back(*file);
     return read;

@@ -38,6 +38,8 @@ class ShapeCache {
   const Eigen::AlignedBox3d& bounds(std::uint32_t mesh) const { return bounds_[mesh]; }
   // The mesh files read.
   const std::vector<std::filesystem::path>& files() const { return files_; }
+  // What was left out of them, one line each.
+  const std::vector<std::string>& notes() const { return notes_; }
   std::vector<mesh::Mesh> take() { return std::move(meshes_); }
 
  private:
@@ -52,6 +54,7 @@ class ShapeCache {
   std::vector<mesh::Mesh> meshes_;
   std::vector<Eigen::AlignedBox3d> bounds_;  // of meshes_
   std::vector<std::filesystem::path> files_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace plotscan::gazebo

@@ -115,10 +115,6 @@ void add_outside(const farm::Farm& farm, SurfaceClass label, const Plants& plant
 
 }  // namespace
 
-SurfaceClass class_of(farm::PlantKind kind) {
-  return kind == farm::PlantKind::weed ? SurfaceClass::weed : SurfaceClass::crop;
-}
-
 Eigen::Affine3d world_from_plant(const farm::Plant& plant) {
   return Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
 }

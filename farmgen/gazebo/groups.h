@@ -29,8 +29,6 @@ struct PlantGroups {
   std::vector<PlantGroup> links;
 };
 
-SurfaceClass class_of(farm::PlantKind kind);
-
 // translation(position) * rotation * scale
 Eigen::Affine3d world_from_plant(const farm::Plant& plant);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include "farm/surface_class.h"
 
 namespace plotscan::gazebo {
 
-// What a surface of an exported world is: its laser_retro, and its label for segmentation cameras.
-// The numbers are those of scan::PointClass (lidarsim/scan/point.h), which this room cannot see.
-enum class SurfaceClass : std::uint8_t { ground = 1, crop = 2, weed = 3, other = 4 };
+using farm::class_of;
+using farm::SurfaceClass;
 
 }  // namespace plotscan::gazebo

@@ -18,7 +18,7 @@
 // (with links plot_12_weeds). Plants of no plot are in plants_outside_plots, _weeds, and with a
 // tile's number behind where they are many; with merge none they are plant_345. A farm folder's
 // own world.sdf has models plot_12 with visuals plant_345. The class of a surface is its
-// laser_retro (labels.h).
+// laser_retro (farm/surface_class.h).
 namespace plotscan::gazebo {
 
 std::string row_model_name(int row);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
+#include "mesh/obj.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -48,12 +49,13 @@ void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& m
   TextFile out(path);
   for (const MtlEntry& material : materials) {
     out << "newmtl " << material.name << "\n";
-    for (const char* key : {"Ka ", "Kd "}) {
-      out << key << material.colour.x() << " " << material.colour.y() << " " << material.colour.z()
-          << "\n";
-    }
+    const Eigen::Vector3f& colour = material.material.colour;
+    for (const char* key : {"Ka ", "Kd "})
+      out << key << colour.x() << " " << colour.y() << " " << colour.z() << "\n";
     out << "Ks 0 0 0\nNs 1\nPr 0.9\nPm 0\n";
-    if (!material.texture.empty()) out << "map_Kd " << material.texture << "\n";
+    if (material.material.texture)
+      out << "map_Kd " << material.images << material.material.texture->name << "\n";
+    mesh::write_optics(out, material.material, material.images);
   }
   out.close();
 }

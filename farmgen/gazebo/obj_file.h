@@ -16,14 +16,15 @@
 
 namespace plotscan::gazebo {
 
-// How a material of an MTL file looks.
+// A material of an MTL file.
 struct MtlEntry {
   std::string name;
-  Eigen::Vector3f colour;
-  std::string texture;  // path from the MTL file, or empty
+  mesh::Material material;
+  std::string images;  // folder of its images from the MTL file, with a slash behind
 };
 
-// Diffuse and ambient colour, texture, and the roughness of a leaf for renderers that know it.
+// Diffuse and ambient colour, texture, the roughness of a leaf for renderers that know it, and what
+// mesh::write_optics says.
 void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& materials);
 
 // An OBJ file for Gazebo's loaders, written surface by surface. Gazebo's loaders compute no

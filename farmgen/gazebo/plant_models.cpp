@@ -12,6 +12,7 @@
 #include "farm/sdf_elements.h"
 #include "farm/surface_colours.h"
 #include "gazebo/obj_file.h"
+#include "mesh/alpha_mask.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -39,10 +40,8 @@ std::string home_of_image(const farm::Farm& farm, const PlantSurfaces& surfaces,
 }
 
 MtlEntry mtl_entry(const PlantSurfaces& surfaces, std::size_t material, const std::string& images) {
-  const mesh::Material& look = surfaces.materials[material];
-  return {.name = surfaces.names[material],
-          .colour = look.colour,
-          .texture = look.texture ? images + look.texture->name : ""};
+  return {
+      .name = surfaces.names[material], .material = surfaces.materials[material], .images = images};
 }
 
 void write_image(const fs::path& model_folder, const mesh::Image& image) {
@@ -63,6 +62,7 @@ SinglePlant write_single_mesh(const ModelFolder& models, const std::string& name
     const mesh::Material& material = surfaces.materials[surface.material];
     entries.push_back(mtl_entry(surfaces, surface.material, "../materials/textures/"));
     if (material.texture) write_image(models.path / name, *material.texture);
+    if (material.mask) write_image(models.path / name, *material.mask->image());
     obj.use_material(entries.back().name);
     obj.add(surface, Eigen::Affine3d::Identity(), needs_back_faces(surface, false));
     for (const Eigen::Vector3f& v : surface.vertices) plant.bounds.extend(v.cast<double>());
@@ -71,12 +71,6 @@ SinglePlant write_single_mesh(const ModelFolder& models, const std::string& name
   write_mtl(folder / (name + ".mtl"), entries);
   plant.triangles = obj.triangles();
   return plant;
-}
-
-bool is_weed(const farm::Farm& farm, std::size_t model) {
-  const auto found = std::find_if(farm.plants.begin(), farm.plants.end(),
-                                  [&](const auto& plant) { return plant.model == model; });
-  return found != farm.plants.end() && found->kind == farm::PlantKind::weed;
 }
 
 // One mesh of a merged model.
@@ -219,6 +213,7 @@ EntityCounts& EntityCounts::operator+=(const EntityCounts& other) {
 std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const farm::Farm& farm,
                                              const PlantSurfaces& surfaces) {
   std::vector<SinglePlant> plants;
+  const std::vector<SurfaceClass> classes = farm::classes_of_models(farm);
   for (std::size_t i = 0; i < farm.models.size(); ++i) {
     const std::string& name = farm.models[i].name;
     plants.push_back(write_single_mesh(models, name, surfaces.models[i], surfaces));
@@ -227,7 +222,7 @@ std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const fa
     xml.open("link", "link");
     xml.open("visual", "visual");
     farm::write_mesh_geometry(xml, plants.back().uri);
-    write_class(xml, is_weed(farm, i) ? SurfaceClass::weed : SurfaceClass::crop);
+    write_class(xml, classes[i]);
     xml.close();
     xml.close();
     end_model(xml);
@@ -273,7 +268,9 @@ EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& fa
   obj.use_material("soil");
   for (const Surface& surface : surfaces) obj.add(surface, Eigen::Affine3d::Identity(), false);
   obj.close();
-  write_mtl(folder / (name + ".mtl"), {{"soil", farm::kSoilBrown, ""}});
+  mesh::Material soil{.name = "soil", .colour = farm::kSoilBrown};
+  if (farm.soil_reflectance) soil.reflectance = static_cast<float>(*farm.soil_reflectance);
+  write_mtl(folder / (name + ".mtl"), {{.name = soil.name, .material = soil, .images = ""}});
 
   const std::string uri = mesh_uri(name, name + ".obj");
   farm::XmlFile xml = begin_model(models, name, "Terrain of the farm " + farm.name);

@@ -261,6 +261,7 @@ class WorldReader {
     note(empty_, "visual(s) without a shape left out");
     world_.files.assign(includes.files.rbegin(), includes.files.rend());
     world_.files.insert(world_.files.end(), shapes_.files().begin(), shapes_.files().end());
+    world_.notes.insert(world_.notes.end(), shapes_.notes().begin(), shapes_.notes().end());
     world_.meshes = shapes_.take();
   }
 

@@ -11,20 +11,11 @@ namespace {
 
 constexpr std::uint32_t kUnused = ~0u;
 
-bool same_image(const mesh::Material& a, const mesh::Material& b) {
-  if (!a.texture || !b.texture) return a.texture == b.texture;
-  return a.texture == b.texture ||
-         (a.texture->name == b.texture->name && a.texture->bytes == b.texture->bytes);
-}
-
 std::size_t index_of(std::vector<mesh::Material>& materials, const mesh::Material& wanted) {
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    const mesh::Material& each = materials[i];
-    if (each.name == wanted.name && each.colour == wanted.colour && same_image(each, wanted))
-      return i;
-  }
-  materials.push_back(wanted);
-  return materials.size() - 1;
+  const auto found = std::find(materials.begin(), materials.end(), wanted);
+  const auto index = static_cast<std::size_t>(found - materials.begin());
+  if (found == materials.end()) materials.push_back(wanted);
+  return index;
 }
 
 // The vertex' normals: those of its triangles, weighted by their areas.
@@ -109,7 +100,8 @@ std::vector<Surface> surfaces_of(const mesh::Mesh& mesh, std::vector<mesh::Mater
   if (own.empty()) own.emplace_back();
   std::vector<Surface> surfaces;
   for (std::size_t material = 0; material < own.size(); ++material) {
-    const bool textured = own[material].texture && !mesh.texture_coordinates.empty();
+    const bool textured =
+        (own[material].texture || own[material].mask) && !mesh.texture_coordinates.empty();
     Surface surface = surface_of(mesh, static_cast<std::uint16_t>(material), textured);
     if (surface.triangles.empty()) continue;
     surface.material = index_of(materials, own[material]);

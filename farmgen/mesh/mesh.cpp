@@ -3,28 +3,37 @@
 
 #include <algorithm>
 
+#include "mesh/alpha_mask.h"
+
 namespace plotscan::mesh {
 namespace {
 
-bool same_texture(const Material& a, const Material& b) {
-  if (a.texture == nullptr || b.texture == nullptr) return a.texture == b.texture;
-  return a.texture == b.texture ||
-         (a.texture->name == b.texture->name && a.texture->bytes == b.texture->bytes);
+using ImagePointer = std::shared_ptr<const Image>;
+
+bool same(const ImagePointer& a, const ImagePointer& b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  return a == b || (a->name == b->name && a->bytes == b->bytes);
 }
 
-bool same(const Material& a, const Material& b) {
-  return a.name == b.name && a.colour == b.colour && same_texture(a, b);
+bool same_mask(const Material& a, const Material& b) {
+  if (a.mask == nullptr || b.mask == nullptr) return a.mask == b.mask;
+  return a.mask == b.mask ||
+         (a.mask->cutoff() == b.mask->cutoff() && same(a.mask->image(), b.mask->image()));
 }
 
 std::uint16_t index_of(std::vector<Material>& materials, const Material& wanted) {
-  const auto found = std::find_if(materials.begin(), materials.end(),
-                                  [&](const Material& each) { return same(each, wanted); });
+  const auto found = std::find(materials.begin(), materials.end(), wanted);
   const auto index = static_cast<std::uint16_t>(found - materials.begin());
   if (found == materials.end()) materials.push_back(wanted);
   return index;
 }
 
 }  // namespace
+
+bool operator==(const Material& a, const Material& b) {
+  return a.name == b.name && a.colour == b.colour && a.reflectance == b.reflectance &&
+         same(a.texture, b.texture) && same_mask(a, b);
+}
 
 void append(Mesh& mesh, const Mesh& other) {
   if (!mesh.triangles.empty() && mesh.materials.empty()) mesh.materials.emplace_back();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,19 @@ struct Image {
   std::string bytes;  // of a PNG or JPEG file
 };
 
+class AlphaMask;  // mesh/alpha_mask.h
+
 // How a surface looks; its name says what it is ("leaf", "stem", "ear").
 struct Material {
   std::string name;                                          // may be empty: the file gave none
   Eigen::Vector3f colour = Eigen::Vector3f::Constant(0.6F);  // diffuse red, green, blue in [0, 1]
   std::shared_ptr<const Image> texture = {};  // multiplied with the colour; null: none
+  // Diffuse, at 903 nm, in [0, 1]; absent: not stated (mesh/reflectance.h).
+  std::optional<float> reflectance = {};
+  std::shared_ptr<const AlphaMask> mask = {};  // where the surface is there; null: everywhere
 };
+// The same name, colour, images and reflectance.
+bool operator==(const Material& a, const Material& b);
 
 // Triangles over shared vertices, metres, z up, counter-clockwise seen from outside.
 struct Mesh {
@@ -32,7 +40,7 @@ struct Mesh {
   std::vector<std::uint16_t> triangle_material =
       {};  // index of each triangle's; empty: all have the first
   // (u, v) of each vertex, v upward from the image's lower edge; empty where no material has a
-  // texture.
+  // texture or a mask.
   std::vector<Eigen::Vector2f> texture_coordinates = {};
 
   std::uint16_t material_of(std::size_t triangle) const {
@@ -40,8 +48,7 @@ struct Mesh {
   }
 };
 
-// Puts the other mesh's triangles after the mesh's own. Materials that are equal (name, colour and
-// texture) become one.
+// Puts the other mesh's triangles after the mesh's own. Materials that are equal become one.
 void append(Mesh& mesh, const Mesh& other);
 
 // Triangles that show the same surface with about `triangles` of them or fewer. Each connected part

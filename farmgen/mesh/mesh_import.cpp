@@ -18,6 +18,7 @@
 #include <assimp/scene.h>
 
 #include "core/error.h"
+#include "mesh/import_materials.h"
 
 namespace plotscan::mesh {
 namespace {
@@ -52,8 +53,9 @@ class MeshBuilder {
  public:
   explicit MeshBuilder(std::vector<Material> materials) {
     mesh_.materials = std::move(materials);
-    textured_ = std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
-                            [](const Material& material) { return material.texture != nullptr; });
+    textured_ =
+        std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
+                    [](const Material& material) { return material.texture || material.mask; });
   }
 
   bool textured() const { return textured_; }
@@ -98,65 +100,6 @@ class MeshBuilder {
   bool textured_ = false;
   std::unordered_map<Corner, std::uint32_t, CornerHash> index_;
 };
-
-// PNG and JPEG are what every program of the field shows.
-bool is_image(const std::string& bytes) {
-  return bytes.starts_with("\x89PNG\r\n\x1a\n") || bytes.starts_with("\xff\xd8\xff");
-}
-
-std::string image_name(const std::string& file) {
-  std::string name = std::filesystem::path(file).filename().string();
-  for (char& c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
-    if (!plain) c = '_';
-  }
-  return name;
-}
-
-// The image that a material names: one inside the file, or a file beside it. A texture that is
-// absent, or no PNG or JPEG, is left out: it changes the look alone.
-std::shared_ptr<const Image> texture_of(const std::filesystem::path& path, const aiScene& scene,
-                                        const aiMaterial& material) {
-  aiString name;
-  if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS &&
-      material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS) {
-    return nullptr;
-  }
-  Image image;
-  if (const aiTexture* inside = scene.GetEmbeddedTexture(name.C_Str())) {
-    if (inside->mHeight != 0) return nullptr;  // raw texels
-    image.bytes.assign(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
-    image.name = image_name(path.stem().string() + "_texture" + image_name(name.C_Str()) + "." +
-                            inside->achFormatHint);
-  } else {
-    std::string file = name.C_Str();
-    std::replace(file.begin(), file.end(), '\\', '/');
-    std::error_code error;
-    const std::filesystem::path beside = path.parent_path() / file;
-    if (!std::filesystem::is_regular_file(beside, error)) return nullptr;
-    image.bytes = read_text(beside);
-    image.name = image_name(file);
-  }
-  if (!is_image(image.bytes)) return nullptr;
-  return std::make_shared<const Image>(std::move(image));
-}
-
-std::vector<Material> materials_of(const std::filesystem::path& path, const aiScene& scene) {
-  std::vector<Material> materials;
-  for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
-    const aiMaterial& given = *scene.mMaterials[i];
-    Material material{.name = given.GetName().C_Str()};
-    // The name assimp gives where the file has no material.
-    if (material.name == AI_DEFAULT_MATERIAL_NAME) material.name.clear();
-    aiColor3D colour;
-    if (given.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS) {
-      material.colour = Eigen::Vector3f(colour.r, colour.g, colour.b).cwiseMax(0).cwiseMin(1);
-    }
-    material.texture = texture_of(path, scene, given);
-    materials.push_back(std::move(material));
-  }
-  return materials;
-}
 
 Eigen::Affine3d file_from_node(const aiMatrix4x4& m) {
   Eigen::Affine3d transform;
@@ -227,7 +170,8 @@ void put_lowest_at_zero(Mesh& mesh) {
 
 }  // namespace
 
-Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options) {
+Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options,
+                 std::vector<std::string>* notes) {
   require_file(path);
   const std::string extension = lower_extension(path);
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
@@ -242,7 +186,7 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& opt
   if (scene->mNumMaterials > std::numeric_limits<std::uint16_t>::max()) {
     throw InputError(path, "has more than 65535 materials");
   }
-  MeshBuilder builder(materials_of(path, *scene));
+  MeshBuilder builder(materials_of(path, *scene, notes));
   add_node(path, *scene, *scene->mRootNode, model_from_file(extension, options), options.object,
            builder);
   Mesh mesh = builder.take();

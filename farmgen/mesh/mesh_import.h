@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/mesh.h"
 
@@ -28,8 +29,13 @@ struct MeshImportOptions {
 // Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are
 // triangulated, all objects joined, equal vertices shared, and triangles without area dropped.
 // Materials keep their names, diffuse colours and textures (PNG or JPEG, inside the file or beside
-// it). Throws InputError when the file is missing or cannot be parsed, its format is another, a
-// coordinate is not finite, it has no such object, or no triangle with an area is left.
-Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {});
+// it), what write_optics says of them, and where they let rays through: `map_d` and other opacity
+// textures, else the texture's own alpha (of glTF as alphaMode and alphaCutoff say). `notes`, where
+// given, gains a line for each opacity texture that is left out since it is absent or in another
+// format. Throws InputError when the file is missing or cannot be parsed, its format is another, a
+// coordinate is not finite, it has no such object, no triangle with an area is left, or an image
+// with an alpha is broken or too large.
+Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {},
+                 std::vector<std::string>* notes = nullptr);
 
 }  // namespace plotscan::mesh

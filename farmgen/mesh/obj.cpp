@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/text_file.h"
+#include "mesh/alpha_mask.h"
+#include "mesh/mtl_comments.h"
 
 namespace plotscan::mesh {
 namespace {
@@ -23,12 +25,16 @@ std::string material_name(const Material& material, std::set<std::string>& taken
   return name;
 }
 
+void write_image(const std::filesystem::path& folder, const Image& image) {
+  TextFile file(folder / image.name);
+  file << image.bytes;
+  file.close();
+}
+
 void write_images(const std::filesystem::path& folder, const Mesh& mesh) {
   for (const Material& material : mesh.materials) {
-    if (!material.texture) continue;
-    TextFile image(folder / material.texture->name);
-    image << material.texture->bytes;
-    image.close();
+    if (material.texture) write_image(folder, *material.texture);
+    if (material.mask) write_image(folder, *material.mask->image());
   }
 }
 
@@ -45,6 +51,7 @@ void write_materials(const std::filesystem::path& path, const Mesh& mesh,
     // Matt for readers of the plain model and of the physically based one (roughness, metallic).
     out << "Ks 0 0 0\nPr 0.8\nPm 0\n";
     if (material.texture) out << "map_Kd " << material.texture->name << "\n";
+    write_optics(out, material, "");
   }
   out.close();
 }
@@ -63,6 +70,13 @@ void write_triangles(TextFile& out, const Mesh& mesh, std::size_t material) {
 }
 
 }  // namespace
+
+void write_optics(TextFile& mtl, const Material& material, const std::string& images) {
+  if (material.mask) mtl << "map_d " << images << material.mask->image()->name << "\n";
+  if (material.mask && material.mask->cutoff() != kAlphaCutoff)
+    mtl << kCutoffComment << " " << material.mask->cutoff() << "\n";
+  if (material.reflectance) mtl << kReflectanceComment << " " << *material.reflectance << "\n";
+}
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   std::set<std::string> taken;

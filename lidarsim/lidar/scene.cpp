@@ -29,7 +29,20 @@ void require_success(RTCDevice device, const std::string& what) {
   check(error == RTC_ERROR_NONE, what + " fails in Embree with error " + std::to_string(error));
 }
 
-Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh) {
+// Takes back hits where the material's mask lets rays through.
+void pass_holes(const RTCFilterFunctionNArguments* hits) {
+  const auto& optics = *static_cast<const MeshOptics*>(hits->geometryUserPtr);
+  for (unsigned i = 0; i < hits->N; ++i) {
+    if (hits->valid[i] == 0) continue;
+    const bool opaque =
+        optics.is_opaque(RTCHitN_primID(hits->hit, hits->N, i), RTCHitN_u(hits->hit, hits->N, i),
+                         RTCHitN_v(hits->hit, hits->N, i));
+    if (!opaque) hits->valid[i] = 0;
+  }
+}
+
+// `optics` has to stay where it is.
+Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh, MeshOptics& optics) {
   Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* vertex = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -40,6 +53,10 @@ Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh) {
   require_success(device, "a mesh's memory");
   for (const Eigen::Vector3f& v : mesh.vertices) vertex = std::copy(v.begin(), v.end(), vertex);
   for (const auto& t : mesh.triangles) index = std::copy(t.begin(), t.end(), index);
+  if (optics.has_masks()) {
+    rtcSetGeometryUserData(geometry.get(), &optics);
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), pass_holes);
+  }
   rtcCommitGeometry(geometry.get());
   return geometry;
 }
@@ -73,9 +90,12 @@ Scene::Scene(const SceneContent& content, const Sway* sway) : trees_(std::make_u
   for (const PlacedMesh& placed : content.placed) {
     check(placed.mesh < content.meshes.size(), "every placed mesh is there");
     surfaces_.push_back(placed.surface);
+    mesh_of_surface_.push_back(placed.mesh);
     normal_from_mesh_.emplace_back(
         placed.world_from_mesh.linear().inverse().transpose().cast<float>());
   }
+  optics_.reserve(content.meshes.size());  // the trees keep their places
+  for (const mesh::Mesh& mesh : content.meshes) optics_.emplace_back(mesh);
   // One thread builds the trees: where two triangles are hit at the same distance the answer
   // depends on the tree, and the tree must not depend on the number of threads.
   tbb::task_arena one_thread(1);
@@ -99,12 +119,12 @@ void Scene::build_trees(const SceneContent& content) {
     SceneHandle& tree = trees_->meshes[placed.mesh];
     const bool sways = trees_->swaying && placed.rooted;
     if (!sways && !is_instance(placed)) {
-      rtcAttachGeometryByID(world, triangle_geometry(device, mesh).get(), id);
+      rtcAttachGeometryByID(world, triangle_geometry(device, mesh, optics_[placed.mesh]).get(), id);
       continue;
     }
     if (tree == nullptr) {
       tree = new_scene(device);
-      rtcAttachGeometry(tree.get(), triangle_geometry(device, mesh).get());
+      rtcAttachGeometry(tree.get(), triangle_geometry(device, mesh, optics_[placed.mesh]).get());
       rtcCommitScene(tree.get());
     }
     const Geometry geometry = sways ? trees_->swaying->add(device, tree.get(), mesh, placed)
@@ -148,7 +168,8 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
                                    Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
     hits[i] = {.range_m = query.ray.tfar,
                .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),
-               .reflectance = surfaces_[surface].reflectance,
+               .reflectance = optics_[mesh_of_surface_[surface]].reflectance(
+                   query.hit.primID, surfaces_[surface].reflectance),
                .surface = surface};
   }
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "lidar/optics.h"
 #include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
@@ -28,7 +29,7 @@ struct Hit {
 };
 
 // Meshes ready for ray tracing: each once, and instances of it where it is placed; a mesh that is
-// placed without a transform (a terrain) as it is.
+// placed without a transform (a terrain) as it is. Rays pass where a material's mask has a hole.
 class Scene {
  public:
   explicit Scene(const SceneContent& content) : Scene(content, nullptr) {}
@@ -57,7 +58,9 @@ class Scene {
 
   std::unique_ptr<Trees> trees_;
   std::vector<Surface> surfaces_;                  // in the order of SceneContent::placed
+  std::vector<std::uint32_t> mesh_of_surface_;     // index for optics_
   std::vector<Eigen::Matrix3f> normal_from_mesh_;  // turns normals into the world
+  std::vector<MeshOptics> optics_;                 // in the order of SceneContent::meshes
   float top_m_ = 0;
   float bottom_m_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "mesh/reflectance.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -22,12 +23,23 @@ void require_model(const farm::Farm& farm, const farm::Plant& plant) {
                    std::to_string(farm.models.size()));
 }
 
-// Near 903 nm, typical of spectral libraries.
-constexpr float kSoilReflectance = 0.30f;
-constexpr float kLeafReflectance = 0.45f;
-
 float reflectance_of(scan::PointClass label) {
-  return label == scan::PointClass::ground ? kSoilReflectance : kLeafReflectance;
+  return label == scan::PointClass::ground ? mesh::kSoilReflectance : mesh::kLeafReflectance;
+}
+
+// The mesh without what a laser does not see of it.
+mesh::Mesh unseen_left_out(const mesh::Mesh& mesh) {
+  mesh::Mesh kept{.vertices = mesh.vertices,
+                  .triangles = mesh.triangles,
+                  .materials = mesh.materials,
+                  .triangle_material = mesh.triangle_material};
+  bool masked = false;
+  for (mesh::Material& material : kept.materials) {
+    material.texture.reset();
+    masked = masked || material.mask != nullptr;
+  }
+  if (masked) kept.texture_coordinates = mesh.texture_coordinates;
+  return kept;
 }
 
 Surface surface_of(const farm::Plant& plant) {
@@ -35,7 +47,7 @@ Surface surface_of(const farm::Plant& plant) {
   return {.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
           .plot = plant.plot,
           .plant = plant.id,
-          .reflectance = kLeafReflectance};
+          .reflectance = mesh::kLeafReflectance};
 }
 
 }  // namespace
@@ -43,7 +55,7 @@ Surface surface_of(const farm::Plant& plant) {
 SceneContent scene_content(const farm::Farm& farm) {
   SceneContent content;
   for (const farm::PlantModel& model : farm.models)
-    content.meshes.push_back({.vertices = model.mesh.vertices, .triangles = model.mesh.triangles});
+    content.meshes.push_back(unseen_left_out(model.mesh));
   content.placed.reserve(farm.plants.size() + 1);
   for (const farm::Plant& plant : farm.plants) {
     require_model(farm, plant);
@@ -56,18 +68,19 @@ SceneContent scene_content(const farm::Farm& farm) {
   }
   content.placed.push_back(
       {.mesh = static_cast<std::uint32_t>(content.meshes.size()),
-       .surface = {.label = scan::PointClass::ground, .reflectance = kSoilReflectance}});
+       .surface = {.label = scan::PointClass::ground,
+                   .reflectance = static_cast<float>(
+                       farm.soil_reflectance.value_or(mesh::kSoilReflectance))}});
   content.meshes.push_back(shape_of(farm.terrain));
   return content;
 }
 
 SceneContent scene_content(const gazebo::StaticWorld& world) {
   SceneContent content;
-  for (const mesh::Mesh& mesh : world.meshes)
-    content.meshes.push_back({.vertices = mesh.vertices, .triangles = mesh.triangles});
+  for (const mesh::Mesh& mesh : world.meshes) content.meshes.push_back(unseen_left_out(mesh));
   content.placed.reserve(world.surfaces.size());
   for (const gazebo::PlacedSurface& surface : world.surfaces) {
-    // The numbers of both classes are the same (gazebo/labels.h).
+    // The numbers of both classes are the same (farm/surface_class.h).
     const auto label = static_cast<scan::PointClass>(surface.kind);
     content.placed.push_back({.mesh = surface.mesh,
                               .world_from_mesh = surface.world_from_mesh,

@@ -18,7 +18,8 @@ struct Surface {
   scan::PointClass label = scan::PointClass::unlabelled;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // Plant::id; 0: none
-  float reflectance = 0;    // at 903 nm, diffuse, in [0, 1]
+  // At 903 nm, diffuse, in [0, 1], of materials that state none and whose names say nothing.
+  float reflectance = 0;
 };
 
 // A mesh somewhere in the world.
@@ -31,7 +32,7 @@ struct PlacedMesh {
 
 // All that a laser can meet, wherever it comes from; metres, z up.
 struct SceneContent {
-  std::vector<mesh::Mesh> meshes;  // their triangles alone count, not their looks
+  std::vector<mesh::Mesh> meshes;  // not their looks: triangles, reflectances, masks
   std::vector<PlacedMesh> placed;
 };
 

@@ -121,5 +121,16 @@ TEST(Cultivar, RefusesAssignmentsOutOfRange) {
               HasSubstr("stage R2 is not one of reed's, which are short, tall"));
 }
 
+TEST(Cultivar, AUsersFileStatesReflectancesOfTheCropsMaterials) {
+  EXPECT_TRUE(reed().reflectance.empty());
+  const Cultivar mine = with("crop: reed\nreflectance: {leaf: 0.5}\n");
+  EXPECT_EQ(mine.reflectance, (std::map<std::string, float>{{"leaf", 0.5F}}));
+  const auto refusal = [](const std::string& reflectance) {
+    return message_of<InputError>([&] { with("crop: reed\nreflectance: " + reflectance + "\n"); });
+  };
+  EXPECT_THAT(refusal("{ear: 0.5}"), HasSubstr("mine.yaml:2: reflectance.ear"));
+  EXPECT_THAT(refusal("{leaf: 1.01}"), HasSubstr("mine.yaml:2: reflectance.leaf"));
+}
+
 }  // namespace
 }  // namespace plotscan::crop

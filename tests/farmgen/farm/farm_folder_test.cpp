@@ -4,6 +4,7 @@
 
 #include "farmgen/farm/example_farm.h"
 #include "temporary_folder.h"
+#include "test_images.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 #include "farm/farm.h"
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "mesh/alpha_mask.h"
 
 namespace plotscan::farm {
 namespace {
@@ -247,6 +249,60 @@ TEST(FarmFolder, MissingAndTruncatedFilesAreRefused) {
     EXPECT_THROW(read_farm(farm), InputError) << file << " removed";
   }
   EXPECT_THAT(message_of<InputError>([] { read_farm("/no/such/farm"); }), HasSubstr("no such"));
+}
+
+TEST(FarmFolder, KeepsReflectancesAndMasks) {
+  const TemporaryFolder folder;
+  folder.write("leaf.png", plotscan::testing::png_of_alpha(
+                               8, 8, [](int column, int row) { return (column + row) % 2 * 255; }));
+  folder.write("m.mtl", "newmtl leaf\nmap_Kd leaf.png\nnewmtl stem\n");
+  folder.write("m.obj",
+               "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+               "usemtl leaf\nf 1/1 2/2 3/3\nusemtl stem\nf 1/1 3/3 2/2\n");
+  const auto description =
+      folder.write("f.yaml",
+                   "terrain: {side_m: 20, reflectance: 0.15}\n"
+                   "plots: {width_m: 3, length_m: 3, rows: [{plots: 1}]}\n"
+                   "plants: {count: 2, models: [{mesh: m.obj, reflectance: {stem: 0.33}},\n"
+                   "  {crop: soybean, stage: V2, reflectance: {leaf: 0.51, pod: 0.2}}]}\n");
+  const Farm made = generate(load_description(description), 1);
+  write_farm(made, folder.path() / "farm", false, {.command = "farmgen generate"});
+  const Farm read = read_farm(folder.path() / "farm");
+  EXPECT_EQ(read.soil_reflectance, 0.15);
+  ASSERT_EQ(read.models.size(), 2u);
+  EXPECT_EQ(read.models[0].mesh.materials[0].reflectance, std::nullopt);
+  ASSERT_NE(read.models[0].mesh.materials[0].mask, nullptr);
+  EXPECT_EQ(read.models[0].mesh.materials[0].mask->opaque_share(), 0.5);
+  EXPECT_EQ(read.models[0].mesh.materials[1].reflectance, 0.33F);
+  for (const mesh::Mesh* mesh : {&read.models[1].mesh, &*read.models[1].light}) {
+    for (const mesh::Material& material : mesh->materials) {
+      if (material.name == "leaf") EXPECT_EQ(material.reflectance, 0.51F);
+      if (material.name == "stem") EXPECT_EQ(material.reflectance, std::nullopt);
+    }
+  }
+}
+
+TEST(FarmDescription, ReflectancesThatCannotBeAreRefused) {
+  const TemporaryFolder folder;
+  folder.write("m.mtl", "newmtl leaf\n");
+  folder.write("m.obj", "mtllib m.mtl\nusemtl leaf\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  const auto refusal = [&](const std::string& terrain, const std::string& model) {
+    const auto file =
+        folder.write("f.yaml", "terrain: {side_m: 20" + terrain +
+                                   "}\n"
+                                   "plots: {width_m: 3, length_m: 3, rows: [{plots: 1}]}\n"
+                                   "plants:\n  count: 2\n  models:\n    - {" +
+                                   model + "}\n");
+    return message_of<InputError>([&] { generate(load_description(file), 1); });
+  };
+  EXPECT_THAT(refusal(", reflectance: 1.5", "mesh: m.obj"),
+              ::testing::AllOf(HasSubstr("f.yaml:1"), HasSubstr("terrain.reflectance")));
+  EXPECT_THAT(refusal("", "mesh: m.obj, reflectance: {leaf: -0.1}"),
+              ::testing::AllOf(HasSubstr("f.yaml:6"), HasSubstr("reflectance.leaf")));
+  EXPECT_THAT(refusal("", "mesh: m.obj, reflectance: {stem: 0.4}"),
+              HasSubstr("reflectance: stem is not a material of"));
+  EXPECT_THAT(refusal("", "crop: wheat, reflectance: {pod: 0.4}"),
+              ::testing::AllOf(HasSubstr("f.yaml:6"), HasSubstr("pod")));
 }
 
 }  // namespace

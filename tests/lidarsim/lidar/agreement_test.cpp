@@ -46,10 +46,11 @@ Points scan_of(const SceneContent& content) {
 // Points of two scans, matched by their shot.
 struct Agreement {
   std::size_t points = 0;
-  std::size_t elsewhere = 0;  // more than kRounding_m apart, or seen in one scan alone
-  std::size_t labels = 0;     // of those that are not elsewhere: another class or plot
-  std::size_t plants = 0;     // and another plant
-  double furthest_m = 0;      // of those that are not elsewhere
+  std::size_t elsewhere = 0;    // more than kRounding_m apart, or seen in one scan alone
+  std::size_t labels = 0;       // of those that are not elsewhere: another class or plot
+  std::size_t intensities = 0;  // of those: by more than 1, what rounding may do
+  std::size_t plants = 0;       // and another plant
+  double furthest_m = 0;        // of those that are not elsewhere
 };
 
 constexpr double kRounding_m = 1e-4;
@@ -75,6 +76,7 @@ Agreement compared(const Points& a, const Points& b) {
     found.furthest_m = std::max(found.furthest_m, apart);
     if (point.label != other.label || point.plot != other.plot) ++found.labels;
     if (point.plant != other.plant) ++found.plants;
+    if (std::abs(point.intensity - other.intensity) > 1) ++found.intensities;
   }
   found.elsewhere += b.size() - k;
   return found;
@@ -109,6 +111,7 @@ TEST_P(ScansAgree, OfAFarmAndItsExportedWorld) {
   EXPECT_GT(found.points, 150000u);
   EXPECT_LE(static_cast<double>(found.elsewhere), 1e-4 * static_cast<double>(found.points));
   EXPECT_EQ(found.labels, 0u);
+  EXPECT_EQ(found.intensities, 0u);
   if (merge == Merge::none) {
     EXPECT_EQ(found.plants, 0u);
   }
@@ -120,7 +123,6 @@ INSTANTIATE_TEST_SUITE_P(Exports, ScansAgree,
                                                               Merge::none)),
                          [](const auto& tested) { return name_of(tested.param); });
 
-// A farm folder's own world.sdf says nothing of classes: its weeds are taken for crop.
 TEST(ScanAgrees, OfAFarmAndItsOwnWorld) {
   const TemporaryFolder folder;
   const farm::Farm farm = farm_with_weeds(folder);
@@ -129,6 +131,8 @@ TEST(ScanAgrees, OfAFarmAndItsOwnWorld) {
   std::printf("%zu points, %zu elsewhere, furthest %.2g m, %zu other labels\n", found.points,
               found.elsewhere, found.furthest_m, found.labels);
   EXPECT_LE(static_cast<double>(found.elsewhere), 1e-4 * static_cast<double>(found.points));
+  EXPECT_EQ(found.labels, 0u) << "the weeds too";
+  EXPECT_EQ(found.intensities, 0u);
   EXPECT_EQ(found.plants, 0u);
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mesh/mesh.h"
+
+namespace plotscan::mesh {
+
+// Where a surface is there at all: an image of which every texel lets rays through or does not.
+class AlphaMask {
+ public:
+  // By the image's alpha; by its brightness where it has none. Texels of less than `cutoff`, in
+  // [0, 1], let rays through. Throws InputError, naming the image as `file`, when it is broken or
+  // has more than kMostTexels.
+  AlphaMask(std::shared_ptr<const Image> image, float cutoff, const std::filesystem::path& file);
+
+  // At (u, v), v upward from the image's lower edge: its nearest texel; the image is repeated.
+  bool is_opaque(const Eigen::Vector2f& uv) const;
+  // Of all texels.
+  double opaque_share() const;
+
+  const std::shared_ptr<const Image>& image() const { return image_; }
+  float cutoff() const { return cutoff_; }
+
+  static constexpr std::size_t kMostTexels = std::size_t{1} << 26;  // 8192 x 8192: a leaf's scan
+
+ private:
+  std::shared_ptr<const Image> image_;
+  float cutoff_;
+  std::size_t width_ = 0;
+  std::size_t height_ = 0;
+  std::vector<bool> opaque_;  // row by row from the top
+};
+
+// Whether the image's header says that it has an alpha: a PNG's, which alone may.
+bool may_have_alpha(const Image& image);
+
+inline constexpr float kAlphaCutoff = 0.5F;  // where a file states none; as glTF has it
+
+}  // namespace plotscan::mesh

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mesh/mesh.h"
+
+namespace plotscan::mesh {
+
+// Diffuse reflectance at 903 nm, in [0, 1], where nothing else is stated (docs/reflectance.md has
+// the sources).
+inline constexpr float kSoilReflectance = 0.30F;
+inline constexpr float kLeafReflectance =
+    0.45F;  // and of a plant's surface whose name says nothing
+
+// By what the material's name says ("leaf.001", "old_leaf", "dry_stem"): the table of
+// docs/reflectance.md. Absent when it says nothing.
+std::optional<float> reflectance_by_name(std::string_view name);
+
+// What the material states, else by its name.
+std::optional<float> reflectance_of(const Material& material);
+
+}  // namespace plotscan::mesh
