@@ -72,12 +72,18 @@ void declare_convert(Program& program) {
                       [&program, arguments] { run_convert(program, *arguments); });
   convert
       .add_option("IN", arguments->in,
-                  "scan folder, cloud (PCD, PLY), or trajectory (TUM text, trajectory.csv)")
+                  "scan folder, cloud (PCD, PLY, LAS), or trajectory (TUM text, trajectory.csv)")
       ->required();
   convert
       .add_option("OUT", arguments->out,
                   "file to write; its extension says the format (docs/formats.md)")
       ->required();
+  convert.add_option("--encoding", arguments->options.write.encoding,
+                     "of PCD: binary (default), compressed (keeps the whole cloud in memory) or "
+                     "ascii; of PLY: binary or ascii");
+  convert.add_option("--crs", arguments->options.write.crs,
+                     "of LAS: local (default), the world frame, or utm, the UTM zone of a farm "
+                     "with an anchor");
   add_flight_options(convert, *arguments);
   convert.add_flag("--force", arguments->options.replace, "replace an existing file");
 }

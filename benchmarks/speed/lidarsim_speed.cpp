@@ -21,7 +21,7 @@
 #include "lidar/flight_plan.h"
 #include "lidar/scene.h"
 #include "lidar/simulate.h"
-#include "scan/pcd_writer.h"
+#include "scan/cloud_writer.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"
 #include "sensor/shots.h"

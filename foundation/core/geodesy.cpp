@@ -4,6 +4,11 @@
 #include <cmath>
 
 #include <GeographicLib/LocalCartesian.hpp>
+#include <GeographicLib/TransverseMercator.hpp>
+#include <GeographicLib/UTMUPS.hpp>
+
+#include "core/csv.h"
+#include "core/error.h"
 
 namespace plotscan {
 namespace {
@@ -28,6 +33,23 @@ Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& p
   frame_at(anchor).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, world.x(),
                            world.y(), world.z());
   return world;
+}
+
+UtmZone utm_zone(const GeodeticPoint& point) {
+  const int number = GeographicLib::UTMUPS::StandardZone(point.latitude_deg, point.longitude_deg);
+  if (number < GeographicLib::UTMUPS::MINUTMZONE) {
+    throw InputError("latitude " + format_number(point.latitude_deg) +
+                     " lies outside UTM, which reaches from 80 degrees south to 84 north");
+  }
+  return {.number = number, .north = point.latitude_deg >= 0};
+}
+
+Eigen::Vector3d utm_from_geodetic(const UtmZone& zone, const GeodeticPoint& point) {
+  double east_m = 0;
+  double north_m = 0;
+  GeographicLib::TransverseMercator::UTM().Forward(zone.central_meridian_deg(), point.latitude_deg,
+                                                   point.longitude_deg, east_m, north_m);
+  return {5e5 + east_m, north_m + (zone.north ? 0 : 1e7), point.altitude_m};
 }
 
 }  // namespace plotscan

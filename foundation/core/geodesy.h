@@ -21,4 +21,18 @@ using Anchor = GeodeticPoint;
 GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& point);
 Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& point);
 
+// A zone of the Universal Transverse Mercator grid on WGS84.
+struct UtmZone {
+  int number = 0;  // 1 to 60
+  bool north = true;
+
+  int central_meridian_deg() const { return 6 * number - 183; }
+};
+
+// The zone of a place, with the exceptions of Norway and Svalbard. Throws InputError beyond 84
+// degrees north and 80 south, where the grid ends.
+UtmZone utm_zone(const GeodeticPoint& point);
+// Easting, northing and height over the ellipsoid, metres.
+Eigen::Vector3d utm_from_geodetic(const UtmZone& zone, const GeodeticPoint& point);
+
 }  // namespace plotscan

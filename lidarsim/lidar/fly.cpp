@@ -20,7 +20,7 @@
 #include "lidar/simulate.h"
 #include "lidar/sway.h"
 #include "record/scan_folder.h"
-#include "scan/pcd_writer.h"
+#include "scan/cloud_writer.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"
 #include "sensor/shots.h"

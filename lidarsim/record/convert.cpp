@@ -98,23 +98,42 @@ scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options
   throw InputError(in, "holds points but no trajectory");
 }
 
-}  // namespace
-
-ConvertSummary write_points(const Source& source, const fs::path& out, const WriteOptions& options,
-                            const ProgressReport& progress) {
+const Format& writable_format(const fs::path& out) {
   const Format* format = find_format(out);
   if (format == nullptr || !format->create) {
     throw InputError(out,
                      "cannot be written: its name must end in one of " + writable_extensions());
   }
-  if (format->needs_flight && !source.flight) {
-    throw InputError(out, "a " + format->name + " needs the flight, of which " +
+  return *format;
+}
+
+void require_options(const Format& format, const fs::path& out, const WriteOptions& options) {
+  const auto& encodings = format.encodings;
+  if (!options.encoding.empty() && std::ranges::count(encodings, options.encoding) == 0) {
+    throw InputError(out, "--encoding " + options.encoding + " is none of a " + format.name +
+                              (encodings.empty() ? ", which has but one"
+                                                 : "; there are " + joined(encodings, ", ")));
+  }
+  if (!options.crs.empty() && !format.has_crs)
+    throw InputError(out, "--crs is for LAS; a " + format.name + " has no coordinate system");
+  if (!options.crs.empty() && options.crs != "local" && options.crs != "utm")
+    throw InputError(out, "--crs \"" + options.crs + "\" must be local or utm");
+}
+
+}  // namespace
+
+ConvertSummary write_points(const Source& source, const fs::path& out, const WriteOptions& options,
+                            const ProgressReport& progress) {
+  const Format& format = writable_format(out);
+  require_options(format, out, options);
+  if (format.needs_flight && !source.flight) {
+    throw InputError(out, "a " + format.name + " needs the flight, of which " +
                               source.path.filename().string() +
                               " says nothing; give a scan folder, or --trajectory FILE (and "
                               "--sensor, --spin, --mount, --start)");
   }
   ConvertSummary summary;
-  const auto writer = format->create(out, source, options);
+  const auto writer = format.create(out, source, options);
   source.stream([&](std::span<const scan::LabelledPoint> points) {
     writer->write(points);
     summary.points += points.size();

@@ -4,20 +4,37 @@
 #include <algorithm>
 #include <cctype>
 
+#include "record/las_file.h"
 #include "record/pcap_format.h"
-#include "scan/pcd_writer.h"
+#include "scan/cloud_writer.h"
 
 namespace plotscan::record {
 namespace {
 
 using std::filesystem::path;
 
-// PCD and PLY, by content.
+// PCD, PLY and LAS, by content.
 Source open_cloud(const path& file, const std::optional<FlightRecord>& flight) {
   const scan::CloudInfo info = scan::read_cloud_info(file);
   return {.path = file, .info = info, .flight = flight, .stream = [=](const scan::PointSink& sink) {
             scan::read_points(file, info, sink);
           }};
+}
+
+scan::CloudWriteOptions cloud_options(const Source& source, const WriteOptions& options) {
+  return {.ascii = options.encoding == "ascii", .origin_m = source.info.origin_m};
+}
+
+std::unique_ptr<scan::PointWriter> create_pcd(const path& file, const Source& source,
+                                              const WriteOptions& options) {
+  if (options.encoding == "compressed")
+    return std::make_unique<scan::CompressedPcdWriter>(file, source.info.origin_m);
+  return std::make_unique<scan::PcdWriter>(file, cloud_options(source, options));
+}
+
+std::unique_ptr<scan::PointWriter> create_ply(const path& file, const Source& source,
+                                              const WriteOptions& options) {
+  return std::make_unique<scan::PlyWriter>(file, cloud_options(source, options));
 }
 
 }  // namespace
@@ -26,10 +43,19 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
       {.name = "PCD cloud",
        .extensions = {".pcd"},
+       .encodings = {"binary", "compressed", "ascii"},
        .open = open_cloud,
-       .create = [](const path& file, const Source&,
-                    const WriteOptions&) { return std::make_unique<scan::PcdWriter>(file); }},
-      {.name = "PLY cloud", .extensions = {".ply"}, .open = open_cloud},
+       .create = create_pcd},
+      {.name = "PLY cloud",
+       .extensions = {".ply"},
+       .encodings = {"binary", "ascii"},
+       .open = open_cloud,
+       .create = create_ply},
+      {.name = "LAS cloud",
+       .extensions = {".las"},
+       .has_crs = true,
+       .open = open_cloud,
+       .create = create_las},
 #ifdef PLOTSCAN_HAVE_PCAP
       pcap_format(),
       pcapng_format(),

@@ -25,13 +25,17 @@ struct Source {
 
 // How a file is written.
 struct WriteOptions {
-  std::string encoding = "binary";  // PCD: binary, compressed or ascii
+  std::string encoding = {};  // one of the format's encodings; empty: its first
+  std::string crs = {};       // LAS: "local", the world frame, or "utm"; empty: local
 };
 
 // A kind of file that points are read from, written to, or both, found by its extension.
 struct Format {
   std::string name;                     // "binary PCD", for messages
   std::vector<std::string> extensions;  // with their dot, in lower case
+  // The ways of writing it, the first by default; empty where there is but one.
+  std::vector<std::string> encodings = {};
+  bool has_crs = false;  // whether options.crs means something
   // Whether only a flight's record turns points into this format; where it is set, source.flight is
   // there when `create` is called.
   bool needs_flight = false;

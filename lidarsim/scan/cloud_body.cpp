@@ -36,7 +36,7 @@ double integer(char kind, Bits bits) {
                      : static_cast<double>(bits);
 }
 
-double decode(const ScalarField& field, const char* bytes, bool swap) {
+double number(const ScalarField& field, const char* bytes, bool swap) {
   switch (field.size) {
     case 1:
       return integer(field.kind, load<std::uint8_t>(bytes, swap));
@@ -51,6 +51,15 @@ double decode(const ScalarField& field, const char* bytes, bool swap) {
       return field.kind == 'F' ? std::bit_cast<double>(bits) : integer(field.kind, bits);
     }
   }
+}
+
+// What a number of the file stands for.
+double decode(const ScalarField& field, const char* bytes, bool swap) {
+  double value = number(field, bytes, swap);
+  if (field.bits > 0)
+    value = (static_cast<unsigned>(value) >> field.shift) & ((1u << field.bits) - 1);
+  const bool scaled = field.scale != 1 || field.add != 0;
+  return scaled ? value * field.scale + field.add : value;
 }
 
 // What the readers below share: which points and fields are wanted, and where they go.

@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/utc_time.h"
 
 namespace plotscan::scan {
 
@@ -20,7 +23,7 @@ enum class CloudBody {
   compressed,  // PCD: LZF over field after field
 };
 
-// Where one number of a point lies, and how it is read.
+// Where one number of a point lies, and how it is read: value = number * scale + add.
 struct ScalarField {
   std::string name;
   char kind = 'F';         // I: signed, U: unsigned, F: float
@@ -28,6 +31,11 @@ struct ScalarField {
   std::size_t count = 1;   // elements
   std::size_t column = 0;  // of an ascii line
   std::size_t offset = 0;  // in a binary record, bytes
+  // LAS packs several numbers in a byte: this one has `bits` bits from bit `shift` on; 0: all.
+  int shift = 0;
+  int bits = 0;
+  double scale = 1;
+  double add = 0;
 };
 
 struct CloudLayout {
@@ -39,6 +47,11 @@ struct CloudLayout {
   std::vector<ScalarField> fields;
   std::uint64_t body_offset = 0;  // of the first point, bytes from the file's start
   std::size_t body_line = 0;      // of the first point, lines from 1
+
+  // What only LAS says.
+  std::string crs_wkt;
+  bool adjusted_gps_time = false;  // GPS time less 1e9 s; else of the GPS week
+  std::optional<UtcTime> start;    // of the points' time 0, in files of ours
 
   // Adds a field behind the others; its column and offset are set here.
   void append(ScalarField field);
@@ -75,6 +88,7 @@ inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 40;
 
 CloudLayout read_pcd_header(const std::filesystem::path& file);
 CloudLayout read_ply_header(const std::filesystem::path& file);
+CloudLayout read_las_header(const std::filesystem::path& file);
 // By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
 CloudLayout read_cloud_header(const std::filesystem::path& file);
 

@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::size_t kMaxHeaderLine = std::size_t{1} << 16;
 
-enum class CloudFormat { pcd, ply };
+enum class CloudFormat { pcd, ply, las };
 
-// By content, since names lie: PLY begins with its name, PCD with a comment or a header entry.
+// By content, since names lie: PLY and LAS begin with their names, PCD with a comment or a header
+// entry.
 CloudFormat cloud_format(const std::filesystem::path& file) {
   require_file(file);
   std::ifstream in(file, std::ios::binary);
@@ -24,11 +25,12 @@ CloudFormat cloud_format(const std::filesystem::path& file) {
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(in.gcount()));
   if (start.starts_with("ply\n") || start.starts_with("ply\r")) return CloudFormat::ply;
+  if (start.starts_with("LASF")) return CloudFormat::las;
   if (start.starts_with("#") || start.starts_with("VERSION") || start.starts_with("FIELDS") ||
       start.starts_with("COLUMNS"))
     return CloudFormat::pcd;
-  throw InputError(file, start.empty() ? "is empty; a PCD or PLY cloud is expected"
-                                       : "is neither a PCD nor a PLY cloud");
+  throw InputError(file, start.empty() ? "is empty; a PCD, PLY or LAS cloud is expected"
+                                       : "is neither a PCD, nor a PLY, nor a LAS cloud");
 }
 
 }  // namespace
@@ -91,8 +93,10 @@ void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
 }
 
 CloudLayout read_cloud_header(const std::filesystem::path& file) {
-  const CloudLayout layout =
-      cloud_format(file) == CloudFormat::ply ? read_ply_header(file) : read_pcd_header(file);
+  const CloudFormat format = cloud_format(file);
+  const CloudLayout layout = format == CloudFormat::pcd   ? read_pcd_header(file)
+                             : format == CloudFormat::ply ? read_ply_header(file)
+                                                          : read_las_header(file);
   if (layout.points == 0) throw InputError(file, "the cloud is empty: its header says 0 points");
   return layout;
 }

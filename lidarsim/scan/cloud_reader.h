@@ -18,10 +18,10 @@ struct CloudSummary {
   std::size_t not_finite = 0;  // left out: a coordinate was NaN or infinite
 };
 
-// Streams the x, y, z of a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary) cloud,
-// whatever other fields it has. Nothing but positions is handed on, so that an estimator cannot see
-// labels. Binary PCD is read in constant memory. Throws InputError (file, what is wrong) on a
-// missing, foreign, truncated or empty cloud.
+// Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary) or LAS (1.0
+// to 1.4) cloud, whatever other fields it has. Nothing but positions is handed on, so that an
+// estimator cannot see labels. All but compressed PCD is read in constant memory. Throws InputError
+// (file, what is wrong) on a missing, foreign, truncated or empty cloud.
 CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink);
 
 }  // namespace plotscan::scan

@@ -22,6 +22,8 @@ struct LabelledPoint {
   PointClass label = PointClass::unlabelled;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // 0: none
+
+  bool operator==(const LabelledPoint&) const = default;
 };
 
 // Receives points piece by piece, in the order of firing, from one thread at a time.

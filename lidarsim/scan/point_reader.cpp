@@ -10,11 +10,13 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "scan/cloud_layout.h"
+#include "scan/las_format.h"
 
 namespace plotscan::scan {
 namespace {
 
 constexpr double kOriginStep_m = 1000;
+constexpr const char* kGpsTime = "gps_time";  // as read_las_header names it
 // Rows looked through for a finite point.
 constexpr std::uint64_t kFirstRows = 8192;
 
@@ -148,27 +150,49 @@ Selection select(const CloudLayout& layout) {
 
 Eigen::Vector3d position(std::span<const double> row) { return {row[0], row[1], row[2]}; }
 
-// The first finite point of the cloud's beginning; zero where there is none.
-Eigen::Vector3d first_point(const std::filesystem::path& cloud, const CloudLayout& layout,
-                            std::span<const ScalarField> xyz) {
-  std::optional<Eigen::Vector3d> first;
+// The first finite point of the cloud's beginning, with its time; zero where there is none.
+struct FirstPoint {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  double time_s = 0;
+};
+
+FirstPoint first_point(const std::filesystem::path& cloud, const CloudLayout& layout) {
+  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  if (const ScalarField* time = layout.find(kGpsTime)) fields.push_back(*time);
+  std::optional<FirstPoint> first;
   read_rows(
-      cloud, layout, xyz,
+      cloud, layout, fields,
       [&](std::span<const double> rows) {
-        for (std::size_t i = 0; i < rows.size() && !first; i += 3)
-          if (position(rows.subspan(i)).allFinite()) first = position(rows.subspan(i));
+        for (std::size_t i = 0; i < rows.size() && !first; i += fields.size()) {
+          const auto row = rows.subspan(i, fields.size());
+          if (position(row).allFinite()) first = {position(row), row.back()};
+        }
       },
       kFirstRows);
-  return first.value_or(Eigen::Vector3d::Zero());
+  return first.value_or(FirstPoint{});
 }
 
-Eigen::Vector3d origin_of(const std::filesystem::path& cloud, const CloudLayout& layout,
-                          const Selection& selection) {
-  const auto xyz = std::span(selection.fields).first(3);
-  const bool floats = std::ranges::all_of(
-      xyz, [](const ScalarField& field) { return field.kind == 'F' && field.size == 4; });
-  if (floats) return Eigen::Vector3d::Zero();
-  return (first_point(cloud, layout, xyz) / kOriginStep_m).array().round() * kOriginStep_m;
+bool has_float_coordinates(const CloudLayout& layout) {
+  return std::ranges::all_of(std::array{"x", "y", "z"}, [&](const char* axis) {
+    const ScalarField& field = *layout.find(axis);
+    return field.kind == 'F' && field.size == 4;
+  });
+}
+
+// The whole second of UTC at or before an adjusted GPS time.
+std::optional<UtcTime> second_of(double adjusted_s) {
+  const UtcTime epoch = *parse_utc("1980-01-06T00:00:00Z");
+  const double second = std::floor(adjusted_s + las::kGpsTimeAdjustment_s - gps_seconds(epoch));
+  constexpr double kCentury_s = 3.2e9;
+  if (!(second >= 0 && second < kCentury_s)) return std::nullopt;
+  return later(epoch, second);
+}
+
+// What turns the file's times into seconds from info.start.
+double time_shift_s(const CloudLayout& layout, const CloudInfo& info) {
+  return layout.adjusted_gps_time && info.start
+             ? las::kGpsTimeAdjustment_s - gps_seconds(*info.start)
+             : 0;
 }
 
 }  // namespace
@@ -176,7 +200,12 @@ Eigen::Vector3d origin_of(const std::filesystem::path& cloud, const CloudLayout&
 CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   const CloudLayout layout = read_cloud_header(cloud);
   const Selection selection = select(layout);
-  CloudInfo info{.points = layout.points, .origin_m = origin_of(cloud, layout, selection)};
+  CloudInfo info{.points = layout.points, .start = layout.start, .crs_wkt = layout.crs_wkt};
+  if (!has_float_coordinates(layout)) {
+    const FirstPoint first = first_point(cloud, layout);
+    info.origin_m = (first.position_m / kOriginStep_m).array().round() * kOriginStep_m;
+    if (layout.adjusted_gps_time && !info.start) info.start = second_of(first.time_s);
+  }
   for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);
   return info;
 }
@@ -185,6 +214,7 @@ CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& in
                          const PointSink& sink) {
   const CloudLayout layout = read_cloud_header(cloud);
   const Selection selection = select(layout);
+  const double shift_s = time_shift_s(layout, info);
   CloudSummary summary;
   std::vector<LabelledPoint> points;
   const auto read = [&](std::span<const double> row) {
@@ -201,6 +231,7 @@ CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& in
                                   ": \"" + selection.fields[3 + i].name + "\" is " +
                                   format_number(row[3 + i]) + ", which is no " + known->name);
     }
+    point.time += shift_s;
     points.push_back(point);
     ++summary.points;
   };

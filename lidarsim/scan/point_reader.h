@@ -22,7 +22,8 @@ struct CloudInfo {
   // hundreds of kilometres. Zero where the file's own coordinates are floats; else, in each
   // coordinate, the first finite point's rounded to whole kilometres.
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
-  // When time 0 of the points was, where the file knows. PCD and PLY do not.
+  // When time 0 of the points was, where the file knows: LAS with adjusted GPS time. Where the file
+  // is not of ours, the whole second at or before its first point.
   std::optional<UtcTime> start = {};
   std::string crs_wkt = {};  // the coordinate system, LAS only; "" where the file has none
   std::vector<std::string> fields = {};  // of LabelledPoint, by the names of docs/formats.md
@@ -31,8 +32,8 @@ struct CloudInfo {
 // Reads a cloud's header and the beginning of its points. Throws InputError as read_points does.
 CloudInfo read_cloud_info(const std::filesystem::path& cloud);
 
-// Streams the points of a PCD or PLY cloud with every field of LabelledPoint that the file has,
-// relative to info.origin_m; the other fields keep their defaults. Which names and units are
+// Streams the points of a PCD, PLY or LAS cloud with every field of LabelledPoint that the file
+// has, relative to info.origin_m; the other fields keep their defaults. Which names and units are
 // understood: docs/formats.md. Points that are not finite are left out. Throws InputError on a
 // missing, foreign, truncated or empty cloud, and on a number that its field cannot hold.
 CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& info,

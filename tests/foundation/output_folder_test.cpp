@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace plotscan {
 namespace {
@@ -72,6 +73,26 @@ TEST(TemporaryPath, IsRemovedWithItsObjectOrAtOnce) {
   const TemporaryPath living(folder.write("b/file", "x").parent_path());
   TemporaryPath::remove_all();
   EXPECT_FALSE(fs::exists(folder.path() / "b"));
+}
+
+TEST(OutputFile, AppearsWholeOrNotAtAll) {
+  const testing::TemporaryFolder folder;
+  const auto final_path = folder.path() / "cloud.las";
+  const auto write = [&](bool commit, const std::string& text) {
+    OutputFile file(final_path, true);
+    EXPECT_EQ(file.path().extension(), ".las");
+    std::ofstream(file.path()) << text;
+    if (commit) file.commit();
+  };
+  write(false, "half");
+  EXPECT_EQ(entries(folder.path()), 0u);
+  write(true, "whole");
+  write(false, "half");
+  EXPECT_EQ(read_text(final_path), "whole");
+  EXPECT_EQ(entries(folder.path()), 1u);
+  EXPECT_THROW(OutputFile(final_path, false), InputError);
+  EXPECT_THROW(OutputFile(folder.path(), true), InputError);
+  EXPECT_THROW(OutputFile(folder.path() / "none" / "cloud.las", false), InputError);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "lidar/fly.h"
+#include "scan/cloud_writer.h"
 
 namespace plotscan::record {
 namespace {
@@ -19,6 +20,41 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::TemporaryFolder;
+
+std::vector<scan::LabelledPoint> points_of(const fs::path& file) {
+  std::vector<scan::LabelledPoint> points;
+  scan::read_points(file, scan::read_cloud_info(file),
+                    [&](auto piece) { points.insert(points.end(), piece.begin(), piece.end()); });
+  return points;
+}
+
+// Within the steps of LAS: 0.1 mm, 60 ns, and 1/257 of intensity.
+void expect_same(const std::vector<scan::LabelledPoint>& read,
+                 const std::vector<scan::LabelledPoint>& expected) {
+  ASSERT_EQ(read.size(), expected.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    scan::LabelledPoint point = read[i];
+    ASSERT_NEAR(point.x, expected[i].x, 1.1e-4);
+    ASSERT_NEAR(point.y, expected[i].y, 1.1e-4);
+    ASSERT_NEAR(point.z, expected[i].z, 1.1e-4);
+    ASSERT_NEAR(point.intensity, expected[i].intensity, 1e-2);
+    ASSERT_NEAR(point.time, expected[i].time, 1e-7);
+    point.x = expected[i].x;
+    point.y = expected[i].y;
+    point.z = expected[i].z;
+    point.intensity = expected[i].intensity;
+    point.time = expected[i].time;
+    ASSERT_EQ(point, expected[i]) << "point " << i;
+  }
+}
+
+// A line of /proc/self/status in kilobytes.
+long status_kb(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name + ":")) return std::stol(line.substr(name.size() + 1));
+  return 0;
+}
 
 class Convert : public ::testing::Test {
  protected:
@@ -41,6 +77,69 @@ TEST_F(Convert, PcdComesBackByteForByte) {
   EXPECT_EQ(file_hash(out), file_hash(scan_ / "cloud.pcd"));
 }
 
+// Every cloud format to every other and back to PCD: the same points, but for LAS' steps.
+TEST_F(Convert, EveryCloudFormatHoldsEveryField) {
+  struct Kind {
+    const char* extension;
+    const char* encoding;
+  };
+  const std::vector<Kind> kinds = {{".pcd", "binary"}, {".pcd", "compressed"}, {".pcd", "ascii"},
+                                   {".ply", "binary"}, {".ply", "ascii"},      {".las", ""}};
+  const auto original = points_of(scan_ / "cloud.pcd");
+  for (const Kind& first : kinds) {
+    const fs::path one = folder_.path() / (std::string("one") + first.extension);
+    convert(scan_, one, {.write = {.encoding = first.encoding}, .replace = true});
+    for (const Kind& second : kinds) {
+      const fs::path two = folder_.path() / (std::string("two") + second.extension);
+      convert(one, two, {.write = {.encoding = second.encoding}, .replace = true});
+      expect_same(points_of(two), original);
+    }
+  }
+}
+
+TEST_F(Convert, LasSaysWhenFromWhereAndHowThePointsWereMeasured) {
+  const fs::path las = folder_.path() / "cloud.las";
+  convert(scan_, las, {});
+  EXPECT_EQ(format_utc(scan::read_cloud_info(las).start.value()), "2026-06-01T10:00:00Z");
+  EXPECT_THAT(read_text(las), HasSubstr("Velodyne VLP-16"));
+  EXPECT_THAT(refusal(scan_, "utm.las", {.write = {.crs = "utm"}}), HasSubstr("has an anchor"));
+}
+
+// The points of an anchored farm, against the plain geodesy of core.
+TEST_F(Convert, AnAnchoredFarmsLasMayBeInUtm) {
+  const Anchor anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
+  farm::Farm farm = testing::small_farm();
+  farm.anchor = anchor;
+  lidar::fly(farm, folder_.path() / "anchored", {}, false);
+  const fs::path las = folder_.path() / "utm.las";
+  convert(folder_.path() / "anchored", las, {.write = {.crs = "utm"}});
+  EXPECT_THAT(scan::read_cloud_info(las).crs_wkt, HasSubstr("WGS 84 / UTM zone 17N"));
+  const auto local = points_of(folder_.path() / "anchored" / "cloud.pcd");
+  std::size_t i = 0;
+  scan::read_positions(las, [&](std::span<const Eigen::Vector3d> positions) {
+    for (const Eigen::Vector3d& position : positions) {
+      const auto& p = local.at(i++);
+      const auto place = geodetic_from_world(anchor, {p.x, p.y, p.z});
+      ASSERT_LT((position - utm_from_geodetic(utm_zone(anchor), place)).norm(), 1e-4);
+    }
+  });
+  EXPECT_EQ(i, local.size());
+}
+
+// 111 MB of points.
+TEST_F(Convert, MemoryDoesNotGrowWithTheCloud) {
+  const fs::path big = folder_.path() / "big.pcd";
+  scan::PcdWriter writer(big);
+  for (int i = 0; i < 3000; ++i) writer.write(std::vector<scan::LabelledPoint>(1000));
+  writer.close();
+  for (const char* out : {"out.las", "out.ply", "out.pcd"}) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // forget the most memory so far
+    const long before_kb = status_kb("VmRSS");
+    EXPECT_EQ(convert(big, folder_.path() / out, {}).points, 3000000u);
+    EXPECT_LT(status_kb("VmHWM") - before_kb, 32000) << out;
+  }
+}
+
 TEST_F(Convert, TrajectoriesGoToTumAndBack) {
   const fs::path tum = folder_.path() / "flight.tum";
   const fs::path back = folder_.path() / "back.csv";
@@ -61,6 +160,11 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   folder_.write("taken.pcd", "x");
   folder_.write("text.xyz", "1 2 3\n");
   const auto before = files();
+  EXPECT_THAT(refusal(scan_, "out.ply", {.write = {.encoding = "compressed"}}),
+              HasSubstr("there are binary, ascii"));
+  EXPECT_THAT(refusal(scan_, "out.las", {.write = {.encoding = "ascii"}}), HasSubstr("but one"));
+  EXPECT_THAT(refusal(scan_, "out.pcd", {.write = {.crs = "utm"}}), HasSubstr("for LAS"));
+  EXPECT_THAT(refusal(scan_, "out.las", {.write = {.crs = "moon"}}), HasSubstr("local or utm"));
   EXPECT_THAT(refusal(scan_, "out.xyz"), HasSubstr("must end in one of .pcd"));
   EXPECT_THAT(refusal(scan_, "taken.pcd"), HasSubstr("--force"));
   EXPECT_THAT(refusal(scan_, "none/out.pcd"), HasSubstr("no such folder"));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "record/formats.h"
+
+namespace plotscan::record {
+
+// A LAS writer that says of the source's flight what LAS can say: GPS time, sensor, scan angles,
+// and with options.crs "utm" coordinates in the farm's UTM zone. Throws InputError where these
+// are asked for and the source has no place on Earth.
+std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
+                                              const Source& source, const WriteOptions& options);
+
+}  // namespace plotscan::record

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "core/geodesy.h"
+
+namespace plotscan::scan {
+
+// Coordinate systems as well-known text (OGC 01-009), which is what LAS 1.4 takes.
+
+// The world frame: east, north, up, metres, origin at the farm's centre.
+std::string local_crs_wkt();
+
+// WGS 84 / UTM in the zone, EPSG 326xx or 327xx, with heights over the ellipsoid.
+std::string utm_crs_wkt(const UtmZone& zone);
+
+}  // namespace plotscan::scan

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: what reader and writer share of LAS ("LAS Specification 1.4 - R15",
+// ASPRS, 2019).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace plotscan::scan::las {
+
+// Bytes of the point formats 0 to 10 without extra bytes (tables 7 to 18).
+inline constexpr std::array<std::size_t, 11> kFormatSizes = {20, 28, 26, 34, 57, 63,
+                                                             30, 36, 38, 59, 67};
+inline constexpr std::size_t kHeaderSize = 375;  // of version 1.4
+inline constexpr std::size_t kVlrHeaderSize = 54;
+inline constexpr std::size_t kEvlrHeaderSize = 60;
+inline constexpr std::size_t kExtraByteSize = 192;  // of a field's description
+
+// User and record ids of variable length records.
+inline constexpr std::string_view kSpecUser = "LASF_Spec";
+inline constexpr std::uint16_t kExtraBytesRecord = 4;
+inline constexpr std::string_view kProjectionUser = "LASF_Projection";
+inline constexpr std::uint16_t kWktRecord = 2112;
+// Ours: the UTC time of the points' time 0, as text.
+inline constexpr std::string_view kPlotscanUser = "plotscan";
+inline constexpr std::uint16_t kStartRecord = 1;
+
+// Global encoding (table 4).
+inline constexpr std::uint16_t kAdjustedGpsTime = 1;
+inline constexpr std::uint16_t kWkt = 16;
+// Adjusted standard GPS time is GPS time less this.
+inline constexpr double kGpsTimeAdjustment_s = 1e9;
+
+// Intensities 0..255 over the 16 bits of the format.
+inline constexpr double kIntensityScale = 257;
+
+}  // namespace plotscan::scan::las

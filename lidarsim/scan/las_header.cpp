@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/error.h"
+#include "scan/cloud_layout.h"
+#include "scan/las_format.h"
+
+namespace plotscan::scan {
+namespace {
+
+// The most bytes of a description that are kept: a coordinate system has a few thousand.
+constexpr std::uint64_t kMaxText = std::uint64_t{1} << 16;
+constexpr std::size_t kOldHeaderSize = 227;
+constexpr std::uint8_t kCompressedFormat = 0xC0;  // LAZ sets one of these bits
+constexpr int kNewFormats = 6;                    // the formats of LAS 1.4 begin here
+
+// A LAS file while its header is read. Little-endian numbers at their places.
+class LasFile {
+ public:
+  explicit LasFile(const std::filesystem::path& file)
+      : file_(file), in_(file, std::ios::binary), size_(std::filesystem::file_size(file)) {}
+
+  std::uint64_t size() const { return size_; }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(file_, what); }
+  std::string bytes(std::uint64_t offset, std::uint64_t count) {
+    if (offset > size_ || count > size_ - offset) fail("is truncated: its header is not whole");
+    std::string text(count, '\0');
+    in_.seekg(static_cast<std::streamoff>(offset));
+    in_.read(text.data(), static_cast<std::streamsize>(count));
+    if (!in_) fail("cannot be read");
+    return text;
+  }
+  // Up to the first zero.
+  std::string text(std::uint64_t offset, std::uint64_t count) {
+    const std::string all = bytes(offset, count);
+    return all.substr(0, all.find('\0'));
+  }
+  template <class T>
+  T number(std::uint64_t offset) {
+    T value;
+    std::memcpy(&value, bytes(offset, sizeof value).data(), sizeof value);
+    return value;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::uint64_t size_;
+};
+
+struct LasHeader {
+  int minor = 0;  // of version 1.minor
+  std::size_t size = 0;
+  std::uint64_t points_at = 0;
+  int format = 0;
+  std::size_t record_size = 0;
+  std::uint64_t points = 0;
+};
+
+std::uint64_t point_count(LasFile& file, int minor) {
+  const std::uint64_t count = minor >= 4 ? file.number<std::uint64_t>(247) : 0;
+  return count != 0 ? count : file.number<std::uint32_t>(107);
+}
+
+LasHeader read_header(LasFile& file) {
+  LasHeader header;
+  const int major = file.number<std::uint8_t>(24);
+  header.minor = file.number<std::uint8_t>(25);
+  if (major != 1 || header.minor > 4) {
+    file.fail("LAS version " + std::to_string(major) + "." + std::to_string(header.minor) +
+              " is not known; 1.0 to 1.4 are");
+  }
+  header.size = file.number<std::uint16_t>(94);
+  if (header.size < (header.minor >= 4 ? las::kHeaderSize : kOldHeaderSize))
+    file.fail("its header says that it has " + std::to_string(header.size) + " bytes: too few");
+  header.points_at = file.number<std::uint32_t>(96);
+  if (header.points_at < header.size || header.points_at > file.size())
+    file.fail("its points begin at byte " + std::to_string(header.points_at) +
+              ", which is not between the header and the file's end");
+  const auto format = file.number<std::uint8_t>(104);
+  if ((format & kCompressedFormat) != 0)
+    file.fail("is compressed (LAZ); uncompressed LAS is read: decompress it with laszip or PDAL");
+  if (format >= las::kFormatSizes.size())
+    file.fail("point format " + std::to_string(format) + " is not known; 0 to 10 are");
+  header.format = format;
+  header.record_size = file.number<std::uint16_t>(105);
+  if (header.record_size < las::kFormatSizes[format])
+    file.fail("points of format " + std::to_string(format) + " have at least " +
+              std::to_string(las::kFormatSizes[format]) + " bytes; the header says " +
+              std::to_string(header.record_size));
+  header.points = point_count(file, header.minor);
+  if (header.points > kMaxPoints)
+    file.fail("promises " + std::to_string(header.points) + " points");
+  return header;
+}
+
+void add_coordinates(LasFile& file, CloudLayout& layout) {
+  for (std::uint64_t axis = 0; axis < 3; ++axis) {
+    const auto scale = file.number<double>(131 + 8 * axis);
+    const auto offset = file.number<double>(155 + 8 * axis);
+    if (!std::isfinite(scale) || scale == 0 || !std::isfinite(offset))
+      file.fail("its scale factors must be finite and not 0, its offsets finite");
+    layout.fields.push_back({.name = std::string(1, "xyz"[axis]),
+                             .kind = 'I',
+                             .size = 4,
+                             .offset = 4 * axis,
+                             .scale = scale,
+                             .add = offset});
+  }
+}
+
+ScalarField whole(const std::string& name, std::size_t offset, std::size_t size, int shift = 0,
+                  int bits = 0) {
+  return {.name = name, .kind = 'U', .size = size, .offset = offset, .shift = shift, .bits = bits};
+}
+
+// Tables 7 to 18 of the specification.
+void add_format_fields(int format, CloudLayout& layout) {
+  ScalarField intensity = whole("intensity", 12, 2);
+  intensity.scale = 1 / las::kIntensityScale;
+  layout.fields.push_back(intensity);
+  const bool is_new = format >= kNewFormats;
+  const int bits = is_new ? 4 : 3;
+  layout.fields.push_back(whole("return_number", 14, 1, 0, bits));
+  layout.fields.push_back(whole("number_of_returns", 14, 1, bits, bits));
+  layout.fields.push_back(is_new ? whole("classification", 16, 1)
+                                 : whole("classification", 15, 1, 0, 5));
+  if (is_new || format == 1 || format >= 3)
+    layout.fields.push_back({.name = "gps_time", .size = 8, .offset = is_new ? 22u : 20u});
+}
+
+// The fields behind those of the point format (table 24).
+void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHeader& header,
+                     CloudLayout& layout) {
+  static constexpr std::string_view kKinds = "UUIUIUIUIFF";
+  static constexpr std::array<std::size_t, 11> kSizes = {1, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  constexpr std::uint8_t kHasScale = 8;
+  constexpr std::uint8_t kHasOffset = 16;
+  if (descriptions.size() % las::kExtraByteSize != 0)
+    file.fail("the description of its extra bytes is broken");
+  std::size_t offset = las::kFormatSizes[static_cast<std::size_t>(header.format)];
+  for (std::size_t at = 0; at < descriptions.size(); at += las::kExtraByteSize) {
+    const std::string description = descriptions.substr(at, las::kExtraByteSize);
+    const auto type = static_cast<std::uint8_t>(description[2]);
+    const auto options = static_cast<std::uint8_t>(description[3]);
+    if (type > 30)
+      file.fail("an extra byte has type " + std::to_string(type) + "; 0 to 30 are known");
+    // 11 to 20 and 21 to 30 are pairs and triples of 1 to 10.
+    const std::size_t base = type == 0 ? 0 : (type - 1) % 10u + 1;
+    ScalarField field{.name = description.substr(4, 32).c_str(),
+                      .kind = kKinds[base],
+                      .size = kSizes[base],
+                      .count = type == 0 ? options : (type - 1) / 10u + 1,
+                      .offset = offset};
+    offset += field.size * field.count;
+    if (offset > header.record_size) file.fail("its extra bytes do not fit its points");
+    if (type != 0 && (options & kHasScale) != 0)
+      std::memcpy(&field.scale, &description[112], sizeof field.scale);
+    if (type != 0 && (options & kHasOffset) != 0)
+      std::memcpy(&field.add, &description[136], sizeof field.add);
+    if (!std::isfinite(field.scale) || !std::isfinite(field.add))
+      file.fail("the scale and offset of its extra byte \"" + field.name + "\" must be finite");
+    if (type != 0) layout.fields.push_back(std::move(field));
+  }
+}
+
+// What the variable length records say; `at` is the first one's.
+void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
+                  const LasHeader& header, CloudLayout& layout) {
+  const std::uint64_t end = extended ? file.size() : header.points_at;
+  const std::uint64_t header_size = extended ? las::kEvlrHeaderSize : las::kVlrHeaderSize;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (at > end || end - at < header_size)
+      file.fail("promises " + std::to_string(count) + " variable length records, has " +
+                std::to_string(i));
+    const std::uint64_t size =
+        extended ? file.number<std::uint64_t>(at + 20) : file.number<std::uint16_t>(at + 20);
+    const std::string user = file.text(at + 2, 16);
+    const auto record = file.number<std::uint16_t>(at + 18);
+    at += header_size;
+    if (size > end - at) file.fail("a variable length record reaches beyond its place");
+    if (user == las::kSpecUser && record == las::kExtraBytesRecord) {
+      add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
+    } else if (user == las::kProjectionUser && record == las::kWktRecord) {
+      layout.crs_wkt = file.text(at, std::min(size, kMaxText));
+    } else if (user == las::kPlotscanUser && record == las::kStartRecord) {
+      layout.start = parse_utc(file.text(at, std::min(size, kMaxText)));
+    }
+    at += size;
+  }
+}
+
+}  // namespace
+
+CloudLayout read_las_header(const std::filesystem::path& path) {
+  LasFile file(path);
+  const LasHeader header = read_header(file);
+  CloudLayout layout;
+  layout.body = CloudBody::binary;
+  layout.points = header.points;
+  layout.record_size = header.record_size;
+  layout.body_offset = header.points_at;
+  layout.adjusted_gps_time = (file.number<std::uint16_t>(6) & las::kAdjustedGpsTime) != 0;
+  add_coordinates(file, layout);
+  add_format_fields(header.format, layout);
+  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout);
+  if (header.minor >= 4) {
+    const auto count = file.number<std::uint32_t>(243);
+    if (count > 0) read_records(file, file.number<std::uint64_t>(235), count, true, header, layout);
+  }
+  return layout;
+}
+
+}  // namespace plotscan::scan

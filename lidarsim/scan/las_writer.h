@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/utc_time.h"
+#include "scan/point.h"
+#include "scan/record_file.h"
+
+namespace plotscan::scan {
+
+// What a LAS file says beside its points.
+struct LasOptions {
+  // Of time 0 of the points: times are adjusted standard GPS time. Without it they are written as
+  // they are, as GPS week time.
+  std::optional<UtcTime> start = {};
+  std::string crs_wkt;           // the coordinate system (OGC 01-009), see las_crs.h
+  std::string system = "OTHER";  // what made the points, "Velodyne VLP-16 (Puck)"
+  // The file's coordinates count from here, in steps of a tenth of a millimetre: at most 214 km.
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+  // The file's coordinates of a point. Empty: offset_m + (x, y, z).
+  std::function<Eigen::Vector3d(const LabelledPoint&)> coordinates = {};
+  // From straight down, positive to the right of the flight. Empty: 0.
+  std::function<double(const LabelledPoint&)> scan_angle_rad = {};
+};
+
+// Streams points to LAS 1.4, point format 6 with the extra bytes ring, plot, plant and class
+// (docs/formats.md). Bounds and counts are written into the header by close().
+class LasWriter : public PointWriter {
+ public:
+  // Throws std::runtime_error, here and below, when the file cannot be written.
+  LasWriter(const std::filesystem::path& path, LasOptions options);
+
+  // Throws InputError on a point that is too far from the file's offset.
+  void write(std::span<const LabelledPoint> points) override;
+  void close() override;
+
+ private:
+  std::array<std::int32_t, 3> steps_of(const LabelledPoint& point) const;
+  void pack(const LabelledPoint& point, char* record);
+  std::string header() const;
+
+  std::filesystem::path path_;
+  LasOptions options_;
+  double gps_offset_s_ = 0;  // of the file's times over ours
+  std::string records_;      // the variable length records
+  std::uint64_t points_ = 0;
+  std::array<std::uint64_t, 15> by_return_{};
+  std::array<std::int32_t, 3> least_;
+  std::array<std::int32_t, 3> most_;
+  RecordFile file_;
+};
+
+}  // namespace plotscan::scan

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace plotscan::scan {
+
+// A file written from start to end through a buffer, whose beginning is written over at the end:
+// the number of records is known only then.
+class RecordFile {
+ public:
+  // Throws std::runtime_error, here and below, when the file cannot be created or written.
+  explicit RecordFile(const std::filesystem::path& path);
+  ~RecordFile();
+  RecordFile(const RecordFile&) = delete;
+  RecordFile& operator=(const RecordFile&) = delete;
+
+  void append(std::span<const char> bytes);
+  // Room for a record of up to `most` bytes; `used` says how many of them were written there.
+  char* room(std::size_t most);
+  void used(std::size_t bytes) { buffered_ += bytes; }
+  // Writes what is buffered.
+  void flush();
+  // Writes the bytes over the file's beginning and closes it.
+  void close(std::span<const char> beginning);
+
+ private:
+  void write_bytes(std::span<const char> bytes);
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::vector<char> buffer_;
+  std::size_t buffered_ = 0;  // bytes of buffer_ not written yet
+};
+
+}  // namespace plotscan::scan
