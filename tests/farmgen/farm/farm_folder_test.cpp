@@ -276,8 +276,12 @@ TEST(FarmFolder, KeepsReflectancesAndMasks) {
   EXPECT_EQ(read.models[0].mesh.materials[1].reflectance, 0.33F);
   for (const mesh::Mesh* mesh : {&read.models[1].mesh, &*read.models[1].light}) {
     for (const mesh::Material& material : mesh->materials) {
-      if (material.name == "leaf") EXPECT_EQ(material.reflectance, 0.51F);
-      if (material.name == "stem") EXPECT_EQ(material.reflectance, std::nullopt);
+      if (material.name == "leaf") {
+        EXPECT_EQ(material.reflectance, 0.51F);
+      }
+      if (material.name == "stem") {
+        EXPECT_EQ(material.reflectance, std::nullopt);
+      }
     }
   }
 }
