@@ -31,7 +31,12 @@ namespace {
 constexpr double kMaxFlight_s = 24 * 3600;
 constexpr int kMaxThreads = 1024;
 
-void validate(const FlyOptions& options) {
+void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
+  if (options.sub_rays > 1 && !sensor.beam) {
+    throw InputError("--sub-rays " + std::to_string(options.sub_rays) +
+                     " needs a beam; the file of sensor " + sensor.name +
+                     " states none (docs/beam.md)");
+  }
   if (!parse_utc(options.start_utc))
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   if (options.threads < 1 || options.threads > kMaxThreads)
@@ -172,7 +177,7 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
                     bool replace, const ProgressReport& progress) {
   require_valid(options);
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
-  validate(options);
+  validate(options, sensor);
   const double spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz);
   OutputFolder output(scan_folder, replace, "lidarsim fly");
   const flight::PoseErrors errors =
@@ -188,7 +193,11 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
   simulate(
       swaying ? *swaying : scene, sensor,
       {.fired = fired, .placed = errors.none() ? fired : placed},
-      {.range_noise_m = options.range_noise_m, .seed = options.seed, .threads = options.threads},
+      {.range_noise_m = options.range_noise_m,
+       .seed = options.seed,
+       .threads = options.threads,
+       .sub_rays = options.sub_rays,
+       .returns = return_mode(options.returns)},
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();
   scan::write_trajectory(output.path() / "trajectory.csv", flight.truth);

@@ -41,6 +41,8 @@ struct FlyOptions {
   std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
   std::optional<double> spin_hz = {};  // turns of the sensor a second; else its own default
   double range_noise_m = 0.03;         // standard deviation of the range noise, 0 to 1
+  int sub_rays = 1;                    // rays that stand for a beam, 1 (its axis) to 1024
+  std::string returns = "strongest";   // of a shot that are kept: strongest, last or dual
   // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
   // axis lies along the flight and azimuth 0 points down.
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};

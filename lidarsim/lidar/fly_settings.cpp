@@ -6,6 +6,8 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "lidar/beam.h"
+#include "lidar/returns.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -117,6 +119,15 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--sway-swing",
        .help = "amplitude of the plants' swinging as a share of their lean, 0 to 1",
        .value = NumberSetting{{0, 1}, [](FlyOptions& o) -> double& { return o.sway.swing; }}},
+      {.key = "sub_rays",
+       .flag = "--sub-rays",
+       .help = "rays that stand for a beam, 1 (its axis alone) to 1024 (docs/beam.md)",
+       .value = WholeSetting{{1, kMaxSubRays}, [](FlyOptions& o) -> int& { return o.sub_rays; }}},
+      {.key = "returns",
+       .flag = "--returns",
+       .help = "which returns of a shot are kept, where --sub-rays is more than 1",
+       .value = TextSetting{return_mode_names(),
+                            [](FlyOptions& o) -> std::string& { return o.returns; }}},
       {.key = "start_utc",
        .flag = "--start",
        .help = "when the flight starts, UTC: for GPS times and ROS stamps",

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -14,13 +12,19 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
-#include "core/random.h"
+#include "lidar/beam.h"
+#include "lidar/range_noise.h"
+#include "lidar/rounded.h"
 
 namespace plotscan::lidar {
 namespace {
 
-// Firing sequences that one task takes: a fraction of a millisecond of casting.
-constexpr std::uint64_t kBatchSequences = 64;
+// Firing sequences that one task takes, by the number of sub-rays: a fraction of a millisecond of
+// casting, where there are not very many.
+std::uint64_t batch_sequences(int sub_rays) {
+  return static_cast<std::uint64_t>(std::max(1, 64 / sub_rays));
+}
+
 // Batches under way for each thread: work for some milliseconds, so that one thread that waits for
 // the disk or a processor does not stop the others. At most 50 kB each.
 constexpr std::size_t kBatchesPerThread = 32;
@@ -33,48 +37,29 @@ struct Batch {
   std::vector<scan::LabelledPoint> points;
 };
 
-// Gaussian range noise that belongs to the shot, not to the order of asking. Neighbouring shots
-// share a draw of two independent numbers.
-class RangeNoise {
- public:
-  RangeNoise(std::uint64_t seed, double sigma_m) : seed_(seed), sigma_m_(sigma_m) {}
-
-  double of_shot(std::uint64_t shot) {
-    if (sigma_m_ == 0) return 0;
-    if (shot / 2 != pair_) {
-      pair_ = shot / 2;
-      normals_ = RandomStream(seed_, random_purpose("range noise"), pair_).normal_pair();
-    }
-    return sigma_m_ * (shot % 2 == 0 ? normals_.first : normals_.second);
-  }
-
- private:
-  std::uint64_t seed_;
-  double sigma_m_;
-  std::uint64_t pair_ = std::numeric_limits<std::uint64_t>::max();
-  std::pair<double, double> normals_;
-};
-
-// The nearest whole number to a value that is not negative; std::nearbyint is a library call.
-double rounded(double value) {
-  return static_cast<double>(
-      static_cast<std::int64_t>(value + 0.5));  // NOLINT(bugprone-incorrect-roundings)
-}
-
 class Simulator {
  public:
   Simulator(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
             const SimulateOptions& options)
-      : scene_(scene), sensor_(sensor), shots_(shots), options_(options) {}
+      : scene_(scene), sensor_(sensor), shots_(shots), options_(options) {
+    if (options.sub_rays == 1) return;
+    check(sensor.beam.has_value(), "the sensor's file states a beam");
+    sub_rays_.emplace(*sensor.beam, options.sub_rays);
+  }
 
-  Batch run(std::uint64_t begin_sequence) const {
-    const std::uint64_t end = std::min(begin_sequence + kBatchSequences, shots_.fired.sequences());
-    std::vector<Ray> rays = fire(shots_.fired, begin_sequence, end);
-    std::vector<Hit> hits(rays.size());
-    const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
-    scene_.cast(rays, static_cast<float>(reach_m), hits);
-    if (&shots_.placed != &shots_.fired) rays = fire(shots_.placed, begin_sequence, end);
-    return {.end_sequence = end, .points = measure(begin_sequence, rays, hits)};
+  Batch run(std::uint64_t begin) const {
+    const std::uint64_t end =
+        std::min(begin + batch_sequences(options_.sub_rays), shots_.fired.sequences());
+    std::vector<Ray> axes = fire(shots_.fired, begin, end);
+    std::vector<Hit> hits;
+    if (sub_rays_) {
+      hits = cast(widened(begin, axes));
+    } else {
+      hits = cast(axes);
+    }
+    if (&shots_.placed != &shots_.fired) axes = fire(shots_.placed, begin, end);
+    return {.end_sequence = end,
+            .points = sub_rays_ ? measure_beams(begin, axes, hits) : measure(begin, axes, hits)};
   }
 
  private:
@@ -93,9 +78,30 @@ class Simulator {
     return rays;
   }
 
-  // The rays say where the points are put.
+  // The sub-rays of the shots along the axes.
+  std::vector<Ray> widened(std::uint64_t begin_sequence, const std::vector<Ray>& axes) const {
+    std::vector<Ray> rays;
+    rays.reserve(axes.size() * sub_rays_->count());
+    const std::size_t lasers = shots_.fired.lasers();
+    Eigen::Vector3f spin_axis;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const std::uint64_t sequence = begin_sequence + i / lasers;
+      if (i % lasers == 0) spin_axis = shots_.fired.spin_axis(sequence).cast<float>();
+      sub_rays_->append(axes[i], spin_axis, sequence * lasers + i % lasers, rays);
+    }
+    return rays;
+  }
+
+  std::vector<Hit> cast(const std::vector<Ray>& rays) const {
+    std::vector<Hit> hits(rays.size());
+    const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
+    scene_.cast(rays, static_cast<float>(reach_m), hits);
+    return hits;
+  }
+
+  // Points of the axes' hits. The axes say where the points are put.
   std::vector<scan::LabelledPoint> measure(std::uint64_t begin_sequence,
-                                           const std::vector<Ray>& rays,
+                                           const std::vector<Ray>& axes,
                                            const std::vector<Hit>& hits) const {
     RangeNoise noise(options_.seed, options_.range_noise_m);
     std::vector<scan::LabelledPoint> points;
@@ -104,25 +110,57 @@ class Simulator {
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const Hit& hit = hits[i];
       if (!std::isfinite(hit.range_m)) continue;
-      const std::uint64_t sequence = begin_sequence + i / shots_.fired.lasers();
-      const std::size_t laser = i % shots_.fired.lasers();
-      const double range =
-          measured_range(hit.range_m + noise.of_shot(sequence * shots_.fired.lasers() + laser));
-      if (range < sensor_.min_range_m || range > sensor_.max_range_m) continue;
-      const Eigen::Vector3f position =
-          rays[i].origin_m + static_cast<float>(range) * rays[i].direction;
-      const Surface& surface = scene_.surface(hit);
-      points.push_back({.x = position.x(),
-                        .y = position.y(),
-                        .z = position.z(),
-                        .intensity = return_intensity(hit.reflectance, hit.cos_incidence),
-                        .ring = sensor_.lasers[laser].ring,
-                        .time = shots_.fired.time_s(sequence, laser),
-                        .label = surface.label,
-                        .plot = surface.plot,
-                        .plant = surface.plant});
+      const std::uint64_t shot = begin_sequence * shots_.fired.lasers() + i;
+      add_point(shot, axes[i],
+                {.range_m = hit.range_m,
+                 .intensity = return_intensity(hit.reflectance, hit.cos_incidence),
+                 .hit = hit},
+                noise.of_shot(shot), points);
     }
     return points;
+  }
+
+  // The same for the hits of the axes' sub-rays.
+  std::vector<scan::LabelledPoint> measure_beams(std::uint64_t begin_sequence,
+                                                 const std::vector<Ray>& axes,
+                                                 const std::vector<Hit>& hits) const {
+    RangeNoise noise(options_.seed, options_.range_noise_m);
+    Detector detector(*sensor_.beam, options_.returns);
+    std::vector<scan::LabelledPoint> points;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      const std::uint64_t shot = begin_sequence * shots_.fired.lasers() + i;
+      const auto returns =
+          detector.detect(std::span(hits).subspan(i * sub_rays_->count(), sub_rays_->count()));
+      const std::size_t first = points.size();
+      for (std::size_t k = 0; k < returns.size(); ++k) {
+        add_point(shot, axes[i], returns[k],
+                  k == 0 ? noise.of_shot(shot) : noise.of_second_return(shot), points);
+      }
+      for (std::size_t k = first; k < points.size(); ++k) {
+        points[k].return_number = static_cast<std::uint8_t>(1 + k - first);
+        points[k].return_count = static_cast<std::uint8_t>(points.size() - first);
+      }
+    }
+    return points;
+  }
+
+  void add_point(std::uint64_t shot, const Ray& axis, const Return& seen, double noise_m,
+                 std::vector<scan::LabelledPoint>& points) const {
+    const double range = measured_range(seen.range_m + noise_m);
+    if (range < sensor_.min_range_m || range > sensor_.max_range_m) return;
+    const std::uint64_t sequence = shot / shots_.fired.lasers();
+    const std::size_t laser = shot % shots_.fired.lasers();
+    const Eigen::Vector3f position = axis.origin_m + static_cast<float>(range) * axis.direction;
+    const Surface& surface = scene_.surface(seen.hit);
+    points.push_back({.x = position.x(),
+                      .y = position.y(),
+                      .z = position.z(),
+                      .intensity = seen.intensity,
+                      .ring = sensor_.lasers[laser].ring,
+                      .time = shots_.fired.time_s(sequence, laser),
+                      .label = surface.label,
+                      .plot = surface.plot,
+                      .plant = surface.plant});
   }
 
   // What the sensor reports for a range; 0 where noise takes it behind the sensor.
@@ -136,6 +174,7 @@ class Simulator {
   const sensor::Sensor& sensor_;
   const Shots& shots_;
   const SimulateOptions& options_;
+  std::optional<SubRays> sub_rays_;
 };
 
 }  // namespace
@@ -148,10 +187,6 @@ Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser) {
   return {vector(shots.origin_m), vector(shots.direction)};
 }
 
-float return_intensity(float reflectance, float cos_incidence) {
-  return static_cast<float>(rounded(100.0 * reflectance * cos_incidence));
-}
-
 void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
               const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress) {
@@ -161,7 +196,7 @@ void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& sho
   const auto take = [&](tbb::flow_control& control) {
     const std::uint64_t begin = next_sequence;
     if (begin >= sequences) control.stop();
-    next_sequence += kBatchSequences;
+    next_sequence += batch_sequences(options.sub_rays);
     return begin;
   };
   const auto run = [&](std::uint64_t begin) { return simulator.run(begin); };

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/progress.h"
+#include "lidar/returns.h"
 #include "lidar/scene.h"
 #include "scan/point.h"
 #include "sensor/sensor.h"
@@ -15,6 +16,10 @@ struct SimulateOptions {
   double range_noise_m = 0.03;  // standard deviation
   std::uint64_t seed = 1;       // of the noise
   int threads = 1;
+  // Rays that stand for a beam (docs/beam.md), 1 to kMaxSubRays. One is the beam's axis: the first
+  // surface it meets, however faint, is the shot's only return.
+  int sub_rays = 1;
+  ReturnMode returns = ReturnMode::strongest;
 };
 
 // The same shots twice: as they truly were fired, which decides what they meet, and as the drone's
@@ -25,17 +30,14 @@ struct Shots {
 };
 
 // Fires every shot of the plan at the scene and hands the returns on. Memory does not grow with the
-// number of shots; the points are the same for any number of threads. Shots that meet nothing, or
-// whose measured range is beyond the sensor's limits, leave no point.
+// number of shots; the points are the same for any number of threads. Shots that meet nothing, and
+// returns whose measured range is beyond the sensor's limits, leave no point. A shot's points
+// follow each other, the nearest first. Several sub-rays need the sensor's beam.
 void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
               const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress = {});
 
 // A shot as the ray tracer takes it.
 Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser);
-
-// The intensity of a return, a calibrated reflectivity as the VLP-16 reports it: percent of a
-// diffuse white target's, by Lambert's cosine law.
-float return_intensity(float reflectance, float cos_incidence);
 
 }  // namespace plotscan::lidar

@@ -129,6 +129,13 @@ VectorPerLaser ShotPlan::spun_directions(double cos_azimuth, double sin_azimuth,
           these(sin_elevation_)};
 }
 
+Eigen::Vector3d ShotPlan::spin_axis(std::uint64_t sequence) const {
+  const double time_s = static_cast<double>(sequence) * sequence_s_;
+  const Segment& motion = segment(time_s);
+  return motion.world_from_lidar * rotation(motion.turn_rad_s * (time_s - motion.start_s)) *
+         Eigen::Vector3d::UnitZ();
+}
+
 // `count` lasers of the sequence that starts at time_s, all within one segment. The attitude is
 // exact when the first of them fires and turned on from there to second order.
 void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index begin,

@@ -37,6 +37,8 @@ class ShotPlan {
     return static_cast<double>(sequence) * sequence_s_ + fires_s_[static_cast<Eigen::Index>(laser)];
   }
   void fire(std::uint64_t sequence, SequenceShots& shots) const;
+  // The lidar's z axis in the world when the sequence starts.
+  Eigen::Vector3d spin_axis(std::uint64_t sequence) const;
 
  private:
   // Steady motion between two poses of the trajectory.

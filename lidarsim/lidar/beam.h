@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lidar/scene.h"
+#include "sensor/sensor.h"
+
+namespace plotscan::lidar {
+
+inline constexpr int kMaxSubRays = 1024;
+
+// `count` points of equal weight that stand for the standard normal distribution of the plane: a
+// Fibonacci spiral and its reflection about the origin, with the origin itself where the count is
+// odd. Their mean is 0 exactly, their covariance the unit matrix; where they are a pair, with or
+// without the origin, they have the right mean square distance, 2.
+std::vector<Eigen::Vector2d> normal_pattern(int count);
+
+// The sub-rays that stand for a beam, each with the same share of its energy (docs/beam.md).
+class SubRays {
+ public:
+  // `count` is in [1, kMaxSubRays].
+  SubRays(const sensor::Beam& beam, int count);
+
+  std::size_t count() const { return pattern_.size(); }
+  // Appends the sub-rays of a shot along `axis`. The beam's ellipse lies along axis x spin_axis,
+  // the direction of the spin; the pattern is turned within it from shot to shot.
+  void append(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
+              std::vector<Ray>& rays) const;
+
+ private:
+  std::vector<Eigen::Vector2f> pattern_;
+  float along_rad_;  // standard deviations
+  float across_rad_;
+};
+
+}  // namespace plotscan::lidar

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace plotscan::lidar {
+
+// What comes back of one sub-ray.
+struct Echo {
+  double range_m = 0;
+  double power = 0;  // at its pulse's maximum
+};
+
+// A maximum of the received power.
+struct Peak {
+  double range_m = 0;
+  double power = 0;
+  std::size_t begin = 0;  // the echoes between the minima beside it
+  std::size_t end = 0;
+};
+
+// The maxima of the sum of the echoes' pulses, Gaussians of standard deviation `sigma_m` in range,
+// from near to far. The echoes are sorted by range. Where all of them lie within 2 sigma there is
+// one maximum (the sum is then log-concave); elsewhere the slope's sign is looked at every eighth
+// of sigma, so that a dip narrower than that is not seen. A maximum is found to a micrometre.
+std::vector<Peak> find_peaks(std::span<const Echo> echoes, double sigma_m);
+
+}  // namespace plotscan::lidar
