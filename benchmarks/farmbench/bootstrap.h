@@ -13,6 +13,9 @@ struct SquaredErrors {
   std::size_t count = 0;
 };
 
+// Over all plots; NaN where there are none.
+double rmse(const SquaredErrors& errors);
+
 struct Interval {
   double low = 0;
   double high = 0;
@@ -26,5 +29,11 @@ inline constexpr std::size_t kResamples = 2000;
 // independent draws. NaN for fewer than two farms with errors. The same farms are drawn for every
 // method, so that methods are compared on the same resamples.
 Interval bootstrap_rmse(const std::vector<SquaredErrors>& farms, std::uint64_t seed);
+
+// The same of how much the root mean squared error changes from `before` to `after`, which hold the
+// same farms in the same order: farms are drawn in pairs. NaN where either has fewer than two farms
+// with errors.
+Interval bootstrap_rmse_change(const std::vector<SquaredErrors>& before,
+                               const std::vector<SquaredErrors>& after, std::uint64_t seed);
 
 }  // namespace plotscan::farmbench

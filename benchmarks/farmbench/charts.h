@@ -9,9 +9,6 @@
 
 namespace plotscan::farmbench {
 
-// Text as it may stand in HTML and SVG.
-std::string escaped(const std::string& text);
-
 // SVG: for each case a group of bars, one a method, RMSE in cm with its interval; a dashed line
 // where the case has a published figure. `rows` are of one truth.
 std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& rows);
@@ -20,5 +17,9 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
 // figures were published (else the suite's first) and by the last method of the suite.
 std::string height_chart(const SuiteResult& result, const std::string& case_name,
                          const std::string& truth);
+
+// SVG: for each case but the baseline how much it changes each method's RMSE, in cm, with its
+// interval. `rows` are of one truth; the result names a baseline.
+std::string change_chart(const SuiteResult& result, const std::vector<TableRow>& rows);
 
 }  // namespace plotscan::farmbench

@@ -5,6 +5,7 @@
 #include "farmbench/charts.h"
 #include "farmbench/format.h"
 #include "farmbench/reports.h"
+#include "farmbench/svg.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -32,6 +33,7 @@ std::string table_row(const SuiteResult& result, const TableRow& row, bool first
          cell(formatted("%zu / %zu", row.found, row.plots)) + cell(std::to_string(row.extra)) +
          cell(number("%.3f", row.iou_median)) + cell(number("%.3f", row.iou_min)) +
          cell(with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m)) +
+         cell(with_interval(row.rmse_change_m, row.rmse_change_low_m, row.rmse_change_high_m)) +
          cell(published_cm(result, row)) + cell(number("%+.2f", 100 * row.bias_m)) +
          cell(number("%.2f", 100 * row.mae_m)) + cell(number("%.3f", row.r2)) +
          cell(number("%.2f", row.seconds)) + "</tr>\n";
@@ -40,7 +42,8 @@ std::string table_row(const SuiteResult& result, const TableRow& row, bool first
 std::string table_of(const SuiteResult& result, const std::vector<TableRow>& rows) {
   std::string text =
       "<table><tr><th>method</th><th>case</th><th>found</th><th>extra</th><th>IoU median</th>"
-      "<th>IoU least</th><th>RMSE [95&nbsp;%], cm</th><th>published</th><th>bias, cm</th>"
+      "<th>IoU least</th><th>RMSE [95&nbsp;%], cm</th><th>change, "
+      "cm</th><th>published</th><th>bias, cm</th>"
       "<th>MAE, cm</th><th>R&sup2;</th><th>s</th></tr>\n";
   std::string method;
   for (const TableRow& row : rows) {
@@ -77,7 +80,7 @@ std::string html_report(const SuiteResult& result, const std::vector<TableRow>& 
   for (const std::string& truth : shown_truths(table)) {
     const std::vector<TableRow> rows = rows_by_method(table, truth);
     page += "<h2>Against " + escaped(truth) + "</h2>\n" + table_of(result, rows) +
-            rmse_chart(result, rows);
+            (result.baseline ? change_chart(result, rows) : rmse_chart(result, rows));
   }
   for (const std::string& truth : shown_truths(table)) {
     page += "<h2>Estimated height against " + escaped(truth) + "</h2>\n<div class=\"charts\">";

@@ -27,6 +27,8 @@ nlohmann::json json_of(const farmbench::TableRow& row) {
           {"iou_min", row.iou_min},
           {"rmse_m", row.rmse_m},
           {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
+          {"rmse_change_m", row.rmse_change_m},
+          {"rmse_change_95_m", {row.rmse_change_low_m, row.rmse_change_high_m}},
           {"bias_m", row.bias_m},
           {"mae_m", row.mae_m},
           {"r2", row.r2},

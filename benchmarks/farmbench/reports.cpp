@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "farmbench/charts.h"
 #include "farmbench/format.h"
 #include "farmbench/html_report.h"
 #include "farmbench/text_file.h"
@@ -30,6 +31,11 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
                      "\n\nRMSE, bias and MAE in cm over the plots found; 95 % bootstrap intervals "
                      "over farms. All columns and truths are in table.csv.\n";
   for (const std::string& truth : shown_truths(table)) {
+    if (!result.baseline) break;
+    text += "\n## RMSE in cm (and its change against " + *result.baseline + "), truth " + truth +
+            "\n\n" + changes_by_case(result, rows_by_method(table, truth));
+  }
+  for (const std::string& truth : shown_truths(table)) {
     for (const CaseInfo& info : result.cases) {
       std::vector<TableRow> rows;
       std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
@@ -50,8 +56,37 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
   return text;
 }
 
+// A row a case, a column a method: RMSE, and how much that is more than the baseline's.
+std::string changes_by_case(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  std::string head = "| case |";
+  std::string rule = "\n| --- |";
+  std::vector<std::string> methods;
+  for (const TableRow& row : rows) {
+    if (std::ranges::count(methods, row.method) > 0) continue;
+    methods.push_back(row.method);
+    head += " " + row.method + " |";
+    rule += " --- |";
+  }
+  std::string text = head + rule + "\n";
+  for (const CaseInfo& info : result.cases) {
+    text += "| " + info.name + " |";
+    for (const std::string& method : methods) {
+      const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
+        return candidate.method == method && candidate.case_name == info.name;
+      });
+      if (row == rows.end()) continue;
+      text += " " + centimetres(row->rmse_m);
+      if (info.name != *result.baseline)
+        text += " (" + number("%+.2f", 100 * row->rmse_change_m) + ")";
+      text += " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  return formatted("%-30s %-8s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
+  return formatted("%-30s %-10s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
                    first_of_method ? row.method.c_str() : "", row.case_name.c_str(), row.found,
                    row.plots, row.extra, number("%.2f", row.iou_median).c_str(),
                    with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
@@ -97,7 +132,7 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
     if (!lines.empty()) lines.emplace_back("");
     lines.push_back("Truth " + truth +
                     ". RMSE [95 % interval] and bias in cm over the plots found");
-    lines.push_back(formatted("%-30s %-8s %9s %5s %5s  %-21s %7s %6s", "method", "case", "found  ",
+    lines.push_back(formatted("%-30s %-10s %9s %5s %5s  %-21s %7s %6s", "method", "case", "found  ",
                               "extra", "IoU", "RMSE", "bias", "publ."));
     std::string method;
     for (const TableRow& row : rows_by_method(table, truth)) {
@@ -117,6 +152,10 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
   write_text(folder / "table.csv", table_csv(table));
   write_text(folder / "leaderboard.md", leaderboard(result, table));
   write_text(folder / "report.html", html_report(result, table));
+  if (!result.baseline) return;
+  for (const std::string& truth : shown_truths(table))
+    write_text(folder / ("changes_" + truth + ".svg"),
+               change_chart(result, rows_by_method(table, truth)));
 }
 
 }  // namespace plotscan::farmbench

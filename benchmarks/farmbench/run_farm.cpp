@@ -86,7 +86,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
           {"files", files},
           {"set", suite_case.overrides},
           {"seed", seed},
-          {"flight", lidar::settings_json(suite.flight)},
+          {"flight", lidar::settings_json(suite_case.flight)},
           {"crop_margin_m", suite.crop_margin_m},
           {"methods", suite.methods}};
 }
@@ -94,7 +94,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
 FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                     const fs::path& folder, int threads, const ProgressReport& progress) {
   const farm::Farm farm = make_farm(suite_case, seed, folder / "farm");
-  lidar::FlyOptions flight = suite.flight;
+  lidar::FlyOptions flight = suite_case.flight;
   flight.seed = seed;
   flight.threads = threads;
   const lidar::FlySummary flown = lidar::fly(

@@ -35,53 +35,6 @@ void require_farm(const YamlSection& section, const SuiteCase& suite_case) {
   }
 }
 
-SuiteCase read_case(const YamlSection& section) {
-  section.allow_only({"name", "farm", "set", "published_rmse_cm"});
-  SuiteCase suite_case{.name = read_name(section),
-                       .farm = section.file().parent_path() / section.text("farm")};
-  if (section.has("set")) {
-    for (const auto& [key, value] : section.section("set").texts()) {
-      suite_case.overrides.push_back(key);
-      suite_case.overrides.back().append("=").append(value);
-    }
-  }
-  if (section.has("published_rmse_cm"))
-    suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
-  require_farm(section, suite_case);
-  return suite_case;
-}
-
-std::vector<SuiteCase> read_cases(const YamlSection& root) {
-  std::vector<SuiteCase> cases;
-  std::set<std::string> names;
-  for (const YamlSection& section : root.list("cases", kMostCases)) {
-    cases.push_back(read_case(section));
-    if (!names.insert(cases.back().name).second)
-      section.fail("name", "\"" + cases.back().name + "\" is the name of another case as well");
-  }
-  return cases;
-}
-
-// Either a list of seeds or {first, count}.
-std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
-  std::vector<std::uint64_t> seeds;
-  if (root.is_list("seeds")) {
-    for (const YamlSection& entry : root.list("seeds", kMostSeeds, "seed")) {
-      entry.allow_only({"seed"});
-      seeds.push_back(entry.unsigned_integer("seed"));
-      if (std::ranges::count(seeds, seeds.back()) > 1)
-        root.fail("seeds", "name " + std::to_string(seeds.back()) + " twice");
-    }
-    return seeds;
-  }
-  const YamlSection range = root.section("seeds");
-  range.allow_only({"first", "count"});
-  const auto first = static_cast<std::uint64_t>(range.integer("first", 0, 1'000'000'000));
-  const std::int64_t count = range.integer("count", 1, kMostSeeds);
-  for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
-  return seeds;
-}
-
 void read_setting(const YamlSection& section, const std::string& key,
                   const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = section.number(key, setting.range);
@@ -111,10 +64,10 @@ void read_setting(const YamlSection& section, const std::string& key,
                            : setting.choices[section.choice(key, setting.choices)];
 }
 
-lidar::FlyOptions read_flight(const YamlSection& root) {
-  lidar::FlyOptions flight;
-  if (!root.has("flight")) return flight;
-  const YamlSection section = root.section("flight");
+// The flight with what the parent's section "flight" replaces in it.
+lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions flight) {
+  if (!parent.has("flight")) return flight;
+  const YamlSection section = parent.section("flight");
   std::vector<std::string> keys;
   for (const lidar::FlySetting& setting : lidar::fly_settings()) {
     keys.push_back(setting.key);
@@ -124,6 +77,55 @@ lidar::FlyOptions read_flight(const YamlSection& root) {
   }
   section.allow_only(keys);
   return flight;
+}
+
+SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight) {
+  section.allow_only({"name", "farm", "set", "flight", "published_rmse_cm"});
+  SuiteCase suite_case{.name = read_name(section),
+                       .farm = section.file().parent_path() / section.text("farm"),
+                       .flight = read_flight(section, flight)};
+  if (section.has("set")) {
+    for (const auto& [key, value] : section.section("set").texts()) {
+      suite_case.overrides.push_back(key);
+      suite_case.overrides.back().append("=").append(value);
+    }
+  }
+  if (section.has("published_rmse_cm"))
+    suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
+  require_farm(section, suite_case);
+  return suite_case;
+}
+
+std::vector<SuiteCase> read_cases(const YamlSection& root) {
+  const lidar::FlyOptions flight = read_flight(root, {});
+  std::vector<SuiteCase> cases;
+  std::set<std::string> names;
+  for (const YamlSection& section : root.list("cases", kMostCases)) {
+    cases.push_back(read_case(section, flight));
+    if (!names.insert(cases.back().name).second)
+      section.fail("name", "\"" + cases.back().name + "\" is the name of another case as well");
+  }
+  return cases;
+}
+
+// Either a list of seeds or {first, count}.
+std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
+  std::vector<std::uint64_t> seeds;
+  if (root.is_list("seeds")) {
+    for (const YamlSection& entry : root.list("seeds", kMostSeeds, "seed")) {
+      entry.allow_only({"seed"});
+      seeds.push_back(entry.unsigned_integer("seed"));
+      if (std::ranges::count(seeds, seeds.back()) > 1)
+        root.fail("seeds", "name " + std::to_string(seeds.back()) + " twice");
+    }
+    return seeds;
+  }
+  const YamlSection range = root.section("seeds");
+  range.allow_only({"first", "count"});
+  const auto first = static_cast<std::uint64_t>(range.integer("first", 0, 1'000'000'000));
+  const std::int64_t count = range.integer("count", 1, kMostSeeds);
+  for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
+  return seeds;
 }
 
 std::vector<std::string> read_methods(const YamlSection& root) {
@@ -143,14 +145,19 @@ std::vector<std::string> read_methods(const YamlSection& root) {
 
 Suite load_suite(const std::filesystem::path& file) {
   const YamlSection root = YamlSection::load(file, {});
-  root.allow_only({"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "published"});
+  root.allow_only(
+      {"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "published", "baseline"});
   Suite suite{.file = file,
               .name = read_name(root),
               .cases = read_cases(root),
               .seeds = read_seeds(root),
-              .flight = read_flight(root),
               .methods = read_methods(root)};
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
+  if (root.has("baseline")) {
+    std::vector<std::string> names;
+    for (const SuiteCase& suite_case : suite.cases) names.push_back(suite_case.name);
+    suite.baseline = names[root.choice("baseline", names)];
+  }
   if (root.has("published")) {
     const YamlSection published = root.section("published");
     published.allow_only({"source", "methods"});

@@ -11,11 +11,13 @@
 
 namespace plotscan::farmbench {
 
-// One kind of farm: a description, with some of its keys replaced.
+// One kind of farm and flight: a description, with some of its keys replaced. Flights' seeds and
+// threads are set farm by farm.
 struct SuiteCase {
   std::string name;
   std::filesystem::path farm;
-  std::vector<std::string> overrides = {};                 // "terrain.side_m=20"
+  std::vector<std::string> overrides = {};  // "terrain.side_m=20"
+  lidar::FlyOptions flight = {};            // the suite's, with what the case replaces in it
   std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
 };
 
@@ -31,10 +33,10 @@ struct Suite {
   std::string name;
   std::vector<SuiteCase> cases;
   std::vector<std::uint64_t> seeds;  // of farm, flight and method alike
-  lidar::FlyOptions flight;          // its seed and threads are set farm by farm
   double crop_margin_m = 1;          // bare ground around the plots that methods are given
   std::vector<std::string> methods;  // names of known_methods()
   std::optional<Published> published = std::nullopt;
+  std::optional<std::string> baseline = std::nullopt;  // the case that the others are compared with
 };
 
 // Reads a suite (docs/benchmark.md). Paths of farms are relative to the suite's file. Throws

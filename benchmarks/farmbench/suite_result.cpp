@@ -12,6 +12,7 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
                      .cases = {},
                      .methods = suite.methods,
                      .published = suite.published,
+                     .baseline = suite.baseline,
                      .farms = std::move(farms)};
   for (const SuiteCase& suite_case : suite.cases)
     result.cases.push_back({suite_case.name, suite_case.published_rmse_cm});
@@ -31,6 +32,7 @@ json to_json(const SuiteResult& result) {
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};
+  if (result.baseline) document["baseline"] = *result.baseline;
   return document;
 }
 
@@ -39,6 +41,7 @@ SuiteResult suite_result_from_json(const json& document) {
                      .cases = {},
                      .methods = document.at("methods"),
                      .published = {},
+                     .baseline = {},
                      .farms = {}};
   for (const json& info : document.at("cases")) {
     result.cases.push_back({info.at("name"), {}});
@@ -49,6 +52,7 @@ SuiteResult suite_result_from_json(const json& document) {
     const json& published = document["published"];
     result.published = {.source = published.at("source"), .methods = published.at("methods")};
   }
+  if (document.contains("baseline")) result.baseline = document["baseline"].get<std::string>();
   for (const json& farm : document.at("farms")) result.farms.push_back(farm_result_from_json(farm));
   return result;
 }

@@ -24,6 +24,7 @@ struct SuiteResult {
   std::vector<CaseInfo> cases;
   std::vector<std::string> methods;
   std::optional<Published> published = std::nullopt;
+  std::optional<std::string> baseline = std::nullopt;
   std::vector<FarmResult> farms;  // by case, by seed, in the suite's order
 };
 

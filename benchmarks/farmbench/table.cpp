@@ -2,6 +2,7 @@
 #include "farmbench/table.h"
 
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "core/csv.h"
@@ -50,6 +51,15 @@ SquaredErrors squared_errors(const score::HeightPairs& pairs) {
   return errors;
 }
 
+SquaredErrors summed(const std::vector<SquaredErrors>& farms) {
+  SquaredErrors all;
+  for (const SquaredErrors& farm : farms) {
+    all.sum += farm.sum;
+    all.count += farm.count;
+  }
+  return all;
+}
+
 // Four decimals: a hundredth of what any of the figures is good for.
 // What could not be computed is an empty field.
 std::string field_of(double value) {
@@ -74,17 +84,32 @@ void set_boxes(TableRow& row, const CaseOfMethod& collected) {
   row.seconds = quantile(collected.seconds, 0.5);
 }
 
+std::vector<SquaredErrors> errors_by_farm(const CaseOfMethod& collected, const std::string& height,
+                                          const std::string& truth) {
+  std::vector<SquaredErrors> by_farm;
+  for (const score::FieldScore& field : collected.fields)
+    by_farm.push_back(squared_errors(score::height_pairs(field, height, truth)));
+  return by_farm;
+}
+
+void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod& collected,
+                const std::string& height, std::uint64_t seed) {
+  if (baseline.fields.size() != collected.fields.size()) return;
+  const std::vector<SquaredErrors> before = errors_by_farm(baseline, height, row.truth);
+  const std::vector<SquaredErrors> after = errors_by_farm(collected, height, row.truth);
+  const Interval interval = bootstrap_rmse_change(before, after, seed);
+  row.rmse_change_m = row.rmse_m - rmse(summed(before));
+  row.rmse_change_low_m = interval.low;
+  row.rmse_change_high_m = interval.high;
+}
+
 void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string& height,
                  std::uint64_t seed) {
   score::HeightPairs pooled;
-  std::vector<SquaredErrors> by_farm;
-  for (const score::FieldScore& field : collected.fields) {
-    const score::HeightPairs pairs = score::height_pairs(field, height, row.truth);
-    by_farm.push_back(squared_errors(pairs));
-    append(pooled, pairs);
-  }
+  for (const score::FieldScore& field : collected.fields)
+    append(pooled, score::height_pairs(field, height, row.truth));
   const score::HeightScore score = score::score_height(height, row.truth, pooled);
-  const Interval interval = bootstrap_rmse(by_farm, seed);
+  const Interval interval = bootstrap_rmse(errors_by_farm(collected, height, row.truth), seed);
   row.without = score.without;
   row.rmse_m = score.rmse_m;
   row.rmse_low_m = interval.low;
@@ -101,12 +126,15 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
   for (const CaseInfo& info : result.cases) {
     for (const std::string& method : result.methods) {
       const CaseOfMethod collected = collect(result, info.name, method);
+      std::optional<CaseOfMethod> baseline;
+      if (result.baseline) baseline.emplace(collect(result, *result.baseline, method));
       for (const MethodHeight& height : collected.method.heights) {
         for (const std::string& truth : truths_of(collected.fields)) {
           TableRow row{
               .suite = result.suite, .case_name = info.name, .method = height.row, .truth = truth};
           set_boxes(row, collected);
           set_heights(row, collected, height.height, seed);
+          if (baseline) set_change(row, *baseline, collected, height.height, seed);
           table.push_back(row);
         }
       }
@@ -118,14 +146,17 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
 std::string table_csv(const std::vector<TableRow>& table) {
   std::string text =
       "suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,"
-      "rmse_lo_cm,rmse_hi_cm,bias_cm,mae_cm,r2,coverage95,seconds\n";
+      "rmse_lo_cm,rmse_hi_cm,rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,"
+      "coverage95,seconds\n";
   for (const TableRow& row : table) {
     text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
     for (const std::size_t count : {row.farms, row.plots, row.found, row.missed, row.extra})
       text += "," + std::to_string(count);
-    for (const double value : {row.iou_median, row.iou_min, 100 * row.rmse_m, 100 * row.rmse_low_m,
-                               100 * row.rmse_high_m, 100 * row.bias_m, 100 * row.mae_m, row.r2,
-                               row.coverage95, row.seconds}) {
+    for (const double value :
+         {row.iou_median, row.iou_min, 100 * row.rmse_m, 100 * row.rmse_low_m,
+          100 * row.rmse_high_m, 100 * row.rmse_change_m, 100 * row.rmse_change_low_m,
+          100 * row.rmse_change_high_m, 100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95,
+          row.seconds}) {
       text += "," + field_of(value);
     }
     text += "\n";

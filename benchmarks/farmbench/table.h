@@ -30,6 +30,11 @@ struct TableRow {
   double rmse_m = 0;
   double rmse_low_m = 0;  // 95 % bootstrap interval over farms
   double rmse_high_m = 0;
+  // How much the suite's baseline has less than this, on the same farms, and its 95 % interval. NaN
+  // where the suite names no baseline.
+  double rmse_change_m = std::numeric_limits<double>::quiet_NaN();
+  double rmse_change_low_m = std::numeric_limits<double>::quiet_NaN();
+  double rmse_change_high_m = std::numeric_limits<double>::quiet_NaN();
   double bias_m = 0;
   double mae_m = 0;
   double r2 = 0;
@@ -42,7 +47,8 @@ struct TableRow {
 std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,
-// rmse_lo_cm,rmse_hi_cm,bias_cm,mae_cm,r2,coverage95,seconds; a field that is NaN is empty.
+// rmse_lo_cm,rmse_hi_cm,rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,
+// coverage95,seconds; a field that is NaN is empty.
 std::string table_csv(const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

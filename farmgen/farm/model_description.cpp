@@ -87,11 +87,10 @@ std::vector<ModelDescription> read_grown_models(const YamlSection& section) {
     } else if (section.has("variants")) {
       own += "_" + std::to_string(i + 1);
     }
-    models.push_back({.name = own,
-                      .mesh = {},
-                      .options = {},
-                      .grown = std::move(plant),
-                      .reflectance = reflectance});
+    ModelDescription& model = models.emplace_back();
+    model.name = own;
+    model.grown = std::move(plant);
+    model.reflectance = reflectance;
   }
   return models;
 }

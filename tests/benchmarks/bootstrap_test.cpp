@@ -59,5 +59,18 @@ TEST(BootstrapRmse, TheSeedDecides) {
   EXPECT_NE(bootstrap_rmse(farms, 1).low, bootstrap_rmse(farms, 2).low);
 }
 
+// Every farm's squared errors quadruple: in each resample the RMSE doubles, however it is drawn.
+TEST(BootstrapRmseChange, DrawsFarmsInPairs) {
+  const auto before = normal_farms(20, 10, 3);
+  auto after = before;
+  for (SquaredErrors& farm : after) farm.sum *= 4;
+  const Interval change = bootstrap_rmse_change(before, after, 1);
+  const Interval rmse_before = bootstrap_rmse(before, 1);
+  EXPECT_NEAR(change.low, rmse_before.low, 1e-12);
+  EXPECT_NEAR(change.high, rmse_before.high, 1e-12);
+  EXPECT_EQ(bootstrap_rmse_change(before, before, 1).high, 0);
+  EXPECT_TRUE(std::isnan(bootstrap_rmse_change({{.sum = 3, .count = 3}, {}}, {{}, {}}, 1).low));
+}
+
 }  // namespace
 }  // namespace plotscan::farmbench

@@ -64,9 +64,31 @@ TEST(LoadSuite, OverridesSeedsAndFlight) {
                      "seeds: {first: 7, count: 3}\nflight: {altitude_m: 12, range_noise_m: 0}\n")
                     .replace(kSound.find("}\n"), 1, ", set: {plots.rows: '[{plots: 2}]'}}")));
   EXPECT_THAT(suite.seeds, ElementsAre(7, 8, 9));
-  EXPECT_EQ(suite.flight.altitude_m, 12);
-  EXPECT_EQ(suite.flight.range_noise_m, 0);
+  EXPECT_EQ(suite.cases[0].flight.altitude_m, 12);
+  EXPECT_EQ(suite.cases[0].flight.range_noise_m, 0);
   EXPECT_THAT(suite.cases[0].overrides, ElementsAre("plots.rows=[{plots: 2}]"));
+}
+
+TEST(LoadSuite, CasesFlyTheirOwnWay) {
+  const TemporaryFolder folder;
+  const Suite suite = load_suite(folder.write(
+      "s.yaml",
+      "name: mine\nflight: {range_noise_m: 0, altitude_m: 12}\nbaseline: still\ncases:\n"
+      "  - {name: still, farm: " +
+          kFlat +
+          "}\n"
+          "  - {name: rtk, farm: " +
+          kFlat +
+          ", flight: {pose_error: rtk, altitude_m: 9, "
+          "boresight_rpy_deg: [0, 0.1, 0]}}\n"
+          "seeds: [4]\nmethods: [oracle-ground]\n"));
+  EXPECT_EQ(suite.baseline, "still");
+  EXPECT_EQ(suite.cases[0].flight.altitude_m, 12);
+  EXPECT_EQ(suite.cases[0].flight.pose_error, "none");
+  EXPECT_EQ(suite.cases[1].flight.altitude_m, 9);
+  EXPECT_EQ(suite.cases[1].flight.range_noise_m, 0);
+  EXPECT_EQ(suite.cases[1].flight.pose_error, "rtk");
+  EXPECT_EQ(suite.cases[1].flight.pose_errors.boresight_rpy_deg.y(), 0.1);
 }
 
 struct BadSuite {
@@ -103,6 +125,9 @@ INSTANTIATE_TEST_SUITE_P(
                  ":4: cases.1.name \"a\" is the name of another case as well"},
         BadSuite{kSound + "flight: {altitude_m: 200}\n",
                  ":6: flight.altitude_m 200 is not in [0.5, 120]"},
+        BadSuite{kSound + "baseline: other\n", ":6: baseline \"other\" is not one of"},
+        BadSuite{with(".yaml}", ".yaml, flight: {pose_error: laser}}"),
+                 ":3: cases.0.flight.pose_error \"laser\" is not one of"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace

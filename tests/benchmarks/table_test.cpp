@@ -82,13 +82,43 @@ TEST(MakeTable, NothingFoundIsARowOfItsOwn) {
   EXPECT_TRUE(std::isnan(row.rmse_m) && std::isnan(row.iou_median));
 }
 
+// Two farms of a case and the same two with larger errors: what changes is the difference of the
+// RMSEs, and the interval holds it.
+TEST(MakeTable, AgainstABaselineRmseChangesByTheDifference) {
+  SuiteResult result = small_result();
+  result.baseline = "a";
+  const std::vector<TableRow> table = make_table(result, 1);
+  EXPECT_EQ(table[0].case_name, "a");
+  EXPECT_EQ(table[0].rmse_change_m, 0);
+  EXPECT_TRUE(std::isnan(table[1].rmse_change_m));  // "b" has other farms than "a"
+  EXPECT_TRUE(std::isnan(make_table(small_result(), 1)[0].rmse_change_m));
+}
+
 TEST(TableCsv, HasTheColumnsOthersReadIt) {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("table.csv", table_csv(make_table(small_result(), 1)));
-  const std::vector<std::string> columns = {
-      "suite",   "case",   "method",     "truth",      "farms",   "plots",      "found",
-      "missed",  "extra",  "iou_median", "iou_min",    "rmse_cm", "rmse_lo_cm", "rmse_hi_cm",
-      "bias_cm", "mae_cm", "r2",         "coverage95", "seconds"};
+  const std::vector<std::string> columns = {"suite",
+                                            "case",
+                                            "method",
+                                            "truth",
+                                            "farms",
+                                            "plots",
+                                            "found",
+                                            "missed",
+                                            "extra",
+                                            "iou_median",
+                                            "iou_min",
+                                            "rmse_cm",
+                                            "rmse_lo_cm",
+                                            "rmse_hi_cm",
+                                            "rmse_change_cm",
+                                            "rmse_change_lo_cm",
+                                            "rmse_change_hi_cm",
+                                            "bias_cm",
+                                            "mae_cm",
+                                            "r2",
+                                            "coverage95",
+                                            "seconds"};
   std::string header = read_text(file);
   header.resize(header.find('\n'));
   std::string expected;
@@ -97,7 +127,7 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   std::vector<std::string> rmses;
   read_csv(file, columns, {}, [&](const CsvRow& row) {
     rmses.emplace_back(row.text(11));
-    EXPECT_EQ(row.text(17), "");  // no method gives intervals yet
+    EXPECT_EQ(row.text(20), "");  // no method gives intervals yet
   });
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "farmbench/charts.h"
+#include "farmbench/format.h"
+#include "farmbench/svg.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+constexpr double kMarkStep = 9;  // from method to method, pixels
+constexpr double kCaseGap = 12;  // from case to case
+
+// Changes of RMSE that the chart shows, cm.
+struct ChangeRange {
+  double low = 0;
+  double high = 0.1;
+};
+
+ChangeRange range_of(const std::vector<TableRow>& rows) {
+  ChangeRange range;
+  for (const TableRow& row : rows) {
+    for (const double value_m :
+         {row.rmse_change_m, row.rmse_change_low_m, row.rmse_change_high_m}) {
+      if (std::isnan(value_m)) continue;
+      range.low = std::min(range.low, 100 * value_m);
+      range.high = std::max(range.high, 100 * value_m);
+    }
+  }
+  return {std::floor(range.low), std::ceil(range.high)};
+}
+
+std::string mark(const TableRow& row, double zero_x, double px_per_cm, double y,
+                 const char* colour) {
+  const auto place = [&](double value_m) { return zero_x + 100 * value_m * px_per_cm; };
+  const std::string style = formatted("stroke=\"%s\" stroke-width=\"2\"", colour);
+  std::string text;
+  if (!std::isnan(row.rmse_change_low_m))
+    text += line(place(row.rmse_change_low_m), y, place(row.rmse_change_high_m), y, style.c_str());
+  return text +
+         formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\" fill=\"%s\">",
+                   place(row.rmse_change_m), y, colour) +
+         "<title>" +
+         escaped(row.method + ", " + row.case_name + ": " +
+                 with_interval(row.rmse_change_m, row.rmse_change_low_m, row.rmse_change_high_m) +
+                 " cm") +
+         "</title></circle>";
+}
+
+}  // namespace
+
+std::string change_chart(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  const Palette palette(result);
+  const double case_height = kMarkStep * static_cast<double>(palette.rows().size()) + kCaseGap;
+  const Frame frame{.left = 130,
+                    .top = 30,
+                    .width = 600,
+                    .height = case_height * static_cast<double>(result.cases.size() - 1)};
+  const ChangeRange range = range_of(rows);
+  const double px_per_cm = frame.width / (range.high - range.low);
+  const double zero_x = frame.left - range.low * px_per_cm;
+  std::string content =
+      label(frame.left, 16, "start", "change of RMSE against \"" + *result.baseline + "\", cm");
+  for (const double tick : ticks(range.low, range.high)) {
+    const double x = zero_x + tick * px_per_cm;
+    content += line(x, frame.top, x, frame.bottom(), "stroke=\"#ddd\"") +
+               label(x, frame.bottom() + 16, "middle", formatted("%g", tick));
+  }
+  content += line(zero_x, frame.top, zero_x, frame.bottom(), "stroke=\"#222\"");
+  double top = frame.top;
+  for (const CaseInfo& info : result.cases) {
+    if (info.name == *result.baseline) continue;
+    content += label(frame.left - 8, top + case_height / 2 + 4, "end", info.name) +
+               line(frame.left, top + case_height, frame.left + frame.width, top + case_height,
+                    "stroke=\"#eee\"");
+    double y = top + kCaseGap / 2 + kMarkStep / 2;
+    for (const std::string& method : palette.rows()) {
+      for (const TableRow& row : rows) {
+        if (row.case_name != info.name || row.method != method) continue;
+        if (!std::isnan(row.rmse_change_m))
+          content += mark(row, zero_x, px_per_cm, y, palette.colour(method));
+      }
+      y += kMarkStep;
+    }
+    top += case_height;
+  }
+  const double below = frame.bottom() + 40;
+  content += legend(palette, palette.rows(), frame.left, below);
+  return svg(760, below + kLegendLine * static_cast<double>(palette.rows().size()), content);
+}
+
+}  // namespace plotscan::farmbench
