@@ -74,8 +74,8 @@ const std::vector<FlySetting>& fly_settings() {
        .help = "of the strips, degrees counter-clockwise from east, -360 to 360; without it they "
                "run along the longer side of the plots",
        .value =
-           OptionalSetting{
-               {-360, 360}, [](FlyOptions& o) -> std::optional<double>& { return o.heading_deg; }},
+           OptionalSetting{{-360, 360},
+                           [](FlyOptions& o) -> std::optional<double>& { return o.heading_deg; }},
        .plans_flight = true,
        .plans_strips = true},
       {.key = "spin_hz",
