@@ -14,6 +14,7 @@ find_package(sdformat12 REQUIRED)
 find_package(console_bridge REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(benchmark REQUIRED)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
@@ -33,6 +34,8 @@ pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Without it lidarsim neither writes nor reads Velodyne's recordings.
 pkg_check_modules(pcap QUIET IMPORTED_TARGET libpcap)
+pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
+pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 
 # Random123 is headers without a package config.
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -6,6 +6,8 @@
 
 #include "record/las_file.h"
 #include "record/pcap_format.h"
+#include "record/ros_points.h"
+#include "record/ros_recorder.h"
 #include "scan/cloud_writer.h"
 
 namespace plotscan::record {
@@ -37,6 +39,25 @@ std::unique_ptr<scan::PointWriter> create_ply(const path& file, const Source& so
   return std::make_unique<scan::PlyWriter>(file, cloud_options(source, options));
 }
 
+// A bag or an MCAP file, by content.
+Source open_ros(const path& file, const std::optional<FlightRecord>& flight) {
+  const auto recorded = std::make_shared<RosPoints>(file);
+  return {.path = file,
+          .info = {.points = recorded->points(),
+                   .start = recorded->start(),
+                   .fields = recorded->fields()},
+          .flight = flight,
+          .stream = [recorded](const scan::PointSink& sink) { recorded->stream(sink); }};
+}
+
+// A scan folder knows how the drone truly moved, and its points are shots of the flight.
+std::unique_ptr<scan::PointWriter> create_ros(const Source& source,
+                                              const RosRecorder::CreateFile& create) {
+  RosRecorderOptions options{.packets = std::filesystem::is_directory(source.path)};
+  if (options.packets) options.motion = scan::read_trajectory(source.path / "trajectory.csv");
+  return std::make_unique<RosRecorder>(*source.flight, options, create);
+}
+
 }  // namespace
 
 const std::vector<Format>& formats() {
@@ -60,6 +81,22 @@ const std::vector<Format>& formats() {
       pcap_format(),
       pcapng_format(),
 #endif
+      {.name = "ROS 1 bag",
+       .extensions = {".bag"},
+       .needs_flight = true,
+       .open = open_ros,
+       .create =
+           [](const path& file, const Source& source, const WriteOptions&) {
+             return create_ros(source, [&](auto topics) { return ros::create_bag(file, topics); });
+           }},
+      {.name = "ROS 2 MCAP",
+       .extensions = {".mcap"},
+       .needs_flight = true,
+       .open = open_ros,
+       .create =
+           [](const path& file, const Source& source, const WriteOptions&) {
+             return create_ros(source, [&](auto topics) { return ros::create_mcap(file, topics); });
+           }},
   };
   return all;
 }

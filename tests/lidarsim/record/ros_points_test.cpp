@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/ros_points.h"
+
+#include <cstdlib>
+#include <fstream>
+
+#include "lidarsim/record/ros_flight.h"
+#include "lidarsim/record/ros_readers.h"
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "record/ros_cloud.h"
+
+namespace plotscan::record {
+namespace {
+
+using testing::Circle;
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+std::vector<scan::LabelledPoint> read_all(const std::filesystem::path& file) {
+  std::vector<scan::LabelledPoint> points;
+  RosPoints(file).stream([&](std::span<const scan::LabelledPoint> piece) {
+    points.insert(points.end(), piece.begin(), piece.end());
+  });
+  return points;
+}
+
+std::string bytes_of(const std::filesystem::path& file) { return read_text(file); }
+
+void expect_same(const std::vector<scan::LabelledPoint>& read,
+                 const std::vector<scan::LabelledPoint>& truth) {
+  ASSERT_EQ(read.size(), truth.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    ASSERT_LT((testing::position(read[i]) - testing::position(truth[i])).norm(), 4e-6);
+    ASSERT_NEAR(read[i].time, truth[i].time, 5e-9);
+    ASSERT_EQ(read[i].intensity, truth[i].intensity);
+    ASSERT_EQ(read[i].ring, truth[i].ring);
+    ASSERT_EQ(read[i].return_number, truth[i].return_number);
+    ASSERT_EQ(read[i].return_count, truth[i].return_count);
+    ASSERT_EQ(read[i].label, truth[i].label);
+    ASSERT_EQ(read[i].plot, truth[i].plot);
+    ASSERT_EQ(read[i].plant, truth[i].plant);
+  }
+}
+
+class RosFiles : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::filesystem::path file(const std::string& name) const {
+    return folder_.path() / (name + GetParam());
+  }
+  const TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Files, RosFiles, ::testing::Values(".bag", ".mcap"),
+                         [](const auto& kind) { return kind.param.substr(1); });
+
+TEST_P(RosFiles, PointsComeBack) {
+  const FlightRecord flight = testing::circle_flight();
+  const auto points = testing::scanned(flight);
+  testing::record_to(file("flight"), flight, points);
+  const RosPoints recorded(file("flight"));
+  EXPECT_EQ(recorded.topic(), "/velodyne_points");
+  EXPECT_EQ(recorded.world_frame(), "map");
+  EXPECT_EQ(recorded.points(), points.size());
+  EXPECT_EQ(format_utc(recorded.start()), "2026-06-01T10:00:00.250001Z");
+  expect_same(read_all(file("flight")), points);
+}
+
+// A trajectory of poses further apart than transforms may be, and one that starts late.
+TEST_P(RosFiles, PosesFarApartMoveTheSame) {
+  FlightRecord flight = testing::circle_flight();
+  flight.reported = Circle().flown(0.27, 3);
+  const auto points = testing::scanned(flight);
+  testing::record_to(file("flight"), flight, points);
+  expect_same(read_all(file("flight")), points);
+}
+
+TEST_P(RosFiles, TheSameInputGivesTheSameBytes) {
+  const FlightRecord flight = testing::circle_flight();
+  const auto points = testing::scanned(flight);
+  testing::record_to(file("once"), flight, points);
+  testing::record_to(file("again"), flight, points);
+  EXPECT_TRUE(bytes_of(file("once")) == bytes_of(file("again")));
+}
+
+TEST_P(RosFiles, ATruncatedFileIsRefused) {
+  const FlightRecord flight = testing::circle_flight();
+  testing::record_to(file("whole"), flight, testing::scanned(flight));
+  const std::string whole = bytes_of(file("whole"));
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{5}, std::size_t{20}, whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(file("part"), std::ios::binary) << whole.substr(0, size);
+    EXPECT_THAT(message_of<InputError>([&] { read_all(file("part")); }), HasSubstr("part")) << size;
+  }
+}
+
+// Broken bytes give an InputError or other points; never a crash, endless work or lots of memory.
+TEST_P(RosFiles, BrokenBytesDoNoHarm) {
+  FlightRecord flight = testing::circle_flight();
+  flight.reported = Circle().flown(0.01, 3);
+  testing::record_to(file("whole"), flight, testing::scanned(flight));
+  const std::string whole = bytes_of(file("whole"));
+  int refused = 0;
+  for (std::uint64_t attempt = 0; attempt < 200; ++attempt) {
+    RandomStream stream(attempt, random_purpose("test/broken"), 0);
+    std::string broken = whole;
+    // Records lie dense at both ends.
+    const std::size_t span = std::min<std::size_t>(whole.size(), 6000);
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t at = stream.below(span);
+      broken[attempt % 2 == 0 ? at : whole.size() - 1 - at] = static_cast<char>(stream.below(256));
+    }
+    std::ofstream(file("broken"), std::ios::binary) << broken;
+    try {
+      read_all(file("broken"));
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);  // many bytes are text that nobody reads
+}
+
+TEST_P(RosFiles, FilesWithoutCloudsAreRefused) {
+  auto writer = testing::create_file(file("none"), {{.name = "/clock", .type = ros::Clock::kType}});
+  writer->write(0, {1}, ros::encode(writer->version(), ros::Clock{{1}}));
+  writer->close();
+  EXPECT_THAT(message_of<InputError>([&] { RosPoints{file("none")}; }),
+              HasSubstr("holds no clouds"));
+}
+
+TEST_P(RosFiles, ATopicIsChosenWhereThereAreSeveral) {
+  const std::vector<ros::Topic> topics = {{.name = "/front", .type = ros::PointCloud2::kType},
+                                          {.name = "/rear", .type = ros::PointCloud2::kType}};
+  auto writer = testing::create_file(file("two"), topics);
+  for (std::size_t topic : {0, 1}) {
+    auto cloud = labelled_cloud({.stamp = {2'000'000'000}, .frame_id = "sensor"});
+    add_point(cloud, {.intensity = 7}, {1, 2, static_cast<float>(topic)}, 0.25f);
+    writer->write(topic, {2'000'000'000}, ros::encode(writer->version(), cloud));
+  }
+  writer->close();
+  EXPECT_THAT(message_of<InputError>([&] { RosPoints{file("two")}; }), HasSubstr("/front, /rear"));
+  EXPECT_THAT(message_of<InputError>([&] { RosPoints(file("two"), "/top"); }), HasSubstr("/top"));
+  std::vector<scan::LabelledPoint> points;
+  const RosPoints rear(file("two"), "/rear");
+  EXPECT_EQ(rear.world_frame(), "sensor");  // no transforms: the points stay where they are
+  rear.stream([&](auto piece) { points.assign(piece.begin(), piece.end()); });
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].z, 1);
+  EXPECT_EQ(points[0].time, 0.25);
+}
+
+// A bag that rosbag compressed.
+TEST(RosBag, CompressedByRosbag) {
+  if (const std::string why = testing::why_no_reader(".bag"); !why.empty()) GTEST_SKIP() << why;
+  const TemporaryFolder folder;
+  const FlightRecord flight = testing::circle_flight();
+  const auto points = testing::scanned(flight);
+  testing::record_to(folder.path() / "plain.bag", flight, points);
+  const auto compress = [&](const std::string& method) {
+    return testing::succeeds("cd '" + folder.path().string() +
+                             "' && /usr/bin/python3 -c \"import rosbag\n"
+                             "out = rosbag.Bag('" +
+                             method + ".bag', 'w', compression='" + method +
+                             "')\n"
+                             "for m in rosbag.Bag('plain.bag').read_messages(raw=True):\n"
+                             "    out.write(m.topic, m.message, m.timestamp, raw=True)\n"
+                             "out.close()\"");
+  };
+  ASSERT_TRUE(compress("lz4"));
+  EXPECT_LT(std::filesystem::file_size(folder.path() / "lz4.bag"),
+            std::filesystem::file_size(folder.path() / "plain.bag"));
+  expect_same(read_all(folder.path() / "lz4.bag"), points);
+  ASSERT_TRUE(compress("bz2"));
+  EXPECT_THAT(message_of<InputError>([&] { read_all(folder.path() / "bz2.bag"); }),
+              HasSubstr("compressed by bz2"));
+}
+
+}  // namespace
+}  // namespace plotscan::record
