@@ -25,6 +25,35 @@ std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::s
   return line + "|";
 }
 
+// A row a case, a column a method: RMSE, and how much that is more than the baseline's.
+std::string changes_by_case(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  std::string head = "| case |";
+  std::string rule = "\n| --- |";
+  std::vector<std::string> methods;
+  for (const TableRow& row : rows) {
+    if (std::ranges::count(methods, row.method) > 0) continue;
+    methods.push_back(row.method);
+    head += " " + row.method + " |";
+    rule += " --- |";
+  }
+  std::string text = head + rule + "\n";
+  for (const CaseInfo& info : result.cases) {
+    text += "| " + info.name + " |";
+    for (const std::string& method : methods) {
+      const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
+        return candidate.method == method && candidate.case_name == info.name;
+      });
+      if (row == rows.end()) continue;
+      text += " " + centimetres(row->rmse_m);
+      if (info.name != *result.baseline)
+        text += " (" + number("%+.2f", 100 * row->rmse_change_m) + ")";
+      text += " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 // For each truth and case, the methods by RMSE.
 std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::string text = "# Suite " + result.suite +
@@ -52,35 +81,6 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
       for (std::size_t i = 0; i < rows.size(); ++i)
         text += leaderboard_line(i + 1, rows[i], published_cm(result, rows[i])) + "\n";
     }
-  }
-  return text;
-}
-
-// A row a case, a column a method: RMSE, and how much that is more than the baseline's.
-std::string changes_by_case(const SuiteResult& result, const std::vector<TableRow>& rows) {
-  std::string head = "| case |";
-  std::string rule = "\n| --- |";
-  std::vector<std::string> methods;
-  for (const TableRow& row : rows) {
-    if (std::ranges::count(methods, row.method) > 0) continue;
-    methods.push_back(row.method);
-    head += " " + row.method + " |";
-    rule += " --- |";
-  }
-  std::string text = head + rule + "\n";
-  for (const CaseInfo& info : result.cases) {
-    text += "| " + info.name + " |";
-    for (const std::string& method : methods) {
-      const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
-        return candidate.method == method && candidate.case_name == info.name;
-      });
-      if (row == rows.end()) continue;
-      text += " " + centimetres(row->rmse_m);
-      if (info.name != *result.baseline)
-        text += " (" + number("%+.2f", 100 * row->rmse_change_m) + ")";
-      text += " |";
-    }
-    text += "\n";
   }
   return text;
 }
