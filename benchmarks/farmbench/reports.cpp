@@ -86,7 +86,7 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
 }
 
 std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  return formatted("%-30s %-10s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
+  return formatted("%-30s %-9s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
                    first_of_method ? row.method.c_str() : "", row.case_name.c_str(), row.found,
                    row.plots, row.extra, number("%.2f", row.iou_median).c_str(),
                    with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
@@ -132,7 +132,7 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
     if (!lines.empty()) lines.emplace_back("");
     lines.push_back("Truth " + truth +
                     ". RMSE [95 % interval] and bias in cm over the plots found");
-    lines.push_back(formatted("%-30s %-10s %9s %5s %5s  %-21s %7s %6s", "method", "case", "found  ",
+    lines.push_back(formatted("%-30s %-9s %9s %5s %5s  %-21s %7s %6s", "method", "case", "found  ",
                               "extra", "IoU", "RMSE", "bias", "publ."));
     std::string method;
     for (const TableRow& row : rows_by_method(table, truth)) {

@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"UnknownKey", "  vertices: 12\n", "  vertexes: 12\n",
                 "5: terrain.vertexes is not a known key; known here are side_m, vertices, "
-                "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m"},
+                "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m, reflectance"},
         Mistake{"UnknownSection", "terrain:", "ground:",
                 "3: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
                 "plants, layout, weeds"},
@@ -234,7 +234,7 @@ TEST(Description, MistakesInOverridesNameTheOverride) {
   EXPECT_EQ(message("terrain.relief=1"),
             "--set terrain.relief=1: terrain.relief is not a known key; known here are side_m, "
             "vertices, relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, "
-            "detail_m");
+            "detail_m, reflectance");
   EXPECT_EQ(message("plots.rows.2.plots=1"),
             "--set plots.rows.2.plots=1: \"2\" is not an index of a list of 2 entries (from 0)");
   EXPECT_EQ(message("name.first=1"),
