@@ -26,9 +26,11 @@ void VelodyneDecoder::add_return(const Shot& shot, PacketReturn measured, int nu
   const sensor::Laser& laser = sensor_.lasers[shot.laser];
   const double range_m = distance_step_m_ * measured.distance;
   const double level_m = range_m * std::cos(laser.elevation_rad);
-  Eigen::Vector3d position(level_m * std::cos(shot.azimuth_rad),
-                           -level_m * std::sin(shot.azimuth_rad),
-                           laser.offset_m + range_m * std::sin(laser.elevation_rad));
+  const double azimuth_rad = shot.head_rad + laser.azimuth_rad;
+  Eigen::Vector3d position(
+      laser.radius_m * std::cos(shot.head_rad) + level_m * std::cos(azimuth_rad),
+      -laser.radius_m * std::sin(shot.head_rad) - level_m * std::sin(azimuth_rad),
+      laser.offset_m + range_m * std::sin(laser.elevation_rad));
   if (placement_) {
     const scan::Trajectory& trajectory = placement_->world_from_body;
     position = trajectory.world_from_body(trajectory.start_s() + shot.time_s) *
@@ -67,7 +69,7 @@ void VelodyneDecoder::decode(const DataPacket& packet, double time_s,
           sensor_.sequence_s * static_cast<double>(i / lasers) + sensor_.lasers[i % lasers].fires_s;
       const Shot shot{
           .laser = i % lasers,
-          .azimuth_rad = kAzimuthStep_rad * (last.azimuth + last_turn_ * in_block_s / block_s),
+          .head_rad = kAzimuthStep_rad * (last.azimuth + last_turn_ * in_block_s / block_s),
           .time_s = time_s + block_s * static_cast<double>(block / stride) + in_block_s};
       const bool are_two = is_dual && far.distance != 0 && near != far;
       if (are_two && near.distance > far.distance) std::swap(near, far);

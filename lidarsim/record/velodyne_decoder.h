@@ -20,7 +20,7 @@ struct Placement {
 };
 
 // Turns data packets into points. Of each return: the azimuth, interpolated between the blocks'
-// as the manual says (section 9.5), the laser's own elevation and origin, and the time of its shot.
+// as the manual says (section 9.5), the laser's own direction and origin, and the time of its shot.
 class VelodyneDecoder {
  public:
   // Without a placement the points are in the lidar frame of their own instants.
@@ -34,7 +34,7 @@ class VelodyneDecoder {
   // A firing of a laser.
   struct Shot {
     std::size_t laser = 0;
-    double azimuth_rad = 0;
+    double head_rad = 0;  // the head's azimuth
     double time_s = 0;
   };
 

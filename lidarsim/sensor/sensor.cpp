@@ -87,6 +87,8 @@ std::optional<PacketFormat> read_packets(const YamlSection& root, const Sensor& 
       .distance_step_m = 1e-3 * section.number("distance_mm", kDistanceStep_mm)};
   if (sensor.lasers.size() != 16 && sensor.lasers.size() != 32)
     section.fail("product", "needs 16 or 32 lasers: Velodyne's packets hold no other number");
+  if (sensor.columns_per_turn > 0)
+    section.fail("product", "needs firing_sequence_us: Velodyne's sensors fire by the clock");
   if (sensor.max_range_m > kMostPacketSteps * format.distance_step_m)
     section.fail("distance_mm", "is too fine: range.most_m is beyond 65535 steps of it");
   return format;

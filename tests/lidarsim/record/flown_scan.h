@@ -41,18 +41,18 @@ struct FlownScan {
   record::FlightRecord flight;
   std::vector<scan::LabelledPoint> points;
 
-  explicit FlownScan(lidar::FlyOptions options = {}) : flight(fly(options)) {
+  explicit FlownScan(lidar::FlyOptions options = {}, farm::Farm farm = small_farm())
+      : flight(fly(options, farm)) {
     points = cloud_points(folder.path() / "scan" / "cloud.pcd");
   }
 
  private:
-  record::FlightRecord fly(lidar::FlyOptions& options) const {
+  record::FlightRecord fly(lidar::FlyOptions& options, farm::Farm& farm) const {
     const auto way = folder.path() / "way.txt";
     std::ofstream(way) << "0 -2 0.5 7 0 0 0 1\n0.3 -1.4 0.5 7 0 0 0.02 1\n"
                           "0.75 -0.5 0.6 7.1 0.01 0 0 1\n";
     options.flight = way;
     options.start_utc = "2026-06-01T10:59:59.7Z";
-    farm::Farm farm = small_farm();
     farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
     lidar::fly(farm, folder.path() / "scan", options, false);
     return record::read_flight_record(folder.path() / "scan");
@@ -80,7 +80,8 @@ inline std::vector<Measured> measured(const FlownScan& scan) {
         flight.reported.world_from_body(point.time) * flight.body_from_lidar;
     const Eigen::Vector3d origin = world_from_lidar * Eigen::Vector3d(0, 0, laser.offset_m);
     shot.range_m = (Eigen::Vector3d(point.x, point.y, point.z) - origin).norm();
-    shot.azimuth_deg = std::fmod(360 * flight.spin_hz * point.time, 360);
+    shot.azimuth_deg = std::fmod(
+        360 * flight.spin_hz * point.time + laser.azimuth_rad * 180 / std::numbers::pi, 360);
     all.push_back(shot);
   }
   return all;

@@ -40,6 +40,10 @@ TEST(PacketFormat, WhatVelodynesPacketsCannotHoldIsRefused) {
   const std::size_t at = text.find("  - {fires_us: 34.560");
   text.erase(at, text.find('\n', at) + 1 - at);
   EXPECT_THAT(refusal(text), HasSubstr("16 or 32 lasers"));
+  text = vlp16_with("packets: {product: 34, distance_mm: 2}");
+  const std::string clock = "firing_sequence_us: 55.296";
+  text.replace(text.find(clock), clock.size(), "columns_per_turn: 512");
+  EXPECT_THAT(refusal(text), HasSubstr("fire by the clock"));
 }
 
 }  // namespace
