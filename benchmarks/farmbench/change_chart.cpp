@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kMarkStep = 9;  // from method to method, pixels
 constexpr double kCaseGap = 12;  // from case to case
+// The axis goes no further: a case that changes everything would hide all others. Marks beyond it
+// stand at its end with their value.
+constexpr double kFurthest_cm = 15;
 
 // Changes of RMSE that the chart shows, cm.
 struct ChangeRange {
@@ -28,16 +31,21 @@ ChangeRange range_of(const std::vector<TableRow>& rows) {
       range.high = std::max(range.high, 100 * value_m);
     }
   }
-  return {std::floor(range.low), std::ceil(range.high)};
+  return {std::max(std::floor(range.low), -kFurthest_cm),
+          std::min(std::ceil(range.high), kFurthest_cm)};
 }
 
-std::string mark(const TableRow& row, double zero_x, double px_per_cm, double y,
-                 const char* colour) {
-  const auto place = [&](double value_m) { return zero_x + 100 * value_m * px_per_cm; };
+std::string mark(const TableRow& row, const ChangeRange& range, double zero_x, double px_per_cm,
+                 double y, const char* colour) {
+  const auto place = [&](double value_m) {
+    return zero_x + std::clamp(100 * value_m, range.low, range.high) * px_per_cm;
+  };
   const std::string style = formatted("stroke=\"%s\" stroke-width=\"2\"", colour);
   std::string text;
   if (!std::isnan(row.rmse_change_low_m))
     text += line(place(row.rmse_change_low_m), y, place(row.rmse_change_high_m), y, style.c_str());
+  if (100 * row.rmse_change_m > range.high)
+    text += label(place(row.rmse_change_m) + 6, y + 4, "start", centimetres(row.rmse_change_m));
   return text +
          formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\" fill=\"%s\">",
                    place(row.rmse_change_m), y, colour) +
@@ -79,7 +87,7 @@ std::string change_chart(const SuiteResult& result, const std::vector<TableRow>&
       for (const TableRow& row : rows) {
         if (row.case_name != info.name || row.method != method) continue;
         if (!std::isnan(row.rmse_change_m))
-          content += mark(row, zero_x, px_per_cm, y, palette.colour(method));
+          content += mark(row, range, zero_x, px_per_cm, y, palette.colour(method));
       }
       y += kMarkStep;
     }
@@ -87,7 +95,7 @@ std::string change_chart(const SuiteResult& result, const std::vector<TableRow>&
   }
   const double below = frame.bottom() + 40;
   content += legend(palette, palette.rows(), frame.left, below);
-  return svg(760, below + kLegendLine * static_cast<double>(palette.rows().size()), content);
+  return svg(800, below + kLegendLine * static_cast<double>(palette.rows().size()), content);
 }
 
 }  // namespace plotscan::farmbench

@@ -128,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"UnknownKey", "  vertices: 12\n", "  vertexes: 12\n",
                 "5: terrain.vertexes is not a known key; known here are side_m, vertices, "
-                "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m, reflectance"},
+                "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m, "
+                "reflectance"},
         Mistake{"UnknownSection", "terrain:", "ground:",
                 "3: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
                 "plants, layout, weeds"},
