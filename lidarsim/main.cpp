@@ -138,6 +138,11 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                                    "(docs/flight.md)")
                         ->excludes(flight);
   add_settings(fly, options, *flight, *waypoints);
+  fly.add_option("--format", options.formats,
+                 "also write the scan as ply, las, pcap, bag or mcap (docs/formats.md) beside "
+                 "cloud.pcd; several with commas, or repeated")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   fly.add_flag("--force", arguments.force, "replace an existing scan folder");
 }
 

@@ -20,6 +20,7 @@
 #include "lidar/simulate.h"
 #include "lidar/sway.h"
 #include "record/scan_folder.h"
+#include "record/scan_formats.h"
 #include "scan/cloud_writer.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"
@@ -37,6 +38,7 @@ void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
                      " needs a beam; the file of sensor " + sensor.name +
                      " states none (docs/beam.md)");
   }
+  record::require_formats(options.formats, sensor);
   if (!parse_utc(options.start_utc))
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   if (options.threads < 1 || options.threads > kMaxThreads)
@@ -139,6 +141,7 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
     manifest.options["waypoints"] = options.waypoints->filename().string();
     manifest.inputs.push_back(*options.waypoints);
   }
+  if (!options.formats.empty()) manifest.options["formats"] = options.formats;
   manifest.results = {
       {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};
   return manifest;
@@ -209,7 +212,13 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
   const FlySummary summary{.shots = fired.sequences() * fired.lasers(),
                            .points = cloud.points(),
                            .duration_s = flight.truth.end_s()};
-  write_manifest(output.path(), manifest_of(site, sensor, options, summary));
+  const Manifest manifest = manifest_of(site, sensor, options, summary);
+  write_manifest(output.path(), manifest);
+  if (!options.formats.empty()) {
+    // They are made of the whole folder, and the manifest lists them, too.
+    record::write_formats(options.formats, output.path());
+    write_manifest(output.path(), manifest);
+  }
   output.commit();
   return summary;
 }

@@ -48,6 +48,8 @@ struct FlyOptions {
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
   std::string pose_error = "none";      // a preset's name
   flight::PoseErrors pose_errors = {};  // on top of the preset's
+  // Of files written beside cloud.pcd, as record::write_formats takes them.
+  std::vector<std::string> formats = {};
   std::uint64_t seed = 1;
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
@@ -65,8 +67,8 @@ struct FlySummary {
 };
 
 // Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv
-// (reported), sensor.yaml, manifest.json
-// (docs/scan-format.md). The same scene, site and options give the same bytes for any number of
+// (reported), sensor.yaml, manifest.json, and the files of options.formats (docs/scan-format.md).
+// The same scene, site and options give the same bytes for any number of
 // threads. Throws InputError on impossible options, a broken trajectory, or an existing folder that
 // `replace` does not cover.
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,

@@ -39,6 +39,7 @@ struct Format {
   // Whether only a flight's record turns points into this format; where it is set, source.flight is
   // there when `create` is called.
   bool needs_flight = false;
+  bool needs_packets = false;  // whether the flight's sensor must send Velodyne's packets
   // Opens a file: reads its header, not its points. `flight` is what the user tells of the flight;
   // a recording that is not self-contained throws InputError without it. Empty when the format is
   // only written.

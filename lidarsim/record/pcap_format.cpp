@@ -32,6 +32,7 @@ Format pcap_format() {
   return {.name = "Velodyne recording",
           .extensions = {".pcap"},
           .needs_flight = true,
+          .needs_packets = true,
           .open = open_pcap,
           .create = [](const path& file, const Source& source, const WriteOptions&) {
             return std::make_unique<PcapWriter>(file, *source.flight);

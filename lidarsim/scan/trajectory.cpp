@@ -11,9 +11,9 @@
 namespace plotscan::scan {
 namespace {
 
-// Files carry quaternions of four decimals and more; further from 1 it is no attitude.
 // Beyond, float32 positions are coarser than a centimetre.
 constexpr double kFarthest_m = 1e5;
+// Files carry quaternions of four decimals and more; further from 1 it is no attitude.
 constexpr double kNormTolerance = 0.01;
 
 }  // namespace

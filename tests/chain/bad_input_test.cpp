@@ -49,6 +49,9 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
       "bare.sdf",
       "<sdf version='1.9'><model name='hut'><link name='l'><visual name='wall'><geometry>"
       "<mesh><uri>model://hut/wall.dae</uri></mesh></geometry></visual></link></model></sdf>");
+  folder.write("box.sdf",
+               "<sdf version='1.9'><model name='hut'><link name='l'><visual name='wall'><geometry>"
+               "<box><size>4 4 1</size></box></geometry></visual></link></model></sdf>");
   folder.write("posed.sdf",
                "<sdf version='1.9'><model name='hut'><pose>1 2 nan 0 0 0</pose><link name='l'/>"
                "</model></sdf>");
@@ -82,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"lidarsim fly bare.sdf -o out", "hut/wall.dae"},
         BadCommand{"lidarsim fly posed.sdf -o out", "posed.sdf"},
         BadCommand{"lidarsim fly bare.sdf -o out --resource-path nowhere", "nowhere"},
+        BadCommand{"lidarsim fly box.sdf -o out --format las,xyz", "must be one of pcd, ply, las"},
+        BadCommand{"lidarsim fly box.sdf -o out --sensor os1_64 --format pcap", "--format"},
         BadCommand{"lidarsim convert truncated.pcd out.las", "truncated.pcd"},
         BadCommand{"lidarsim convert absent.las out.pcd", "absent.las"},
         BadCommand{"lidarsim convert index.ply out.xyz", ".las"},

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "record/convert.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::lidar {
@@ -164,6 +165,55 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   EXPECT_THAT(refusal({.flight = folder.write("long", "0 0 0 5 0 0 0 1\n1e9 0 0 5 0 0 0 1\n")}),
               HasSubstr("at most 86400 s"));
   EXPECT_TRUE(!exists(folder.path() / "out") || is_empty(folder.path() / "out"));
+}
+
+#ifdef PLOTSCAN_HAVE_PCAP
+const std::vector<std::string> kFormats = {"pcd", "ply", "las", "pcap", "bag", "mcap"};
+#else
+const std::vector<std::string> kFormats = {"pcd", "ply", "las", "bag", "mcap"};
+#endif
+
+TEST(Fly, FormatsBesideTheCloudAreWhatConvertMakes) {
+  const TemporaryFolder folder;
+  const auto way = short_flight(folder);
+  farm::Farm farm = testing::small_farm();
+  farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
+  const auto plain = folder.path() / "plain";
+  const auto scan = folder.path() / "scan";
+  fly(farm, plain, {.flight = way}, false);
+  fly(farm, scan, {.flight = way, .formats = kFormats}, false);
+  const nlohmann::json manifest = read_manifest(scan);
+  EXPECT_EQ(manifest["options"]["formats"], kFormats);
+  for (const std::string& format : kFormats) {
+    const bool is_cloud = format == "pcd" || format == "ply" || format == "las";
+    const std::string name = (is_cloud ? "cloud." : "flight.") + format;
+    record::convert(plain, folder.path() / name, {});
+    EXPECT_EQ(file_hash(scan / name), file_hash(folder.path() / name)) << name;
+    EXPECT_NO_THROW(require_unchanged(scan, name));
+    EXPECT_THAT(manifest["outputs"].dump(), HasSubstr(name));
+  }
+  const auto files = [](const auto& path) {
+    return std::distance(std::filesystem::directory_iterator(path), {});
+  };
+  EXPECT_EQ(files(scan), files(plain) + static_cast<std::ptrdiff_t>(kFormats.size()) - 1);
+}
+
+TEST(Fly, FormatsThatCannotBeAreRefusedBeforeTheFlight) {
+  const TemporaryFolder folder;
+  const auto scan = folder.path() / "scan";
+  const auto refusal = [&](FlyOptions options) {
+    options.flight = folder.path() / "absent";  // would be refused next
+    return message_of<InputError>([&] { fly(testing::small_farm(), scan, options, false); });
+  };
+  EXPECT_THAT(refusal({.formats = {"las", "xyz"}}),
+              HasSubstr("--format \"xyz\" must be one of pcd, ply, las"));
+  EXPECT_THAT(refusal({.formats = {"LAS"}}), HasSubstr("must be one of"));
+  EXPECT_THAT(refusal({.formats = {""}}), HasSubstr("must be one of"));
+#ifdef PLOTSCAN_HAVE_PCAP
+  EXPECT_THAT(refusal({.sensor = "os1_64", .formats = {"pcap"}}),
+              HasSubstr("os1_64 sends no Velodyne packets"));
+#endif
+  EXPECT_FALSE(exists(scan));
 }
 
 TEST(Fly, ReplacesOnlyWhenAskedTo) {
