@@ -55,11 +55,6 @@ struct FlyOptions {
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
 };
 
-// The wind of the flight, and whom it moves.
-flight::WindOptions wind_of(const FlyOptions& options);
-bool wind_moves_drone(const FlyOptions& options);
-bool wind_moves_plants(const FlyOptions& options);
-
 struct FlySummary {
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
