@@ -107,7 +107,25 @@ TEST(Returns, CloserThanTheLeastSeparationTheStrongerCounts) {
     ASSERT_EQ(returns.size(), 1u);
     EXPECT_EQ(returns[0].hit.surface, 2u);
   }
-  EXPECT_EQ(detect(4 * facing(8, 0.3f) + 6 * facing(9.05f, 0.3f), ReturnMode::dual).size(), 2u);
+}
+
+// Overlapping pulses pull their maxima together: of two equal echoes a distance 2 a apart they are
+// 2 x apart, x = a tanh(a x / sigma^2). The least separation is of the maxima: 2 x = 1 m.
+TEST(Returns, LeastSeparationIsOfTheMaxima) {
+  const double sigma_m = 0.5 * 299'792'458 * kBeam.pulse_s / (2 * std::sqrt(2 * std::log(2)));
+  const double x = 0.5 * kBeam.least_separation_m;
+  double a = x;
+  for (int i = 0; i < 1000; ++i) a = x / std::tanh(a * x / (sigma_m * sigma_m));
+  const auto returns = [](double apart_m) {
+    const double far_m = 8 + apart_m;
+    return detect(5 * facing(8, 0.3f) + 5 * facing(static_cast<float>(far_m),
+                                                   static_cast<float>(0.3 * far_m * far_m / 64)),
+                  ReturnMode::dual)
+        .size();
+  };
+  EXPECT_GT(2 * a, 1.05);
+  EXPECT_EQ(returns(2 * a - 0.001), 1u);
+  EXPECT_EQ(returns(2 * a + 0.001), 2u);
 }
 
 // Dual: strongest and last; where the last is the strongest, the second strongest and it.
