@@ -72,12 +72,16 @@ void declare_convert(Program& program) {
                       [&program, arguments] { run_convert(program, *arguments); });
   convert
       .add_option("IN", arguments->in,
-                  "scan folder, cloud (PCD, PLY, LAS), or trajectory (TUM text, trajectory.csv)")
+                  "scan folder, cloud (PCD, PLY, LAS), recording (pcap, bag, MCAP), or trajectory "
+                  "(TUM text, trajectory.csv)")
       ->required();
   convert
       .add_option("OUT", arguments->out,
                   "file to write; its extension says the format (docs/formats.md)")
       ->required();
+  convert.add_option("--topic", arguments->options.topic,
+                     "of a bag or MCAP: the topic of its clouds; by default /velodyne_points, or "
+                     "the only one");
   convert.add_option("--encoding", arguments->options.write.encoding,
                      "of PCD: binary (default), compressed (keeps the whole cloud in memory) or "
                      "ascii; of PLY: binary or ascii");

@@ -53,8 +53,10 @@ Source open_scan_folder(const fs::path& folder, const ConvertOptions& options) {
     throw InputError(folder,
                      "is a scan folder, which says by itself what --trajectory, --sensor, "
                      "--spin, --mount and --start are for");
+  if (!options.topic.empty())
+    throw InputError(folder, "--topic is for bags and MCAP files; a scan folder has no topics");
   const FlightRecord flight = read_flight_record(folder);
-  Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", flight);
+  Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", {.flight = flight});
   source.path = folder;
   source.info.start = flight.start;
   return source;
@@ -75,7 +77,10 @@ Source open_source(const fs::path& in, const ConvertOptions& options) {
   // A cloud is known by its content, whatever its name.
   if (format == nullptr) format = find_format("cloud.pcd");
   if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
-  Source source = format->open(in, told_flight(options));
+  if (!options.topic.empty() && !format->has_topics)
+    throw InputError(in,
+                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
+  Source source = format->open(in, {.flight = told_flight(options), .topic = options.topic});
   make_relative(source);
   return source;
 }
@@ -95,6 +100,7 @@ scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options
   if (is_trajectory(in)) return scan::read_trajectory(in);
   const Source source = open_source(in, options);
   if (source.flight) return source.flight->reported;
+  if (source.trajectory) return *source.trajectory;
   throw InputError(in, "holds points but no trajectory");
 }
 

@@ -25,6 +25,7 @@ struct FlightOptions {
 
 struct ConvertOptions {
   std::optional<FlightOptions> flight = {};  // for a source that is no scan folder
+  std::string topic = {};  // of the clouds in a bag or MCAP file, where there are several
   WriteOptions write = {};
   bool replace = false;  // an existing file
 };

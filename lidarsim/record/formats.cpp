@@ -16,11 +16,12 @@ namespace {
 using std::filesystem::path;
 
 // PCD, PLY and LAS, by content.
-Source open_cloud(const path& file, const std::optional<FlightRecord>& flight) {
+Source open_cloud(const path& file, const ReadOptions& options) {
   const scan::CloudInfo info = scan::read_cloud_info(file);
-  return {.path = file, .info = info, .flight = flight, .stream = [=](const scan::PointSink& sink) {
-            scan::read_points(file, info, sink);
-          }};
+  return {.path = file,
+          .info = info,
+          .flight = options.flight,
+          .stream = [=](const scan::PointSink& sink) { scan::read_points(file, info, sink); }};
 }
 
 scan::CloudWriteOptions cloud_options(const Source& source, const WriteOptions& options) {
@@ -40,13 +41,14 @@ std::unique_ptr<scan::PointWriter> create_ply(const path& file, const Source& so
 }
 
 // A bag or an MCAP file, by content.
-Source open_ros(const path& file, const std::optional<FlightRecord>& flight) {
-  const auto recorded = std::make_shared<RosPoints>(file);
+Source open_ros(const path& file, const ReadOptions& options) {
+  const auto recorded = std::make_shared<RosPoints>(file, options.topic);
   return {.path = file,
           .info = {.points = recorded->points(),
                    .start = recorded->start(),
                    .fields = recorded->fields()},
-          .flight = flight,
+          .flight = options.flight,
+          .trajectory = recorded->trajectory(),
           .stream = [recorded](const scan::PointSink& sink) { recorded->stream(sink); }};
 }
 
@@ -83,6 +85,7 @@ const std::vector<Format>& formats() {
 #endif
       {.name = "ROS 1 bag",
        .extensions = {".bag"},
+       .has_topics = true,
        .needs_flight = true,
        .open = open_ros,
        .create =
@@ -91,6 +94,7 @@ const std::vector<Format>& formats() {
            }},
       {.name = "ROS 2 MCAP",
        .extensions = {".mcap"},
+       .has_topics = true,
        .needs_flight = true,
        .open = open_ros,
        .create =

@@ -19,8 +19,18 @@ struct Source {
   std::filesystem::path path;  // for messages
   scan::CloudInfo info;
   std::optional<FlightRecord> flight;  // relative to info.origin_m, as the points are
+  // Of the body, in the points' frame and time, where the file itself tells of it.
+  std::optional<scan::Trajectory> trajectory = {};
   // Streams the points in the order of firing; may be called once.
   std::function<void(const scan::PointSink&)> stream;
+};
+
+// How a file is read.
+struct ReadOptions {
+  // What the user tells of the flight; a recording that is not self-contained throws InputError
+  // without it.
+  std::optional<FlightRecord> flight = {};
+  std::string topic = {};  // of the clouds in a bag or MCAP file; empty: as RosPoints chooses
 };
 
 // How a file is written.
@@ -35,17 +45,14 @@ struct Format {
   std::vector<std::string> extensions;  // with their dot, in lower case
   // The ways of writing it, the first by default; empty where there is but one.
   std::vector<std::string> encodings = {};
-  bool has_crs = false;  // whether options.crs means something
+  bool has_crs = false;     // whether options.crs means something
+  bool has_topics = false;  // whether ReadOptions::topic means something
   // Whether only a flight's record turns points into this format; where it is set, source.flight is
   // there when `create` is called.
   bool needs_flight = false;
   bool needs_packets = false;  // whether the flight's sensor must send Velodyne's packets
-  // Opens a file: reads its header, not its points. `flight` is what the user tells of the flight;
-  // a recording that is not self-contained throws InputError without it. Empty when the format is
-  // only written.
-  std::function<Source(const std::filesystem::path& file,
-                       const std::optional<FlightRecord>& flight)>
-      open = {};
+  // Opens a file: reads its header, not its points. Empty when the format is only written.
+  std::function<Source(const std::filesystem::path& file, const ReadOptions& options)> open = {};
   // A writer to the file. `source` outlives it. Empty when the format is only read.
   std::function<std::unique_ptr<scan::PointWriter>(
       const std::filesystem::path& file, const Source& source, const WriteOptions& options)>

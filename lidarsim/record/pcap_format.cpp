@@ -9,7 +9,8 @@ namespace {
 
 using std::filesystem::path;
 
-Source open_pcap(const path& file, const std::optional<FlightRecord>& told) {
+Source open_pcap(const path& file, const ReadOptions& options) {
+  const std::optional<FlightRecord>& told = options.flight;
   const PcapInfo info = read_pcap_info(file);
   const sensor::Sensor sensor = told ? told->sensor : sensor_of_product(info.product, file);
   Source source{.path = file, .info = {}, .flight = told, .stream = {}};

@@ -30,7 +30,8 @@ std::string choose(const std::map<std::string, CloudTopic>& topics, const std::s
     throw InputError("holds no clouds of topic " + wanted + "; it has " + names);
   if (!wanted.empty()) return wanted;
   if (topics.contains(kVelodynePoints)) return kVelodynePoints;
-  if (topics.size() > 1) throw InputError("holds clouds of several topics; choose one of " + names);
+  if (topics.size() > 1)
+    throw InputError("holds clouds of several topics; choose one by --topic: " + names);
   return topics.begin()->first;
 }
 

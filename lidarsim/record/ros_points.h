@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "record/ros_transforms.h"
 #include "scan/cloud_reader.h"
 #include "scan/point.h"
+#include "scan/trajectory.h"
 
 namespace plotscan::record {
 
@@ -27,6 +29,9 @@ class RosPoints {
   // Time 0 of the points: when the first message was recorded, to the microsecond below.
   UtcTime start() const;
   const std::string& world_frame() const { return path_.top(); }
+  // Of the body that carries the sensor, in the world frame and the points' time, as the transforms
+  // have it; nothing where they tell of no motion.
+  std::optional<scan::Trajectory> trajectory() const { return path_.motion(); }
   std::uint64_t points() const { return points_; }
   // Of LabelledPoint, that the clouds have.
   const std::vector<std::string>& fields() const { return fields_; }

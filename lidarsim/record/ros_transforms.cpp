@@ -47,18 +47,39 @@ std::vector<scan::StampedPose> ordered(std::vector<scan::StampedPose> poses) {
 }  // namespace
 
 std::optional<Eigen::Isometry3d> FramePath::top_from_frame(double time_s) const {
+  return top_from_step(0, time_s);
+}
+
+std::optional<Eigen::Isometry3d> FramePath::top_from_step(std::size_t first, double time_s) const {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (const auto& step : steps_) {
-    if (const auto* still = std::get_if<Still>(&step)) {
+  for (std::size_t i = first; i < steps_.size(); ++i) {
+    if (const auto* still = std::get_if<Still>(&steps_[i])) {
       pose = *still * pose;
       continue;
     }
-    const auto& moves = std::get<scan::Trajectory>(step);
+    const auto& moves = std::get<scan::Trajectory>(steps_[i]);
     if (time_s < moves.start_s() - kRounding_s || time_s > moves.end_s() + kRounding_s)
       return std::nullopt;
     pose = moves.world_from_body(time_s) * pose;
   }
   return pose;
+}
+
+std::optional<scan::Trajectory> FramePath::motion() const {
+  const auto step = std::ranges::find_if(
+      steps_, [](const auto& any) { return std::holds_alternative<scan::Trajectory>(any); });
+  if (step == steps_.end()) return std::nullopt;
+  const auto first = static_cast<std::size_t>(step - steps_.begin());
+  std::vector<scan::StampedPose> poses;
+  for (const scan::StampedPose& own : std::get<scan::Trajectory>(*step).poses()) {
+    const auto pose = top_from_step(first, own.time_s);
+    if (!pose) continue;
+    poses.push_back({.time_s = own.time_s,
+                     .position_m = pose->translation(),
+                     .attitude = Eigen::Quaterniond(pose->linear())});
+  }
+  if (poses.size() < 2) return std::nullopt;
+  return scan::Trajectory(std::move(poses));
 }
 
 void RosTransforms::add(const ros::TFMessage& message, ros::Time epoch, bool still) {

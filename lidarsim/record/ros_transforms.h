@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,10 +19,17 @@ class FramePath {
   const std::string& top() const { return top_; }
   // Time in seconds as in RosTransforms. Nothing before the first or after the last transform.
   std::optional<Eigen::Isometry3d> top_from_frame(double time_s) const;
+  // How the first frame on the way that moves in the one above it, a drone's body above its sensor,
+  // moves in the topmost: at the times of its own transforms that those above it cover. Nothing
+  // where all stand still.
+  std::optional<scan::Trajectory> motion() const;
 
  private:
   friend class RosTransforms;
   using Still = Eigen::Isometry3d;
+  // The same from the frame below the step `first` on.
+  std::optional<Eigen::Isometry3d> top_from_step(std::size_t first, double time_s) const;
+
   std::string top_;
   std::vector<std::variant<Still, scan::Trajectory>> steps_;  // parent_from_child, upwards
 };

@@ -12,11 +12,14 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "record/convert.h"
 #include "record/ros_cloud.h"
+#include "scan/point_reader.h"
 
 namespace plotscan::record {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::Circle;
 using ::testing::HasSubstr;
 using testing::message_of;
@@ -69,6 +72,54 @@ TEST_P(RosFiles, PointsComeBack) {
   EXPECT_EQ(recorded.points(), points.size());
   EXPECT_EQ(format_utc(recorded.start()), "2026-06-01T10:00:00.250001Z");
   expect_same(read_all(file("flight")), points);
+}
+
+// The sensor is mounted still on the body, whose motion is read.
+TEST_P(RosFiles, TheTrajectoryComesBack) {
+  const FlightRecord flight = testing::circle_flight();
+  testing::record_to(file("flight"), flight, testing::scanned(flight));
+  const fs::path tum = folder_.path() / "flight.tum";
+  EXPECT_EQ(convert(file("flight"), tum, {}).poses, flight.reported.poses().size());
+  const scan::Trajectory read = scan::read_trajectory(tum);
+  ASSERT_EQ(read.poses().size(), flight.reported.poses().size());
+  for (std::size_t i = 0; i < read.poses().size(); ++i) {
+    const scan::StampedPose& expected = flight.reported.poses()[i];
+    EXPECT_NEAR(read.poses()[i].time_s, expected.time_s, 2e-9);
+    EXPECT_LT((read.poses()[i].position_m - expected.position_m).norm(), 1e-12);
+    EXPECT_LT(read.poses()[i].attitude.angularDistance(expected.attitude), 1e-7);
+  }
+}
+
+// A gimbal that turns on a drone that flies: the gimbal's motion in the world, while both are
+// known.
+TEST_P(RosFiles, AChainOfMovingFramesIsOneTrajectory) {
+  auto writer =
+      testing::create_file(file("gimbal"), {{.name = "/tf", .type = ros::TFMessage::kType},
+                                            {.name = "/points", .type = ros::PointCloud2::kType}});
+  const auto transform = [](std::int64_t ns, const char* parent, const char* child, double x) {
+    ros::TransformStamped stamped;
+    stamped.header = {.stamp = {ns}, .frame_id = parent};
+    stamped.child_frame_id = child;
+    stamped.transform.translation = {x, 0, 0};
+    stamped.transform.rotation = {0, 0, 0, 1};
+    return stamped;
+  };
+  const std::int64_t second = 1'000'000'000;
+  const ros::TFMessage moves{
+      {transform(second, "map", "body", 0), transform(3 * second, "map", "body", 20),
+       transform(second, "body", "gimbal", 1), transform(2 * second, "body", "gimbal", 2),
+       transform(4 * second, "body", "gimbal", 3)}};
+  writer->write(0, {second}, ros::encode(writer->version(), moves));
+  auto cloud = labelled_cloud({.stamp = {second}, .frame_id = "gimbal"});
+  add_point(cloud, {.intensity = 7}, {1, 2, 3}, 0.25f);
+  writer->write(1, {second}, ros::encode(writer->version(), cloud));
+  writer->close();
+  const auto read = RosPoints(file("gimbal")).trajectory();
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->poses().size(), 2u);  // the body is not known 4 s on
+  EXPECT_EQ(read->poses()[0].position_m, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(read->poses()[1].position_m, Eigen::Vector3d(12, 0, 0));
+  EXPECT_EQ(read->poses()[1].time_s, 1);
 }
 
 // A trajectory of poses further apart than transforms may be, and one that starts late.
@@ -152,6 +203,17 @@ TEST_P(RosFiles, ATopicIsChosenWhereThereAreSeveral) {
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0].z, 1);
   EXPECT_EQ(points[0].time, 0.25);
+  EXPECT_FALSE(rear.trajectory());
+
+  const auto refusal = [&](const fs::path& in, const char* out, const ConvertOptions& options) {
+    return message_of<InputError>([&] { convert(in, folder_.path() / out, options); });
+  };
+  convert(file("two"), folder_.path() / "rear.pcd", {.topic = "/rear"});
+  const fs::path pcd = folder_.path() / "rear.pcd";
+  scan::read_points(pcd, scan::read_cloud_info(pcd), [&](auto piece) { EXPECT_EQ(piece[0].z, 1); });
+  EXPECT_THAT(refusal(file("two"), "a.pcd", {}), HasSubstr("--topic: /front, /rear"));
+  EXPECT_THAT(refusal(file("two"), "a.tum", {.topic = "/rear"}), HasSubstr("no trajectory"));
+  EXPECT_THAT(refusal(pcd, "a.las", {.topic = "/rear"}), HasSubstr("has no topics"));
 }
 
 // A bag that rosbag compressed.
