@@ -90,6 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"lidarsim convert truncated.pcd out.las", "truncated.pcd"},
         BadCommand{"lidarsim convert absent.las out.pcd", "absent.las"},
         BadCommand{"lidarsim convert index.ply out.xyz", ".las"},
+        BadCommand{"lidarsim convert index.ply out.las --topic /points", "no topics"},
         BadCommand{"lidarsim convert index.ply out.las --crs utm", "anchor"},
         BadCommand{"lidarsim convert index.ply broken.yaml/out.las", "no such folder"},
         BadCommand{"farmgen generate " + kPaper + " -o web --force", "web"},

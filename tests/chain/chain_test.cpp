@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 #include <nlohmann/json.hpp>
 
+#include "core/csv.h"
 #include "core/manifest.h"
 
 namespace plotscan {
@@ -46,6 +47,39 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
        {"farm/world.sdf", "farm/truth/plots.geojson", "scan/cloud.pcd", "scan/trajectory.csv",
         "estimate/plots.geojson", "estimate/heights.csv", "estimate/manifest.json"}) {
     EXPECT_TRUE(exists(file)) << file;
+  }
+}
+
+// LAS has steps of 0.1 mm: the plots are the same within them. Heights count from ground planes by
+// RANSAC, which stops at the first good one: another point within the tolerance tilts them, and a
+// height changes by millimetres.
+TEST_F(Chain, EstimatesFromLasAsFromPcd) {
+  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("lidarsim fly farm -o scan --format las");
+  const std::string options = " --plots 9 --crop-box=-5,-9,5,9";
+  succeed("estimator run scan/cloud.pcd -o from_pcd" + options);
+  succeed("estimator run scan/cloud.las -o from_las" + options);
+  const std::vector<std::string> columns = {"plot_number", "center_x_m",       "center_y_m",
+                                            "width_m",     "length_m",         "height_voxel-max_m",
+                                            "row_number",  "col_number",       "heading_deg",
+                                            "points",      "height_raw-max_m", "height_raw-p99_m"};
+  const auto table = [&](const std::string& name) {
+    std::vector<std::vector<double>> rows;
+    read_csv(folder_.path() / name / "heights.csv", columns, {}, [&](const CsvRow& row) {
+      rows.emplace_back();
+      for (std::size_t column = 0; column < 6; ++column) rows.back().push_back(row.number(column));
+    });
+    return rows;
+  };
+  const auto pcd = table("from_pcd");
+  const auto las = table("from_las");
+  ASSERT_EQ(pcd.size(), 9u);
+  ASSERT_EQ(las.size(), pcd.size());
+  for (std::size_t row = 0; row < pcd.size(); ++row) {
+    EXPECT_EQ(las[row][0], pcd[row][0]);
+    for (std::size_t column = 1; column < 5; ++column)
+      EXPECT_NEAR(las[row][column], pcd[row][column], 5e-4) << columns[column];
+    EXPECT_NEAR(las[row][5], pcd[row][5], 0.02);
   }
 }
 
