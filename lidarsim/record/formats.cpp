@@ -5,9 +5,9 @@
 #include <cctype>
 
 #include "record/las_file.h"
-#include "record/pcap_format.h"
-#include "record/ros_points.h"
-#include "record/ros_recorder.h"
+#include "record/ros/points.h"
+#include "record/ros/recorder.h"
+#include "record/velodyne/pcap_format.h"
 #include "scan/cloud_writer.h"
 
 namespace plotscan::record {

@@ -8,7 +8,7 @@
 
 #include "core/geodesy.h"
 #include "core/utc_time.h"
-#include "record/velodyne_packet.h"
+#include "record/velodyne/packet.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"
 #include "sensor/shots.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/nmea.h"
+#include "record/velodyne/nmea.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "record/ros_recorder.h"
+#include "record/ros/recorder.h"
 #include "record/scan_folder.h"
 
 namespace plotscan::testing {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/ros_points.h"
-
 #include <cstdlib>
 #include <fstream>
 
@@ -13,7 +11,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "record/convert.h"
-#include "record/ros_cloud.h"
+#include "record/ros/cloud.h"
+#include "record/ros/points.h"
 #include "scan/point_reader.h"
 
 namespace plotscan::record {

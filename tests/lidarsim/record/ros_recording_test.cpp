@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "record/ros_points.h"
+#include "record/ros/points.h"
 
 // What RosRecorder writes, as readers of others see it.
 namespace plotscan::record {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/velodyne_encoder.h"
-
 #include "lidarsim/record/hovering.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "record/velodyne/encoder.h"
 
 namespace plotscan::record {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/velodyne_packet.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "record/velodyne/packet.h"
 
 namespace plotscan::record {
 namespace {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/ros/points.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/error.h"
+#include "record/ros/cloud.h"
+#include "record/ros/file.h"
+
+namespace plotscan::record {
+namespace {
+
+constexpr const char* kVelodynePoints = "/velodyne_points";
+constexpr std::int64_t kMicrosecond_ns = 1000;
+
+// The clouds of one topic.
+struct CloudTopic {
+  std::string frame;
+  std::uint64_t points = 0;
+  std::vector<std::string> fields;
+};
+
+std::string choose(const std::map<std::string, CloudTopic>& topics, const std::string& wanted) {
+  std::string names;
+  for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
+  if (topics.empty()) throw InputError("holds no clouds (sensor_msgs/PointCloud2)");
+  if (!wanted.empty() && !topics.contains(wanted))
+    throw InputError("holds no clouds of topic " + wanted + "; it has " + names);
+  if (!wanted.empty()) return wanted;
+  if (topics.contains(kVelodynePoints)) return kVelodynePoints;
+  if (topics.size() > 1)
+    throw InputError("holds clouds of several topics; choose one by --topic: " + names);
+  return topics.begin()->first;
+}
+
+// The point in the world, its time from the recording's start; nothing where it has no place.
+std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, double stamp_s,
+                                          const FramePath& path) {
+  point.time += stamp_s;
+  const Eigen::Vector3d position(point.x, point.y, point.z);
+  const auto top_from_frame = path.top_from_frame(point.time);
+  if (!top_from_frame || !position.allFinite()) return std::nullopt;
+  const Eigen::Vector3f world = (*top_from_frame * position).cast<float>();
+  point.x = world.x();
+  point.y = world.y();
+  point.z = world.z();
+  return point;
+}
+
+}  // namespace
+
+RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic) : file_(file) {
+  RosTransforms transforms;
+  std::map<std::string, CloudTopic> clouds;
+  bool is_first = true;
+  ros::read_messages(file, [&](const ros::Message& message) {
+    if (is_first) start_.ns = message.time.ns / kMicrosecond_ns * kMicrosecond_ns;
+    is_first = false;
+    if (message.topic.type == ros::TFMessage::kType || message.topic.type == "tf/tfMessage") {
+      transforms.add(ros::decode<ros::TFMessage>(message.version, message.bytes), start_,
+                     message.topic.name == "/tf_static");
+    } else if (message.topic.type == ros::PointCloud2::kType) {
+      const auto cloud = ros::decode<ros::PointCloud2>(message.version, message.bytes);
+      CloudTopic& of_topic = clouds[message.topic.name];
+      of_topic.frame = cloud.header.frame_id;
+      of_topic.fields = CloudPoints(cloud).fields();
+      of_topic.points += std::uint64_t{cloud.width} * cloud.height;
+    }
+  });
+  try {
+    topic_ = choose(clouds, topic);
+    points_ = clouds.at(topic_).points;
+    fields_ = clouds.at(topic_).fields;
+    path_ = transforms.path(clouds.at(topic_).frame);
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+UtcTime RosPoints::start() const {
+  return UtcTime(std::chrono::microseconds(start_.ns / kMicrosecond_ns));
+}
+
+scan::CloudSummary RosPoints::stream(const scan::PointSink& sink) const {
+  scan::CloudSummary summary;
+  std::vector<scan::LabelledPoint> sweep;
+  ros::read_messages(file_, [&](const ros::Message& message) {
+    if (message.topic.name != topic_ || message.topic.type != ros::PointCloud2::kType) return;
+    const auto cloud = ros::decode<ros::PointCloud2>(message.version, message.bytes);
+    const double stamp_s = 1e-9 * static_cast<double>(cloud.header.stamp.ns - start_.ns);
+    const CloudPoints points(cloud);
+    sweep.clear();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (const auto point = placed(points.point(i), stamp_s, path_)) sweep.push_back(*point);
+    summary.points += sweep.size();
+    summary.not_finite += points.size() - sweep.size();
+    if (!sweep.empty()) sink(sweep);
+  });
+  if (summary.points == 0)
+    throw InputError(file_, "no point of " + topic_ + " is finite and has a transform");
+  return summary;
+}
+
+}  // namespace plotscan::record

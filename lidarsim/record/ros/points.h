@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/utc_time.h"
+#include "record/ros/transforms.h"
+#include "scan/cloud_reader.h"
+#include "scan/point.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::record {
+
+// The clouds of a ROS 1 bag or an MCAP file, placed in the world by its transforms (/tf,
+// /tf_static) at each point's own time, linear and slerp between them. The world is the topmost
+// frame above the clouds' own; where nothing is above it, points stay as they are.
+class RosPoints {
+ public:
+  // Reads the whole file for its transforms, which are kept. `topic` of the clouds; "":
+  // /velodyne_points, or the only topic of PointCloud2. Throws InputError when the file is missing,
+  // foreign, truncated or broken, has no clouds, or has several topics of them and none is chosen.
+  explicit RosPoints(const std::filesystem::path& file, const std::string& topic = "");
+
+  const std::string& topic() const { return topic_; }
+  // Time 0 of the points: when the first message was recorded, to the microsecond below.
+  UtcTime start() const;
+  const std::string& world_frame() const { return path_.top(); }
+  // Of the body that carries the sensor, in the world frame and the points' time, as the transforms
+  // have it; nothing where they tell of no motion.
+  std::optional<scan::Trajectory> trajectory() const { return path_.motion(); }
+  std::uint64_t points() const { return points_; }
+  // Of LabelledPoint, that the clouds have.
+  const std::vector<std::string>& fields() const { return fields_; }
+
+  // Points in the order of the file. Those that are not finite or that no transform is known for
+  // (recorded before the first or after the last) are left out, and counted.
+  scan::CloudSummary stream(const scan::PointSink& sink) const;
+
+ private:
+  std::filesystem::path file_;
+  std::string topic_;
+  ros::Time start_;
+  std::uint64_t points_ = 0;
+  std::vector<std::string> fields_;
+  FramePath path_;
+};
+
+}  // namespace plotscan::record

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/velodyne/pcap_format.h"
+
+#include "record/velodyne/pcap_reader.h"
+#include "record/velodyne/pcap_writer.h"
+
+namespace plotscan::record {
+namespace {
+
+using std::filesystem::path;
+
+Source open_pcap(const path& file, const ReadOptions& options) {
+  const std::optional<FlightRecord>& told = options.flight;
+  const PcapInfo info = read_pcap_info(file);
+  const sensor::Sensor sensor = told ? told->sensor : sensor_of_product(info.product, file);
+  Source source{.path = file, .info = {}, .flight = told, .stream = {}};
+  source.info.start = info.start;
+  source.info.fields = {"x",           "y", "z", "intensity", "ring", "time", "return_number",
+                        "return_count"};
+  std::optional<Placement> placement;
+  if (told) {
+    source.flight->start = info.start;
+    source.flight->returns = info.mode;
+    placement = {.world_from_body = told->reported, .body_from_lidar = told->body_from_lidar};
+  }
+  source.stream = [=](const scan::PointSink& sink) { read_pcap(file, sensor, placement, sink); };
+  return source;
+}
+
+}  // namespace
+
+Format pcap_format() {
+  return {.name = "Velodyne recording",
+          .extensions = {".pcap"},
+          .needs_flight = true,
+          .needs_packets = true,
+          .open = open_pcap,
+          .create = [](const path& file, const Source& source, const WriteOptions&) {
+            return std::make_unique<PcapWriter>(file, *source.flight);
+          }};
+}
+
+Format pcapng_format() {
+  return {.name = "pcapng recording", .extensions = {".pcapng"}, .open = open_pcap};
+}
+
+}  // namespace plotscan::record
