@@ -54,7 +54,7 @@ std::string svg(double width, double height, const std::string& content) {
   return formatted("<svg viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" ", width, height,
                    width, height) +
          "xmlns=\"http://www.w3.org/2000/svg\" font-family=\"system-ui, sans-serif\" "
-         "font-size=\"12\" fill=\"#222\">" +
+         "font-size=\"12\" fill=\"#222\" style=\"background:#fff\">" +
          content + "</svg>\n";
 }
 
