@@ -129,8 +129,8 @@ double coverage(double duration_s) {
   return static_cast<double>(covered) / cells;
 }
 
-// Livox: a fifth of the field of view in 0.1 s, and nearly all of it in a second. A pattern that
-// repeated itself would stop growing.
+// A user of the sensor reports nearly all of the field of view in a second (Livox-SDK, issue 57). A
+// pattern that repeated itself would stop growing.
 TEST(Risley, CoverageGrowsWithTime) {
   EXPECT_NEAR(coverage(0.1), 0.20, 0.02);
   EXPECT_GT(coverage(0.5), 0.6);
