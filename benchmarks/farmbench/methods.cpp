@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 #include "score/oracle_ground.h"
 
 namespace plotscan::farmbench {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@
 
 namespace plotscan::estimate {
 
+// How sure a method is of one of its heights, metres.
+struct HeightError {
+  double standard_error_m = 0;
+  double low95_m = 0;  // ends of the 95 % interval
+  double high95_m = 0;
+};
+
 // One plot as found in, or measured from, a cloud.
 struct PlotEstimate {
   std::uint32_t id = 0;  // from 1
@@ -23,6 +31,9 @@ struct PlotEstimate {
   std::size_t points = 0;  // cloud points the heights were taken from
   std::map<std::string, double> heights_m =
       {};  // by name, e.g. "raw-p99"; absent where it could not be measured
+  std::map<std::string, HeightError> errors = {};   // of heights_m, by the same names
+  std::optional<double> confidence = std::nullopt;  // that this is a plot, 0 to 1
+  std::vector<std::string> flags = {};  // why not to trust the heights; none: they may be trusted
 };
 
 // What a method says of a whole field.

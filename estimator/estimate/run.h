@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/progress.h"
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 
 namespace plotscan::estimate {
 

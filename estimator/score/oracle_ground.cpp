@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/statistics.h"
-#include "estimate/plot_heights.h"
-#include "estimate/voxel_filter.h"
+#include "estimate/dhami2020/plot_heights.h"
+#include "estimate/dhami2020/voxel_filter.h"
 
 namespace plotscan::score {
 namespace {

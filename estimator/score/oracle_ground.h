@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimate/cloud_map.h"
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 #include "estimate/estimate.h"
 #include "farm/terrain.h"
 #include "score/score.h"

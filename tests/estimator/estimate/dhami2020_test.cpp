@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 
 #include <algorithm>
 #include <numbers>

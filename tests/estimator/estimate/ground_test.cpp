@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "estimate/ground_level.h"
-#include "estimate/ground_plane.h"
+#include "estimate/dhami2020/ground_level.h"
+#include "estimate/dhami2020/ground_plane.h"
 
 namespace plotscan::estimate {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/lattice.h"
+#include "estimate/dhami2020/lattice.h"
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "estimate/plot_grid.h"
+#include "estimate/dhami2020/plot_grid.h"
 
 namespace plotscan::estimate {
 namespace {

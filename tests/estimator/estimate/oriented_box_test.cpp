@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/oriented_box.h"
+#include "estimate/dhami2020/oriented_box.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/voxel_filter.h"
+#include "estimate/dhami2020/voxel_filter.h"
 
 #include <array>
 #include <cmath>

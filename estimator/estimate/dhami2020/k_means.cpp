@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/k_means.h"
+#include "estimate/dhami2020/k_means.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/ground_level.h"
+#include "estimate/dhami2020/ground_level.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/plot_heights.h"
+#include "estimate/dhami2020/plot_heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/statistics.h"
-#include "estimate/ground_plane.h"
+#include "estimate/dhami2020/ground_plane.h"
 
 namespace plotscan::estimate {
 namespace {

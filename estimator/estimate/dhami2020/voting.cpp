@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/voting.h"
+#include "estimate/dhami2020/voting.h"
 
 #include <cmath>
 #include <map>

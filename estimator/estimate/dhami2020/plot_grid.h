@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "estimate/dhami2020/lattice.h"
 #include "estimate/estimate.h"
-#include "estimate/lattice.h"
 
 namespace plotscan::estimate {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::estimate {

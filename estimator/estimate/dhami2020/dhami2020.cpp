@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/dhami2020.h"
+#include "estimate/dhami2020/dhami2020.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 
 #include "core/csv.h"
 #include "core/error.h"
-#include "estimate/ground_level.h"
-#include "estimate/k_means.h"
-#include "estimate/lattice.h"
-#include "estimate/oriented_box.h"
-#include "estimate/plot_grid.h"
-#include "estimate/plot_heights.h"
-#include "estimate/voting.h"
-#include "estimate/voxel_filter.h"
+#include "estimate/dhami2020/ground_level.h"
+#include "estimate/dhami2020/k_means.h"
+#include "estimate/dhami2020/lattice.h"
+#include "estimate/dhami2020/oriented_box.h"
+#include "estimate/dhami2020/plot_grid.h"
+#include "estimate/dhami2020/plot_heights.h"
+#include "estimate/dhami2020/voting.h"
+#include "estimate/dhami2020/voxel_filter.h"
 
 namespace plotscan::estimate {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/plot_grid.h"
+#include "estimate/dhami2020/plot_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/lattice.h"
+#include "estimate/dhami2020/lattice.h"
 
 #include <algorithm>
 #include <cmath>

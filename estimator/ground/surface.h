@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plotscan::ground {
+
+// The ground of a whole field as heights of a square grid's nodes, bilinear between them. Node
+// (column, row) lies at origin + cell_m * (column, row) and has index row * columns + column.
+struct Surface {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in the points' frame, metres
+  double cell_m = 0;
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> z_m = {};          // NaN where no ground is within reach
+  std::vector<float> sd_m = {};         // standard error of z_m; NaN where that is
+  std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
+  double noise_m = 0;                   // sigma of the returns' heights about bare ground
+
+  // NaN outside of the grid, and where a node of the cell is NaN.
+  double height(const Eigen::Vector2d& place) const;
+  double standard_error(const Eigen::Vector2d& place) const;
+  // Of the cell's bilinear patch: (dz/dx, dz/dy).
+  Eigen::Vector2d slope(const Eigen::Vector2d& place) const;
+};
+
+struct SurfaceOptions {
+  double cell_m = 0.2;                           // grid's step
+  std::optional<double> noise_m = std::nullopt;  // sigma of heights; estimated where absent
+  int threads = 1;
+};
+
+// The ground under the points (x, y, z up, metres; any order), under canopy too.
+Surface fit_surface(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options);
+
+}  // namespace plotscan::ground

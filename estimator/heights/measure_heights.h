@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ground/surface.h"
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+
+namespace plotscan::heights {
+
+// One height of a plot with its uncertainty, metres.
+struct Height {
+  double value_m = 0;
+  double standard_error_m = 0;
+  double low95_m = 0;
+  double high95_m = 0;
+};
+
+// What is known of one plot's heights.
+struct PlotHeights {
+  std::map<std::string, Height> heights = {};  // "mean", "max", "p50", "p90", "p95", "p99", ...
+  std::vector<std::string> flags = {};  // why the plot should not be trusted; empty when it may be
+  std::size_t points = 0;               // returns in its box
+};
+
+// One plot as it is measured: its box, and the points (x, y, height above the ground) in it.
+struct PlotPoints {
+  PlotBox box;
+  std::span<const Eigen::Vector3f> points;
+};
+
+struct HeightOptions {
+  bool calibrated = true;  // plants' heights from the canopy's; false: the canopy's own quantiles
+  int threads = 1;
+};
+
+// The heights of a field's plots, in their order.
+std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
+                                         const ground::Surface& surface,
+                                         const HeightOptions& options);
+
+}  // namespace plotscan::heights

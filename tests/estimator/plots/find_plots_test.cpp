@@ -1,0 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/find_plots.h"
+
+#include <gtest/gtest.h>
