@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -13,11 +14,18 @@
 namespace plotscan {
 namespace {
 
+// Groups of options, each named as the method that it belongs to.
+constexpr const char* kLatticeGroup = "lattice";
+constexpr const char* kDhamiGroup = "dhami2020";
+
 struct RunArguments {
+  const CLI::App* command = nullptr;
   estimate::RunOptions options;
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
+  std::optional<double> heading_deg;
+  bool no_calibration = false;
   bool no_level = false;
 };
 
@@ -26,15 +34,7 @@ std::optional<estimate::Area> area_of(const std::vector<double>& corners) {
   return estimate::Area{corners[0], corners[1], corners[2], corners[3]};
 }
 
-void say_how(const Program& program, const nlohmann::json& diagnostics) {
-  program.say(formatted("points     %zu read, %zu in the field, %zu voxels",
-                        diagnostics["points_read"].get<std::size_t>(),
-                        diagnostics["points_in_area"].get<std::size_t>(),
-                        diagnostics["voxels"].get<std::size_t>()));
-  const auto& area = diagnostics["area_m"];
-  program.say(formatted("field      x %.1f to %.1f m, y %.1f to %.1f m", area[0].get<double>(),
-                        area[2].get<double>(), area[1].get<double>(), area[3].get<double>()));
-  if (!diagnostics.contains("votes")) return;
+void say_votes(const Program& program, const nlohmann::json& diagnostics) {
   const auto& plot = diagnostics["plot"];
   const auto& votes = diagnostics["votes"];
   program.say(formatted("plot size  %.2f x %.2f m, heading %.1f deg", plot["width_m"].get<double>(),
@@ -53,6 +53,47 @@ void say_how(const Program& program, const nlohmann::json& diagnostics) {
                         pitch.c_str()));
 }
 
+void say_field(const Program& program, const nlohmann::json& diagnostics) {
+  if (diagnostics.contains("nothing")) {
+    program.say("plots      none: " + diagnostics["nothing"].get<std::string>());
+    return;
+  }
+  const auto& field = diagnostics["field"];
+  program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg",
+                        field["width_m"].get<double>(), field["length_m"].get<double>(),
+                        field["heading_deg"].get<double>()));
+  program.say(formatted("lattice    %d rows, %d columns", field["rows"].get<int>(),
+                        field["columns"].get<int>()));
+}
+
+void say_how(const Program& program, const nlohmann::json& diagnostics) {
+  program.say(formatted("points     %zu read, %zu in the field",
+                        diagnostics["points_read"].get<std::size_t>(),
+                        diagnostics["points_in_area"].get<std::size_t>()));
+  const auto& area = diagnostics["area_m"];
+  program.say(formatted("field      x %.1f to %.1f m, y %.1f to %.1f m", area[0].get<double>(),
+                        area[2].get<double>(), area[1].get<double>(), area[3].get<double>()));
+  if (diagnostics.contains("ground")) {
+    const auto& ground = diagnostics["ground"];
+    program.say(formatted("ground     seen in %.0f %% of %.1f m cells, noise %.1f cm",
+                          100 * ground["seen_share"].get<double>(), ground["cell_m"].get<double>(),
+                          100 * ground["noise_m"].get<double>()));
+  }
+  if (diagnostics.contains("votes")) say_votes(program, diagnostics);
+  if (diagnostics.contains("field")) say_field(program, diagnostics);
+}
+
+void say_flags(const Program& program, const estimate::Estimate& estimate) {
+  std::map<std::string, std::size_t> plots_by_flag;
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    for (const std::string& flag : plot.flags) ++plots_by_flag[flag];
+  }
+  for (const auto& [flag, plots] : plots_by_flag) {
+    program.say(
+        formatted("flagged    %zu of %zu plots: %s", plots, estimate.plots.size(), flag.c_str()));
+  }
+}
+
 void say_heights(const Program& program, const nlohmann::json& summary) {
   for (const auto& [name, height] : summary.items()) {
     program.say(formatted("%-10s median %.3f m, %.3f to %.3f m, %zu plots", name.c_str(),
@@ -61,15 +102,31 @@ void say_heights(const Program& program, const nlohmann::json& summary) {
   }
 }
 
+// An option of another method would have no effect, and says so.
+void require_own_options(const CLI::App& command, const std::string& method) {
+  for (const CLI::Option* option : command.get_options()) {
+    const bool of_a_method =
+        option->get_group() == kLatticeGroup || option->get_group() == kDhamiGroup;
+    if (!of_a_method || option->get_group() == method || option->count() == 0) continue;
+    throw InputError(option->get_name() + " belongs to --method " + option->get_group() +
+                     ", and the method is " + method);
+  }
+}
+
 void run_estimate(const Program& program, RunArguments arguments) {
+  require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
-  options.dhami2020.crop_box = area_of(arguments.crop_box);
+  options.crop_box = area_of(arguments.crop_box);
+  options.seed = program.common().seed;
+  options.threads = program.common().threads;
   options.dhami2020.learn_box = area_of(arguments.learn_box);
   options.dhami2020.level = !arguments.no_level;
-  options.dhami2020.seed = program.common().seed;
-  options.dhami2020.threads = program.common().threads;
+  options.lattice.calibrated = !arguments.no_calibration;
+  if (arguments.heading_deg) {
+    options.lattice.hints.heading_rad = *arguments.heading_deg * std::numbers::pi / 180;
+  }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
-  if (arguments.boxes.empty() && options.dhami2020.plots == 0) {
+  if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
   const auto start = std::chrono::steady_clock::now();
@@ -79,6 +136,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   const nlohmann::json summary = estimate::height_summary(estimate);
   say_how(program, estimate.diagnostics);
   say_heights(program, summary);
+  say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
                         options.output.c_str()));
   program.result({{"output", options.output.string()},
@@ -88,43 +146,77 @@ void run_estimate(const Program& program, RunArguments arguments) {
                   {"seconds", seconds}});
 }
 
+void declare_lattice(CLI::App& run, RunArguments& arguments) {
+  const std::string group = kLatticeGroup;
+  auto& method = arguments.options.lattice;
+  run.add_option("--heading", arguments.heading_deg,
+                 "direction of the plots' length, counter-clockwise from x (degrees)")
+      ->group(group);
+  run.add_option("--plot-width", method.hints.width_m, "of every plot (metres)")->group(group);
+  run.add_option("--plot-length", method.hints.length_m, "of every plot (metres)")->group(group);
+  run.add_option("--noise", method.noise_m,
+                 "sigma of the points' heights (metres; default: estimated from bare ground)")
+      ->group(group);
+  run.add_flag("--no-calibration", arguments.no_calibration,
+               "give the canopy's own mean and percentiles for the plants'")
+      ->group(group);
+}
+
+void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
+  const std::string group = kDhamiGroup;
+  auto& method = arguments.options.dhami2020;
+  run.add_option("--plots", method.plots,
+                 "how many plots lie in the field, or in --learn-box (1 to 100000)")
+      ->excludes("--boxes")
+      ->group(group);
+  run.add_option("--learn-box", arguments.learn_box,
+                 "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
+                 "the grid over the whole field, metres")
+      ->delimiter(',')
+      ->expected(4)
+      ->excludes("--boxes")
+      ->group(group);
+  run.add_option("--voxel", method.voxel_m, "edge of the voxel filter's cells, metres")
+      ->group(group);
+  run.add_option("--min-height", method.min_height_m,
+                 "points this far above the levelled ground are crop, metres")
+      ->group(group);
+  run.add_flag("--no-level", arguments.no_level,
+               "take z = 0 for the ground instead of levelling the map")
+      ->group(group);
+  run.add_option("--extend", method.extend_m,
+                 "lengthen each end of a box by this to show the ground, metres")
+      ->group(group);
+  run.add_option("--plane-tolerance", method.plane_tolerance_m,
+                 "distance to the ground plane within which RANSAC takes a point for ground, "
+                 "metres")
+      ->group(group);
+}
+
 void declare_run(Program& program, RunArguments& arguments) {
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
                       [&program, &arguments] { run_estimate(program, arguments); });
+  arguments.command = &run;
   auto& options = arguments.options;
-  auto& method = options.dhami2020;
-  run.add_option("CLOUD", options.cloud, "PCD or PLY cloud, or a scan folder (its cloud.pcd)")
+  run.add_option("CLOUD", options.cloud, "PCD, PLY or LAS cloud, or a scan folder (its cloud.pcd)")
       ->required();
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
-  run.add_option("--method", options.method, "dhami2020: the paper's pipeline");
-  auto* plots = run.add_option("--plots", method.plots,
-                               "how many plots lie in the field, or in --learn-box (1 to 100000)");
+  run.add_option("--method", options.method,
+                 "lattice: needs nothing but the cloud; dhami2020: the paper's pipeline, needs "
+                 "--plots")
+      ->check(CLI::IsMember(estimate::method_names()))
+      ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
                  "x0,y0,x1,y1: use only the points in here, metres (default: the densely scanned "
                  "field)")
       ->delimiter(',')
       ->expected(4);
-  auto* learn = run.add_option("--learn-box", arguments.learn_box,
-                               "x0,y0,x1,y1: learn box size and grid in here, where --plots plots "
-                               "lie, and carry the grid over the whole field, metres")
-                    ->delimiter(',')
-                    ->expected(4);
   run.add_option("--boxes", arguments.boxes,
-                 "plots.geojson with the plots' boxes: measure heights in them, search none")
-      ->excludes(plots)
-      ->excludes(learn);
-  run.add_option("--voxel", method.voxel_m, "edge of the voxel filter's cells, metres");
-  run.add_option("--min-height", method.min_height_m,
-                 "points this far above the levelled ground are crop, metres");
-  run.add_flag("--no-level", arguments.no_level,
-               "take z = 0 for the ground instead of levelling the map");
-  run.add_option("--extend", method.extend_m,
-                 "lengthen each end of a box by this to show the ground, metres");
-  run.add_option("--plane-tolerance", method.plane_tolerance_m,
-                 "distance to the ground plane within which RANSAC takes a point for ground, "
-                 "metres");
+                 "plots.geojson with the plots' boxes: measure heights in them, search none");
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
+  declare_lattice(run, arguments);
+  declare_dhami2020(run, arguments);
 }
 
 void say_scores(const Program& program, const score::Scores& scores) {

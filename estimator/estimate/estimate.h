@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ground/surface.h"
 #include <nlohmann/json.hpp>
 
 #include "core/plot_box.h"
@@ -41,15 +42,18 @@ struct Estimate {
   std::string method;  // "dhami2020"
   std::vector<PlotEstimate> plots = {};
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
+  std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };
 
-// Writes plots.geojson and heights.csv (docs/estimate-format.md) into an existing folder.
+// Writes plots.geojson, heights.csv and, where the method models it, the ground's grids
+// (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
-// its numeric properties named height_<name>_m; plots without a number get their place in the file.
-// The method is the one that the folder's manifest.json names, "" without a manifest. Throws
-// InputError as read_plot_features does, and when there is no plot or no height at all.
+// its numeric properties named height_<name>_m or canopy_<name>_m; plots without a number get their
+// place in the file. The method is the one that the folder's manifest.json names, "" without a
+// manifest. The ground is not read. Throws InputError as read_plot_features does, when no plot has
+// a height, and when a file that no method of ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path);
 
 // What one feature of a plots.geojson says; `number` is its place in the file, from 1.

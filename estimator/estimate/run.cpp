@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <map>
-#include <vector>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
+#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -17,21 +18,31 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kDegrees = std::numbers::pi / 180;
+
 fs::path cloud_file(const fs::path& cloud) {
   fs::path file = fs::is_directory(cloud) ? cloud / "cloud.pcd" : cloud;
   require_file(file);
   return file;
 }
 
-json to_json(const std::optional<Area>& area) { return area ? json(*area) : json(nullptr); }
+template <class Number>
+json to_json(const std::optional<Number>& value) {
+  return value ? json(*value) : json(nullptr);
+}
 
-json options_json(const RunOptions& run) {
-  const Dhami2020Options& options = run.dhami2020;
-  return {{"method", run.method},
-          {"plots", options.plots},
-          {"crop_box_m", to_json(options.crop_box)},
+json options_json(const LatticeOptions& options) {
+  const std::optional<double>& heading = options.hints.heading_rad;
+  return {{"heading_deg", heading ? json(*heading / kDegrees) : json(nullptr)},
+          {"plot_width_m", to_json(options.hints.width_m)},
+          {"plot_length_m", to_json(options.hints.length_m)},
+          {"noise_m", to_json(options.noise_m)},
+          {"calibrated", options.calibrated}};
+}
+
+json options_json(const Dhami2020Options& options) {
+  return {{"plots", options.plots},
           {"learn_box_m", to_json(options.learn_box)},
-          {"given_boxes", run.boxes.has_value()},
           {"level", options.level},
           {"voxel_m", options.voxel_m},
           {"min_height_m", options.min_height_m},
@@ -40,6 +51,15 @@ json options_json(const RunOptions& run) {
           {"length_bin_m", options.length_bin_m},
           {"extend_m", options.extend_m},
           {"plane_tolerance_m", options.plane_tolerance_m}};
+}
+
+json options_json(const RunOptions& options) {
+  json document =
+      options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
+  document["method"] = options.method;
+  document["crop_box_m"] = to_json(options.crop_box);
+  document["given_boxes"] = options.boxes.has_value();
+  return document;
 }
 
 // A plot measured in a given box keeps the number, row and column that the file gives it.
@@ -52,28 +72,55 @@ void take_names(const std::vector<PlotFeature>& features, std::vector<PlotEstima
   }
 }
 
+// What every method is told, beside what is its own.
+template <class Options>
+Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
+  options.crop_box = run.crop_box;
+  options.threads = run.threads;
+  options.boxes.clear();
+  for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
+  return options;
+}
+
+Estimate run_method(const fs::path& cloud, const RunOptions& run,
+                    const std::vector<PlotFeature>& boxes, const ProgressReport& progress) {
+  if (run.method == "lattice") return lattice(cloud, completed(run.lattice, run, boxes), progress);
+  Dhami2020Options options = completed(run.dhami2020, run, boxes);
+  options.seed = run.seed;
+  return dhami2020(cloud, options, progress);
+}
+
+std::vector<PlotFeature> read_boxes(const fs::path& file) {
+  std::vector<PlotFeature> features = read_plot_features(file);
+  if (features.empty()) throw InputError(file, "has no plots");
+  return features;
+}
+
 }  // namespace
 
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names = {"lattice", "dhami2020"};
+  return names;
+}
+
 Estimate run(const RunOptions& options, const ProgressReport& progress) {
-  if (options.method != "dhami2020") {
-    throw InputError("there is no method \"" + options.method + "\"; there is dhami2020");
+  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
+    throw InputError("there is no method \"" + options.method + "\"; there is " +
+                     joined(method_names(), ", "));
   }
   const fs::path cloud = cloud_file(options.cloud);
   OutputFolder folder(options.output, options.replace, "estimator run");
-  Dhami2020Options method_options = options.dhami2020;
   Manifest manifest{.command = "estimator run",
-                    .seed = method_options.seed,
+                    .seed = options.seed,
                     .options = options_json(options),
                     .inputs = {cloud}};
-  std::vector<PlotFeature> features;
+  std::vector<PlotFeature> boxes;
   if (options.boxes) {
-    features = read_plot_features(*options.boxes);
-    if (features.empty()) throw InputError(*options.boxes, "has no plots");
-    for (const PlotFeature& feature : features) method_options.boxes.push_back(feature.box);
+    boxes = read_boxes(*options.boxes);
     manifest.inputs.push_back(*options.boxes);
   }
-  Estimate estimate = dhami2020(cloud, method_options, progress);
-  take_names(features, estimate.plots);
+  Estimate estimate = run_method(cloud, options, boxes, progress);
+  take_names(boxes, estimate.plots);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},

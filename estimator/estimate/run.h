@@ -4,23 +4,32 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
+#include "estimate/lattice/lattice.h"
 
 namespace plotscan::estimate {
 
 // One run of a method, from files to an estimate folder.
 struct RunOptions {
-  std::filesystem::path cloud;  // PCD or PLY, or a scan folder with its cloud.pcd
+  std::filesystem::path cloud;  // PCD, PLY or LAS, or a scan folder with its cloud.pcd
   std::filesystem::path output;
-  std::string method = "dhami2020";
+  std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
   bool replace = false;                             // an estimate folder that exists
-  Dhami2020Options dhami2020 = {};                  // its `boxes` are taken from the file
+  std::optional<Area> crop_box = {};                // use only the points in here
+  LatticeOptions lattice = {};                      // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};                  // as above, and the seed
+  std::uint64_t seed = 1;
+  int threads = 1;
 };
+
+// The methods that `run` knows, the default first.
+const std::vector<std::string>& method_names();
 
 // Runs the method and writes the estimate folder (docs/estimate-format.md). With given boxes, plots
 // keep the file's numbers, rows and columns. Throws InputError on bad input; nothing is left behind

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/statistics.h"
-#include "estimate/dhami2020/plot_heights.h"
 #include "estimate/dhami2020/voxel_filter.h"
+#include "estimate/points_in_boxes.h"
 
 namespace plotscan::score {
 namespace {

@@ -17,6 +17,7 @@
 #include "estimate/dhami2020/plot_heights.h"
 #include "estimate/dhami2020/voting.h"
 #include "estimate/dhami2020/voxel_filter.h"
+#include "estimate/given_boxes.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -147,30 +148,6 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
       fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
   if (plots.empty()) throw InputError("no box of the grid holds canopy");
   return plots;
-}
-
-std::vector<PlotEstimate> given_plots(const std::vector<PlotBox>& boxes,
-                                      const Eigen::Vector3d& origin) {
-  std::vector<PlotEstimate> plots;
-  for (const PlotBox& box : boxes) {
-    plots.push_back({.id = static_cast<std::uint32_t>(plots.size() + 1), .box = box});
-    plots.back().box.center -= origin.head<2>();
-  }
-  return plots;
-}
-
-// The area that given boxes need.
-Area surroundings(const std::vector<PlotBox>& boxes, double extend_m) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Area area{kFar, kFar, -kFar, -kFar};
-  for (PlotBox box : boxes) {
-    box.length_m += 2 * extend_m;
-    for (const Eigen::Vector2d& corner : box.corners()) {
-      area = {std::min(area[0], corner.x()), std::min(area[1], corner.y()),
-              std::max(area[2], corner.x()), std::max(area[3], corner.y())};
-    }
-  }
-  return area;
 }
 
 void require_range(double value, double low, double high, const std::string& name) {

@@ -11,10 +11,6 @@
 
 namespace plotscan::estimate {
 
-// The points inside each of the boxes, in the points' order; a point may lie in several boxes.
-std::vector<std::vector<Eigen::Vector3f>> points_in_boxes(std::span<const Eigen::Vector3f> points,
-                                                          const std::vector<PlotBox>& boxes);
-
 // Measures every plot (section IV-C): its `points` and its heights_m "voxel-max", "raw-max" and
 // "raw-p99" over the ground plane of its box, lengthened by extend_m at both ends. The plane comes
 // from the voxel-filtered points; heights are those of the points above it by more than the plane's

@@ -44,6 +44,7 @@ fs::path write_cloud(const fs::path& file, const std::vector<Eigen::Vector3d>& p
 RunOptions small_run(const TemporaryFolder& folder, const SyntheticFarm& farm) {
   RunOptions options{.cloud = write_cloud(folder.path() / "scan" / "cloud.pcd", farm.points()),
                      .output = folder.path() / "estimate"};
+  options.method = "dhami2020";
   options.dhami2020.plots = 8;
   return options;
 }
@@ -74,7 +75,7 @@ TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
   run(options);
   const std::string first = read_text(options.output / "manifest.json");
   options.cloud = folder.path() / "scan";
-  options.dhami2020.threads = 2;
+  options.threads = 2;
   options.replace = true;
   run(options);
   EXPECT_EQ(read_text(options.output / "manifest.json"), first);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/ground_grids.h"
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace plotscan::estimate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kNoData = "-9999";
+
+// Esri's ASCII raster: the corner is the lower left cell's, whose centre is the first node; lines
+// go from north to south.
+void write_grid(const fs::path& path, const ground::Surface& surface,
+                const std::function<std::string(std::size_t)>& text) {
+  std::ofstream out(path);
+  out << "ncols " << surface.columns << "\nnrows " << surface.rows << "\nxllcorner "
+      << format_number(surface.origin.x() - surface.cell_m / 2) << "\nyllcorner "
+      << format_number(surface.origin.y() - surface.cell_m / 2) << "\ncellsize "
+      << format_number(surface.cell_m) << "\nNODATA_value " << kNoData << '\n';
+  for (int row = surface.rows - 1; row >= 0; --row) {
+    for (int column = 0; column < surface.columns; ++column) {
+      const auto node = static_cast<std::size_t>(row) * surface.columns + column;
+      out << (column == 0 ? "" : " ")
+          << (std::isfinite(surface.z_m[node]) ? text(node) : std::string(kNoData));
+    }
+    out << '\n';
+  }
+  if (!out.flush()) throw InputError(path, "cannot be written");
+}
+
+std::string to_tenth_millimetres(float metres) { return formatted("%.4f", metres); }
+
+}  // namespace
+
+void write_ground(const fs::path& folder, const ground::Surface& surface) {
+  write_grid(folder / "ground.asc", surface,
+             [&](std::size_t node) { return to_tenth_millimetres(surface.z_m[node]); });
+  write_grid(folder / "ground_se.asc", surface,
+             [&](std::size_t node) { return to_tenth_millimetres(surface.sd_m[node]); });
+  write_grid(folder / "ground_seen.asc", surface,
+             [&](std::size_t node) { return std::string(surface.seen[node] ? "1" : "0"); });
+}
+
+}  // namespace plotscan::estimate

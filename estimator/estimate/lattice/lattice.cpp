@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/lattice/lattice.h"
+
+#include <cmath>
+#include <string>
+
+#include "ground/surface.h"
+#include "heights/measure_heights.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "estimate/given_boxes.h"
+#include "estimate/points_in_boxes.h"
+
+namespace plotscan::estimate {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+using nlohmann::json;
+
+constexpr int kMostThreads = 1024;
+constexpr double kGroundAround_m = 4;  // read around given boxes, to see the ground beside them
+
+void report(const ProgressReport& progress, double share) {
+  if (progress) progress(share);
+}
+
+// (x, y, height above the ground) of the points that have ground within reach, in their order.
+Points above_ground(const Points& points, const ground::Surface& surface, int threads) {
+  constexpr std::size_t kChunk = 1 << 16;
+  std::vector<Points> chunks(points.size() / kChunk + 1);
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
+      const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
+      chunks[chunk].reserve(end - chunk * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) {
+        const double ground_z = surface.height(points[i].head<2>().cast<double>());
+        if (std::isnan(ground_z)) continue;
+        chunks[chunk].emplace_back(points[i].x(), points[i].y(),
+                                   static_cast<float>(points[i].z() - ground_z));
+      }
+    });
+  });
+  Points heights;
+  heights.reserve(points.size());
+  for (const Points& chunk : chunks) heights.insert(heights.end(), chunk.begin(), chunk.end());
+  return heights;
+}
+
+// The plots that the field shows, or the given ones, in the map's own frame.
+std::vector<PlotEstimate> plots_of(const CloudMap& map, const Points& heights, double noise_m,
+                                   const LatticeOptions& options, json& diagnostics) {
+  if (!options.boxes.empty()) return given_plots(options.boxes, map.origin());
+  const plots::PlotField field =
+      plots::find_plots(heights, noise_m, options.hints, options.threads);
+  diagnostics["field"] = field.fit;
+  if (!field.nothing.empty()) diagnostics["nothing"] = field.nothing;
+  std::vector<PlotEstimate> found;
+  for (const plots::FoundPlot& plot : field.plots) {
+    found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
+                     .row = plot.row,
+                     .column = plot.column,
+                     .box = plot.box});
+    found.back().confidence = plot.confidence;
+    if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
+  }
+  return found;
+}
+
+void take(const heights::PlotHeights& measured, PlotEstimate& plot) {
+  plot.points = measured.points;
+  for (const auto& [name, height] : measured.heights) {
+    plot.heights_m[name] = height.value_m;
+    plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
+  }
+  plot.flags.insert(plot.flags.end(), measured.flags.begin(), measured.flags.end());
+}
+
+void measure(std::vector<PlotEstimate>& plots, const Points& heights,
+             const ground::Surface& surface, const LatticeOptions& options) {
+  std::vector<PlotBox> boxes;
+  for (const PlotEstimate& plot : plots) boxes.push_back(plot.box);
+  const std::vector<Points> inside = points_in_boxes(heights, boxes);
+  std::vector<heights::PlotPoints> clouds;
+  for (std::size_t i = 0; i < plots.size(); ++i) clouds.push_back({boxes[i], inside[i]});
+  const std::vector<heights::PlotHeights> measured = heights::measure_heights(
+      clouds, surface, {.calibrated = options.calibrated, .threads = options.threads});
+  for (std::size_t i = 0; i < plots.size(); ++i) take(measured[i], plots[i]);
+}
+
+json describe(const ground::Surface& surface) {
+  std::size_t within = 0;
+  std::size_t seen = 0;
+  for (std::size_t node = 0; node < surface.z_m.size(); ++node) {
+    within += std::isfinite(surface.z_m[node]);
+    seen += std::isfinite(surface.z_m[node]) && surface.seen[node];
+  }
+  return {{"cell_m", surface.cell_m},
+          {"nodes", within},
+          {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
+          {"noise_m", surface.noise_m}};
+}
+
+ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
+  surface.origin += by.head<2>();
+  for (float& z : surface.z_m) z += static_cast<float>(by.z());
+  return surface;
+}
+
+std::optional<Area> area_to_read(const LatticeOptions& options) {
+  if (options.crop_box || options.boxes.empty()) return options.crop_box;
+  const Area boxes = surroundings(options.boxes, 0);
+  return Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m, boxes[2] + kGroundAround_m,
+              boxes[3] + kGroundAround_m};
+}
+
+void require_between(const std::optional<double>& value, double low, double high,
+                     const std::string& name) {
+  if (!value || (*value >= low && *value <= high)) return;
+  throw InputError(name + " is " + format_number(*value) + "; it is " + format_number(low) +
+                   " to " + format_number(high));
+}
+
+}  // namespace
+
+void require_sound(const LatticeOptions& options) {
+  if (options.crop_box) require_area(*options.crop_box, "crop box");
+  require_between(options.hints.width_m, 0.1, 100, "the plots' width in metres");
+  require_between(options.hints.length_m, 0.1, 100, "the plots' length in metres");
+  require_between(options.noise_m, 0, 0.5, "the noise's sigma in metres");
+  require_between(options.threads, 1, kMostThreads, "the number of threads");
+}
+
+Estimate lattice(const CloudMap& map, const LatticeOptions& options,
+                 const ProgressReport& progress) {
+  require_sound(options);
+  Estimate estimate{.method = "lattice"};
+  estimate.diagnostics = {{"points_read", map.points_read()},
+                          {"points_in_area", map.points().size()},
+                          {"area_m", map.area()}};
+  const ground::Surface surface =
+      ground::fit_surface(map.points(), {.noise_m = options.noise_m, .threads = options.threads});
+  report(progress, 0.6);
+  const Points heights = above_ground(map.points(), surface, options.threads);
+  if (heights.empty()) throw InputError("the cloud shows no ground");
+  estimate.diagnostics["ground"] = describe(surface);
+  estimate.plots = plots_of(map, heights, surface.noise_m, options, estimate.diagnostics);
+  report(progress, 0.8);
+  measure(estimate.plots, heights, surface, options);
+  for (PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
+  estimate.ground = moved(surface, map.origin());
+  report(progress, 1);
+  return estimate;
+}
+
+Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+                 const ProgressReport& progress) {
+  require_sound(options);
+  return lattice(read_map(cloud, area_to_read(options), progress), options, progress);
+}
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "plots/find_plots.h"
+
+#include "core/plot_box.h"
+#include "core/progress.h"
+#include "estimate/cloud_map.h"
+#include "estimate/estimate.h"
+
+namespace plotscan::estimate {
+
+// What may be told to the lattice method; it needs none of it.
+struct LatticeOptions {
+  std::optional<Area> crop_box = {};   // use only the points in here
+  plots::Hints hints = {};             // of the plots' heading and size
+  std::vector<PlotBox> boxes = {};     // given boxes: no detection, heights only
+  std::optional<double> noise_m = {};  // sigma of the points' heights, else estimated
+  bool calibrated = true;              // plants' heights from the canopy's (docs/methods.md)
+  int threads = 1;
+};
+
+// Throws InputError when an option is out of its range.
+void require_sound(const LatticeOptions& options);
+
+// Finds the plots of a map and measures each one's heights "mean", "max", "p50", "p90", "p95" and
+// "p99" of its plants, and "canopy_p95" and "canopy_p99" of its canopy, with standard errors, 95 %
+// intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
+// without a lattice of plots has an estimate without plots; diagnostics["nothing"] says why.
+// Throws InputError on options out of range and on a cloud without ground.
+Estimate lattice(const CloudMap& map, const LatticeOptions& options,
+                 const ProgressReport& progress = {});
+
+// The same from a cloud (PCD, PLY or LAS): of the crop box; else of the given boxes and the ground
+// around them; else of the scanned field. Throws InputError on a broken cloud, and as above.
+Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+                 const ProgressReport& progress = {});
+
+}  // namespace plotscan::estimate
