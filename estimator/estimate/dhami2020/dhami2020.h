@@ -14,7 +14,7 @@
 namespace plotscan::estimate {
 
 // Settings of the paper's pipeline (Dhami et al., IROS 2020, section IV), with the authors' values
-// where the paper or their tool gives them (docs/methods.md).
+// where the paper or their tool gives them (docs/dhami2020.md).
 struct Dhami2020Options {
   int plots = 0;  // k of the k-means: how many plots lie in the crop box (or in learn_box)
   std::optional<Area> crop_box = {};   // else the scanned field is found (FieldFinder)

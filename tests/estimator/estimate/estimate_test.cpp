@@ -54,6 +54,55 @@ TEST(Estimate, WritesOneLineAPlot) {
       "2,0,0,9,9,1.5,4,28.64788975654116,0,,\n");
 }
 
+Estimate with_intervals() {
+  Estimate estimate = two_plots();
+  estimate.method = "lattice";
+  PlotEstimate& plot = estimate.plots[0];
+  plot.heights_m = {{"canopy_p95", 0.7}, {"max", 0.8125}};
+  plot.errors = {{"canopy_p95", {0.01, 0.68, 0.72}}, {"max", {0.02, 0.77, 0.86}}};
+  plot.confidence = 0.75;
+  plot.flags = {"few returns", "no ground within reach"};
+  estimate.plots[1].confidence = 1;
+  return estimate;
+}
+
+TEST(Estimate, ReadsErrorsConfidenceAndFlags) {
+  const TemporaryFolder folder;
+  write_estimate(folder.path(), with_intervals());
+  const Estimate read = read_estimate(folder.path());
+  ASSERT_EQ(read.plots.size(), 2u);
+  const PlotEstimate& plot = read.plots[0];
+  EXPECT_EQ(plot.heights_m, (std::map<std::string, double>{{"canopy_p95", 0.7}, {"max", 0.8125}}));
+  ASSERT_EQ(plot.errors.size(), 2u);
+  EXPECT_EQ(plot.errors.at("max").standard_error_m, 0.02);
+  EXPECT_EQ(plot.errors.at("max").low95_m, 0.77);
+  EXPECT_EQ(plot.errors.at("canopy_p95").high95_m, 0.72);
+  EXPECT_EQ(plot.confidence, 0.75);
+  EXPECT_THAT(plot.flags, ::testing::ElementsAre("few returns", "no ground within reach"));
+  EXPECT_TRUE(read.plots[1].errors.empty());
+  EXPECT_TRUE(read.plots[1].flags.empty());
+}
+
+TEST(Estimate, TabulatesErrorsBesideTheirHeights) {
+  const TemporaryFolder folder;
+  write_estimate(folder.path(), with_intervals());
+  EXPECT_EQ(
+      read_text(folder.path() / "heights.csv"),
+      "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
+      "canopy_p95_m,se_canopy_p95_m,low95_canopy_p95_m,high95_canopy_p95_m,"
+      "height_max_m,se_height_max_m,low95_height_max_m,high95_height_max_m,confidence,flags\n"
+      "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.7,0.01,0.68,0.72,0.8125,0.02,0.77,0.86,"
+      "0.75,\"few returns; no ground within reach\"\n"
+      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,1,\n");
+}
+
+TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {
+  const TemporaryFolder folder;
+  write_estimate(folder.path(), {.method = "lattice"});
+  folder.write("manifest.json", R"({"command":"estimator run","options":{"method":"lattice"}})");
+  EXPECT_TRUE(read_estimate(folder.path()).plots.empty());
+}
+
 std::string geojson(const std::string& properties) {
   return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":)" + properties +
          R"(,"geometry":{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2],[0,0]]]}}]})";

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/ground_grids.h"
+
+#include <limits>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace plotscan::estimate {
+namespace {
+
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+
+// Nodes at x 500000, 500000.2, 500000.4 and y 40, 40.2; the last node is out of reach.
+ground::Surface surface() {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  return {.origin = {500000, 40},
+          .cell_m = 0.2,
+          .columns = 3,
+          .rows = 2,
+          .z_m = {1, 2, 3, 4, 5, none},
+          .sd_m = {0.01F, 0.02F, 0.03F, 0.04F, 0.05F, none},
+          .seen = {1, 0, 1, 0, 1, 0}};
+}
+
+// By the format's description (Esri, ASCII raster): north first, the corner half a cell outside of
+// the first node.
+TEST(GroundGrids, AreEsriAsciiRasters) {
+  const TemporaryFolder folder;
+  write_ground(folder.path(), surface());
+  const std::string head =
+      "ncols 3\nnrows 2\nxllcorner 499999.9\nyllcorner 39.9\ncellsize 0.2\n"
+      "NODATA_value -9999\n";
+  EXPECT_EQ(read_text(folder.path() / "ground.asc"),
+            head + "4.0000 5.0000 -9999\n1.0000 2.0000 3.0000\n");
+  EXPECT_EQ(read_text(folder.path() / "ground_se.asc"),
+            head + "0.0400 0.0500 -9999\n0.0100 0.0200 0.0300\n");
+  EXPECT_EQ(read_text(folder.path() / "ground_seen.asc"), head + "0 1 -9999\n1 0 1\n");
+}
+
+TEST(GroundGrids, SayThatTheyCannotBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(message_of<InputError>([&] { write_ground(folder.path() / "absent", surface()); }),
+              ::testing::HasSubstr("cannot be written"));
+}
+
+}  // namespace
+}  // namespace plotscan::estimate
