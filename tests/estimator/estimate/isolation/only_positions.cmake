@@ -1,6 +1,10 @@
 # The labels of a scan are the truth. The estimator reads clouds through read_positions, which hands
 # on nothing else: no file of it includes another header of the room `scan`.
-file(GLOB files ${SOURCES}/*.h ${SOURCES}/*.cpp)
+set(files)
+foreach(room IN ITEMS ground plots heights estimate)
+  file(GLOB_RECURSE room_files ${SOURCES}/${room}/*.h ${SOURCES}/${room}/*.cpp)
+  list(APPEND files ${room_files})
+endforeach()
 if(NOT files)
   message(FATAL_ERROR "no files in ${SOURCES}")
 endif()
