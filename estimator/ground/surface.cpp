@@ -1,2 +1,178 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ground/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ground/columns.h"
+#include "ground/lower_surface.h"
+#include "ground/mixture.h"
+#include "ground/solver.h"
+#include "ground/uncertainty.h"
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
+
+namespace plotscan::ground {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+// Mean size of the bends where ground is seen: the scale of the Laplace law that they are taken to
+// follow.
+double usual_bend(const Field& bends, const Field& data) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < bends.size(); ++i) {
+    if (data[i] <= 0) continue;
+    sum += bends[i];
+    ++count;
+  }
+  return std::max(2e-4, count > 0 ? sum / count : 0.01);
+}
+
+// One round of reweighting: |bend| / scale as a square about the last bends (Daubechies et al.,
+// 2010), so that few nodes bend much and the others hardly.
+Field stiffness_of(const Field& bends, double scale) {
+  Field stiffness(bends.size());
+  const double least = 0.1 * scale;
+  for (std::size_t i = 0; i < bends.size(); ++i) {
+    stiffness[i] = static_cast<float>(1 / (scale * std::hypot(bends[i], least)));
+  }
+  return stiffness;
+}
+
+// No ground where none of its returns is near, by a chamfer distance over the grid.
+void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Surface& surface) {
+  Field distance_m(grid.nodes());
+  for (std::size_t i = 0; i < grid.nodes(); ++i) {
+    distance_m[i] = data[i] > 0 ? 0 : std::numeric_limits<float>::infinity();
+  }
+  distance_m = slope_limited(grid, distance_m, 1);
+  for (std::size_t i = 0; i < grid.nodes(); ++i) {
+    if (distance_m[i] <= static_cast<float>(reach_m)) continue;
+    surface.z_m[i] = kNaN;
+    surface.sd_m[i] = kNaN;
+    surface.seen[i] = 0;
+  }
+}
+
+Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
+  const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
+  const Grid& grid = columns.grid;
+  const double noise_m =
+      options.noise_m ? std::max(*options.noise_m, 0.003) : bare_noise_m(columns);
+  Field z = lower_surface(columns, noise_m);
+  Evidence evidence;
+  for (int round = 0; round < 8; ++round) {
+    evidence = weigh(columns, z, noise_m);
+    const Field bends = curvature(grid, z);
+    const Fit fit{.target = evidence.target_m,
+                  .data = evidence.data,
+                  .stiffness = stiffness_of(bends, usual_bend(bends, evidence.data))};
+    solve(grid, fit, {.most_iterations = 100, .tolerance_m = 5e-4}, z);
+  }
+  Surface surface{.origin = grid.origin,
+                  .cell_m = grid.cell_m,
+                  .columns = grid.columns,
+                  .rows = grid.rows,
+                  .z_m = z,
+                  .sd_m = {},
+                  .seen = std::vector<std::uint8_t>(grid.nodes()),
+                  .noise_m = noise_m,
+                  .errors = draw_errors(grid, z, evidence.data, noise_m)};
+  surface.sd_m = spread_of(grid, surface.errors);
+  for (std::size_t i = 0; i < grid.nodes(); ++i) {
+    const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
+                                static_cast<double>(i / grid.columns));
+    surface.z_m[i] +=
+        static_cast<float>(columns.base.z_m + grid.cell_m * columns.base.slope.dot(place));
+    surface.seen[i] = evidence.support[i] > 0.5f && evidence.data[i] > 0;
+  }
+  forget_beyond_reach(grid, evidence.data, options.reach_m, surface);
+  return surface;
+}
+
+// The lower left node of the cell that a place lies in, and where in the cell.
+struct InCell {
+  std::size_t node;
+  double east, north;  // 0 to 1
+};
+
+std::optional<InCell> cell_of(const Surface& surface, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d at = (place - surface.origin) / surface.cell_m;
+  const bool inside =
+      at.x() >= 0 && at.y() >= 0 && at.x() <= surface.columns - 1 && at.y() <= surface.rows - 1;
+  if (!inside || surface.columns < 2 || surface.rows < 2) return std::nullopt;
+  const int column = std::min(static_cast<int>(at.x()), surface.columns - 2);
+  const int row = std::min(static_cast<int>(at.y()), surface.rows - 2);
+  return InCell{.node = static_cast<std::size_t>(row) * surface.columns + column,
+                .east = at.x() - column,
+                .north = at.y() - row};
+}
+
+double bilinear(const Surface& surface, const std::vector<float>& field,
+                const Eigen::Vector2d& place) {
+  const std::optional<InCell> cell = cell_of(surface, place);
+  if (!cell) return kNaN;
+  const auto [i, east, north] = *cell;
+  const std::size_t up = i + surface.columns;
+  return (1 - north) * ((1 - east) * field[i] + east * field[i + 1]) +
+         north * ((1 - east) * field[up] + east * field[up + 1]);
+}
+
+}  // namespace
+
+double Surface::height(const Eigen::Vector2d& place) const { return bilinear(*this, z_m, place); }
+
+double Surface::standard_error(const Eigen::Vector2d& place) const {
+  return bilinear(*this, sd_m, place);
+}
+
+double Surface::mean_standard_error(const PlotBox& box) const {
+  if (!std::isfinite(standard_error(box.center))) return kNaN;
+  constexpr double kStep_m = 0.2;
+  const int along = std::max(2, static_cast<int>(std::ceil(box.length_m / kStep_m)));
+  const int across = std::max(2, static_cast<int>(std::ceil(box.width_m / kStep_m)));
+  const std::size_t nodes = static_cast<std::size_t>(errors.columns) * errors.rows;
+  std::vector<double> means(errors.draws, 0);
+  for (int a = 0; a < along; ++a) {
+    for (int b = 0; b < across; ++b) {
+      const Eigen::Vector2d place = box.center +
+                                    ((a + 0.5) / along - 0.5) * box.length_m * box.length_axis() +
+                                    ((b + 0.5) / across - 0.5) * box.width_m * box.width_axis();
+      const Eigen::Vector2d at = (place - origin) / errors.cell_m;
+      const int column = std::clamp(static_cast<int>(at.x()), 0, errors.columns - 1);
+      const int row = std::clamp(static_cast<int>(at.y()), 0, errors.rows - 1);
+      const std::size_t node = static_cast<std::size_t>(row) * errors.columns + column;
+      for (int draw = 0; draw < errors.draws; ++draw) {
+        means[draw] += errors.heights_m[draw * nodes + node] / (along * across);
+      }
+    }
+  }
+  double squares = errors.common_m * errors.common_m;
+  for (const double mean : means) squares += mean * mean / errors.draws;
+  return std::sqrt(squares);
+}
+
+Eigen::Vector2d Surface::slope(const Eigen::Vector2d& place) const {
+  const std::optional<InCell> cell = cell_of(*this, place);
+  if (!cell) return Eigen::Vector2d::Constant(kNaN);
+  const auto [i, east, north] = *cell;
+  const std::size_t up = i + columns;
+  const double along_east = (1 - north) * (z_m[i + 1] - z_m[i]) + north * (z_m[up + 1] - z_m[up]);
+  const double along_north = (1 - east) * (z_m[up] - z_m[i]) + east * (z_m[up + 1] - z_m[i + 1]);
+  return Eigen::Vector2d(along_east, along_north) / cell_m;
+}
+
+Surface fit_surface(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
+  if (!(options.cell_m >= 0.02 && options.cell_m <= 10)) {
+    throw InputError("the ground's cell is " + std::to_string(options.cell_m) +
+                     " m; it has to lie in 0.02 to 10 m");
+  }
+  tbb::task_arena arena(std::max(1, options.threads));
+  return arena.execute([&] { return fit(points, options); });
+}
+
+}  // namespace plotscan::ground

@@ -8,7 +8,21 @@
 
 #include <Eigen/Core>
 
+#include "core/plot_box.h"
+
 namespace plotscan::ground {
+
+// Random surfaces that differ from the fitted one as the true ground does, if the ground bends
+// everywhere as it does where it is seen: the error of any sum over the surface has the spread of
+// that sum over the draws.
+struct ErrorDraws {
+  double cell_m = 0;  // node (column, row) lies at the surface's origin + cell_m * (column, row)
+  int columns = 0;
+  int rows = 0;
+  int draws = 0;
+  double common_m = 0;                // standard error that all places share
+  std::vector<float> heights_m = {};  // draw by draw
+};
 
 // The ground of a whole field as heights of a square grid's nodes, bilinear between them. Node
 // (column, row) lies at origin + cell_m * (column, row) and has index row * columns + column.
@@ -21,10 +35,14 @@ struct Surface {
   std::vector<float> sd_m = {};         // standard error of z_m; NaN where that is
   std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
   double noise_m = 0;                   // sigma of the returns' heights about bare ground
+  ErrorDraws errors = {};
 
   // NaN outside of the grid, and where a node of the cell is NaN.
   double height(const Eigen::Vector2d& place) const;
   double standard_error(const Eigen::Vector2d& place) const;
+  // Of the mean of z_m over the box: errors of near places are alike. NaN where the box's centre
+  // has no ground.
+  double mean_standard_error(const PlotBox& box) const;
   // Of the cell's bilinear patch: (dz/dx, dz/dy).
   Eigen::Vector2d slope(const Eigen::Vector2d& place) const;
 };
@@ -32,6 +50,7 @@ struct Surface {
 struct SurfaceOptions {
   double cell_m = 0.2;                           // grid's step
   std::optional<double> noise_m = std::nullopt;  // sigma of heights; estimated where absent
+  double reach_m = 4;  // farther from any ground return there is no ground
   int threads = 1;
 };
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ground/grid.h"
+#include <Eigen/Core>
+
+namespace plotscan::ground {
+
+// A return in the square of cell_m about its node.
+struct Return {
+  float z_m = 0;        // relative to Columns::base
+  std::int16_t dx = 0;  // from the node, in 1/65536 of a cell
+  std::int16_t dy = 0;
+
+  float east() const { return static_cast<float>(dx) * kCells; }  // from the node, in cells
+  float north() const { return static_cast<float>(dy) * kCells; }
+  static constexpr float kCells = 1.0f / 65536;
+};
+
+// The plane that heights are counted from, so that floats hold them well on a slope.
+struct BasePlane {
+  double z_m = 0;  // at the grid's origin
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+};
+
+// A field's returns sorted by the node that they lie nearest to, in the order of the points.
+struct Columns {
+  Grid grid;
+  BasePlane base;
+  std::vector<std::uint32_t> first = {};  // of each node's returns; one more at the end
+  std::vector<Return> returns = {};
+
+  std::span<const Return> at(std::size_t node) const {
+    return std::span<const Return>(returns).subspan(first[node], first[node + 1] - first[node]);
+  }
+};
+
+// The grid that covers what was surveyed densely: sparse surroundings and stray points lie outside.
+Grid grid_of(std::span<const Eigen::Vector3f> points, double cell_m);
+
+// The points on the grid. Those that are not finite or outside of it are left out.
+Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid);
+
+}  // namespace plotscan::ground

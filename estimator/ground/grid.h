@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace plotscan::ground {
+
+// A square grid of nodes: (column, row) lies at origin + cell_m * (column, row) and has index
+// row * columns + column.
+struct Grid {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in the points' frame, metres
+  double cell_m = 0;
+  int columns = 0;
+  int rows = 0;
+
+  std::size_t nodes() const { return static_cast<std::size_t>(columns) * rows; }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * columns + column;
+  }
+};
+
+// A number for each node of a grid.
+using Field = std::vector<float>;
+
+// Calls body(row) for every row, rows at the same time: a body may write nothing but its own row.
+template <class Body>
+void for_rows(const Grid& grid, const Body& body) {
+  constexpr int kRowsAtOnce = 8;
+  tbb::parallel_for(tbb::blocked_range<int>(0, grid.rows, kRowsAtOnce),
+                    [&](const tbb::blocked_range<int>& rows) {
+                      for (int row = rows.begin(); row < rows.end(); ++row) body(row);
+                    });
+}
+
+// Sum of body(row) over the rows, added in their order whatever the number of threads.
+template <class Body>
+double sum_over_rows(const Grid& grid, const Body& body) {
+  std::vector<double> sums(grid.rows);
+  for_rows(grid, [&](int row) { sums[row] = body(row); });
+  double sum = 0;
+  for (const double of_row : sums) sum += of_row;
+  return sum;
+}
+
+}  // namespace plotscan::ground

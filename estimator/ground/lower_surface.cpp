@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ground/lower_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ground/solver.h"
+#include <Eigen/Dense>
+
+namespace plotscan::ground {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
+// The lowest layer of returns in each column: its height at the node, and how much it is worth.
+struct Layer {
+  Field z_m;     // kNone where there is no return
+  Field weight;  // 0 to 1
+};
+
+// Sigma about the least-squares plane by which its 20th percentile over columns is unbiased;
+// negative where that is not defined.
+double spread_of(std::span<const Return> returns) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double squares = 0;
+  const double z0 = returns.front().z_m;
+  for (const Return& r : returns) {
+    const Eigen::Vector3d row(1, r.east(), r.north());
+    const double z = r.z_m - z0;
+    normal += row * row.transpose();
+    right += row * z;
+    squares += z * z;
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> factors(normal);
+  if (factors.vectorD().minCoeff() < 1e-3) return -1;
+  const double rest = squares - right.dot(factors.solve(right));
+  const double freedom = static_cast<double>(returns.size()) - 3;
+  // Where a fifth of the columns with this sigma are expected (normal approximation).
+  const double low = 1 - 0.84 / std::sqrt(2 * freedom);
+  return std::sqrt(std::max(0.0, rest / freedom)) / low;
+}
+
+// Returns in the column where the middle one of all returns lies.
+double usual_count(const Columns& columns) {
+  std::vector<std::uint32_t> counts;
+  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
+    counts.push_back(columns.first[i + 1] - columns.first[i]);
+  }
+  std::sort(counts.begin(), counts.end());
+  double below = 0;
+  for (const std::uint32_t count : counts) {
+    below += count;
+    if (2 * below >= static_cast<double>(columns.returns.size())) return count;
+  }
+  return 0;
+}
+
+// The layer at the bottom of one column: the mean of what lies about it, from the lowest hundredth
+// upward, and the share that it has of what lies about and right above it.
+std::pair<float, float> layer_of(std::span<const Return> returns, const Eigen::Vector2f& tilt,
+                                 float noise, std::vector<float>& z) {
+  if (returns.empty()) return {kNone, 0};
+  z.clear();
+  for (const Return& r : returns) {
+    z.push_back(r.z_m - tilt.x() * r.east() - tilt.y() * r.north());
+  }
+  const std::size_t low = z.size() / 100;
+  std::nth_element(z.begin(), z.begin() + static_cast<long>(low), z.end());
+  float middle = z[low] + 1.5f * noise;
+  for (int k = 0; k < 3; ++k) {
+    float sum = 0;
+    int count = 0;
+    for (const float value : z) {
+      if (std::abs(value - middle) > 2 * noise) continue;
+      sum += value;
+      ++count;
+    }
+    if (count > 0) middle = sum / static_cast<float>(count);
+  }
+  int about = 0;
+  int above = 0;
+  for (const float value : z) {
+    about += std::abs(value - middle) <= 3 * noise;
+    above += value - middle > 3 * noise && value - middle <= 9 * noise;
+  }
+  const float share = static_cast<float>(about) / static_cast<float>(about + above + 1);
+  return {middle, share * share};
+}
+
+// Rise of a surface along a column of the grid, metres a cell.
+Eigen::Vector2f tilt_at(const Grid& grid, const Field& s, int column, int row) {
+  const int west = std::max(0, column - 1);
+  const int east = std::min(grid.columns - 1, column + 1);
+  const int south = std::max(0, row - 1);
+  const int north = std::min(grid.rows - 1, row + 1);
+  return {(s[grid.index(east, row)] - s[grid.index(west, row)]) / static_cast<float>(east - west),
+          (s[grid.index(column, north)] - s[grid.index(column, south)]) /
+              static_cast<float>(north - south)};
+}
+
+Layer lowest_layer(const Columns& columns, const Field& surface, float noise) {
+  const Grid& grid = columns.grid;
+  Layer layer{.z_m = Field(grid.nodes()), .weight = Field(grid.nodes())};
+  for_rows(grid, [&](int row) {
+    std::vector<float> z;
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t i = grid.index(column, row);
+      std::tie(layer.z_m[i], layer.weight[i]) =
+          layer_of(columns.at(i), tilt_at(grid, surface, column, row), noise, z);
+    }
+  });
+  return layer;
+}
+
+// Takes out layers so far below what is around them that no ground connects them: birds' echoes,
+// multipath.
+void drop_strays(const Grid& grid, float noise, Layer& layer) {
+  const float deepest = 6 * noise + 2.0f * 1.5f * static_cast<float>(grid.cell_m);
+  Layer kept = layer;
+  for_rows(grid, [&](int row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      std::array<float, 24> around;
+      int count = 0;
+      for (int r = std::max(0, row - 2); r <= std::min(grid.rows - 1, row + 2); ++r) {
+        for (int c = std::max(0, column - 2); c <= std::min(grid.columns - 1, column + 2); ++c) {
+          const float z = layer.z_m[grid.index(c, r)];
+          if ((r != row || c != column) && z < kNone) around[count++] = z;
+        }
+      }
+      const std::size_t i = grid.index(column, row);
+      if (count < 3) continue;
+      std::nth_element(around.begin(), around.begin() + 2, around.begin() + count);
+      if (layer.z_m[i] < around[2] - deepest) {
+        kept.z_m[i] = kNone;
+        kept.weight[i] = 0;
+      }
+    }
+  });
+  layer = kept;
+}
+
+// Asymmetric, redescending: what lies above the surface soon counts for nothing.
+Field asymmetric_weights(const Layer& layer, const Field& surface, float scale) {
+  Field weights(surface.size(), 0);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    if (!(layer.z_m[i] < kNone)) continue;
+    const float off = layer.z_m[i] - surface[i];
+    const float share = off / (off > 0 ? scale : 4 * scale);
+    const float falloff = 1 + share * share;
+    weights[i] = layer.weight[i] / (falloff * falloff);
+  }
+  return weights;
+}
+
+Field finite(const Field& z) {
+  Field result = z;
+  for (float& value : result) {
+    if (!(value < kNone)) value = 0;
+  }
+  return result;
+}
+
+}  // namespace
+
+double bare_noise_m(const Columns& columns) {
+  // Columns as dense as where most returns lie: far away the beams come in flat, and see the ground
+  // with less noise in height.
+  const double enough = std::max(16.0, 0.5 * usual_count(columns));
+  constexpr double kPercentile = 0.2;
+  constexpr double kLeast = 0.003;
+  std::vector<double> spreads;
+  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
+    const std::span<const Return> returns = columns.at(i);
+    if (static_cast<double>(returns.size()) < enough) continue;
+    const double spread = spread_of(returns);
+    if (spread >= 0) spreads.push_back(spread);
+  }
+  if (spreads.empty()) return 0.03;
+  const auto at = spreads.begin() + static_cast<long>(kPercentile * spreads.size());
+  std::nth_element(spreads.begin(), at, spreads.end());
+  return std::max(kLeast, *at);
+}
+
+Field slope_limited(const Grid& grid, const Field& z, double slope) {
+  const auto straight = static_cast<float>(slope * grid.cell_m);
+  const float askew = straight * std::sqrt(2.0f);
+  Field s = z;
+  const auto lower = [&](int c, int r, int dc, int dr, float rise) {
+    if (c + dc < 0 || c + dc >= grid.columns || r + dr < 0 || r + dr >= grid.rows) return;
+    float& here = s[grid.index(c, r)];
+    here = std::min(here, s[grid.index(c + dc, r + dr)] + rise);
+  };
+  for (int r = 0; r < grid.rows; ++r) {
+    for (int c = 0; c < grid.columns; ++c) {
+      lower(c, r, -1, 0, straight);
+      lower(c, r, 0, -1, straight);
+      lower(c, r, -1, -1, askew);
+      lower(c, r, 1, -1, askew);
+    }
+  }
+  for (int r = grid.rows - 1; r >= 0; --r) {
+    for (int c = grid.columns - 1; c >= 0; --c) {
+      lower(c, r, 1, 0, straight);
+      lower(c, r, 0, 1, straight);
+      lower(c, r, 1, 1, askew);
+      lower(c, r, -1, 1, askew);
+    }
+  }
+  return s;
+}
+
+Field lower_surface(const Columns& columns, double noise_m) {
+  constexpr double kSteepest = 1.2;
+  const Grid& grid = columns.grid;
+  const auto noise = static_cast<float>(noise_m);
+  Field surface(grid.nodes(), 0);
+  struct Stage {
+    float length_cells, scale_m;
+  };
+  for (int round = 0; round < 2; ++round) {
+    Layer layer = lowest_layer(columns, surface, noise);
+    drop_strays(grid, noise, layer);
+    if (round == 0) surface = finite(slope_limited(grid, layer.z_m, kSteepest));
+    const std::vector<Stage> stages =
+        round == 0 ? std::vector<Stage>{{6, 0.4f}, {5, 0.25f}, {4, 0.15f}, {3, 0.1f}, {3, 0.1f}}
+                   : std::vector<Stage>{{3, 0.08f}, {2, 0.06f}};
+    for (const Stage& stage : stages) {
+      const Fit fit{.target = finite(layer.z_m),
+                    .data = asymmetric_weights(layer, surface, stage.scale_m + 2 * noise),
+                    .stiffness = Field(grid.nodes(), std::pow(stage.length_cells, 4.0f))};
+      solve(grid, fit, {.most_iterations = 150, .tolerance_m = 0.002}, surface);
+    }
+  }
+  return surface;
+}
+
+}  // namespace plotscan::ground

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ground/columns.h"
+#include "ground/grid.h"
+
+namespace plotscan::ground {
+
+// Sigma of the heights about bare ground: a low percentile, over the columns, of the standard
+// deviation about a column's own plane. No less than a lidar's steps of range give.
+double bare_noise_m(const Columns& columns);
+
+// The highest surface under z that is nowhere steeper than `slope`; infinite z bound nothing. Two
+// sweeps of a chamfer distance (Borgefors, 1986).
+Field slope_limited(const Grid& grid, const Field& z, double slope);
+
+// A first surface that keeps to the lowest returns, within a few sigma of the ground where ground
+// is seen (docs/ground.md, step 2). Metres above the columns' base.
+Field lower_surface(const Columns& columns, double noise_m);
+
+}  // namespace plotscan::ground
