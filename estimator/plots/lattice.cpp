@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kReach_m = 0.2;
+constexpr double kLeastShare = 0.3;
+constexpr double kLeastContrast = 0.25;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+// The usual distance of neighbours: the median of those not much longer than the shorter ones.
+double usual_step(std::vector<double> steps) {
+  if (steps.empty()) return 0;
+  std::ranges::sort(steps);
+  const double low = steps[steps.size() / 4];
+  std::erase_if(steps, [&](double step) { return step > 1.3 * low; });
+  return median(steps);
+}
+
+struct Cells {
+  int r0, r1, c0, c1;
+};
+
+Cells cells_of(const Lattice& lattice, double r_m, double c_m, double margin_m) {
+  const double cell_m = lattice.view.cell_m();
+  const auto at = [&](double m) { return static_cast<int>(std::lround(m / cell_m)); };
+  const double r_half = lattice.r_size_m / 2 - margin_m, c_half = lattice.c_size_m / 2 - margin_m;
+  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
+}
+
+double inner_cover(const Lattice& lattice, const Place& place) {
+  const double margin_m = 0.1 * std::min(lattice.r_size_m, lattice.c_size_m);
+  const Cells box = cells_of(lattice, place.r_m, place.c_m, margin_m);
+  return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
+}
+
+double outline_contrast(const Lattice& lattice, const Place& place) {
+  const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
+  const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
+  return side_contrast(lattice.view, box.r0, box.r1, box.c0, box.c1, reach).mean;
+}
+
+// How far the canopy at a place is from it along one axis, metres: where its two edges are
+// steepest together.
+std::optional<double> shift_of(const Lattice& lattice, const Place& place, bool along_r) {
+  constexpr int kMost = 6;
+  const double cell_m = lattice.view.cell_m();
+  const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
+  const int low = along_r ? box.r0 : box.c0, high = along_r ? box.r1 : box.c1;
+  const int other_low = along_r ? box.c0 : box.r0, other_high = along_r ? box.c1 : box.r1;
+  const int inset = (other_high - other_low) / 8;
+  const auto cover = [&](int from, int to) {
+    return along_r ? lattice.view.cover(from, to, other_low + inset, other_high - inset)
+                   : lattice.view.cover(other_low + inset, other_high - inset, from, to);
+  };
+  const int reach = static_cast<int>(std::lround(kReach_m / cell_m));
+  std::vector<double> fits;
+  for (int shift = -kMost; shift <= kMost; ++shift) {
+    const int l = low + shift, h = high + shift;
+    fits.push_back(cover(l, l + reach) - cover(l - reach, l) + cover(h - reach, h) -
+                   cover(h, h + reach));
+  }
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(fits) - fits.begin());
+  if (best == 0 || best + 1 == fits.size()) return std::nullopt;
+  const double bend = fits[best - 1] - 2 * fits[best] + fits[best + 1];
+  const double part = bend < 0 ? 0.5 * (fits[best - 1] - fits[best + 1]) / bend : 0;
+  // The box was rounded to whole cells: the shift counts from where that put it.
+  const double rounded_m = (low + high) * cell_m / 2 - (along_r ? place.r_m : place.c_m);
+  return (static_cast<double>(best) - kMost + part) * cell_m + rounded_m;
+}
+
+// The columns that run through all rows: positions that lie together; none where they do not.
+std::vector<double> columns_of(std::vector<double> positions, double pitch_m) {
+  std::ranges::sort(positions);
+  std::vector<double> columns;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= positions.size(); ++i) {
+    if (i < positions.size() && positions[i] - positions[i - 1] < 0.35 * pitch_m) continue;
+    if (positions[i - 1] - positions[begin] > 0.5 * pitch_m) return {};
+    columns.push_back((positions[begin] + positions[i - 1]) / 2);
+    begin = i;
+  }
+  return columns;
+}
+
+void number(Lattice& lattice, const Layout& layout) {
+  const double cell_m = lattice.view.cell_m();
+  std::vector<double> steps, positions, row_steps;
+  for (std::size_t i = 0; i < layout.rows.size(); ++i) {
+    const Row& row = layout.rows[i];
+    const double r_m = (row.band.begin + row.band.end) * cell_m / 2;
+    if (i > 0) {
+      const Band& last = layout.rows[i - 1].band;
+      row_steps.push_back(r_m - (last.begin + last.end) * cell_m / 2);
+    }
+    for (std::size_t j = 0; j < row.plots.size(); ++j) {
+      const double c_m = (row.plots[j].begin + row.plots[j].end) * cell_m / 2;
+      if (j > 0) steps.push_back(c_m - positions.back());
+      positions.push_back(c_m);
+      lattice.places.push_back({.row = static_cast<int>(i), .r_m = r_m, .c_m = c_m, .full = true});
+    }
+  }
+  lattice.r_pitch_m = usual_step(row_steps);
+  lattice.c_pitch_m = usual_step(steps);
+  const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
+  std::vector<double> columns = columns_of(positions, pitch_m);
+  lattice.aligned = !columns.empty();
+  lattice.rows = static_cast<int>(layout.rows.size());
+  if (lattice.aligned) {
+    for (Place& place : lattice.places) {
+      const auto nearest = std::ranges::min_element(
+          columns, {}, [&](double column) { return std::abs(column - place.c_m); });
+      place.column = static_cast<int>(nearest - columns.begin());
+    }
+    lattice.columns = static_cast<int>(columns.size());
+    return;
+  }
+  // Every row by itself, from the place nearest to the first of all plots.
+  const double start_m = *std::ranges::min_element(positions);
+  std::size_t next = 0;
+  for (int row = 0; row < lattice.rows; ++row) {
+    const std::size_t first = next;
+    while (next < lattice.places.size() && lattice.places[next].row == row) ++next;
+    int column = static_cast<int>(std::lround((lattice.places[first].c_m - start_m) / pitch_m));
+    for (std::size_t i = first; i < next; ++i) {
+      if (i > first) {
+        const double step_m = lattice.places[i].c_m - lattice.places[i - 1].c_m;
+        column += std::max(1, static_cast<int>(std::lround(step_m / pitch_m)));
+      }
+      lattice.places[i].column = column;
+      lattice.columns = std::max(lattice.columns, column + 1);
+    }
+  }
+}
+
+// Places between a row's plots, beyond its ends, and in columns that other rows have.
+void add_places(Lattice& lattice) {
+  const double pitch_m = lattice.c_pitch_m;
+  if (pitch_m <= 0) return;
+  std::vector<Place> added;
+  for (int row = 0; row < lattice.rows; ++row) {
+    std::vector<Place> present;
+    for (const Place& place : lattice.places) {
+      if (place.row == row) present.push_back(place);
+    }
+    if (present.empty()) continue;
+    std::ranges::sort(present, {}, &Place::c_m);
+    const auto free = [&](double c_m) {
+      const auto near = [&](const Place& place) {
+        return place.row == row && std::abs(place.c_m - c_m) < lattice.c_size_m;
+      };
+      return std::ranges::none_of(present, near) && std::ranges::none_of(added, near);
+    };
+    const auto add = [&](double c_m, int column) {
+      if (!free(c_m)) return;
+      Place place = present.front();
+      place.c_m = c_m;
+      place.column = column;
+      place.full = false;
+      added.push_back(place);
+    };
+    for (std::size_t i = 1; i < present.size(); ++i) {
+      const double gap_m = present[i].c_m - present[i - 1].c_m;
+      const int steps = static_cast<int>(std::lround(gap_m / pitch_m));
+      for (int k = 1; k < steps; ++k) {
+        add(present[i - 1].c_m + gap_m * k / steps, present[i - 1].column + k);
+      }
+    }
+    if (lattice.aligned) {
+      for (const Place& other : lattice.places) add(other.c_m, other.column);
+    }
+    add(present.front().c_m - pitch_m, present.front().column - 1);
+    add(present.back().c_m + pitch_m, present.back().column + 1);
+  }
+  lattice.places.insert(lattice.places.end(), added.begin(), added.end());
+}
+
+void test_places(Lattice& lattice) {
+  std::vector<double> covers, contrasts;
+  for (Place& place : lattice.places) {
+    place.share = inner_cover(lattice, place);
+    place.contrast = outline_contrast(lattice, place);
+    if (!place.full) continue;
+    covers.push_back(place.share);
+    contrasts.push_back(place.contrast);
+  }
+  const double full_cover = median(covers);
+  lattice.contrast = median(contrasts);
+  for (Place& place : lattice.places) {
+    place.share /= std::max(1e-6, full_cover);
+    place.contrast /= std::max(1e-6, lattice.contrast);
+    place.full = place.share >= kLeastShare && place.contrast >= kLeastContrast;
+  }
+}
+
+// Lowest column and row become 0, columns without a plot are none.
+void renumber(Lattice& lattice) {
+  std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
+  for (int Place::*index : {&Place::row, &Place::column}) {
+    std::vector<int> used;
+    for (const Place& place : lattice.places) used.push_back(place.*index);
+    std::ranges::sort(used);
+    used.erase(std::ranges::unique(used).begin(), used.end());
+    for (Place& place : lattice.places) {
+      place.*index = static_cast<int>(std::ranges::lower_bound(used, place.*index) - used.begin());
+    }
+    (index == &Place::row ? lattice.rows : lattice.columns) = static_cast<int>(used.size());
+  }
+  std::ranges::sort(lattice.places, [](const Place& a, const Place& b) {
+    return std::tuple(a.row, a.column, a.c_m) < std::tuple(b.row, b.column, b.c_m);
+  });
+}
+
+// One mean for each row (or column) and a common slope within them.
+std::vector<double> means_and_slope(const std::vector<int>& group, int groups,
+                                    const std::vector<double>& x, const std::vector<double>& y,
+                                    double& slope) {
+  std::vector<double> count(static_cast<std::size_t>(groups)), mean_x(count), mean_y(count);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto g = static_cast<std::size_t>(group[i]);
+    count[g] += 1;
+    mean_x[g] += x[i];
+    mean_y[g] += y[i];
+  }
+  for (std::size_t g = 0; g < count.size(); ++g) {
+    mean_x[g] /= std::max(1.0, count[g]);
+    mean_y[g] /= std::max(1.0, count[g]);
+  }
+  double xx = 0, xy = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto g = static_cast<std::size_t>(group[i]);
+    xx += (x[i] - mean_x[g]) * (x[i] - mean_x[g]);
+    xy += (x[i] - mean_x[g]) * (y[i] - mean_y[g]);
+  }
+  slope = xx > 0 ? xy / xx : 0;
+  for (std::size_t g = 0; g < count.size(); ++g) mean_y[g] -= slope * mean_x[g];
+  return mean_y;
+}
+
+// Measured centres, smoothed by the lattice: rows are straight, columns too where they are aligned,
+// and else every row has its offset and the common pitch.
+void straighten(Lattice& lattice) {
+  std::vector<int> row, column;
+  std::vector<double> r, c;
+  for (const Place& place : lattice.places) {
+    row.push_back(place.row);
+    column.push_back(place.column);
+    r.push_back(place.r_m + shift_of(lattice, place, true).value_or(0));
+    c.push_back(place.c_m + shift_of(lattice, place, false).value_or(0));
+  }
+  const std::vector<double> row_at = means_and_slope(row, lattice.rows, c, r, lattice.r_per_c);
+  std::vector<double> column_at;
+  if (lattice.aligned) {
+    column_at = means_and_slope(column, lattice.columns, r, c, lattice.c_per_r);
+  } else {
+    std::vector<double> index(column.begin(), column.end());
+    column_at = means_and_slope(row, lattice.rows, index, c, lattice.c_pitch_m);
+  }
+  double r_squares = 0, c_squares = 0;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    Place& place = lattice.places[i];
+    place.r_m = row_at[static_cast<std::size_t>(place.row)] + lattice.r_per_c * c[i];
+    place.c_m = lattice.aligned
+                    ? column_at[static_cast<std::size_t>(place.column)] + lattice.c_per_r * r[i]
+                    : column_at[static_cast<std::size_t>(place.row)] + lattice.c_pitch_m * place.column;
+    r_squares += (place.r_m - r[i]) * (place.r_m - r[i]);
+    c_squares += (place.c_m - c[i]) * (place.c_m - c[i]);
+  }
+  const double count = std::max<double>(1, static_cast<double>(lattice.places.size()));
+  lattice.r_rms_m = std::sqrt(r_squares / count);
+  lattice.c_rms_m = std::sqrt(c_squares / count);
+}
+
+}  // namespace
+
+Lattice fit_lattice(const Layout& layout) {
+  Lattice lattice{.view = layout.view,
+                  .r_size_m = layout.r_size * layout.view.cell_m(),
+                  .c_size_m = layout.c_size * layout.view.cell_m()};
+  number(lattice, layout);
+  straighten(lattice);
+  add_places(lattice);
+  test_places(lattice);
+  renumber(lattice);
+  straighten(lattice);
+  straighten(lattice);
+  return lattice;
+}
+
+}  // namespace plotscan::plots

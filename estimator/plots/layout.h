@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: rows of plots on a canopy raster.
+
+#include <optional>
+#include <vector>
+
+#include "plots/bands.h"
+#include "plots/canopy_raster.h"
+
+namespace plotscan::plots {
+
+// A raster seen with its rows of plots across: `r` counts cells from row to row, `c` along a row.
+struct RowView {
+  const CanopyRaster* raster = nullptr;
+  bool swapped = false;  // rows follow each other along the raster's b axis instead of a
+
+  int r_cells() const { return swapped ? raster->b_cells() : raster->a_cells(); }
+  int c_cells() const { return swapped ? raster->a_cells() : raster->b_cells(); }
+  double cell_m() const { return raster->cell_m(); }
+  double cover(int r0, int r1, int c0, int c1) const {
+    return swapped ? raster->cover(c0, c1, r0, r1) : raster->cover(r0, r1, c0, c1);
+  }
+  double seen_cells(int r0, int r1, int c0, int c1) const {
+    return swapped ? raster->seen_cells(c0, c1, r0, r1) : raster->seen_cells(r0, r1, c0, c1);
+  }
+  Eigen::Vector2d to_world(double r_m, double c_m) const {
+    const Eigen::Vector2d ab = swapped ? Eigen::Vector2d(c_m, r_m) : Eigen::Vector2d(r_m, c_m);
+    return raster->frame().to_world(ab);
+  }
+  Eigen::Vector2d r_axis() const { return swapped ? raster->frame().b_axis : raster->frame().a_axis; }
+  Eigen::Vector2d c_axis() const { return swapped ? raster->frame().a_axis : raster->frame().b_axis; }
+};
+
+struct Row {
+  Band band;                // across the row
+  std::vector<Band> plots;  // along it
+};
+
+struct Layout {
+  RowView view;
+  int r_size = 0, c_size = 0;  // of a plot, cells
+  std::vector<Row> rows = {};
+  double score = 0;  // contrast of the plots' sides, metres of perimeter
+};
+
+// Contrast of the weakest and of the mean side of a box, in cells: cover within it less cover
+// beyond it, in strips of `reach` cells.
+struct SideContrast {
+  double weakest = 0;
+  double mean = 0;
+};
+SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach);
+
+// The layout of equal plots that explains most edges: bands of rows over the whole field, then
+// plots in each row by itself, for either role of the two axes.
+Layout best_layout(const CanopyRaster& raster);
+
+}  // namespace plotscan::plots
