@@ -18,11 +18,6 @@ namespace {
 // float32 relative to the area's centre resolves 0.5 mm at 5 km.
 constexpr double kLongestSide_m = 10000;
 
-std::string text_of(const Area& area) {
-  return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
-         "," + format_number(area[3]);
-}
-
 // Of the first points of the area: a stray one among them must not become the origin.
 double median_z(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> z(points.size());
@@ -31,6 +26,11 @@ double median_z(const std::vector<Eigen::Vector3d>& points) {
 }
 
 }  // namespace
+
+std::string text_of(const Area& area) {
+  return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
+         "," + format_number(area[3]);
+}
 
 void require_area(const Area& area, const std::string& option) {
   const bool finite = std::ranges::all_of(area, [](double value) { return std::isfinite(value); });

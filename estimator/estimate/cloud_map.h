@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,6 +20,9 @@ using Area = std::array<double, 4>;
 // Throws InputError naming `option` unless x0 < x1 and y0 < y1, all finite, and no side is over
 // 10 km.
 void require_area(const Area& area, const std::string& option);
+
+// "x0,y0,x1,y1".
+std::string text_of(const Area& area);
 
 // The merged map inside an area, at the scans' full density. Positions are kept as float32 relative
 // to an origin in double precision (12 bytes a point, better than 0.5 mm in the largest area).

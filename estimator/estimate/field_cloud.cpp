@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/field_cloud.h"
+
+#include <cmath>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
+#include "core/statistics.h"
+#include "estimate/field_hull.h"
+#include "scan/cloud_reader.h"
+
+namespace plotscan::estimate {
+namespace {
+
+bool overlap(Tile tile, const Area& area) {
+  return tile.x + 1.0 > area[0] && tile.x <= area[2] && tile.y + 1.0 > area[1] && tile.y <= area[3];
+}
+
+// The middle of the area at the height of the tiles' first points, whole metres.
+Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
+  std::vector<double> z;
+  for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
+    z.push_back(point_of(tiles.tiles[i], tiles.of(i).front(), Eigen::Vector3d::Zero()).z());
+  return {std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2),
+          std::floor(quantile(std::move(z), 0.5))};
+}
+
+std::vector<Eigen::Vector3f> points_of(const TiledKeys& tiles, const Eigen::Vector3d& origin,
+                                       int threads) {
+  std::vector<Eigen::Vector3f> points(tiles.keys.size());
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, tiles.tiles.size(), [&](std::size_t tile) {
+      for (std::size_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i)
+        points[i] = point_of(tiles.tiles[tile], tiles.keys[i], origin);
+    });
+  });
+  return points;
+}
+
+// A tile at the area's edge reaches out of it.
+void crop(FieldCloud& field) {
+  const Eigen::Array2d low(field.area[0], field.area[1]);
+  const Eigen::Array2d high(field.area[2], field.area[3]);
+  const auto outside = [&](const Eigen::Vector3f& point) {
+    const Eigen::Array2d place = field.origin.head<2>() + point.head<2>().cast<double>();
+    return (place < low).any() || (place > high).any();
+  };
+  field.counts.outside += std::erase_if(field.points, outside);
+}
+
+}  // namespace
+
+FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::string& name) {
+  FieldCloud field;
+  std::optional<FieldHull> hull;
+  if (!options.area) hull = find_field(store.tile_counts());
+  field.area = options.area ? *options.area : hull->bounds();
+  require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
+  const TiledKeys tiles =
+      store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
+  const TileStore::Counts& counts = store.counts();
+  field.counts = {.read = counts.added,
+                  .outside = counts.unwanted + counts.out_of_range,
+                  .repeated = counts.repeated,
+                  .thinned = counts.thinned};
+  field.origin = origin_of(tiles, field.area);
+  field.points = points_of(tiles, field.origin, options.threads);
+  if (options.area) crop(field);
+  field.counts.kept = field.points.size();
+  if (field.points.empty()) {
+    throw InputError(name, "none of its " + std::to_string(counts.added) +
+                               " points lies in the crop box " + text_of(field.area));
+  }
+  return field;
+}
+
+FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
+                      const ProgressReport& progress) {
+  if (options.area) require_area(*options.area, "crop box");
+  TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
+  const scan::CloudSummary summary =
+      scan::read_positions(cloud, [&](auto points) { store.add(points); });
+  if (progress) progress(0.2);
+  FieldCloud field = take_field(store, options, cloud.string());
+  field.counts.read += summary.not_finite;
+  field.counts.not_finite = summary.not_finite;
+  if (progress) progress(0.3);
+  return field;
+}
+
+}  // namespace plotscan::estimate
