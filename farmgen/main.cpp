@@ -15,6 +15,7 @@
 #include "farm/heights.h"
 #include "farm/summary.h"
 #include "farm/write_farm.h"
+#include "lidar/canopy_height.h"
 
 namespace {
 
@@ -138,7 +139,8 @@ void say_notes(const Program& program, const farm::Farm& made) {
 void run_generate(const Program& program, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   farm::FarmDescription description;
-  const farm::Farm made = generate_from(program, arguments, description);
+  farm::Farm made = generate_from(program, arguments, description);
+  lidar::measure_canopies(made, program.common().threads);
   farm::write_farm(made, arguments.output, arguments.force,
                    {.command = "farmgen generate",
                     .options = {{"description", description.source.filename().string()},

@@ -12,6 +12,7 @@
 #include "farm/generate.h"
 #include "farm/write_farm.h"
 #include "farmbench/methods.h"
+#include "lidar/canopy_height.h"
 #include "lidar/fly.h"
 #include "lidar/fly_settings.h"
 
@@ -25,10 +26,12 @@ using nlohmann::json;
 constexpr double kFlown = 0.5;
 constexpr double kRead = 0.6;
 
-farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder) {
+farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder,
+                     int threads) {
   const farm::FarmDescription description =
       farm::load_description(suite_case.farm, suite_case.overrides);
   farm::Farm made = farm::generate(description, seed);
+  lidar::measure_canopies(made, threads);
   farm::write_farm(made, folder, true,
                    {.command = "farmbench run",
                     .options = {{"set", suite_case.overrides}},
@@ -93,7 +96,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
 
 FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                     const fs::path& folder, int threads, const ProgressReport& progress) {
-  const farm::Farm farm = make_farm(suite_case, seed, folder / "farm");
+  const farm::Farm farm = make_farm(suite_case, seed, folder / "farm", threads);
   lidar::FlyOptions flight = suite_case.flight;
   flight.seed = seed;
   flight.threads = threads;

@@ -56,6 +56,12 @@ struct PlotHeights {
   double hand3 = 0;  // mean of 3 plants drawn at random: the paper's field protocol
 };
 
+// Percentiles of a plot's canopy as rays cast straight down see it, metres (docs/farm-format.md).
+struct CanopyHeights {
+  double p95 = 0;
+  double p99 = 0;
+};
+
 // A plot and what a breeder's field book says of it.
 struct Plot {
   std::uint32_t id = 0;                               // the plot number; no two alike
@@ -69,7 +75,8 @@ struct Plot {
   std::string accession = std::string(kNoAccession);  // the cultivar's name
   std::uint32_t missing_plants = 0;                   // sown, but not there
   std::uint32_t weed_count = 0;
-  double lodging_rad = 0;  // mean lean of its plants from the vertical
+  double lodging_rad = 0;                    // mean lean of its plants from the vertical
+  std::optional<CanopyHeights> canopy = {};  // absent: not measured (lidar/canopy_height.h)
 };
 
 // A virtual phenotyping farm, world frame: ENU, metres, z up, origin at the farm's centre.

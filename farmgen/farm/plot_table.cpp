@@ -29,11 +29,20 @@ constexpr std::array<HeightAttribute, 7> kHeights = {{{"height_mean_m", &PlotHei
                                                       {"height_p99_m", &PlotHeights::p99},
                                                       {"height_hand3_m", &PlotHeights::hand3}}};
 
+struct CanopyAttribute {
+  const char* name;
+  double CanopyHeights::*value;
+};
+constexpr std::array<CanopyAttribute, 2> kCanopies = {
+    {{"canopy_p95_m", &CanopyHeights::p95}, {"canopy_p99_m", &CanopyHeights::p99}}};
+
 // The attributes of one feature, with errors that name the file and the feature.
 class Attributes {
  public:
   Attributes(const std::filesystem::path& file, std::size_t feature, const nlohmann::json& values)
       : file_(file), feature_(feature), values_(values) {}
+
+  bool has(const char* name) const { return values_.contains(name); }
 
   double number(const char* name) const {
     const auto found = values_.find(name);
@@ -95,7 +104,18 @@ nlohmann::json plot_attributes(const Plot& plot) {
       {"plants", plot.plant_count}, {"plants_missing", plot.missing_plants},
       {"weeds", plot.weed_count},   {"lodging_deg", plot.lodging_rad / kDegrees}};
   for (const auto& [name, value] : kHeights) attributes[name] = plot.heights.*value;
+  if (plot.canopy) {
+    for (const auto& [name, value] : kCanopies) attributes[name] = *plot.canopy.*value;
+  }
   return attributes;
+}
+
+// Nothing where the farm was made without.
+std::optional<CanopyHeights> canopy_of(const Attributes& attributes) {
+  if (!attributes.has(kCanopies.front().name)) return std::nullopt;
+  CanopyHeights canopy;
+  for (const auto& [name, value] : kCanopies) canopy.*value = attributes.number(name);
+  return canopy;
 }
 
 std::vector<PlotFeature> features_of(const std::vector<Plot>& plots) {
@@ -138,6 +158,7 @@ std::vector<Plot> read_plots(const std::filesystem::path& path) {
               .weed_count = attributes.whole("weeds", 0),
               .lodging_rad = attributes.number("lodging_deg") * kDegrees};
     for (const auto& [name, value] : kHeights) plot.heights.*value = attributes.number(name);
+    plot.canopy = canopy_of(attributes);
     plots.push_back(std::move(plot));
   }
   require_different_ids(path, plots);
