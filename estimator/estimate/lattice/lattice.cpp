@@ -51,9 +51,9 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
-std::vector<PlotEstimate> plots_of(const CloudMap& map, const Points& heights, double noise_m,
+std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
-  if (!options.boxes.empty()) return given_plots(options.boxes, map.origin());
+  if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, options.hints, options.threads);
   diagnostics["field"] = field.fit;
@@ -89,6 +89,17 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
   const std::vector<heights::PlotHeights> measured = heights::measure_heights(
       clouds, surface, {.calibrated = options.calibrated, .threads = options.threads});
   for (std::size_t i = 0; i < plots.size(); ++i) take(measured[i], plots[i]);
+}
+
+json describe(const FieldCloud& cloud) {
+  const FieldCounts& counts = cloud.counts;
+  return {{"points_read", counts.read},
+          {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite},
+          {"outside", counts.outside},
+          {"repeated", counts.repeated},
+          {"thinned", counts.thinned},
+          {"area_m", cloud.area}};
 }
 
 json describe(const ground::Surface& surface) {
@@ -134,24 +145,22 @@ void require_sound(const LatticeOptions& options) {
   require_between(options.threads, 1, kMostThreads, "the number of threads");
 }
 
-Estimate lattice(const CloudMap& map, const LatticeOptions& options,
+Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
   Estimate estimate{.method = "lattice"};
-  estimate.diagnostics = {{"points_read", map.points_read()},
-                          {"points_in_area", map.points().size()},
-                          {"area_m", map.area()}};
+  estimate.diagnostics = describe(cloud);
   const ground::Surface surface =
-      ground::fit_surface(map.points(), {.noise_m = options.noise_m, .threads = options.threads});
+      ground::fit_surface(cloud.points, {.noise_m = options.noise_m, .threads = options.threads});
   report(progress, 0.6);
-  const Points heights = above_ground(map.points(), surface, options.threads);
+  const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty()) throw InputError("the cloud shows no ground");
   estimate.diagnostics["ground"] = describe(surface);
-  estimate.plots = plots_of(map, heights, surface.noise_m, options, estimate.diagnostics);
+  estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
   report(progress, 0.8);
   measure(estimate.plots, heights, surface, options);
-  for (PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
-  estimate.ground = moved(surface, map.origin());
+  for (PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();
+  estimate.ground = moved(surface, cloud.origin);
   report(progress, 1);
   return estimate;
 }
@@ -159,7 +168,9 @@ Estimate lattice(const CloudMap& map, const LatticeOptions& options,
 Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
-  return lattice(read_map(cloud, area_to_read(options), progress), options, progress);
+  return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+                            [&](double share) { report(progress, 0.4 * share); }),
+                 options, progress);
 }
 
 }  // namespace plotscan::estimate

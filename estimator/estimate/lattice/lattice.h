@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
+#include "estimate/field_cloud.h"
 
 namespace plotscan::estimate {
 
@@ -27,12 +28,12 @@ struct LatticeOptions {
 // Throws InputError when an option is out of its range.
 void require_sound(const LatticeOptions& options);
 
-// Finds the plots of a map and measures each one's heights "mean", "max", "p50", "p90", "p95" and
+// Finds the plots of a field and measures each one's heights "mean", "max", "p50", "p90", "p95" and
 // "p99" of its plants, and "canopy_p95" and "canopy_p99" of its canopy, with standard errors, 95 %
 // intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
 // without a lattice of plots has an estimate without plots; diagnostics["nothing"] says why.
 // Throws InputError on options out of range and on a cloud without ground.
-Estimate lattice(const CloudMap& map, const LatticeOptions& options,
+Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
 // The same from a cloud (PCD, PLY or LAS): of the crop box; else of the given boxes and the ground
