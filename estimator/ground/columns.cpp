@@ -17,7 +17,8 @@ constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMostNodes = 64e6;
 // Where fewer returns lie than this share of what is usual, the survey's surroundings begin.
 constexpr double kSparse = 0.02;
-constexpr int kDenseNeighbours = 3;  // of 8, that a dense square metre has, or it is a stray
+constexpr std::size_t kEnoughBare = 64;  // returns that settle a column of bare ground
+constexpr int kDenseNeighbours = 3;      // of 8, that a dense square metre has, or it is a stray
 
 // Counts of points in squares of at least a metre.
 struct Raster {
@@ -33,11 +34,17 @@ struct Raster {
   }
 };
 
-Raster raster_of(std::span<const Eigen::Vector3f> points) {
+// Of every so-many-th point: enough to see the field's outline.
+Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
+  constexpr std::size_t kSample = 1000000;
+  const std::size_t every = 1 + all_points.size() / kSample;
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < all_points.size(); i += every) {
+    if (all_points[i].allFinite()) points.push_back(all_points[i]);
+  }
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::max());
   Eigen::Array2d high = -low;
   for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
     low = low.min(point.head<2>().cast<double>().array());
     high = high.max(point.head<2>().cast<double>().array());
   }
@@ -48,7 +55,6 @@ Raster raster_of(std::span<const Eigen::Vector3f> points) {
   raster.rows = static_cast<int>((high - low).y() / raster.step_m) + 1;
   raster.counts.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
   for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
     const Eigen::Array2d place = (point.head<2>().cast<double>().array() - low) / raster.step_m;
     ++raster.counts[static_cast<std::size_t>(place.y()) * raster.columns +
                     static_cast<std::size_t>(place.x())];
@@ -70,20 +76,25 @@ double usual_count(const Raster& raster) {
   return 0;
 }
 
-std::uint32_t node_of(const Eigen::Vector3f& point, const Grid& grid, Eigen::Vector2d& place) {
-  if (!point.allFinite()) return kOutside;
-  place = (point.head<2>().cast<double>() - grid.origin) / grid.cell_m;
-  if (!(place.x() >= -0.5 && place.y() >= -0.5 && place.x() < grid.columns - 0.5 &&
-        place.y() < grid.rows - 0.5)) {
-    return kOutside;
-  }
-  const int column = static_cast<int>(place.x() + 0.5);
-  const int row = static_cast<int>(place.y() + 0.5);
+// Where a point lies on the grid: cells from its first node. Outside, or not finite: negative.
+Eigen::Vector2f place_of(const Eigen::Vector3f& point, const Grid& grid) {
+  const Eigen::Vector2f place =
+      (point.head<2>() - grid.origin.cast<float>()) / static_cast<float>(grid.cell_m);
+  const bool inside = place.x() >= -0.5f && place.y() >= -0.5f &&
+                      place.x() < static_cast<float>(grid.columns) - 0.5f &&
+                      place.y() < static_cast<float>(grid.rows) - 0.5f && std::isfinite(point.z());
+  return inside ? place : Eigen::Vector2f::Constant(-1);
+}
+
+std::uint32_t node_at(const Eigen::Vector2f& place, const Grid& grid) {
+  if (place.x() < -0.5f) return kOutside;
+  const int column = std::min(static_cast<int>(place.x() + 0.5f), grid.columns - 1);
+  const int row = std::min(static_cast<int>(place.y() + 0.5f), grid.rows - 1);
   return static_cast<std::uint32_t>(grid.index(column, row));
 }
 
-std::int16_t part_of_cell(double offset) {
-  return static_cast<std::int16_t>(std::clamp(offset * 65536, -32768.0, 32767.0));
+std::int16_t part_of_cell(float offset) {
+  return static_cast<std::int16_t>(std::clamp(offset * 65536, -32768.0f, 32767.0f));
 }
 
 // Least squares through a sample of the points: no more than a tilt to take off.
@@ -91,9 +102,9 @@ BasePlane base_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   constexpr std::size_t kSample = 20000;
   Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  Eigen::Vector2d place;
   for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / kSample) {
-    if (node_of(points[i], grid, place) == kOutside) continue;
+    const Eigen::Vector2f place = place_of(points[i], grid);
+    if (place.x() < -0.5f) continue;
     const Eigen::Vector3d row(1, grid.cell_m * place.x(), grid.cell_m * place.y());
     normal += row * row.transpose();
     right += row * points[i].z();
@@ -139,26 +150,88 @@ Grid grid_of(std::span<const Eigen::Vector3f> points, double cell_m) {
 
 Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   Columns columns{.grid = grid, .base = base_of(points, grid)};
-  std::vector<std::uint32_t> next(grid.nodes() + 1, 0);
-  Eigen::Vector2d place;
-  for (const Eigen::Vector3f& point : points) {
-    const std::uint32_t node = node_of(point, grid, place);
-    if (node != kOutside) ++next[node + 1];
+  std::vector<std::uint32_t> nodes(points.size());
+  constexpr std::size_t kChunk = 1 << 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kChunk),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        nodes[i] = node_at(place_of(points[i], grid), grid);
+                      }
+                    });
+  columns.first.assign(grid.nodes() + 1, 0);
+  for (const std::uint32_t node : nodes) {
+    if (node != kOutside) ++columns.first[node + 1];
   }
-  for (std::size_t node = 0; node < grid.nodes(); ++node) next[node + 1] += next[node];
-  columns.first = next;
-  columns.returns.resize(next.back());
-  for (const Eigen::Vector3f& point : points) {
-    const std::uint32_t node = node_of(point, grid, place);
-    if (node == kOutside) continue;
-    const double column = node % grid.columns;
-    const double row = node / grid.columns;
-    const double base = columns.base.z_m + grid.cell_m * columns.base.slope.dot(place);
-    columns.returns[next[node]++] = {.z_m = static_cast<float>(point.z() - base),
-                                     .dx = part_of_cell(place.x() - column),
-                                     .dy = part_of_cell(place.y() - row)};
-  }
+  for (std::size_t i = 0; i < grid.nodes(); ++i) columns.first[i + 1] += columns.first[i];
+  columns.returns.resize(columns.first.back());
+  // Each task writes the returns of its own band of nodes, in the order of the points.
+  constexpr std::size_t kBands = 8;
+  std::vector<std::uint32_t> next(columns.first.begin(), columns.first.end() - 1);
+  const Eigen::Vector2f slope = (grid.cell_m * columns.base.slope).cast<float>();
+  tbb::parallel_for(std::size_t{0}, kBands, [&](std::size_t band) {
+    const std::size_t begin = band * grid.nodes() / kBands;
+    const std::size_t end = (band + 1) * grid.nodes() / kBands;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint32_t node = nodes[i];
+      if (node < begin || node >= end) continue;
+      const Eigen::Vector2f place = place_of(points[i], grid);
+      const auto column = static_cast<float>(node % grid.columns);
+      const auto row = static_cast<float>(node / grid.columns);
+      const float base = static_cast<float>(columns.base.z_m) + slope.dot(place);
+      columns.returns[next[node]++] = {.z_m = points[i].z() - base,
+                                       .dx = part_of_cell(place.x() - column),
+                                       .dy = part_of_cell(place.y() - row)};
+    }
+  });
   return columns;
+}
+
+namespace {
+
+// The returns of a column that may tell of the ground.
+void keep_low(std::span<const Return> returns, float reach_m, std::vector<float>& z,
+              std::vector<Return>& kept) {
+  kept.clear();
+  if (returns.empty()) return;
+  z.clear();
+  for (const Return& r : returns) z.push_back(r.z_m);
+  const auto low = z.begin() + static_cast<long>(z.size() / 100);
+  std::nth_element(z.begin(), low, z.end());
+  const float highest = *low + reach_m;
+  for (const Return& r : returns) {
+    if (r.z_m <= highest) kept.push_back(r);
+  }
+  const bool bare = kept.size() == returns.size();
+  const std::size_t every = bare ? std::max<std::size_t>(1, kept.size() / kEnoughBare) : 1;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kept.size(); i += every) kept[count++] = kept[i];
+  kept.resize(count);
+}
+
+}  // namespace
+
+Columns low_part(const Columns& columns, float reach_m) {
+  const Grid& grid = columns.grid;
+  std::vector<std::vector<Return>> rows(grid.rows);
+  Columns low{.grid = grid, .base = columns.base};
+  low.first.assign(grid.nodes() + 1, 0);
+  for_rows(grid, [&](int row) {
+    std::vector<float> z;
+    std::vector<Return> kept;
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t i = grid.index(column, row);
+      keep_low(columns.at(i), reach_m, z, kept);
+      rows[row].insert(rows[row].end(), kept.begin(), kept.end());
+      low.first[i + 1] = static_cast<std::uint32_t>(kept.size());
+    }
+  });
+  for (std::size_t i = 0; i < grid.nodes(); ++i) low.first[i + 1] += low.first[i];
+  low.returns.resize(low.first.back());
+  for_rows(grid, [&](int row) {
+    std::copy(rows[row].begin(), rows[row].end(),
+              low.returns.begin() + low.first[grid.index(0, row)]);
+  });
+  return low;
 }
 
 }  // namespace plotscan::ground

@@ -45,4 +45,8 @@ Grid grid_of(std::span<const Eigen::Vector3f> points, double cell_m);
 // The points on the grid. Those that are not finite or outside of it are left out.
 Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid);
 
+// What is needed of the columns to find the ground: returns no higher than reach_m over the lowest
+// hundredth of their column; where all are as low, not more than settle it.
+Columns low_part(const Columns& columns, float reach_m);
+
 }  // namespace plotscan::ground

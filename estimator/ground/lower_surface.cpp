@@ -142,6 +142,26 @@ void drop_strays(const Grid& grid, float noise, Layer& layer) {
   layer = kept;
 }
 
+// Median of the finite among the 3 x 3 nodes around each; 0 where there is none.
+Field median_around(const Grid& grid, const Field& z) {
+  Field medians(grid.nodes(), 0);
+  for_rows(grid, [&](int row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      std::array<float, 9> around;
+      int count = 0;
+      for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); ++r) {
+        for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); ++c) {
+          if (z[grid.index(c, r)] < kNone) around[count++] = z[grid.index(c, r)];
+        }
+      }
+      if (count == 0) continue;
+      std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
+      medians[grid.index(column, row)] = around[count / 2];
+    }
+  });
+  return medians;
+}
+
 // Asymmetric, redescending: what lies above the surface soon counts for nothing.
 Field asymmetric_weights(const Layer& layer, const Field& surface, float scale) {
   Field weights(surface.size(), 0);
@@ -151,6 +171,17 @@ Field asymmetric_weights(const Layer& layer, const Field& surface, float scale) 
     const float share = off / (off > 0 ? scale : 4 * scale);
     const float falloff = 1 + share * share;
     weights[i] = layer.weight[i] / (falloff * falloff);
+  }
+  return weights;
+}
+
+// The same to both sides.
+Field robust_weights(const Layer& layer, const Field& surface, float scale) {
+  Field weights(surface.size(), 0);
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    if (!(layer.z_m[i] < kNone)) continue;
+    const float share = (layer.z_m[i] - surface[i]) / scale;
+    weights[i] = layer.weight[i] / (1 + share * share);
   }
   return weights;
 }
@@ -172,7 +203,7 @@ double bare_noise_m(const Columns& columns) {
   constexpr double kPercentile = 0.2;
   constexpr double kLeast = 0.003;
   std::vector<double> spreads;
-  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
+  for (std::size_t i = 0; i < columns.grid.nodes(); i += 3) {
     const std::span<const Return> returns = columns.at(i);
     if (static_cast<double>(returns.size()) < enough) continue;
     const double spread = spread_of(returns);
@@ -213,7 +244,7 @@ Field slope_limited(const Grid& grid, const Field& z, double slope) {
 }
 
 Field lower_surface(const Columns& columns, double noise_m) {
-  constexpr double kSteepest = 1.2;
+  constexpr double kSteepest = 2.5;
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
   Field surface(grid.nodes(), 0);
@@ -232,6 +263,24 @@ Field lower_surface(const Columns& columns, double noise_m) {
                     .data = asymmetric_weights(layer, surface, stage.scale_m + 2 * noise),
                     .stiffness = Field(grid.nodes(), std::pow(stage.length_cells, 4.0f))};
       solve(grid, fit, {.most_iterations = 150, .tolerance_m = 0.002}, surface);
+    }
+  }
+  return surface;
+}
+
+Field layer_surface(const Columns& columns, double noise_m) {
+  const Grid& grid = columns.grid;
+  const auto noise = static_cast<float>(noise_m);
+  Layer layer = lowest_layer(columns, Field(grid.nodes(), 0), noise);
+  Field surface = median_around(grid, layer.z_m);
+  for (const float stiffness : {0.3f, 0.1f, 0.03f}) {
+    layer = lowest_layer(columns, surface, noise);
+    drop_strays(grid, noise, layer);
+    for (const float scale_m : {0.1f, 0.06f}) {
+      const Fit fit{.target = finite(layer.z_m),
+                    .data = robust_weights(layer, surface, scale_m + 2 * noise),
+                    .stiffness = Field(grid.nodes(), stiffness)};
+      solve(grid, fit, {.most_iterations = 100, .tolerance_m = 0.002}, surface);
     }
   }
   return surface;

@@ -18,4 +18,8 @@ Field slope_limited(const Grid& grid, const Field& z, double slope);
 // is seen (docs/ground.md, step 2). Metres above the columns' base.
 Field lower_surface(const Columns& columns, double noise_m);
 
+// A surface through the lowest layers wherever these are, canopy or ground: it follows ridges that
+// the lower surface cuts off, and climbs canopies that are closed.
+Field layer_surface(const Columns& columns, double noise_m);
+
 }  // namespace plotscan::ground

@@ -58,19 +58,33 @@ void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Su
   }
 }
 
+// Takes from the other evidence the nodes that it supports better.
+void take_better(const Evidence& other, Evidence& evidence) {
+  constexpr float kBetter = 0.2f;
+  for (std::size_t i = 0; i < evidence.data.size(); ++i) {
+    if (other.support[i] < evidence.support[i] + kBetter) continue;
+    evidence.target_m[i] = other.target_m[i];
+    evidence.data[i] = other.data[i];
+    evidence.support[i] = other.support[i];
+  }
+}
+
 Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
-  const Grid& grid = columns.grid;
-  const double noise_m =
-      options.noise_m ? std::max(*options.noise_m, 0.003) : bare_noise_m(columns);
+  const Columns all = sort_into_columns(points, grid_of(points, options.cell_m));
+  const Grid& grid = all.grid;
+  const double noise_m = options.noise_m ? std::max(*options.noise_m, 0.003) : bare_noise_m(all);
+  const Columns columns = low_part(all, static_cast<float>(0.4 + 6 * noise_m));
   Field z = lower_surface(columns, noise_m);
+  const Evidence by_layers = weigh(columns, layer_surface(columns, noise_m), noise_m);
   Evidence evidence;
   for (int round = 0; round < 8; ++round) {
     evidence = weigh(columns, z, noise_m);
+    if (round < 4) take_better(by_layers, evidence);
     const Field bends = curvature(grid, z);
     const Fit fit{.target = evidence.target_m,
                   .data = evidence.data,
-                  .stiffness = stiffness_of(bends, usual_bend(bends, evidence.data))};
+                  .stiffness = round < 2 ? Field(grid.nodes(), 1e3f)
+                                         : stiffness_of(bends, usual_bend(bends, evidence.data))};
     solve(grid, fit, {.most_iterations = 100, .tolerance_m = 5e-4}, z);
   }
   Surface surface{.origin = grid.origin,
