@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
+constexpr int kRounds = 2;  // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 Eigen::Vector2d direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
@@ -63,9 +64,11 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
   Lattice lattice = fit_lattice(layout);
   if (lattice.places.size() < 2) return nothing("a single plot is no lattice");
-  const EdgeFit r_edges = fit_edges(lattice, true), c_edges = fit_edges(lattice, false);
-  lattice.r_size_m = r_edges.size_m;
-  lattice.c_size_m = c_edges.size_m;
+  for (int round = 0; round < kRounds; ++round) {
+    fit_edges(lattice);
+    straighten(lattice);
+  }
+  fit_edges(lattice);
   PlotField field;
   const double heading_rad = box_heading(lattice);
   for (const Place& place : lattice.places) {
@@ -83,8 +86,8 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
                {"c_pitch_m", lattice.c_pitch_m},
                {"r_rms_m", lattice.r_rms_m},
                {"c_rms_m", lattice.c_rms_m},
-               {"r_blur_m", r_edges.blur_m},
-               {"c_blur_m", c_edges.blur_m},
+               {"r_blur_m", lattice.r_blur_m},
+               {"c_blur_m", lattice.c_blur_m},
                {"contrast", lattice.contrast},
                {"rows", lattice.rows},
                {"columns", lattice.columns}};

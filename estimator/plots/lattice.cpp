@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 
 namespace plotscan::plots {
@@ -50,35 +49,6 @@ double outline_contrast(const Lattice& lattice, const Place& place) {
   const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
   return side_contrast(lattice.view, box.r0, box.r1, box.c0, box.c1, reach).mean;
-}
-
-// How far the canopy at a place is from it along one axis, metres: where its two edges are
-// steepest together.
-std::optional<double> shift_of(const Lattice& lattice, const Place& place, bool along_r) {
-  constexpr int kMost = 6;
-  const double cell_m = lattice.view.cell_m();
-  const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
-  const int low = along_r ? box.r0 : box.c0, high = along_r ? box.r1 : box.c1;
-  const int other_low = along_r ? box.c0 : box.r0, other_high = along_r ? box.c1 : box.r1;
-  const int inset = (other_high - other_low) / 8;
-  const auto cover = [&](int from, int to) {
-    return along_r ? lattice.view.cover(from, to, other_low + inset, other_high - inset)
-                   : lattice.view.cover(other_low + inset, other_high - inset, from, to);
-  };
-  const int reach = static_cast<int>(std::lround(kReach_m / cell_m));
-  std::vector<double> fits;
-  for (int shift = -kMost; shift <= kMost; ++shift) {
-    const int l = low + shift, h = high + shift;
-    fits.push_back(cover(l, l + reach) - cover(l - reach, l) + cover(h - reach, h) -
-                   cover(h, h + reach));
-  }
-  const auto best = static_cast<std::size_t>(std::ranges::max_element(fits) - fits.begin());
-  if (best == 0 || best + 1 == fits.size()) return std::nullopt;
-  const double bend = fits[best - 1] - 2 * fits[best] + fits[best + 1];
-  const double part = bend < 0 ? 0.5 * (fits[best - 1] - fits[best + 1]) / bend : 0;
-  // The box was rounded to whole cells: the shift counts from where that put it.
-  const double rounded_m = (low + high) * cell_m / 2 - (along_r ? place.r_m : place.c_m);
-  return (static_cast<double>(best) - kMost + part) * cell_m + rounded_m;
 }
 
 // The columns that run through all rows: positions that lie together; none where they do not.
@@ -221,66 +191,6 @@ void renumber(Lattice& lattice) {
   std::ranges::sort(lattice.places, [](const Place& a, const Place& b) {
     return std::tuple(a.row, a.column, a.c_m) < std::tuple(b.row, b.column, b.c_m);
   });
-}
-
-// One mean for each row (or column) and a common slope within them.
-std::vector<double> means_and_slope(const std::vector<int>& group, int groups,
-                                    const std::vector<double>& x, const std::vector<double>& y,
-                                    double& slope) {
-  std::vector<double> count(static_cast<std::size_t>(groups)), mean_x(count), mean_y(count);
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const auto g = static_cast<std::size_t>(group[i]);
-    count[g] += 1;
-    mean_x[g] += x[i];
-    mean_y[g] += y[i];
-  }
-  for (std::size_t g = 0; g < count.size(); ++g) {
-    mean_x[g] /= std::max(1.0, count[g]);
-    mean_y[g] /= std::max(1.0, count[g]);
-  }
-  double xx = 0, xy = 0;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const auto g = static_cast<std::size_t>(group[i]);
-    xx += (x[i] - mean_x[g]) * (x[i] - mean_x[g]);
-    xy += (x[i] - mean_x[g]) * (y[i] - mean_y[g]);
-  }
-  slope = xx > 0 ? xy / xx : 0;
-  for (std::size_t g = 0; g < count.size(); ++g) mean_y[g] -= slope * mean_x[g];
-  return mean_y;
-}
-
-// Measured centres, smoothed by the lattice: rows are straight, columns too where they are aligned,
-// and else every row has its offset and the common pitch.
-void straighten(Lattice& lattice) {
-  std::vector<int> row, column;
-  std::vector<double> r, c;
-  for (const Place& place : lattice.places) {
-    row.push_back(place.row);
-    column.push_back(place.column);
-    r.push_back(place.r_m + shift_of(lattice, place, true).value_or(0));
-    c.push_back(place.c_m + shift_of(lattice, place, false).value_or(0));
-  }
-  const std::vector<double> row_at = means_and_slope(row, lattice.rows, c, r, lattice.r_per_c);
-  std::vector<double> column_at;
-  if (lattice.aligned) {
-    column_at = means_and_slope(column, lattice.columns, r, c, lattice.c_per_r);
-  } else {
-    std::vector<double> index(column.begin(), column.end());
-    column_at = means_and_slope(row, lattice.rows, index, c, lattice.c_pitch_m);
-  }
-  double r_squares = 0, c_squares = 0;
-  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
-    Place& place = lattice.places[i];
-    place.r_m = row_at[static_cast<std::size_t>(place.row)] + lattice.r_per_c * c[i];
-    place.c_m = lattice.aligned
-                    ? column_at[static_cast<std::size_t>(place.column)] + lattice.c_per_r * r[i]
-                    : column_at[static_cast<std::size_t>(place.row)] + lattice.c_pitch_m * place.column;
-    r_squares += (place.r_m - r[i]) * (place.r_m - r[i]);
-    c_squares += (place.c_m - c[i]) * (place.c_m - c[i]);
-  }
-  const double count = std::max<double>(1, static_cast<double>(lattice.places.size()));
-  lattice.r_rms_m = std::sqrt(r_squares / count);
-  lattice.c_rms_m = std::sqrt(c_squares / count);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct Place {
 struct Lattice {
   RowView view;
   double r_size_m = 0, c_size_m = 0;   // of a plot
+  double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
   double r_pitch_m = 0, c_pitch_m = 0;  // 0 where there is one row or one column only
   int rows = 0, columns = 0;
   bool aligned = true;     // columns run through all rows; else every row has its own offset
@@ -34,5 +35,10 @@ struct Lattice {
 // The lattice through a layout's plots: places between them and beyond their ends are tested for
 // canopy, and so are the layout's plots.
 Lattice fit_lattice(const Layout& layout);
+
+// Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
+// too where they are aligned, and steps are equal but for alleys that clearly differ; else every
+// row has its offset and the common pitch.
+void straighten(Lattice& lattice);
 
 }  // namespace plotscan::plots

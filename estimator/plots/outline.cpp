@@ -6,49 +6,15 @@
 #include <limits>
 #include <vector>
 
+#include "plots/depth_profile.h"
+
 namespace plotscan::plots {
 namespace {
 
-struct Profile {
-  std::vector<double> x_m, depth;  // from the plots' centre; optical depth of the pooled cover
+struct EdgeFit {
+  double size_m = 0;
+  double blur_m = 0;  // sigma of the leaves' spread over the edge
 };
-
-Profile pooled_profile(const Lattice& lattice, bool along_r, double reach_m) {
-  const double cell_m = lattice.view.cell_m();
-  const int bins = static_cast<int>(reach_m / cell_m);
-  std::vector<double> cover(static_cast<std::size_t>(2 * bins + 1)), count(cover);
-  const double other_half_m = (along_r ? lattice.c_size_m : lattice.r_size_m) * 0.4;
-  for (const Place& place : lattice.places) {
-    const double center = (along_r ? place.r_m : place.c_m) / cell_m;
-    const double other = along_r ? place.c_m : place.r_m;
-    const int low = static_cast<int>(std::lround((other - other_half_m) / cell_m));
-    const int high = static_cast<int>(std::lround((other + other_half_m) / cell_m));
-    for (int bin = -bins; bin <= bins; ++bin) {
-      // Cell i has its middle at i + 1/2.
-      const int cell = static_cast<int>(std::lround(center + bin - 0.5));
-      const auto& view = lattice.view;
-      const double seen = along_r ? view.seen_cells(cell, cell + 1, low, high)
-                                  : view.seen_cells(low, high, cell, cell + 1);
-      if (seen == 0) continue;
-      const auto at = static_cast<std::size_t>(bin + bins);
-      cover[at] += along_r ? view.cover(cell, cell + 1, low, high) : view.cover(low, high, cell, cell + 1);
-      count[at] += 1;
-    }
-  }
-  Profile profile;
-  for (int bin = -bins; bin <= bins; ++bin) {
-    const auto at = static_cast<std::size_t>(bin + bins);
-    if (count[at] == 0) continue;
-    profile.x_m.push_back(bin * cell_m);
-    profile.depth.push_back(-std::log(1 - std::min(0.98, cover[at] / count[at])));
-  }
-  return profile;
-}
-
-double blurred_box(double x, double size, double blur) {
-  const double scale = 1 / (blur * std::sqrt(2.0));
-  return 0.5 * (std::erf((x + size / 2) * scale) - std::erf((x - size / 2) * scale));
-}
 
 // Share of the plots that have a neighbour one pitch further.
 double neighbour_share(const Lattice& lattice, bool along_r) {
@@ -65,62 +31,84 @@ double neighbour_share(const Lattice& lattice, bool along_r) {
   return with / std::max<double>(1, static_cast<double>(lattice.places.size()));
 }
 
-struct Model {
-  double squares = std::numeric_limits<double>::infinity();
-  double depth = 0;
-};
-
-// Squares about depth * box + level, level at least 0.
-Model squares_of(const Profile& profile, double size, double blur, double pitch, double share) {
-  double n = 0, g = 0, gg = 0, y = 0, gy = 0, yy = 0;
+// Squares about depth * box + level in the edges' reach, the level at least 0.
+double squares_of(const DepthProfile& profile, double depth, const BlurredBox& shape, double pitch,
+                  double share, double edge_m) {
+  double n = 0, rest = 0, squares = 0;
   for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
     const double x = profile.x_m[i];
-    double box = blurred_box(x, size, blur);
-    if (pitch > 0) {
-      box += share * (blurred_box(x - pitch, size, blur) + blurred_box(x + pitch, size, blur));
-    }
+    if (std::abs(std::abs(x) - edge_m) > 0.3) continue;
+    double box = shape(x);
+    if (pitch > 0) box += share * (shape(x - pitch) + shape(x + pitch));
+    const double left = profile.depth[i] - depth * box;
     n += 1;
-    g += box;
-    gg += box * box;
-    y += profile.depth[i];
-    gy += box * profile.depth[i];
-    yy += profile.depth[i] * profile.depth[i];
+    rest += left;
+    squares += left * left;
   }
-  const double spread = gg - g * g / n;
-  if (spread <= 0) return {};
-  double depth = (gy - g * y / n) / spread;
-  double level = (y - depth * g) / n;
-  if (level < 0) {
-    level = 0;
-    depth = gy / gg;
-  }
-  const double squares = yy - 2 * depth * gy - 2 * level * y + depth * depth * gg +
-                         2 * depth * level * g + n * level * level;
-  return {squares, depth};
+  const double level = std::max(0.0, rest / std::max(1.0, n));
+  return squares - 2 * level * rest + n * level * level;
 }
 
-}  // namespace
+// Where the depth falls through half of the plateau's, of both sides together, from the line through
+// the samples about it; the neighbours' share in it is taken away first.
+double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit, double pitch,
+                       double share) {
+  constexpr double kAbout_m = 0.1;
+  double size = fit.size_m;
+  for (int round = 0; round < 4; ++round) {
+    const BlurredBox shape(size, fit.blur_m);
+    double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
+    for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
+      const double signed_x = profile.x_m[i], x = std::abs(signed_x) - size / 2;
+      if (std::abs(x) > kAbout_m) continue;
+      double y = profile.depth[i];
+      if (pitch > 0) {
+        y -= depth * share * (shape(signed_x - pitch) + shape(signed_x + pitch));
+      }
+      n += 1;
+      x_sum += x;
+      y_sum += y;
+      xx += x * x;
+      xy += x * y;
+    }
+    const double slope = (n * xy - x_sum * y_sum) / (n * xx - x_sum * x_sum);
+    if (!(slope < 0)) return fit.size_m;
+    const double crossing = (depth / 2 - (y_sum - slope * x_sum) / n) / slope;
+    size += 2 * std::clamp(crossing, -0.1, 0.1);
+  }
+  return size;
+}
 
-EdgeFit fit_edges(const Lattice& lattice, bool along_r) {
+EdgeFit fit_edges_along(const Lattice& lattice, bool along_r) {
   const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
   const double pitch_m = along_r ? lattice.r_pitch_m : lattice.c_pitch_m;
   const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;
-  const Profile profile = pooled_profile(lattice, along_r, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
+  const DepthProfile profile = pooled_profile(lattice, along_r, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
   const double share = pitch_m > 0 ? neighbour_share(lattice, along_r) : 0;
+  const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
   double best_squares = std::numeric_limits<double>::infinity();
   for (double size = size_m - 0.35; size <= size_m + 0.35; size += 0.01) {
     if (size < 0.2) continue;
     for (double blur = 0.03; blur <= 0.25; blur += 0.02) {
-      const Model model = squares_of(profile, size, blur, pitch_m, share);
-      if (!(model.squares < best_squares)) continue;
-      best_squares = model.squares;
-      best = {.size_m = size, .blur_m = blur,
-              .rms = std::sqrt(std::max(0.0, model.squares) / static_cast<double>(profile.x_m.size())) /
-                     std::max(1e-6, model.depth)};
+      const double squares = squares_of(profile, depth, BlurredBox(size, blur), pitch_m, share, size_m / 2);
+      if (squares >= best_squares) continue;
+      best_squares = squares;
+      best = {.size_m = size, .blur_m = blur};
     }
   }
+  best.size_m = half_depth_size(profile, depth, best, pitch_m, share);
   return best;
+}
+
+}  // namespace
+
+void fit_edges(Lattice& lattice) {
+  const EdgeFit r = fit_edges_along(lattice, true), c = fit_edges_along(lattice, false);
+  lattice.r_size_m = r.size_m;
+  lattice.r_blur_m = r.blur_m;
+  lattice.c_size_m = c.size_m;
+  lattice.c_blur_m = c.blur_m;
 }
 
 }  // namespace plotscan::plots
