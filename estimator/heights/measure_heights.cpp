@@ -1,2 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/measure_heights.h"
+
+#include <algorithm>
+
+#include "heights/box_cells.h"
+#include "heights/features.h"
+#include "heights/flags.h"
+#include "heights/height_profile.h"
+#include "heights/plant_heights.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::heights {
+namespace {
+
+// Room for noise beyond the lowest and the highest return.
+constexpr double kMarginSigmas = 5;
+constexpr double kScannedCell_m = 0.5;
+
+struct SeenPlot {
+  PlotCanopy canopy;
+  PlotEvidence evidence;
+};
+
+double scanned_share(const PlotPoints& plot) {
+  const BoxCells cells(plot.box, kScannedCell_m);
+  std::vector<bool> scanned(cells.count(), false);
+  for (const Eigen::Vector3f& point : plot.points) scanned[cells.index(point)] = true;
+  return static_cast<double>(std::ranges::count(scanned, true)) /
+         static_cast<double>(cells.count());
+}
+
+SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
+  const double noise_m = surface.noise_m;
+  const PlotGround ground = ground_under(plot.box, surface);
+  const HeightProfile profile =
+      without_noise(height_profile(plot.box, plot.points, kMarginSigmas * noise_m), noise_m);
+  CanopyFeatures features = canopy_features(plot.box, plot.points, profile, noise_m, ground.slope);
+  SeenPlot seen{.canopy = {.top_m = features.top_m, .features = std::move(features.values)},
+                .evidence = {.returns = plot.points.size(),
+                             .area_m2 = plot.box.area_m2(),
+                             .scanned_share = scanned_share(plot),
+                             .top_m = features.top_m,
+                             .noise_m = noise_m,
+                             .ground = ground}};
+  seen.canopy.ground_error_m = ground.standard_error_m;
+  for (const auto& [name, quantile] : canopy_quantiles())
+    seen.canopy.quantiles_m[name] = profile.quantile(quantile.area_share);
+  return seen;
+}
+
+std::vector<SeenPlot> see_all(std::span<const PlotPoints> plots, const ground::Surface& surface,
+                              int threads) {
+  std::vector<SeenPlot> seen(plots.size());
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) {
+      if (!plots[i].points.empty()) seen[i] = see(plots[i], surface);
+    });
+  });
+  return seen;
+}
+
+}  // namespace
+
+std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
+                                         const ground::Surface& surface,
+                                         const HeightOptions& options) {
+  const std::vector<SeenPlot> seen = see_all(plots, surface, options.threads);
+  std::vector<std::size_t> measured;
+  std::vector<PlotCanopy> field;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    if (plots[i].points.empty()) continue;
+    measured.push_back(i);
+    field.push_back(seen[i].canopy);
+  }
+  const std::vector<std::map<std::string, Height>> heights =
+      options.calibrated ? calibrated_heights(field, shipped_calibration())
+                         : quantile_heights(field);
+  std::vector<PlotHeights> results(plots.size());
+  for (std::size_t k = 0; k < measured.size(); ++k) results[measured[k]].heights = heights[k];
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    results[i].points = plots[i].points.size();
+    results[i].flags = flags_of(seen[i].evidence, results[i].heights);
+  }
+  return results;
+}
+
+}  // namespace plotscan::heights

@@ -1,4 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/measure_heights.h"
 
+#include "canopies.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+namespace plotscan::heights {
+namespace {
+
+using testing::Contains;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr double kNoise_m = 0.02;
+
+struct Field {
+  ground::Surface surface = level_ground(kNoise_m);
+  std::vector<PlotBox> boxes;
+  std::vector<std::vector<Eigen::Vector3f>> returns;
+
+  std::vector<PlotHeights> measured(bool calibrated = true, int threads = 1) const {
+    std::vector<PlotPoints> plots;
+    for (std::size_t i = 0; i < boxes.size(); ++i) plots.push_back({boxes[i], returns[i]});
+    return measure_heights(plots, surface, {.calibrated = calibrated, .threads = threads});
+  }
+};
+
+Field domes(int plots, double scale = 1, int returns = 18'000) {
+  Field field;
+  for (int i = 0; i < plots; ++i) {
+    field.boxes.push_back(plot_at(2.5 * (i % 3) - 2.5, 5.0 * (i / 3) - 2.5));
+    field.returns.push_back(dome_returns(field.boxes.back(), scale, kNoise_m, returns,
+                                         static_cast<std::uint64_t>(100 + i)));
+  }
+  return field;
+}
+
+TEST(MeasureHeights, NamesAllHeightsInTheirOrder) {
+  for (const bool calibrated : {true, false}) {
+    for (const PlotHeights& plot : domes(4).measured(calibrated)) {
+      const auto value = [&](const char* name) { return plot.heights.at(name).value_m; };
+      EXPECT_EQ(plot.heights.size(), 8);
+      EXPECT_LT(value("mean"), value("p95"));
+      EXPECT_LT(value("p50"), value("p90"));
+      EXPECT_LE(value("p95"), value("p99"));
+      EXPECT_LT(value("p95"), value("max"));
+      EXPECT_LT(value("canopy_p95"), value("canopy_p99"));
+      for (const auto& [name, height] : plot.heights) {
+        EXPECT_LT(height.low95_m, height.value_m) << name;
+        EXPECT_GT(height.high95_m, height.value_m) << name;
+        EXPECT_GT(height.standard_error_m, 0) << name;
+      }
+    }
+  }
+}
+
+TEST(MeasureHeights, IsTheSameForAnyNumberOfThreads) {
+  const Field field = domes(6);
+  const std::vector<PlotHeights> one = field.measured(true, 1);
+  const std::vector<PlotHeights> three = field.measured(true, 3);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    for (const auto& [name, height] : one[i].heights) {
+      EXPECT_EQ(height.value_m, three[i].heights.at(name).value_m);
+      EXPECT_EQ(height.standard_error_m, three[i].heights.at(name).standard_error_m);
+    }
+  }
+}
+
+TEST(MeasureHeights, FlagsFewReturns) {
+  Field field = domes(4);
+  field.returns[1].resize(80);
+  const std::vector<PlotHeights> plots = field.measured();
+  EXPECT_THAT(plots[0].flags, Not(Contains("few-returns")));
+  EXPECT_THAT(plots[1].flags, Contains("few-returns"));
+}
+
+TEST(MeasureHeights, FlagsAPlotWithoutReturns) {
+  Field field = domes(3);
+  field.returns[2].clear();
+  const std::vector<PlotHeights> plots = field.measured();
+  EXPECT_THAT(plots[2].heights, IsEmpty());
+  EXPECT_THAT(plots[2].flags, Contains("few-returns"));
+}
+
+TEST(MeasureHeights, FlagsAPlotThatTheSurveyCuts) {
+  Field field = domes(4);
+  std::erase_if(field.returns[3], [&](const Eigen::Vector3f& point) {
+    return field.boxes[3].box_from_world(point.head<2>().cast<double>()).x() > 1;
+  });
+  const std::vector<PlotHeights> plots = field.measured();
+  EXPECT_THAT(plots[2].flags, Not(Contains("cut-off")));
+  EXPECT_THAT(plots[3].flags, Contains("cut-off"));
+}
+
+TEST(MeasureHeights, FlagsGroundThatIsUnsureOrAbsent) {
+  Field field = domes(3);
+  std::ranges::fill(field.surface.sd_m, 0.05F);
+  for (const PlotHeights& plot : field.measured())
+    EXPECT_THAT(plot.flags, Contains("unsure-ground"));
+  std::ranges::fill(field.surface.z_m, NAN);
+  std::ranges::fill(field.surface.sd_m, NAN);
+  for (const PlotHeights& plot : field.measured()) EXPECT_THAT(plot.flags, Contains("no-ground"));
+}
+
+TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {
+  Field field = domes(3);
+  const double sure = field.measured()[0].heights.at("p95").standard_error_m;
+  std::ranges::fill(field.surface.sd_m, 0.05F);
+  EXPECT_NEAR(field.measured()[0].heights.at("p95").standard_error_m, std::hypot(sure, 0.05),
+              0.002);
+}
+
+TEST(MeasureHeights, FlagsWhatIsTooLowToBeACrop) {
+  for (const PlotHeights& plot : domes(3, 0.05).measured())
+    EXPECT_THAT(plot.flags, Contains("low-canopy"));
+}
+
+}  // namespace
+}  // namespace plotscan::heights

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/canopy_truth.h"
+
+#include <cmath>
+
+#include "core/statistics.h"
+#include "lidar/scene.h"
+
+namespace plotscan::calibration {
+namespace {
+
+constexpr double kStep_m = 0.01;
+
+std::vector<Eigen::Vector2d> grid_over(const PlotBox& box) {
+  const auto along = static_cast<int>(std::round(box.length_m / kStep_m));
+  const auto across = static_cast<int>(std::round(box.width_m / kStep_m));
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < along; ++i) {
+    for (int j = 0; j < across; ++j) {
+      places.push_back(box.center + (kStep_m * (i + 0.5) - 0.5 * box.length_m) * box.length_axis() +
+                       (kStep_m * (j + 0.5) - 0.5 * box.width_m) * box.width_axis());
+    }
+  }
+  return places;
+}
+
+std::vector<double> hit_heights(const farm::Farm& farm, const lidar::Scene& scene,
+                                const PlotBox& box) {
+  const std::vector<Eigen::Vector2d> places = grid_over(box);
+  const float start_m = scene.top_m() + 1;
+  std::vector<lidar::Ray> rays;
+  for (const Eigen::Vector2d& place : places) {
+    rays.push_back(
+        {.origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), start_m},
+         .direction = -Eigen::Vector3f::UnitZ()});
+  }
+  std::vector<lidar::Hit> hits(rays.size());
+  scene.cast(rays, start_m - scene.bottom_m() + 1, hits);
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto ground_m = farm.terrain.height(places[i].x(), places[i].y());
+    if (ground_m && std::isfinite(hits[i].range_m))
+      heights.push_back(start_m - hits[i].range_m - *ground_m);
+  }
+  return heights;
+}
+
+}  // namespace
+
+std::vector<std::map<std::string, double>> canopy_truths(const farm::Farm& farm) {
+  const lidar::Scene scene(lidar::scene_content(farm));
+  std::vector<std::map<std::string, double>> truths;
+  for (const farm::Plot& plot : farm.plots) {
+    const std::vector<double> heights = hit_heights(farm, scene, plot.box);
+    truths.push_back(
+        {{"canopy_p95", quantile(heights, 0.95)}, {"canopy_p99", quantile(heights, 0.99)}});
+  }
+  return truths;
+}
+
+}  // namespace plotscan::calibration

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+
+namespace plotscan::heights {
+
+// A plot's box cut into equal cells about so wide: whole ones, so that none is part of the box
+// only.
+class BoxCells {
+ public:
+  BoxCells(const PlotBox& box, double cell_m)
+      : box_(box),
+        along_(parts(box.length_m, cell_m)),
+        across_(parts(box.width_m, cell_m)),
+        length_axis_(box.length_axis()),
+        width_axis_(box.width_axis()) {}
+
+  int along() const { return along_; }
+  int across() const { return across_; }
+  std::size_t count() const {
+    return static_cast<std::size_t>(along_) * static_cast<std::size_t>(across_);
+  }
+  // Of the cell along * across() + across that holds the point, or is nearest to it.
+  std::size_t index(const Eigen::Vector3f& point) const {
+    const Eigen::Vector2d from_center = point.head<2>().cast<double>() - box_.center;
+    const int i = place(from_center.dot(length_axis_) / box_.length_m, along_);
+    const int j = place(from_center.dot(width_axis_) / box_.width_m, across_);
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(across_) +
+           static_cast<std::size_t>(j);
+  }
+
+ private:
+  static int parts(double side_m, double cell_m) {
+    return std::max(1, static_cast<int>(std::lround(side_m / cell_m)));
+  }
+  static int place(double share, int parts) {
+    return std::clamp(static_cast<int>(std::floor((share + 0.5) * parts)), 0, parts - 1);
+  }
+
+  PlotBox box_;
+  int along_;
+  int across_;
+  Eigen::Vector2d length_axis_;
+  Eigen::Vector2d width_axis_;
+};
+
+}  // namespace plotscan::heights

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "heights/height_profile.h"
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+
+namespace plotscan::heights {
+
+// What the heights of a plot's plants are predicted from. All but `top_m` are without unit: a crop
+// twice as high has the same, but for what noise and slope do to it.
+struct CanopyFeatures {
+  double top_m = 0;        // height that 1 % of the area exceeds, without noise
+  Eigen::VectorXd values;  // by feature_names()
+};
+
+const std::vector<std::string>& feature_names();
+
+// The profile with the heights' noise taken out of it.
+HeightProfile without_noise(HeightProfile profile, double noise_m);
+
+CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector3f> points,
+                               const HeightProfile& profile, double noise_m, double slope);
+
+}  // namespace plotscan::heights

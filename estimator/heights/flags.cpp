@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heights/flags.h"
+
+#include <algorithm>
+
+namespace plotscan::heights {
+
+std::vector<std::string> flags_of(const PlotEvidence& evidence,
+                                  const std::map<std::string, Height>& heights,
+                                  const FlagOptions& options) {
+  std::vector<std::string> flags;
+  const auto raise = [&](bool raised, const char* flag) {
+    if (raised) flags.emplace_back(flag);
+  };
+  const auto returns = static_cast<double>(evidence.returns);
+  raise(evidence.returns < options.least_returns ||
+            returns < options.least_returns_m2 * evidence.area_m2,
+        "few-returns");
+  raise(evidence.scanned_share < options.least_scanned_share, "cut-off");
+  raise(evidence.ground.reached_share < options.least_ground_share, "no-ground");
+  raise(evidence.ground.standard_error_m > options.largest_ground_error_m, "unsure-ground");
+  raise(evidence.top_m < std::max(options.least_top_m, options.least_top_sigmas * evidence.noise_m),
+        "low-canopy");
+  const auto mean = heights.find("mean");
+  raise(mean != heights.end() && mean->second.standard_error_m > options.largest_error_m,
+        "unsure-height");
+  return flags;
+}
+
+}  // namespace plotscan::heights

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+
+namespace plotscan::heights {
+
+// How much of a plot's area is seen at which height: a histogram of the returns' heights above the
+// ground, each return weighted by the area it stands for.
+struct HeightProfile {
+  double low_m = 0;                // lower edge of the first bin
+  double bin_m = 0;                // width of a bin
+  std::vector<double> share = {};  // of the plot's seen area, by height; sums to 1
+  std::size_t returns = 0;
+  double seen_share = 0;  // of the box's cells that hold a return
+
+  // Height below which this share of the area lies, linear within a bin.
+  double quantile(double area_share) const;
+  // Share of the area above a height.
+  double share_above(double height_m) const;
+};
+
+struct ProfileOptions {
+  double bin_m = 0.005;
+  // Returns wanted in a weighting cell on average: with few, a cell's weight rests on chance.
+  double returns_per_cell = 30;
+  double shortest_cell_m = 0.05;
+  double longest_cell_m = 0.5;
+};
+
+// The profile of the returns (x, y, height) in a box. Each cell of a grid over the box counts the
+// same however many returns it has, so that strips flown twice, or obliquely, do not count twice.
+// Heights further than kReach_m from the ground are taken for it.
+HeightProfile height_profile(const PlotBox& box, std::span<const Eigen::Vector3f> points,
+                             double margin_m, const ProfileOptions& options = {});
+
+}  // namespace plotscan::heights

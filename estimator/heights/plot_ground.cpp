@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heights/plot_ground.h"
+
+#include <cmath>
+
+namespace plotscan::heights {
+namespace {
+
+constexpr int kPlaces = 9;  // along either side of the box
+
+bool seen_at(const ground::Surface& surface, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d node = (place - surface.origin) / surface.cell_m;
+  const auto column = static_cast<int>(std::lround(node.x()));
+  const auto row = static_cast<int>(std::lround(node.y()));
+  if (column < 0 || row < 0 || column >= surface.columns || row >= surface.rows) return false;
+  return surface.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.columns) +
+                      static_cast<std::size_t>(column)] != 0;
+}
+
+}  // namespace
+
+PlotGround ground_under(const PlotBox& box, const ground::Surface& surface) {
+  PlotGround ground;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  int reached = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    for (int j = 0; j < kPlaces; ++j) {
+      const Eigen::Vector2d place = box.center +
+                                    ((i + 0.5) / kPlaces - 0.5) * box.length_m * box.length_axis() +
+                                    ((j + 0.5) / kPlaces - 0.5) * box.width_m * box.width_axis();
+      ground.seen_share += seen_at(surface, place) ? 1.0 / (kPlaces * kPlaces) : 0;
+      const double error_m = surface.standard_error(place);
+      const Eigen::Vector2d slope = surface.slope(place);
+      if (std::isnan(error_m) || slope.hasNaN()) continue;
+      ++reached;
+      ground.standard_error_m += error_m;
+      gradient += slope;
+    }
+  }
+  ground.reached_share = static_cast<double>(reached) / (kPlaces * kPlaces);
+  if (reached == 0) return ground;
+  ground.standard_error_m /= reached;
+  ground.slope = gradient.norm() / reached;
+  return ground;
+}
+
+}  // namespace plotscan::heights

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "ground/surface.h"
+
+#include "core/plot_box.h"
+
+namespace plotscan::heights {
+
+// What is known of the ground under a plot.
+struct PlotGround {
+  double standard_error_m = 0;  // of its mean height: mean over the plot, as errors go together
+  double reached_share = 0;     // of the plot that has a ground
+  double seen_share = 0;        // of the surface's nodes there: from returns of the ground
+  double slope = 0;             // of the plane through the plot, rise over run
+};
+
+PlotGround ground_under(const PlotBox& box, const ground::Surface& surface);
+
+}  // namespace plotscan::heights
