@@ -2,6 +2,7 @@
 #include "estimate/field_cloud.h"
 
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "estimate/field_hull.h"
+#include "estimate/outliers.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::estimate {
@@ -27,8 +29,7 @@ Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
           std::floor(quantile(std::move(z), 0.5))};
 }
 
-std::vector<Eigen::Vector3f> points_of(const TiledKeys& tiles, const Eigen::Vector3d& origin,
-                                       int threads) {
+TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int threads) {
   std::vector<Eigen::Vector3f> points(tiles.keys.size());
   tbb::task_arena arena(threads);
   arena.execute([&] {
@@ -37,7 +38,7 @@ std::vector<Eigen::Vector3f> points_of(const TiledKeys& tiles, const Eigen::Vect
         points[i] = point_of(tiles.tiles[tile], tiles.keys[i], origin);
     });
   });
-  return points;
+  return {std::move(tiles.tiles), std::move(tiles.begin), std::move(points)};
 }
 
 // A tile at the area's edge reaches out of it.
@@ -59,7 +60,7 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   if (!options.area) hull = find_field(store.tile_counts());
   field.area = options.area ? *options.area : hull->bounds();
   require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
-  const TiledKeys tiles =
+  TiledKeys tiles =
       store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
   const TileStore::Counts& counts = store.counts();
   field.counts = {.read = counts.added,
@@ -67,7 +68,9 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
                   .repeated = counts.repeated,
                   .thinned = counts.thinned};
   field.origin = origin_of(tiles, field.area);
-  field.points = points_of(tiles, field.origin, options.threads);
+  TiledPoints points = points_of(std::move(tiles), field.origin, options.threads);
+  field.counts.outliers = drop_outliers(points, {.threads = options.threads});
+  field.points = std::move(points.points);
   if (options.area) crop(field);
   field.counts.kept = field.points.size();
   if (field.points.empty()) {

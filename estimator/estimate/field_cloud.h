@@ -32,6 +32,7 @@ struct FieldCounts {
   std::uint64_t outside = 0;   // of the field, or beyond any coordinate that makes sense
   std::uint64_t repeated = 0;  // the same point to 0.06 mm was there already
   std::uint64_t thinned = 0;   // points_per_cell others were there
+  std::uint64_t outliers = 0;  // neither ground nor crop (outliers.h)
   std::uint64_t kept = 0;
 };
 
