@@ -84,12 +84,16 @@ FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& op
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
-  const scan::CloudSummary summary =
-      scan::read_positions(cloud, [&](auto points) { store.add(points); });
+  const scan::CloudSummary summary = scan::read_positions(
+      cloud, [&](auto points) { store.add(points); }, {.leave_out_marked = true});
+  if (summary.in_degrees)
+    throw InputError(cloud, "is in degrees; project it to metres first, such as those of UTM");
   if (progress) progress(0.2);
   FieldCloud field = take_field(store, options, cloud.string());
-  field.counts.read += summary.not_finite;
+  field.counts.read += summary.not_finite + summary.marked;
   field.counts.not_finite = summary.not_finite;
+  field.counts.marked = summary.marked;
+  field.crs = summary.crs;
   if (progress) progress(0.3);
   return field;
 }

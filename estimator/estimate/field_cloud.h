@@ -29,6 +29,7 @@ struct FieldOptions {
 struct FieldCounts {
   std::uint64_t read = 0;
   std::uint64_t not_finite = 0;
+  std::uint64_t marked = 0;    // withheld, or of a noise class, in a LAS file
   std::uint64_t outside = 0;   // of the field, or beyond any coordinate that makes sense
   std::uint64_t repeated = 0;  // the same point to 0.06 mm was there already
   std::uint64_t thinned = 0;   // points_per_cell others were there
@@ -47,6 +48,7 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
+  std::string crs = {};  // the cloud's coordinate system (scan::CloudSummary)
 };
 
 // Streams a cloud (PCD, PLY or LAS) once, in memory bounded by the area over which it lies

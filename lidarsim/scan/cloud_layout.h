@@ -49,12 +49,17 @@ struct CloudLayout {
   std::size_t body_line = 0;      // of the first point, lines from 1
 
   // What only LAS says.
+  bool is_las = false;
   std::string crs_wkt;
+  int crs_epsg = 0;                // from GeoTIFF keys; 0: none
+  bool in_degrees = false;         // x and y
   bool adjusted_gps_time = false;  // GPS time less 1e9 s; else of the GPS week
   std::optional<UtcTime> start;    // of the points' time 0, in files of ours
 
   // Adds a field behind the others; its column and offset are set here.
   void append(ScalarField field);
+  // Well-known text, "EPSG:<code>", or "".
+  std::string crs() const;
   // Nothing when there is none of that name.
   const ScalarField* find(std::string_view name) const;
 };

@@ -2,12 +2,12 @@
 #include "scan/cloud_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <sstream>
 
 #include "core/error.h"
 #include "scan/cloud_layout.h"
+#include "scan/las_format.h"
 
 namespace plotscan::scan {
 namespace {
@@ -33,6 +33,12 @@ CloudFormat cloud_format(const std::filesystem::path& file) {
                                        : "is neither a PCD, nor a PLY, nor a LAS cloud");
 }
 
+// By a LAS point's withheld flag and class.
+bool is_marked(std::span<const double> withheld_and_class) {
+  return withheld_and_class[0] != 0 || withheld_and_class[1] == las::kLowNoise ||
+         withheld_and_class[1] == las::kHighNoise;
+}
+
 }  // namespace
 
 void CloudLayout::append(ScalarField field) {
@@ -46,6 +52,11 @@ void CloudLayout::append(ScalarField field) {
 const ScalarField* CloudLayout::find(std::string_view name) const {
   const auto found = std::ranges::find(fields, name, &ScalarField::name);
   return found == fields.end() ? nullptr : &*found;
+}
+
+std::string CloudLayout::crs() const {
+  if (!crs_wkt.empty()) return crs_wkt;
+  return crs_epsg == 0 ? "" : "EPSG:" + std::to_string(crs_epsg);
 }
 
 HeaderLines::HeaderLines(const std::filesystem::path& file)
@@ -101,22 +112,36 @@ CloudLayout read_cloud_header(const std::filesystem::path& file) {
   return layout;
 }
 
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink) {
+CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
+                            const PositionOptions& options) {
   const CloudLayout layout = read_cloud_header(cloud);
-  const std::array<ScalarField, 3> xyz = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  CloudSummary summary;
+  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  const bool marks = options.leave_out_marked && layout.is_las;
+  if (marks) {
+    fields.push_back(*layout.find(las::kWithheld));
+    fields.push_back(*layout.find(las::kClassification));
+  }
+  CloudSummary summary{.crs = layout.crs(), .in_degrees = layout.in_degrees};
   std::vector<Eigen::Vector3d> positions;
-  read_rows(cloud, layout, xyz, [&](std::span<const double> rows) {
+  read_rows(cloud, layout, fields, [&](std::span<const double> rows) {
     positions.clear();
-    for (std::size_t i = 0; i < rows.size(); i += 3) {
+    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
       const Eigen::Vector3d position(rows[i], rows[i + 1], rows[i + 2]);
-      if (position.allFinite()) positions.push_back(position);
+      if (!position.allFinite()) {
+        ++summary.not_finite;
+      } else if (marks && is_marked(rows.subspan(i + 3, 2))) {
+        ++summary.marked;
+      } else {
+        positions.push_back(position);
+      }
     }
     summary.points += positions.size();
-    summary.not_finite += rows.size() / 3 - positions.size();
     if (!positions.empty()) sink(positions);
   });
-  if (summary.points == 0) throw InputError(cloud, "no point of the cloud has finite x, y and z");
+  if (summary.points + summary.marked == 0)
+    throw InputError(cloud, "no point of the cloud has finite x, y and z");
+  if (summary.points == 0)
+    throw InputError(cloud, "all points of the cloud are marked as withheld or noise");
   return summary;
 }
 

@@ -24,9 +24,23 @@ inline constexpr std::string_view kSpecUser = "LASF_Spec";
 inline constexpr std::uint16_t kExtraBytesRecord = 4;
 inline constexpr std::string_view kProjectionUser = "LASF_Projection";
 inline constexpr std::uint16_t kWktRecord = 2112;
+inline constexpr std::uint16_t kGeoKeysRecord = 34735;
+// Keys of GeoTIFF (OGC 19-008r4, section 7): the kind of coordinate system, and a projected one's
+// EPSG code.
+inline constexpr std::uint16_t kModelKey = 1024;
+inline constexpr std::uint16_t kGeographicModel = 2;  // degrees
+inline constexpr std::uint16_t kProjectedKey = 3072;
+inline constexpr std::uint16_t kUserDefined = 32767;  // no code
 // Ours: the UTC time of the points' time 0, as text.
 inline constexpr std::string_view kPlotscanUser = "plotscan";
 inline constexpr std::uint16_t kStartRecord = 1;
+
+// Names of fields in a layout.
+inline constexpr std::string_view kClassification = "classification";
+inline constexpr std::string_view kWithheld = "withheld";
+// Classes of points to leave out.
+inline constexpr int kLowNoise = 7;
+inline constexpr int kHighNoise = 18;
 
 // Global encoding (table 4).
 inline constexpr std::uint16_t kAdjustedGpsTime = 1;

@@ -81,7 +81,9 @@ LasHeader read_header(LasFile& file) {
               ", which is not between the header and the file's end");
   const auto format = file.number<std::uint8_t>(104);
   if ((format & kCompressedFormat) != 0)
-    file.fail("is compressed (LAZ); uncompressed LAS is read: decompress it with laszip or PDAL");
+    file.fail(
+        "is compressed (LAZ); uncompressed LAS is read: convert it with laszip or "
+        "PDAL");
   if (format >= las::kFormatSizes.size())
     file.fail("point format " + std::to_string(format) + " is not known; 0 to 10 are");
   header.format = format;
@@ -125,8 +127,10 @@ void add_format_fields(int format, CloudLayout& layout) {
   const int bits = is_new ? 4 : 3;
   layout.fields.push_back(whole("return_number", 14, 1, 0, bits));
   layout.fields.push_back(whole("number_of_returns", 14, 1, bits, bits));
-  layout.fields.push_back(is_new ? whole("classification", 16, 1)
-                                 : whole("classification", 15, 1, 0, 5));
+  const std::string classification(las::kClassification);
+  layout.fields.push_back(is_new ? whole(classification, 16, 1)
+                                 : whole(classification, 15, 1, 0, 5));
+  layout.fields.push_back(whole(std::string(las::kWithheld), 15, 1, is_new ? 2 : 7, 1));
   if (is_new || format == 1 || format >= 3)
     layout.fields.push_back({.name = "gps_time", .size = 8, .offset = is_new ? 22u : 20u});
 }
@@ -166,6 +170,23 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
   }
 }
 
+// GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
+void read_geo_keys(const std::string& bytes, CloudLayout& layout) {
+  std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
+  std::memcpy(entries.data(), bytes.data(), entries.size() * 8);
+  for (const auto& [key, place, count, value] : entries) {
+    if (place != 0) continue;
+    if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
+    if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
+  }
+}
+
+// Whether a coordinate system as well-known text is one of degrees.
+bool is_geographic(const std::string& wkt) {
+  const auto has = [&](const char* word) { return wkt.find(word) != std::string::npos; };
+  return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
+}
+
 // What the variable length records say; `at` is the first one's.
 void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
                   const LasHeader& header, CloudLayout& layout) {
@@ -185,6 +206,9 @@ void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool ext
       add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
+      layout.in_degrees = is_geographic(layout.crs_wkt);
+    } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
+      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout);
     } else if (user == las::kPlotscanUser && record == las::kStartRecord) {
       layout.start = parse_utc(file.text(at, std::min(size, kMaxText)));
     }
@@ -199,6 +223,7 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   const LasHeader header = read_header(file);
   CloudLayout layout;
   layout.body = CloudBody::binary;
+  layout.is_las = true;
   layout.points = header.points;
   layout.record_size = header.record_size;
   layout.body_offset = header.points_at;

@@ -10,6 +10,8 @@
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
+#include "core/csv.h"
+
 namespace plotscan::scan {
 namespace {
 
@@ -136,6 +138,69 @@ TEST(CloudReader, ReadsBigEndianPly) {
   const Read result = read(file);
   ASSERT_EQ(result.positions.size(), 1u);
   EXPECT_EQ(result.positions[0], Eigen::Vector3d(1.5, -2.0, 3.125));
+}
+
+// As an organised cloud, of a depth camera or of a driver, whose misses are NaN.
+TEST(CloudReader, ReadsPclsOrganisedClouds) {
+  const TemporaryFolder folder;
+  auto cloud = pcl_cloud<pcl::PointXYZI>(640 * 48);
+  cloud.width = 640;
+  cloud.height = 48;
+  for (std::size_t i = 0; i < cloud.size(); i += 3) cloud[i].x = cloud[i].y = cloud[i].z = kNan;
+  cloud.is_dense = false;
+  const auto file = folder.path() / "cloud.pcd";
+  for (const bool compressed : {false, true}) {
+    if (compressed) {
+      pcl::io::savePCDFileBinaryCompressed(file.string(), cloud);
+    } else {
+      pcl::io::savePCDFileBinary(file.string(), cloud);
+    }
+    const Read result = read(file);
+    EXPECT_EQ(result.summary.not_finite, 640u * 48 / 3);
+    ASSERT_EQ(result.positions.size(), 640u * 48 * 2 / 3);
+    EXPECT_EQ(result.positions.back().x(), cloud.back().x);
+  }
+}
+
+// A mesh, as MeshLab and CloudCompare write them: doubles, a list of faces behind the vertices.
+TEST(CloudReader, ReadsTheVerticesOfAMesh) {
+  const TemporaryFolder folder;
+  const std::string header =
+      "element vertex 3\nproperty double z\nproperty uchar red\nproperty double x\n"
+      "property double y\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\nend_header\n";
+  const std::vector<Eigen::Vector3d> expected = {
+      {512345.6789, 4123456.7891, 234.5678}, {1, 2, 3}, {-4, 5e-7, 6}};
+  std::string binary = "ply\nformat binary_little_endian 1.0\n" + header;
+  std::string ascii = "ply\nformat ascii 1.0\n" + header;
+  for (const Eigen::Vector3d& p : expected) {
+    for (const double value : {p.z(), p.x(), p.y()}) {
+      binary.append(reinterpret_cast<const char*>(&value), sizeof value);
+      if (value == p.z()) binary += '\xff';
+    }
+    ascii +=
+        format_number(p.z()) + " 255 " + format_number(p.x()) + " " + format_number(p.y()) + "\r\n";
+  }
+  binary += std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0\0", 14);
+  ascii += "3 0 1 2 0\n";
+  EXPECT_EQ(read(folder.write("binary.ply", binary)).positions, expected);
+  EXPECT_EQ(read(folder.write("ascii.ply", ascii)).positions, expected);
+}
+
+TEST(CloudReader, ReadsAsciiWithNanAndFieldsOfManyColumns) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "cloud.pcd",
+      "VERSION .7\nFIELDS normal z rgb x y\nSIZE 4 8 4 8 8\nTYPE F F U F F\nCOUNT 3 1 1 1 1\n"
+      "WIDTH 2\nHEIGHT 2\nDATA ascii\n"
+      "0 0 1 234.5678 4294967295 512345.6789 4123456.7891\n"
+      "nan nan nan nan 0 1 2\n"
+      "0 0 1 3 0 -inf 2\n"
+      "0 0 1 3e0 0 +1.0 2\n");
+  const Read result = read(file);
+  EXPECT_EQ(result.summary.not_finite, 2u);
+  EXPECT_EQ(result.positions,
+            (std::vector<Eigen::Vector3d>{{512345.6789, 4123456.7891, 234.5678}, {1, 2, 3}}));
 }
 
 TEST(CloudReader, CountsPointsThatAreNotFinite) {

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// LAS files as other programs write them, byte by byte after the tables of "LAS Specification 1.4 -
+// R15" (ASPRS, 2019): what our writer does not write.
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "scan/cloud_reader.h"
+
+namespace plotscan::scan {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+template <class T>
+void put(std::string& bytes, std::size_t offset, T value) {
+  std::memcpy(&bytes[offset], &value, sizeof value);
+}
+
+struct ForeignPoint {
+  std::array<std::int32_t, 3> xyz{};
+  std::uint8_t classification = 0;
+  bool withheld = false;
+};
+
+struct ForeignLas {
+  int minor = 2;
+  int format = 0;
+  std::size_t extra_bytes = 0;  // behind each point, that no record describes
+  std::array<double, 3> scale_m = {0.001, 0.001, 0.001};
+  std::array<double, 3> offset_m = {};
+  std::string records = {};  // variable length, in front of the points
+  std::uint32_t record_count = 0;
+  std::string extended_records = {};  // behind them
+  std::uint32_t extended_record_count = 0;
+};
+
+// Tables 7 to 17: the sizes of the point formats.
+constexpr std::array<std::size_t, 11> kSizes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+std::string bytes_of(const ForeignLas& las, const std::vector<ForeignPoint>& points) {
+  const std::size_t header_size = las.minor >= 4 ? 375 : las.minor == 3 ? 235 : 227;
+  const std::size_t points_at = header_size + las.records.size();
+  const std::size_t format = static_cast<std::size_t>(las.format);
+  const std::size_t point_size = kSizes[format] + las.extra_bytes;
+  std::string bytes(header_size, '\0');
+  std::memcpy(bytes.data(), "LASF", 4);
+  put(bytes, 24, std::uint8_t{1});
+  put(bytes, 25, static_cast<std::uint8_t>(las.minor));
+  put(bytes, 94, static_cast<std::uint16_t>(header_size));
+  put(bytes, 96, static_cast<std::uint32_t>(points_at));
+  put(bytes, 100, las.record_count);
+  put(bytes, 104, static_cast<std::uint8_t>(las.format));
+  put(bytes, 105, static_cast<std::uint16_t>(point_size));
+  // Formats 6 to 10 leave the old count 0.
+  if (las.format < 6) put(bytes, 107, static_cast<std::uint32_t>(points.size()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(bytes, 131 + 8 * axis, las.scale_m[axis]);
+    put(bytes, 155 + 8 * axis, las.offset_m[axis]);
+  }
+  if (las.minor >= 4) {
+    put(bytes, 235, static_cast<std::uint64_t>(points_at + points.size() * point_size));
+    put(bytes, 243, las.extended_record_count);
+    put(bytes, 247, static_cast<std::uint64_t>(points.size()));
+  }
+  bytes += las.records;
+  for (const ForeignPoint& point : points) {
+    std::string record(point_size, '\x5a');  // fields that nobody should look at
+    for (std::size_t axis = 0; axis < 3; ++axis) put(record, 4 * axis, point.xyz[axis]);
+    const bool is_new = las.format >= 6;
+    record[15] =
+        static_cast<char>(is_new ? (point.withheld ? 0x0f : 0x0b)
+                                 : point.classification | 0x60 | (point.withheld ? 0x80 : 0));
+    if (is_new) record[16] = static_cast<char>(point.classification);
+    bytes += record;
+  }
+  return bytes + las.extended_records;
+}
+
+std::string record(const std::string& user, std::uint16_t id, const std::string& data,
+                   bool extended = false) {
+  std::string bytes(extended ? 60 : 54, '\0');
+  std::memcpy(&bytes[2], user.data(), user.size());
+  put(bytes, 18, id);
+  if (extended) {
+    put(bytes, 20, static_cast<std::uint64_t>(data.size()));
+  } else {
+    put(bytes, 20, static_cast<std::uint16_t>(data.size()));
+  }
+  return bytes + data;
+}
+
+struct Read {
+  CloudSummary summary;
+  std::vector<Eigen::Vector3d> positions;
+};
+
+class ForeignLasFile : public ::testing::Test {
+ protected:
+  Read read(const std::string& bytes, bool leave_out_marked = false) const {
+    Read result;
+    result.summary = read_positions(folder_.write("cloud.las", bytes),
+                                    [&](std::span<const Eigen::Vector3d> piece) {
+                                      result.positions.insert(result.positions.end(), piece.begin(),
+                                                              piece.end());
+                                    },
+                                    {.leave_out_marked = leave_out_marked});
+    return result;
+  }
+  Read read(const ForeignLas& las, const std::vector<ForeignPoint>& points,
+            bool leave_out_marked = false) const {
+    return read(bytes_of(las, points), leave_out_marked);
+  }
+
+  TemporaryFolder folder_;
+};
+
+// With extra bytes that nothing describes and a record of a user we do not know; the waveform
+// formats, 4, 5, 9 and 10, too.
+TEST_F(ForeignLasFile, EveryVersionAndPointFormatIsRead) {
+  for (const int minor : {0, 1, 2, 3, 4}) {
+    for (int format = 0; format <= (minor >= 4 ? 10 : minor == 3 ? 5 : 3); ++format) {
+      for (const std::size_t extra_bytes : {0u, 7u}) {
+        const ForeignLas las{.minor = minor,
+                             .format = format,
+                             .extra_bytes = extra_bytes,
+                             .offset_m = {10, 20, 30},
+                             .records = record("someone", 7, "what nobody knows") + "\xdd\xcc",
+                             .record_count = 1};
+        const Read result = read(las, {{{1000, -2000, 3000}}, {{4, 5, 6}}});
+        ASSERT_EQ(result.positions.size(), 2u) << minor << " " << format;
+        EXPECT_EQ(result.positions[0], Eigen::Vector3d(11, 18, 33));
+        EXPECT_LT((result.positions[1] - Eigen::Vector3d(10.004, 20.005, 30.006)).norm(), 1e-12);
+        EXPECT_EQ(result.summary.crs, "");
+      }
+    }
+  }
+}
+
+TEST_F(ForeignLasFile, CoordinatesOfUtmKeepATenthOfAMillimetre) {
+  const ForeignLas las{
+      .minor = 4, .format = 6, .scale_m = {1e-4, 1e-4, 1e-4}, .offset_m = {500000, 4100000, 200}};
+  const Read result = read(las, {{{123456789, -98765432, 12345}}, {{123456790, -98765431, 12346}}});
+  EXPECT_NEAR(result.positions[0].x(), 512345.6789, 1e-8);
+  EXPECT_NEAR(result.positions[0].y(), 4090123.4568, 1e-8);
+  EXPECT_NEAR(result.positions[0].z(), 201.2345, 1e-8);
+  EXPECT_NEAR((result.positions[1] - result.positions[0]).cwiseAbs().minCoeff(), 1e-4, 1e-8);
+}
+
+TEST_F(ForeignLasFile, WithheldAndNoiseAreLeftOutOnRequest) {
+  for (const int format : {1, 3, 6, 7}) {
+    const std::vector<ForeignPoint> points = {{.xyz = {1, 0, 0}, .classification = 2},
+                                              {.xyz = {2, 0, 0}, .classification = 7},
+                                              {.xyz = {3, 0, 0}, .classification = 18},
+                                              {.xyz = {4, 0, 0}, .withheld = true},
+                                              {.xyz = {5, 0, 0}, .classification = 5}};
+    const ForeignLas las{.minor = 4, .format = format, .scale_m = {1, 1, 1}};
+    const Read all = read(las, points);
+    EXPECT_EQ(all.summary.points, 5u);
+    EXPECT_EQ(all.summary.marked, 0u);
+    const Read some = read(las, points, true);
+    EXPECT_EQ(some.summary.marked, 3u) << format;
+    ASSERT_EQ(some.positions.size(), 2u);
+    EXPECT_EQ(some.positions[0].x(), 1);
+    EXPECT_EQ(some.positions[1].x(), 5);
+  }
+  EXPECT_THAT(message_of<InputError>([&] { read({}, {{.withheld = true}}, true); }),
+              HasSubstr("all points of the cloud are marked"));
+}
+
+// Fields of these names in other files are labels, and labels are the truth.
+TEST_F(ForeignLasFile, MarksAreNotReadFromOtherFormats) {
+  const Read result = read(
+      "VERSION .7\nFIELDS x y z withheld classification\nSIZE 4 4 4 1 1\nTYPE F F F U U\n"
+      "COUNT 1 1 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 1 7\n",
+      true);
+  EXPECT_EQ(result.summary.points, 1u);
+}
+
+TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
+  const std::string wkt = R"(PROJCS["WGS 84 / UTM zone 17N",GEOGCS["WGS 84"]])";
+  EXPECT_EQ(read({.minor = 4,
+                  .format = 6,
+                  .records = record("LASF_Projection", 2112, wkt + '\0'),
+                  .record_count = 1},
+                 {{}})
+                .summary.crs,
+            wkt);
+  EXPECT_EQ(read({.minor = 4,
+                  .format = 6,
+                  .extended_records = record("LASF_Projection", 2112, wkt, true),
+                  .extended_record_count = 1},
+                 {{}})
+                .summary.crs,
+            wkt);
+  // GeoTIFF keys: a projected system, 32617, of EPSG.
+  const auto keys = [](std::uint16_t model, std::uint16_t projected) {
+    const std::array<std::uint16_t, 16> numbers = {1,    1, 0, 3,    1024, 0, 1, model,
+                                                   2048, 0, 1, 4326, 3072, 0, 1, projected};
+    return record("LASF_Projection", 34735,
+                  {reinterpret_cast<const char*>(numbers.data()), sizeof numbers});
+  };
+  const Read utm = read({.records = keys(1, 32617), .record_count = 1}, {{}});
+  EXPECT_EQ(utm.summary.crs, "EPSG:32617");
+  EXPECT_FALSE(utm.summary.in_degrees);
+  EXPECT_EQ(read({.records = keys(1, 32767), .record_count = 1}, {{}}).summary.crs, "");
+  EXPECT_TRUE(read({.records = keys(2, 32767), .record_count = 1}, {{}}).summary.in_degrees);
+  const std::string degrees = R"(GEOGCS["WGS 84",DATUM["WGS_1984"]])";
+  EXPECT_TRUE(read({.records = record("LASF_Projection", 2112, degrees), .record_count = 1}, {{}})
+                  .summary.in_degrees);
+}
+
+TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
+  const auto refusal = [&](const std::string& bytes) {
+    return message_of<InputError>([&] { read(bytes); });
+  };
+  const std::vector<ForeignPoint> points(3);
+  const std::string whole = bytes_of({.minor = 2, .format = 1}, points);
+  EXPECT_EQ(read(whole).positions.size(), 3u);
+  std::string broken = whole;
+  put(broken, 104, static_cast<std::uint8_t>(1 | 0x80));
+  EXPECT_THAT(refusal(broken), HasSubstr("is compressed (LAZ)"));
+  broken = whole;
+  put(broken, 105, std::uint16_t{27});
+  EXPECT_THAT(refusal(broken), HasSubstr("points of format 1 have at least 28 bytes"));
+  broken = whole;
+  put(broken, 105, std::uint16_t{29});  // one too long for the file
+  EXPECT_THAT(refusal(broken), HasSubstr("promises 3 points of 29 bytes, the file holds 84"));
+  EXPECT_THAT(refusal(whole.substr(0, whole.size() - 1)), HasSubstr("is truncated"));
+  EXPECT_THAT(refusal(whole.substr(0, 227)), HasSubstr("promises 3 points"));
+  EXPECT_THAT(refusal(whole.substr(0, 200)), HasSubstr("its points begin at byte 227"));
+  EXPECT_THAT(refusal(whole.substr(0, 90)), HasSubstr("is truncated"));
+  broken = whole;
+  put(broken, 94, std::uint16_t{226});
+  EXPECT_THAT(refusal(broken), HasSubstr("226 bytes: too few"));
+}
+
+}  // namespace
+}  // namespace plotscan::scan
