@@ -66,11 +66,7 @@ HeightSeries series_of(const SuiteResult& result, const std::string& case_name,
     if (farm.case_name != case_name) continue;
     for (const MethodResult& run : farm.methods) {
       if (run.method != method.name) continue;
-      const score::HeightPairs pairs = score::height_pairs(run.score, height.height, truth);
-      auto& all = series.pairs;
-      all.truths_m.insert(all.truths_m.end(), pairs.truths_m.begin(), pairs.truths_m.end());
-      all.estimates_m.insert(all.estimates_m.end(), pairs.estimates_m.begin(),
-                             pairs.estimates_m.end());
+      score::append(series.pairs, score::height_pairs(run.score, height.height, truth));
     }
   }
   return series;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <numbers>
 #include <string>
 
 #include "core/manifest.h"
@@ -23,8 +24,13 @@ nlohmann::json json_of(const farmbench::TableRow& row) {
           {"missed", row.missed},
           {"extra", row.extra},
           {"without", row.without},
+          {"recall", row.recall},
+          {"precision", row.precision},
+          {"iou_mean", row.iou_mean},
           {"iou_median", row.iou_median},
           {"iou_min", row.iou_min},
+          {"center_rmse_m", row.center_rmse_m},
+          {"heading_rmse_deg", row.heading_rmse_rad * 180 / std::numbers::pi},
           {"rmse_m", row.rmse_m},
           {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
           {"rmse_change_m", row.rmse_change_m},
@@ -32,6 +38,10 @@ nlohmann::json json_of(const farmbench::TableRow& row) {
           {"bias_m", row.bias_m},
           {"mae_m", row.mae_m},
           {"r2", row.r2},
+          {"coverage95", row.coverage95},
+          {"flagged", row.flagged},
+          {"over_5cm_unflagged", row.large_unflagged},
+          {"over_5cm_unflagged_share", row.large_unflagged_share},
           {"seconds", row.seconds}};
 }
 

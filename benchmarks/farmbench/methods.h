@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,10 +14,11 @@
 
 namespace plotscan::farmbench {
 
-// One scanned field as the methods get it. What a method takes beyond the map and the number of
-// plots is its own affair, and its name says so.
+// One scanned field as the methods get it. What a method takes of it is its own affair, and its
+// name or docs/benchmark.md says so.
 struct Field {
-  const estimate::CloudMap& map;
+  const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
+  const estimate::CloudMap& map;       // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
   const farm::Terrain& terrain;
   std::uint64_t seed = 1;

@@ -103,8 +103,9 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
   const lidar::FlySummary flown = lidar::fly(
       farm, folder / "scan", flight, true, [&](double share) { report(progress, kFlown * share); });
   const std::vector<score::TruePlot> plots = score::read_truth(folder / "farm");
+  const fs::path cloud = folder / "scan" / "cloud.pcd";
   const estimate::CloudMap map =
-      estimate::read_map(folder / "scan" / "cloud.pcd", field_area(plots, suite.crop_margin_m));
+      estimate::read_map(cloud, field_area(plots, suite.crop_margin_m));
   report(progress, kRead);
   FarmResult result{.case_name = suite_case.name,
                     .seed = seed,
@@ -116,7 +117,7 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
   for (const std::string& name : suite.methods) {
     result.methods.push_back(run_method(
         method_named(name),
-        {.map = map, .plots = plots, .terrain = farm.terrain, .seed = seed, .threads = threads}));
+        {.cloud = cloud, .map = map, .plots = plots, .terrain = farm.terrain, .seed = seed, .threads = threads}));
     const auto done = static_cast<double>(result.methods.size());
     report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
   }

@@ -2,6 +2,8 @@
 #include "farmbench/table.h"
 
 #include <cmath>
+#include <initializer_list>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -66,10 +68,18 @@ std::string field_of(double value) {
   return std::isnan(value) ? "" : format_number(std::round(value * 1e4) / 1e4);
 }
 
-void append(score::HeightPairs& all, const score::HeightPairs& more) {
-  all.estimates_m.insert(all.estimates_m.end(), more.estimates_m.begin(), more.estimates_m.end());
-  all.truths_m.insert(all.truths_m.end(), more.truths_m.begin(), more.truths_m.end());
-  all.without += more.without;
+void append_counts(std::string& line, std::initializer_list<std::size_t> counts) {
+  for (const std::size_t count : counts) line += "," + std::to_string(count);
+}
+
+void append_values(std::string& line, std::initializer_list<double> values) {
+  for (const double value : values) line += "," + field_of(value);
+}
+
+std::set<std::string> heights_of(const Method& method) {
+  std::set<std::string> names;
+  for (const MethodHeight& height : method.heights) names.insert(height.height);
+  return names;
 }
 
 void set_boxes(TableRow& row, const CaseOfMethod& collected) {
@@ -79,8 +89,13 @@ void set_boxes(TableRow& row, const CaseOfMethod& collected) {
   row.found = boxes.found;
   row.missed = boxes.missed;
   row.extra = boxes.extra;
+  row.recall = boxes.recall;
+  row.precision = boxes.precision;
+  row.iou_mean = boxes.iou_mean;
   row.iou_median = boxes.iou_median;
   row.iou_min = boxes.iou_min;
+  row.center_rmse_m = boxes.center_rmse_m;
+  row.heading_rmse_rad = boxes.heading_rmse_rad;
   row.seconds = quantile(collected.seconds, 0.5);
 }
 
@@ -107,7 +122,7 @@ void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string
                  std::uint64_t seed) {
   score::HeightPairs pooled;
   for (const score::FieldScore& field : collected.fields)
-    append(pooled, score::height_pairs(field, height, row.truth));
+    score::append(pooled, score::height_pairs(field, height, row.truth));
   const score::HeightScore score = score::score_height(height, row.truth, pooled);
   const Interval interval = bootstrap_rmse(errors_by_farm(collected, height, row.truth), seed);
   row.without = score.without;
@@ -117,6 +132,10 @@ void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string
   row.bias_m = score.bias_m;
   row.mae_m = score.mae_m;
   row.r2 = score.r2;
+  row.coverage95 = score.coverage95;
+  row.flagged = score.flagged;
+  row.large_unflagged = score.large_unflagged;
+  row.large_unflagged_share = score.large_unflagged_share;
 }
 
 }  // namespace
@@ -128,10 +147,15 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
       const CaseOfMethod collected = collect(result, info.name, method);
       std::optional<CaseOfMethod> baseline;
       if (result.baseline) baseline.emplace(collect(result, *result.baseline, method));
+      const std::set<std::string> heights = heights_of(collected.method);
       for (const MethodHeight& height : collected.method.heights) {
         for (const std::string& truth : truths_of(collected.fields)) {
-          TableRow row{
-              .suite = result.suite, .case_name = info.name, .method = height.row, .truth = truth};
+          TableRow row{.suite = result.suite,
+                       .case_name = info.name,
+                       .method = height.row,
+                       .truth = truth,
+                       .named = score::named_truth(height.height) == truth,
+                       .shown = score::heights_beside(truth, heights).contains(height.height)};
           set_boxes(row, collected);
           set_heights(row, collected, height.height, seed);
           if (baseline) set_change(row, *baseline, collected, height.height, seed);
@@ -145,20 +169,21 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
 
 std::string table_csv(const std::vector<TableRow>& table) {
   std::string text =
-      "suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,"
-      "rmse_lo_cm,rmse_hi_cm,rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,"
-      "coverage95,seconds\n";
+      "suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,"
+      "iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,"
+      "rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,coverage95,flagged,"
+      "over_5cm_unflagged,over_5cm_unflagged_share,seconds\n";
   for (const TableRow& row : table) {
     text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
-    for (const std::size_t count : {row.farms, row.plots, row.found, row.missed, row.extra})
-      text += "," + std::to_string(count);
-    for (const double value :
-         {row.iou_median, row.iou_min, 100 * row.rmse_m, 100 * row.rmse_low_m,
-          100 * row.rmse_high_m, 100 * row.rmse_change_m, 100 * row.rmse_change_low_m,
-          100 * row.rmse_change_high_m, 100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95,
-          row.seconds}) {
-      text += "," + field_of(value);
-    }
+    append_counts(text, {row.farms, row.plots, row.found, row.missed, row.extra});
+    append_values(
+        text, {row.recall, row.precision, row.iou_mean, row.iou_median, row.iou_min,
+               100 * row.center_rmse_m, row.heading_rmse_rad * 180 / std::numbers::pi,
+               100 * row.rmse_m, 100 * row.rmse_low_m, 100 * row.rmse_high_m,
+               100 * row.rmse_change_m, 100 * row.rmse_change_low_m, 100 * row.rmse_change_high_m,
+               100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95});
+    append_counts(text, {row.flagged, row.large_unflagged});
+    append_values(text, {row.large_unflagged_share, row.seconds});
     text += "\n";
   }
   return text;

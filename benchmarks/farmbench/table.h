@@ -19,14 +19,21 @@ struct TableRow {
   std::string case_name;
   std::string method;  // MethodHeight::row
   std::string truth;   // "height_max_m"
+  bool named = false;  // the height is named after the truth (score::named_truth)
+  bool shown = true;   // the height stands beside the truth in reports (score::heights_beside)
   std::size_t farms = 0;
   std::size_t plots = 0;  // true ones
   std::size_t found = 0;
   std::size_t missed = 0;
   std::size_t extra = 0;
   std::size_t without = 0;  // found plots without this height
+  double recall = 0;     // found / plots
+  double precision = 0;  // found / (found + extra)
+  double iou_mean = 0;
   double iou_median = 0;
   double iou_min = 0;
+  double center_rmse_m = 0;
+  double heading_rmse_rad = 0;
   double rmse_m = 0;
   double rmse_low_m = 0;  // 95 % bootstrap interval over farms
   double rmse_high_m = 0;
@@ -38,17 +45,22 @@ struct TableRow {
   double bias_m = 0;
   double mae_m = 0;
   double r2 = 0;
-  // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals.
+  // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals, and
+  // where the height is not named after the truth.
   double coverage95 = std::numeric_limits<double>::quiet_NaN();
+  std::size_t flagged = 0;          // found plots with this height and a flag
+  std::size_t large_unflagged = 0;  // those without, in error by more than score::kLargeError_m
+  double large_unflagged_share = std::numeric_limits<double>::quiet_NaN();  // of all with it
   double seconds = 0;  // of the method, median over farms
 };
 
 // All rows: by case, by method, by truth. `seed` draws the bootstrap's resamples.
 std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 
-// table.csv: suite,case,method,truth,farms,plots,found,missed,extra,iou_median,iou_min,rmse_cm,
-// rmse_lo_cm,rmse_hi_cm,rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,
-// coverage95,seconds; a field that is NaN is empty.
+// table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
+// iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,
+// rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,coverage95,flagged,over_5cm_unflagged,
+// over_5cm_unflagged_share,seconds; a field that is NaN is empty.
 std::string table_csv(const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

@@ -24,6 +24,24 @@ double ratio(double numerator, double denominator) {
   return denominator > 0 ? numerator / denominator : kNaN;
 }
 
+double share(std::size_t part, std::size_t whole) {
+  return ratio(static_cast<double>(part), static_cast<double>(whole));
+}
+
+// `named`: the truth is the one that the height is named after.
+void add_trust(Trust& trust, const FoundPlot& plot, const std::string& height, double truth_m,
+               bool named) {
+  if (!plot.flags.empty()) {
+    ++trust.flagged;
+  } else if (std::abs(plot.heights_m.at(height) - truth_m) > kLargeError_m) {
+    ++trust.large_unflagged;
+  }
+  const auto error = plot.errors.find(height);
+  if (!named || error == plot.errors.end()) return;
+  ++trust.intervals;
+  if (truth_m >= error->second.low95_m && truth_m <= error->second.high95_m) ++trust.covered;
+}
+
 }  // namespace
 
 std::set<std::string> estimated_heights(const FieldScore& field) {
@@ -43,8 +61,13 @@ std::set<std::string> true_heights(const FieldScore& field) {
   return names;
 }
 
+std::string named_truth(const std::string& height) {
+  return (height.starts_with("canopy_") ? "" : "height_") + height + "_m";
+}
+
 HeightPairs height_pairs(const FieldScore& field, const std::string& height,
                          const std::string& truth) {
+  const bool named = named_truth(height) == truth;
   HeightPairs pairs;
   for (const PlotScore& plot : field.plots) {
     if (!plot.found) continue;
@@ -56,8 +79,19 @@ HeightPairs height_pairs(const FieldScore& field, const std::string& height,
     }
     pairs.estimates_m.push_back(estimated->second);
     pairs.truths_m.push_back(known->second);
+    add_trust(pairs.trust, *plot.found, height, known->second, named);
   }
   return pairs;
+}
+
+void append(HeightPairs& all, const HeightPairs& more) {
+  all.estimates_m.insert(all.estimates_m.end(), more.estimates_m.begin(), more.estimates_m.end());
+  all.truths_m.insert(all.truths_m.end(), more.truths_m.begin(), more.truths_m.end());
+  all.without += more.without;
+  all.trust.intervals += more.trust.intervals;
+  all.trust.covered += more.trust.covered;
+  all.trust.flagged += more.trust.flagged;
+  all.trust.large_unflagged += more.trust.large_unflagged;
 }
 
 HeightScore score_height(const std::string& height, const std::string& truth,
@@ -82,7 +116,20 @@ HeightScore score_height(const std::string& height, const std::string& truth,
   score.standard_error_m = std::sqrt(ratio(co_moment(errors_m, errors_m), (count - 1) * count));
   score.r2 = 1 - ratio(mean(squared_m2) * count, truth_moment);
   score.correlation2 = ratio(cross_moment * cross_moment, truth_moment * estimate_moment);
+  score.coverage95 = share(pairs.trust.covered, pairs.trust.intervals);
+  score.flagged = pairs.trust.flagged;
+  score.large_unflagged = pairs.trust.large_unflagged;
+  score.large_unflagged_share = share(score.large_unflagged, score.plots);
   return score;
+}
+
+std::set<std::string> heights_beside(const std::string& truth,
+                                     const std::set<std::string>& heights) {
+  const std::string stated = truth == "height_hand3_m" ? "height_mean_m" : truth;
+  for (const std::string& height : heights) {
+    if (named_truth(height) == stated) return {height};
+  }
+  return heights;
 }
 
 std::vector<HeightScore> score_heights(const FieldScore& field) {

@@ -14,16 +14,34 @@ namespace plotscan::score {
 std::set<std::string> estimated_heights(const FieldScore& field);
 std::set<std::string> true_heights(const FieldScore& field);
 
+// The truth that a height claims to be by its name: "height_max_m" for "max", "canopy_p95_m" for
+// "canopy_p95". Intervals are scored against this one alone.
+std::string named_truth(const std::string& height);
+
+// An error beyond this is large.
+inline constexpr double kLargeError_m = 0.05;
+
+// What an estimate says of its own errors beside what they are: counts of found plots that have the
+// height and the truth.
+struct Trust {
+  std::size_t intervals = 0;        // with a 95 % interval; 0 where the height is not named so
+  std::size_t covered = 0;          // of these, with the truth inside it
+  std::size_t flagged = 0;          // with a flag
+  std::size_t large_unflagged = 0;  // without a flag, and the error is large
+};
+
 // One estimated height beside one true height, plot by plot.
 struct HeightPairs {
   std::vector<double> estimates_m;
   std::vector<double> truths_m;
   std::size_t without = 0;  // found plots that lack the estimate or the truth
+  Trust trust = {};
 };
 
 // The pairs of a field's found plots, in the order of its true plots.
 HeightPairs height_pairs(const FieldScore& field, const std::string& height,
                          const std::string& truth);
+void append(HeightPairs& all, const HeightPairs& more);
 
 // Errors are estimate minus truth. What cannot be computed (no plots; one plot for the standard
 // error; truths all equal for r2) is NaN.
@@ -40,6 +58,12 @@ struct HeightScore {
   // perfect, 0 is no better than the mean truth for every plot, below 0 is worse.
   double r2 = 0;
   double correlation2 = 0;  // Pearson's r, squared: blind to bias and scale
+  // Share of truths inside the estimate's own 95 % intervals; NaN without intervals, and where the
+  // truth is not the one that the height is named after.
+  double coverage95 = 0;
+  std::size_t flagged = 0;           // plots with a flag
+  std::size_t large_unflagged = 0;   // plots without one whose error is beyond kLargeError_m
+  double large_unflagged_share = 0;  // of all plots
 };
 
 HeightScore score_height(const std::string& height, const std::string& truth,
@@ -47,5 +71,10 @@ HeightScore score_height(const std::string& height, const std::string& truth,
 
 // Every estimated height of the field against every true one, by name.
 std::vector<HeightScore> score_heights(const FieldScore& field);
+
+// Which of an estimate's heights stand beside a truth: the one that is named after it, else, for
+// height_hand3_m, the mean, which is its expectation; where there is no such height, all of them.
+std::set<std::string> heights_beside(const std::string& truth,
+                                     const std::set<std::string>& heights);
 
 }  // namespace plotscan::score

@@ -27,7 +27,34 @@ FoundPlot found_plot(const TruePlot& truth, const estimate::PlotEstimate& plot, 
           .iou = iou,
           .center_error_m = (plot.box.center - truth.box.center).norm(),
           .heading_error_rad = heading_difference(plot.box.heading_rad, truth.box.heading_rad),
-          .heights_m = plot.heights_m};
+          .heights_m = plot.heights_m,
+          .errors = plot.errors,
+          .confidence = plot.confidence,
+          .flags = plot.flags};
+}
+
+bool lies_in_unscored(const std::vector<TruePlot>& truth, const PlotBox& box) {
+  double inside_m2 = 0;
+  for (const TruePlot& plot : truth) {
+    if (!plot.scored) inside_m2 += intersection_area(plot.box, box);
+  }
+  return inside_m2 > 0 && 2 * inside_m2 >= box.area_m2();
+}
+
+double ratio(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// The truths that a plot's properties state, by their names.
+std::map<std::string, double> truths_of(const nlohmann::json& properties) {
+  std::map<std::string, double> truths_m;
+  for (const auto& [name, value] : properties.items()) {
+    const bool is_truth =
+        (name.starts_with("height_") || name.starts_with("canopy_")) && name.ends_with("_m");
+    if (is_truth && value.is_number()) truths_m[name] = value.get<double>();
+  }
+  return truths_m;
 }
 
 double root_mean_square(const std::vector<double>& values) {
@@ -44,10 +71,11 @@ std::vector<TruePlot> read_truth(const fs::path& farm) {
   std::vector<TruePlot> plots;
   for (const PlotFeature& feature : read_plot_features(file)) {
     const estimate::PlotEstimate plot = estimate::plot_of(feature, plots.size() + 1);
-    plots.push_back({.id = plot.id, .row = plot.row, .column = plot.column, .box = plot.box});
-    for (const auto& [name, height_m] : plot.heights_m) {
-      plots.back().heights_m["height_" + name + "_m"] = height_m;
-    }
+    plots.push_back({.id = plot.id,
+                     .row = plot.row,
+                     .column = plot.column,
+                     .box = plot.box,
+                     .heights_m = truths_of(feature.properties)});
   }
   if (plots.empty()) throw InputError(file, "has no plots");
   return plots;
@@ -62,7 +90,11 @@ FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estim
     field.plots[match.truth].found =
         found_plot(truth[match.truth], estimate.plots[match.estimate], match.iou);
   }
-  for (const std::size_t extra : matching.extra) field.extra.push_back(estimate.plots[extra].id);
+  std::erase_if(field.plots, [](const PlotScore& plot) { return !plot.truth.scored; });
+  for (const std::size_t extra : matching.extra) {
+    const estimate::PlotEstimate& plot = estimate.plots[extra];
+    if (!lies_in_unscored(truth, plot.box)) field.extra.push_back(plot.id);
+  }
   return field;
 }
 
@@ -81,6 +113,9 @@ BoxScore score_boxes(std::span<const FieldScore> fields) {
   }
   boxes.found = ious.size();
   boxes.missed = boxes.plots - boxes.found;
+  boxes.recall = ratio(boxes.found, boxes.plots);
+  boxes.precision = ratio(boxes.found, boxes.found + boxes.extra);
+  boxes.iou_mean = mean(ious);
   boxes.iou_median = quantile(ious, 0.5);
   boxes.iou_min = quantile(ious, 0);
   boxes.center_rmse_m = root_mean_square(center_errors_m);

@@ -21,12 +21,13 @@ struct TruePlot {
   int row = 0;           // from 1; 0 when unknown
   int column = 0;        // from 1; 0 when unknown
   PlotBox box;
-  std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m"
+  std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m", "canopy_p95_m"
+  bool scored = true;  // else whatever is said of the plot counts neither for nor against
 };
 
 // Reads the true plots of a farm folder (its truth/plots.geojson), or of any GeoJSON file whose
-// plots carry numbers height_<name>_m, such as hand measurements. Throws InputError as
-// read_plot_features does, and when there is no plot.
+// plots carry numbers height_<name>_m or canopy_<name>_m, such as hand measurements. Throws
+// InputError as read_plot_features does, and when there is no plot.
 std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
 
 // What an estimate says of a plot that it found.
@@ -34,8 +35,11 @@ struct FoundPlot {
   std::uint32_t estimate = 0;  // PlotEstimate::id
   double iou = 0;              // of the two boxes
   double center_error_m = 0;
-  double heading_error_rad = 0;                  // between the length axes, 0 to pi / 2
-  std::map<std::string, double> heights_m = {};  // by name, "raw-p99"
+  double heading_error_rad = 0;                              // between the length axes, 0 to pi / 2
+  std::map<std::string, double> heights_m = {};              // by name, "raw-p99"
+  std::map<std::string, estimate::HeightError> errors = {};  // PlotEstimate::errors
+  std::optional<double> confidence = std::nullopt;           // PlotEstimate::confidence
+  std::vector<std::string> flags = {};                       // PlotEstimate::flags
 };
 
 struct PlotScore {
@@ -46,7 +50,7 @@ struct PlotScore {
 // An estimate of one field beside its truth.
 struct FieldScore {
   std::string method;
-  std::vector<PlotScore> plots;      // every true plot
+  std::vector<PlotScore> plots;      // every true plot that is scored
   std::vector<std::uint32_t> extra;  // ids of estimated plots that are no true plot
 };
 
@@ -54,16 +58,21 @@ struct ScoreOptions {
   double min_iou = 0.5;  // least intersection over union for a plot to count as found
 };
 
+// An estimate that is a pair with a plot that is not scored, or lies by half its area in such
+// plots, is no extra one.
 FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
                        const ScoreOptions& options = {});
 
 // How well plots were found, over one field or several together. Statistics of found plots are NaN
-// when there are none.
+// when there are none, and so is a share of nothing.
 struct BoxScore {
   std::size_t plots = 0;  // true ones
   std::size_t found = 0;
   std::size_t missed = 0;
   std::size_t extra = 0;
+  double recall = 0;     // found / plots
+  double precision = 0;  // found / (found + extra)
+  double iou_mean = 0;
   double iou_median = 0;
   double iou_min = 0;
   double center_rmse_m = 0;

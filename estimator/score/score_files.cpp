@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_files.h"
 
+#include <algorithm>
 #include <fstream>
 #include <numbers>
 #include <set>
@@ -31,6 +32,31 @@ PlotBox box_from_json(const json& document) {
       .heading_rad = document.at("heading_deg").get<double>() * kDegrees};
 }
 
+json to_json(const estimate::HeightError& error) {
+  return {{"standard_error_m", error.standard_error_m},
+          {"low95_m", error.low95_m},
+          {"high95_m", error.high95_m}};
+}
+
+// What the estimate says of its own trust; a method that says nothing leaves no member.
+void add_trust(json& document, const FoundPlot& found) {
+  for (const auto& [name, error] : found.errors) document["errors"][name] = to_json(error);
+  if (found.confidence) document["confidence"] = *found.confidence;
+  if (!found.flags.empty()) document["flags"] = found.flags;
+}
+
+void read_trust(const json& document, FoundPlot& found) {
+  if (document.contains("errors")) {
+    for (const auto& [name, error] : document["errors"].items()) {
+      found.errors[name] = {.standard_error_m = error.at("standard_error_m"),
+                            .low95_m = error.at("low95_m"),
+                            .high95_m = error.at("high95_m")};
+    }
+  }
+  if (document.contains("confidence")) found.confidence = document["confidence"].get<double>();
+  if (document.contains("flags")) found.flags = document["flags"].get<std::vector<std::string>>();
+}
+
 json to_json(const PlotScore& plot) {
   json document = {{"plot_number", plot.truth.id},     {"row_number", plot.truth.row},
                    {"col_number", plot.truth.column},  {"box", to_json(plot.truth.box)},
@@ -41,6 +67,7 @@ json to_json(const PlotScore& plot) {
                          {"center_error_m", plot.found->center_error_m},
                          {"heading_error_deg", plot.found->heading_error_rad / kDegrees},
                          {"heights_m", plot.found->heights_m}};
+    add_trust(document["found"], *plot.found);
   }
   return document;
 }
@@ -59,12 +86,41 @@ PlotScore plot_from_json(const json& document) {
                 .center_error_m = found.at("center_error_m"),
                 .heading_error_rad = found.at("heading_error_deg").get<double>() * kDegrees,
                 .heights_m = found.at("heights_m")};
+  read_trust(found, *plot.found);
   return plot;
 }
 
 std::string height_at(const std::map<std::string, double>& heights_m, const std::string& name) {
   const auto found = heights_m.find(name);
   return found == heights_m.end() ? "" : format_number(found->second);
+}
+
+std::set<std::string> heights_with_intervals(const FieldScore& field) {
+  std::set<std::string> names;
+  for (const PlotScore& plot : field.plots) {
+    if (!plot.found) continue;
+    for (const auto& [name, error] : plot.found->errors) names.insert(name);
+  }
+  return names;
+}
+
+// The ends of the intervals, the confidence and the flags, these with semicolons between them.
+void write_trust(std::ostream& out, const PlotScore& plot, const std::set<std::string>& intervals) {
+  const FoundPlot found = plot.found.value_or(FoundPlot{});
+  for (const std::string& height : intervals) {
+    const auto error = found.errors.find(height);
+    if (error == found.errors.end()) {
+      out << ",,";
+    } else {
+      out << ',' << format_number(error->second.low95_m) << ','
+          << format_number(error->second.high95_m);
+    }
+  }
+  out << ',' << (found.confidence ? format_number(*found.confidence) : "") << ',';
+  std::string flags;
+  for (const std::string& flag : found.flags) flags += (flags.empty() ? "" : ";") + flag;
+  std::ranges::replace(flags, ',', ' ');  // they are part of a line
+  out << flags;
 }
 
 }  // namespace
@@ -74,6 +130,9 @@ json to_json(const BoxScore& boxes) {
           {"found", boxes.found},
           {"missed", boxes.missed},
           {"extra", boxes.extra},
+          {"recall", boxes.recall},
+          {"precision", boxes.precision},
+          {"iou_mean", boxes.iou_mean},
           {"iou_median", boxes.iou_median},
           {"iou_min", boxes.iou_min},
           {"center_rmse_m", boxes.center_rmse_m},
@@ -81,11 +140,20 @@ json to_json(const BoxScore& boxes) {
 }
 
 json to_json(const HeightScore& score) {
-  return {{"height", score.height}, {"truth", score.truth},
-          {"plots", score.plots},   {"without", score.without},
-          {"rmse_m", score.rmse_m}, {"bias_m", score.bias_m},
-          {"mae_m", score.mae_m},   {"standard_error_m", score.standard_error_m},
-          {"r2", score.r2},         {"correlation2", score.correlation2}};
+  return {{"height", score.height},
+          {"truth", score.truth},
+          {"plots", score.plots},
+          {"without", score.without},
+          {"rmse_m", score.rmse_m},
+          {"bias_m", score.bias_m},
+          {"mae_m", score.mae_m},
+          {"standard_error_m", score.standard_error_m},
+          {"r2", score.r2},
+          {"correlation2", score.correlation2},
+          {"coverage95", score.coverage95},
+          {"flagged", score.flagged},
+          {"large_unflagged", score.large_unflagged},
+          {"large_unflagged_share", score.large_unflagged_share}};
 }
 
 json to_json(const FieldScore& field) {
@@ -103,10 +171,14 @@ FieldScore field_from_json(const json& document) {
 void write_plot_table(const std::filesystem::path& path, const FieldScore& field) {
   const std::set<std::string> heights = estimated_heights(field);
   const std::set<std::string> truths = true_heights(field);
+  const std::set<std::string> intervals = heights_with_intervals(field);
   std::ofstream out(path);
   out << "plot_number,row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
   for (const std::string& truth : truths) out << ",true_" << truth;
   for (const std::string& height : heights) out << ",estimated_height_" << height << "_m";
+  for (const std::string& height : intervals)
+    out << ",low95_" << height << "_m,high95_" << height << "_m";
+  if (!intervals.empty()) out << ",confidence,flags";
   out << '\n';
   for (const PlotScore& plot : field.plots) {
     out << plot.truth.id << ',' << plot.truth.row << ',' << plot.truth.column << ',';
@@ -120,6 +192,7 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
     for (const std::string& truth : truths) out << ',' << height_at(plot.truth.heights_m, truth);
     for (const std::string& height : heights)
       out << ',' << (plot.found ? height_at(plot.found->heights_m, height) : "");
+    if (!intervals.empty()) write_trust(out, plot, intervals);
     out << '\n';
   }
   if (!out.flush()) throw InputError(path, "cannot be written");

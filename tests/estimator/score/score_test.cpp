@@ -22,6 +22,7 @@ namespace {
 
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 PlotBox box_at(double x, double heading_rad = 0) {
@@ -70,7 +71,7 @@ TEST(ScoreField, SaysWhichPlotsWereFoundAndHowWell) {
   EXPECT_DOUBLE_EQ(field.plots[0].found->center_error_m, 0);
   EXPECT_NEAR(field.plots[1].found->center_error_m, 0.3, 1e-12);
   EXPECT_NEAR(field.plots[1].found->heading_error_rad, 0.1, 1e-12);
-  EXPECT_THAT(field.extra, ::testing::ElementsAre(3U));
+  EXPECT_THAT(field.extra, ElementsAre(3U));
 }
 
 TEST(ScoreField, BoxesTogether) {
@@ -81,6 +82,9 @@ TEST(ScoreField, BoxesTogether) {
   EXPECT_EQ(boxes.found, 4U);
   EXPECT_EQ(boxes.missed, 2U);
   EXPECT_EQ(boxes.extra, 2U);
+  EXPECT_DOUBLE_EQ(boxes.recall, 4.0 / 6);
+  EXPECT_DOUBLE_EQ(boxes.precision, 4.0 / 6);
+  EXPECT_DOUBLE_EQ(boxes.iou_mean, (1 + second_iou) / 2);
   EXPECT_DOUBLE_EQ(boxes.iou_min, second_iou);
   EXPECT_DOUBLE_EQ(boxes.iou_median, (1 + second_iou) / 2);
   EXPECT_NEAR(boxes.center_rmse_m, 0.3 / std::sqrt(2), 1e-12);
@@ -132,6 +136,75 @@ TEST(ScoreHeight, AgreesWithTheTextbook) {
               1e-10);
 }
 
+// Four plots in a row, as an estimate that knows its errors says them: inside its interval, outside
+// it with a flag, outside it without one, and without an interval.
+FieldScore four_plots_with_intervals() {
+  std::vector<TruePlot> truth;
+  estimate::Estimate estimate{.method = "m"};
+  const double errors_m[] = {0.01, 0.08, -0.06, 0.04};
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    truth.push_back(true_plot(i + 1, 3.0 * i, 1));
+    estimate.plots.push_back({.id = i + 1,
+                              .box = box_at(3.0 * i),
+                              .heights_m = {{"max", 1 + errors_m[i]}, {"raw-p99", 1}},
+                              .confidence = 0.5});
+    const double height_m = 1 + errors_m[i];
+    if (i < 3) {
+      estimate.plots[i].errors["max"] = {
+          .standard_error_m = 0.01, .low95_m = height_m - 0.02, .high95_m = height_m + 0.02};
+    }
+  }
+  estimate.plots[1].flags = {"few returns, far away", "cut"};
+  return score_field(truth, estimate);
+}
+
+TEST(Trust, CountsWhatTheIntervalsAndFlagsSay) {
+  const FieldScore field = four_plots_with_intervals();
+  HeightPairs pairs = height_pairs(field, "max", "height_max_m");
+  EXPECT_EQ(pairs.trust.intervals, 3U);
+  EXPECT_EQ(pairs.trust.covered, 1U);
+  EXPECT_EQ(pairs.trust.flagged, 1U);
+  EXPECT_EQ(pairs.trust.large_unflagged, 1U);
+  append(pairs, height_pairs(field, "max", "height_max_m"));
+  const HeightScore score = score_height("max", "height_max_m", pairs);
+  EXPECT_EQ(score.plots, 8U);
+  EXPECT_DOUBLE_EQ(score.coverage95, 1.0 / 3);
+  EXPECT_EQ(score.flagged, 2U);
+  EXPECT_EQ(score.large_unflagged, 2U);
+  EXPECT_DOUBLE_EQ(score.large_unflagged_share, 0.25);
+}
+
+// The interval of "max" says nothing of the mean plant.
+TEST(Trust, IntervalsCountForTheTruthThatTheHeightIsNamedAfter) {
+  const FieldScore field = four_plots_with_intervals();
+  EXPECT_EQ(height_pairs(field, "max", "height_mean_m").trust.intervals, 0U);
+  EXPECT_TRUE(
+      std::isnan(score_height("max", "height_mean_m", height_pairs(field, "max", "height_mean_m"))
+                     .coverage95));
+  EXPECT_EQ(named_truth("p95"), "height_p95_m");
+  EXPECT_EQ(named_truth("canopy_p95"), "canopy_p95_m");
+  EXPECT_THAT(heights_beside("height_max_m", {"max", "mean"}), ElementsAre("max"));
+  EXPECT_THAT(heights_beside("height_hand3_m", {"max", "mean"}), ElementsAre("mean"));
+  EXPECT_THAT(heights_beside("height_max_m", {"raw-max", "raw-p99"}),
+              ElementsAre("raw-max", "raw-p99"));
+}
+
+TEST(ScoreField, WhatIsSaidOfAnUnscoredPlotDoesNotCount) {
+  std::vector<TruePlot> truth = {true_plot(1, 0, 0.6), true_plot(2, 5, 0.8), true_plot(3, 10, 1)};
+  truth[1].scored = truth[2].scored = false;
+  PlotBox cut = box_at(10);  // a third of the plot: too little for a pair
+  cut.length_m = 1.3;
+  cut.center.x() = 9;
+  const estimate::Estimate estimate{
+      .method = "m",
+      .plots = {estimated_plot(1, box_at(0), 0.5), estimated_plot(2, box_at(5), 0.5),
+                estimated_plot(3, cut, 0.5), estimated_plot(4, box_at(30), 0.5)}};
+  const FieldScore field = score_field(truth, estimate);
+  ASSERT_EQ(field.plots.size(), 1U);
+  EXPECT_EQ(field.plots[0].truth.id, 1U);
+  EXPECT_THAT(field.extra, ElementsAre(4U));
+}
+
 TEST(ScoreHeight, WhatCannotBeComputedIsNaN) {
   const HeightScore none = score_height("e", "t", {});
   EXPECT_TRUE(std::isnan(none.rmse_m) && std::isnan(none.r2));
@@ -167,6 +240,32 @@ TEST(ScoreFiles, AFieldComesBackFromJson) {
   EXPECT_EQ(again.plots[2].truth.heights_m, field.plots[2].truth.heights_m);
 }
 
+TEST(ScoreFiles, IntervalsConfidenceAndFlagsComeBack) {
+  const FieldScore field = four_plots_with_intervals();
+  const nlohmann::json document = to_json(field);
+  const FieldScore again = field_from_json(nlohmann::json::parse(document.dump()));
+  EXPECT_EQ(to_json(again), document);
+  EXPECT_EQ(again.plots[1].found->flags, field.plots[1].found->flags);
+  EXPECT_EQ(again.plots[0].found->confidence, 0.5);
+  EXPECT_EQ(again.plots[2].found->errors.at("max").high95_m,
+            field.plots[2].found->errors.at("max").high95_m);
+  const TemporaryFolder folder;
+  write_plot_table(folder.path() / "plots.csv", field);
+  std::vector<std::string> rows;
+  read_csv(folder.path() / "plots.csv", {"low95_max_m", "high95_max_m", "confidence", "flags"},
+           {"plot_number", "row_number", "col_number", "found", "estimate", "iou", "center_error_m",
+            "heading_error_deg", "true_height_max_m", "true_height_mean_m",
+            "estimated_height_max_m", "estimated_height_raw-p99_m"},
+           [&](const CsvRow& row) {
+             std::string text;
+             for (std::size_t i = 0; i < 4; ++i) text += std::string(row.text(i)) + "|";
+             rows.push_back(text);
+           });
+  EXPECT_THAT(rows,
+              ElementsAre("0.99|1.03|0.5||", "1.06|1.1|0.5|few returns  far away;cut|",
+                                     "0.9199999999999999|0.96|0.5||", "||0.5||"));
+}
+
 TEST(ScoreFiles, OneRowAPlot) {
   const TemporaryFolder folder;
   write_plot_table(folder.path() / "plots.csv", three_plots());
@@ -179,7 +278,7 @@ TEST(ScoreFiles, OneRowAPlot) {
              heights.emplace_back(row.text(3));
              EXPECT_EQ(row.integer(0, 1, 3), static_cast<long long>(heights.size()));
            });
-  EXPECT_THAT(heights, ::testing::ElementsAre("0.5", "0.75", ""));
+  EXPECT_THAT(heights, ElementsAre("0.5", "0.75", ""));
 }
 
 class ScoreRun : public ::testing::Test {
@@ -211,6 +310,15 @@ TEST_F(ScoreRun, ReadsAnyonesEstimateAndWritesTheScores) {
   EXPECT_NEAR(document["heights"][0]["rmse_m"].get<double>(), 0.1, 1e-12);
   EXPECT_TRUE(document["heights"][0]["r2"].is_null());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "scores" / "manifest.json"));
+}
+
+TEST_F(ScoreRun, TakesTruthsOfTheCanopy) {
+  const std::filesystem::path truth = folder_.path() / "canopy.geojson";
+  write_plot_features(truth, {{box_at(5), {{"canopy_p95_m", 0.7}, {"height_max_m", 0.8}}}});
+  const Scores scores = run({.estimate = estimate_, .truth = truth});
+  ASSERT_EQ(scores.heights.size(), 2U);
+  EXPECT_EQ(scores.heights[0].truth, "canopy_p95_m");
+  EXPECT_NEAR(scores.heights[0].bias_m, 0.2, 1e-12);
 }
 
 TEST_F(ScoreRun, BadInputLeavesNothingBehind) {
