@@ -60,7 +60,8 @@ std::string mark(const TableRow& row, const ChangeRange& range, double zero_x, d
 
 std::string change_chart(const SuiteResult& result, const std::vector<TableRow>& rows) {
   const Palette palette(result);
-  const double case_height = kMarkStep * static_cast<double>(palette.rows().size()) + kCaseGap;
+  const std::vector<std::string> methods = methods_of(rows);
+  const double case_height = kMarkStep * static_cast<double>(methods.size()) + kCaseGap;
   const Frame frame{.left = 130,
                     .top = 30,
                     .width = 600,
@@ -83,7 +84,7 @@ std::string change_chart(const SuiteResult& result, const std::vector<TableRow>&
                line(frame.left, top + case_height, frame.left + frame.width, top + case_height,
                     "stroke=\"#eee\"");
     double y = top + kCaseGap / 2 + kMarkStep / 2;
-    for (const std::string& method : palette.rows()) {
+    for (const std::string& method : methods) {
       for (const TableRow& row : rows) {
         if (row.case_name != info.name || row.method != method) continue;
         if (!std::isnan(row.rmse_change_m))
@@ -94,8 +95,8 @@ std::string change_chart(const SuiteResult& result, const std::vector<TableRow>&
     top += case_height;
   }
   const double below = frame.bottom() + 40;
-  content += legend(palette, palette.rows(), frame.left, below);
-  return svg(800, below + kLegendLine * static_cast<double>(palette.rows().size()), content);
+  content += legend(palette, methods, frame.left, below);
+  return svg(800, below + kLegendLine * static_cast<double>(methods.size()), content);
 }
 
 }  // namespace plotscan::farmbench

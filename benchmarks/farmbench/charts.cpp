@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "farmbench/format.h"
 #include "farmbench/methods.h"
@@ -72,16 +73,22 @@ HeightSeries series_of(const SuiteResult& result, const std::string& case_name,
   return series;
 }
 
-// What a height chart shows: the methods with published figures, else the first; and the last.
+// What a height chart shows of the rows beside its truth: those with published figures, else the
+// first; those named after it; and the last.
 std::vector<HeightSeries> chosen_series(const SuiteResult& result, const std::string& case_name,
                                         const std::string& truth) {
   std::vector<HeightSeries> all;
+  std::vector<std::string> shown;
   for (const std::string& name : result.methods) {
     const Method& method = method_named(name);
-    for (const MethodHeight& height : method.heights)
+    const std::set<std::string> beside = score::heights_beside(truth, heights_of(method));
+    for (const MethodHeight& height : method.heights) {
+      if (!beside.contains(height.height)) continue;
       all.push_back(series_of(result, case_name, truth, method, height));
+      if (score::named_truth(height.height) == truth) shown.push_back(height.row);
+    }
   }
-  std::vector<std::string> shown = {all.back().row};
+  shown.push_back(all.back().row);
   if (result.published) {
     shown.insert(shown.end(), result.published->methods.begin(), result.published->methods.end());
   } else {
@@ -127,7 +134,8 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
   const double highest = highest_cm(result, rows) * 1.05;
   const double px_per_cm = frame.height / highest;
   const double group = frame.width / static_cast<double>(result.cases.size());
-  const double width = 0.8 * group / static_cast<double>(palette.rows().size());
+  const std::vector<std::string> methods = methods_of(rows);
+  const double width = 0.8 * group / static_cast<double>(methods.size());
   std::string content =
       label(frame.left - 30, 14, "start", "RMSE, cm") + horizontal_grid(frame, highest, px_per_cm);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
@@ -150,8 +158,8 @@ std::string rmse_chart(const SuiteResult& result, const std::vector<TableRow>& r
         label(left + 0.8 * group + 3, y + 4, "start", formatted("%.1f", *info.published_rmse_cm));
   }
   double y = frame.bottom() + 42;
-  content += legend(palette, palette.rows(), frame.left, y);
-  y += kLegendLine * static_cast<double>(palette.rows().size());
+  content += legend(palette, methods, frame.left, y);
+  y += kLegendLine * static_cast<double>(methods.size());
   if (result.published) {
     content += line(frame.left, y - 4, frame.left + 12, y - 4,
                     "stroke=\"#b00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"") +

@@ -53,6 +53,48 @@ std::string table_of(const SuiteResult& result, const std::vector<TableRow>& row
   return text + "</table>\n";
 }
 
+std::string html_row(const std::vector<std::string>& cells, const char* cell) {
+  std::string text = "<tr>";
+  for (const std::string& content : cells)
+    text += std::string("<") + cell + ">" + content + "</" + cell + ">";
+  return text + "</tr>\n";
+}
+
+std::string plots_found(const std::vector<TableRow>& rows) {
+  std::string text =
+      "<h2>Plots found</h2>\n<table>" +
+      html_row({"method", "case", "plots", "found", "missed", "extra", "recall", "precision",
+                "IoU mean", "IoU least", "centre, cm rms", "heading, deg rms"},
+               "th");
+  for (const TableRow& row : rows) {
+    text +=
+        html_row({escaped(row.method), escaped(row.case_name), std::to_string(row.plots),
+                  std::to_string(row.found), std::to_string(row.missed), std::to_string(row.extra),
+                  number("%.4f", row.recall), number("%.4f", row.precision),
+                  number("%.3f", row.iou_mean), number("%.3f", row.iou_min),
+                  centimetres(row.center_rmse_m), number("%.3f", degrees(row.heading_rmse_rad))},
+                 "td");
+  }
+  return text + "</table>\n";
+}
+
+std::string own_truths(const std::vector<TableRow>& rows) {
+  if (rows.empty()) return "";
+  std::string text =
+      "<h2>Each height against the truth it is named after</h2>\n<table>" +
+      html_row({"method", "case", "truth", "RMSE [95&nbsp;%], cm", "bias, cm",
+                "truths in its 95&nbsp;% intervals", "flagged plots", "over 5 cm without a flag"},
+               "th");
+  for (const TableRow& row : rows) {
+    text += html_row({escaped(row.method), escaped(row.case_name), escaped(row.truth),
+                      with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                      number("%+.2f", 100 * row.bias_m), percent(row.coverage95),
+                      std::to_string(row.flagged), unflagged(row)},
+                     "td");
+  }
+  return text + "</table>\n";
+}
+
 std::string scan_note(const SuiteResult& result) {
   double shots = 0;
   double points = 0;
@@ -76,13 +118,14 @@ std::string scan_note(const SuiteResult& result) {
 
 std::string html_report(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::string page = kHead;
-  page += "<h1>Suite " + escaped(result.suite) + "</h1>\n" + scan_note(result);
-  for (const std::string& truth : shown_truths(table)) {
+  page += "<h1>Suite " + escaped(result.suite) + "</h1>\n" + scan_note(result) +
+          plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
+  for (const std::string& truth : shown_truths(result, table)) {
     const std::vector<TableRow> rows = rows_by_method(table, truth);
     page += "<h2>Against " + escaped(truth) + "</h2>\n" + table_of(result, rows) +
             (result.baseline ? change_chart(result, rows) : rmse_chart(result, rows));
   }
-  for (const std::string& truth : shown_truths(table)) {
+  for (const std::string& truth : shown_truths(result, table)) {
     page += "<h2>Estimated height against " + escaped(truth) + "</h2>\n<div class=\"charts\">";
     for (const CaseInfo& info : result.cases) page += height_chart(result, info.name, truth);
     page += "</div>\n";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <numbers>
 #include <string>
 
 #include "core/manifest.h"
@@ -30,7 +29,7 @@ nlohmann::json json_of(const farmbench::TableRow& row) {
           {"iou_median", row.iou_median},
           {"iou_min", row.iou_min},
           {"center_rmse_m", row.center_rmse_m},
-          {"heading_rmse_deg", row.heading_rmse_rad * 180 / std::numbers::pi},
+          {"heading_rmse_deg", farmbench::degrees(row.heading_rmse_rad)},
           {"rmse_m", row.rmse_m},
           {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
           {"rmse_change_m", row.rmse_change_m},

@@ -53,4 +53,10 @@ const Method& method_named(const std::string& name) {
   return *found;
 }
 
+std::set<std::string> heights_of(const Method& method) {
+  std::set<std::string> names;
+  for (const MethodHeight& height : method.heights) names.insert(height.height);
+  return names;
+}
+
 }  // namespace plotscan::farmbench

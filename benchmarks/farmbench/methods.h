@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,5 +43,8 @@ const std::vector<Method>& known_methods();
 
 // The method of this name, which must be known.
 const Method& method_named(const std::string& name);
+
+// The names of its heights.
+std::set<std::string> heights_of(const Method& method);
 
 }  // namespace plotscan::farmbench

@@ -7,6 +7,7 @@
 #include "farmbench/charts.h"
 #include "farmbench/format.h"
 #include "farmbench/html_report.h"
+#include "farmbench/methods.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
@@ -29,11 +30,9 @@ std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::s
 std::string changes_by_case(const SuiteResult& result, const std::vector<TableRow>& rows) {
   std::string head = "| case |";
   std::string rule = "\n| --- |";
-  std::vector<std::string> methods;
-  for (const TableRow& row : rows) {
-    if (std::ranges::count(methods, row.method) > 0) continue;
-    methods.push_back(row.method);
-    head += " " + row.method + " |";
+  const std::vector<std::string> methods = methods_of(rows);
+  for (const std::string& method : methods) {
+    head += " " + method + " |";
     rule += " --- |";
   }
   std::string text = head + rule + "\n";
@@ -54,21 +53,58 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
   return text;
 }
 
-// For each truth and case, the methods by RMSE.
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += "| " + cell + " ";
+  return line + "|\n";
+}
+
+std::string plots_found(const std::vector<TableRow>& rows) {
+  std::string text =
+      "\n## Plots found\n\n| method | case | plots | found | missed | extra | recall | precision | "
+      "IoU mean | IoU least | centre, cm rms | heading, deg rms |\n| --- | --- | --- | --- | --- | "
+      "--- | --- | --- | --- | --- | --- | --- |\n";
+  for (const TableRow& row : rows) {
+    text += markdown_row(
+        {row.method, row.case_name, std::to_string(row.plots), std::to_string(row.found),
+         std::to_string(row.missed), std::to_string(row.extra), number("%.4f", row.recall),
+         number("%.4f", row.precision), number("%.3f", row.iou_mean), number("%.3f", row.iou_min),
+         centimetres(row.center_rmse_m), number("%.3f", degrees(row.heading_rmse_rad))});
+  }
+  return text;
+}
+
+std::string own_truths(const std::vector<TableRow>& rows) {
+  if (rows.empty()) return "";
+  std::string text =
+      "\n## Each height against the truth it is named after\n\n| method | truth | case | RMSE "
+      "[95 %] | bias | truths in its 95 % intervals | flagged plots | over 5 cm without a flag |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const TableRow& row : rows) {
+    text += markdown_row({row.method, row.truth, row.case_name,
+                          with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                          number("%+.2f", 100 * row.bias_m), percent(row.coverage95),
+                          std::to_string(row.flagged), unflagged(row)});
+  }
+  return text;
+}
+
+// Plots found, heights named after truths; for each truth and case, the methods by RMSE.
 std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::string text = "# Suite " + result.suite +
                      "\n\nRMSE, bias and MAE in cm over the plots found; 95 % bootstrap intervals "
-                     "over farms. All columns and truths are in table.csv.\n";
-  for (const std::string& truth : shown_truths(table)) {
+                     "over farms. All columns and truths are in table.csv.\n" +
+                     plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
+  for (const std::string& truth : shown_truths(result, table)) {
     if (!result.baseline) break;
     text += "\n## RMSE in cm (and its change against " + *result.baseline + "), truth " + truth +
             "\n\n" + changes_by_case(result, rows_by_method(table, truth));
   }
-  for (const std::string& truth : shown_truths(table)) {
+  for (const std::string& truth : shown_truths(result, table)) {
     for (const CaseInfo& info : result.cases) {
       std::vector<TableRow> rows;
       std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
-        return row.truth == truth && row.case_name == info.name;
+        return row.truth == truth && row.case_name == info.name && row.shown;
       });
       // NaN, a method without any height, comes last.
       std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
@@ -86,33 +122,94 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
 }
 
 std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  return formatted("%-30s %-9s %4zu/%-4zu %5zu %5s  %-21s %7s %6s",
-                   first_of_method ? row.method.c_str() : "", row.case_name.c_str(), row.found,
-                   row.plots, row.extra, number("%.2f", row.iou_median).c_str(),
+  return formatted("%-32s %-14s  %-21s %7s %6s", first_of_method ? row.method.c_str() : "",
+                   row.case_name.c_str(),
                    with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
                    number("%+.2f", 100 * row.bias_m).c_str(), published_cm(result, row).c_str());
 }
 
+std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
+  std::vector<std::string> lines = {
+      "Plots found. IoU, centre (cm rms) and heading (degrees rms) over those found",
+      formatted("%-21s %-14s %9s %5s %7s %9s %6s %7s %8s", "method", "case", "found  ", "extra",
+                "recall", "precision", "IoU", "centre", "heading")};
+  std::string method;
+  for (const TableRow& row : rows) {
+    lines.push_back(formatted(
+        "%-21s %-14s %4zu/%-4zu %5zu %7s %9s %6s %7s %8s",
+        row.method != method ? row.method.c_str() : "", row.case_name.c_str(), row.found, row.plots,
+        row.extra, number("%.4f", row.recall).c_str(), number("%.4f", row.precision).c_str(),
+        number("%.3f", row.iou_mean).c_str(), centimetres(row.center_rmse_m).c_str(),
+        number("%.3f", degrees(row.heading_rmse_rad)).c_str()));
+    method = row.method;
+  }
+  return lines;
+}
+
+// Of the methods that give intervals; no line where none does.
+std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
+  std::vector<std::string> lines;
+  std::string method;
+  for (const TableRow& row : rows) {
+    if (std::isnan(row.coverage95)) continue;
+    if (lines.empty()) {
+      lines = {"", "Against the truth each height is named after: truths in its 95 % intervals",
+               formatted("%-21s %-14s  %-20s %7s %7s %8s %14s", "method", "case", "RMSE", "bias",
+                         "in 95 %", "flagged", "over 5 cm, not")};
+    }
+    lines.push_back(formatted(
+        "%-21s %-14s  %-20s %7s %7s %8zu %14s", row.method != method ? row.method.c_str() : "",
+        row.case_name.c_str(), with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
+        number("%+.2f", 100 * row.bias_m).c_str(), percent(row.coverage95).c_str(), row.flagged,
+        unflagged(row).c_str()));
+    method = row.method;
+  }
+  return lines;
+}
+
 }  // namespace
 
-std::vector<std::string> shown_truths(const std::vector<TableRow>& table) {
-  std::vector<std::string> shown;
-  for (const char* truth : {"height_max_m", "height_mean_m"}) {
-    if (std::ranges::find(table, truth, &TableRow::truth) != table.end()) shown.emplace_back(truth);
-  }
+std::vector<std::string> shown_truths(const SuiteResult& result,
+                                      const std::vector<TableRow>& table) {
+  std::vector<std::string> shown = result.truths;
+  if (shown.empty()) shown = {"height_max_m", "height_mean_m"};
+  std::erase_if(shown, [&](const std::string& truth) {
+    return std::ranges::find(table, truth, &TableRow::truth) == table.end();
+  });
   return shown;
 }
 
 std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth) {
-  std::vector<std::string> methods;
-  for (const TableRow& row : table) {
-    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
-  }
   std::vector<TableRow> rows;
-  for (const std::string& method : methods) {
+  for (const std::string& method : methods_of(table)) {
     std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
-      return row.method == method && row.truth == truth;
+      return row.method == method && row.truth == truth && row.shown;
     });
+  }
+  return rows;
+}
+
+std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
+  std::vector<TableRow> rows;
+  for (const std::string& name : result.methods) {
+    const std::string& height = method_named(name).heights.front().row;
+    for (const CaseInfo& info : result.cases) {
+      const auto row = std::ranges::find_if(table, [&](const TableRow& candidate) {
+        return candidate.method == height && candidate.case_name == info.name;
+      });
+      if (row == table.end()) continue;
+      rows.push_back(*row);
+      rows.back().method = name;
+    }
+  }
+  return rows;
+}
+
+std::vector<TableRow> named_rows(const std::vector<TableRow>& table) {
+  std::vector<TableRow> rows;
+  for (const std::string& method : methods_of(table)) {
+    std::ranges::copy_if(table, std::back_inserter(rows),
+                         [&](const TableRow& row) { return row.method == method && row.named; });
   }
   return rows;
 }
@@ -127,19 +224,21 @@ std::string published_cm(const SuiteResult& result, const TableRow& row) {
 
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table) {
-  std::vector<std::string> lines;
-  for (const std::string& truth : shown_truths(table)) {
-    if (!lines.empty()) lines.emplace_back("");
+  std::vector<std::string> lines = plot_lines(plot_rows(result, table));
+  for (const std::string& truth : shown_truths(result, table)) {
+    lines.emplace_back("");
     lines.push_back("Truth " + truth +
                     ". RMSE [95 % interval] and bias in cm over the plots found");
-    lines.push_back(formatted("%-30s %-9s %9s %5s %5s  %-21s %7s %6s", "method", "case", "found  ",
-                              "extra", "IoU", "RMSE", "bias", "publ."));
+    lines.push_back(
+        formatted("%-32s %-14s  %-21s %7s %6s", "method", "case", "RMSE", "bias", "publ."));
     std::string method;
     for (const TableRow& row : rows_by_method(table, truth)) {
       lines.push_back(summary_line(result, row, row.method != method));
       method = row.method;
     }
   }
+  const std::vector<std::string> trust = trust_lines(named_rows(table));
+  lines.insert(lines.end(), trust.begin(), trust.end());
   if (result.published) {
     lines.emplace_back("");
     lines.push_back("publ.: RMSE of the method in " + result.published->source);
@@ -153,7 +252,7 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
   write_text(folder / "leaderboard.md", leaderboard(result, table));
   write_text(folder / "report.html", html_report(result, table));
   if (!result.baseline) return;
-  for (const std::string& truth : shown_truths(table))
+  for (const std::string& truth : shown_truths(result, table))
     write_text(folder / ("changes_" + truth + ".svg"),
                change_chart(result, rows_by_method(table, truth)));
 }

@@ -19,11 +19,20 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table);
 
-// The truths that the reports show, of those in the table.
-std::vector<std::string> shown_truths(const std::vector<TableRow>& table);
+// The truths that the reports show, of those in the table: the suite's, else the tallest and the
+// mean plant.
+std::vector<std::string> shown_truths(const SuiteResult& result,
+                                      const std::vector<TableRow>& table);
 
-// The rows of one truth, by method in the table's order, then by case.
+// The rows that stand beside one truth, by method in the table's order, then by case.
 std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth);
+
+// One row for each of the suite's methods and cases, whose columns of boxes count; named after the
+// method. All of a method's heights share its plots.
+std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table);
+
+// The rows whose height is named after the truth, by method, then by case.
+std::vector<TableRow> named_rows(const std::vector<TableRow>& table);
 
 // The published figure that belongs beside the row, "" where there is none.
 std::string published_cm(const SuiteResult& result, const TableRow& row);

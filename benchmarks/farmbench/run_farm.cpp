@@ -104,8 +104,7 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
       farm, folder / "scan", flight, true, [&](double share) { report(progress, kFlown * share); });
   const std::vector<score::TruePlot> plots = score::read_truth(folder / "farm");
   const fs::path cloud = folder / "scan" / "cloud.pcd";
-  const estimate::CloudMap map =
-      estimate::read_map(cloud, field_area(plots, suite.crop_margin_m));
+  const estimate::CloudMap map = estimate::read_map(cloud, field_area(plots, suite.crop_margin_m));
   report(progress, kRead);
   FarmResult result{.case_name = suite_case.name,
                     .seed = seed,
@@ -115,9 +114,12 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
                     .flight_s = flown.duration_s,
                     .methods = {}};
   for (const std::string& name : suite.methods) {
-    result.methods.push_back(run_method(
-        method_named(name),
-        {.cloud = cloud, .map = map, .plots = plots, .terrain = farm.terrain, .seed = seed, .threads = threads}));
+    result.methods.push_back(run_method(method_named(name), {.cloud = cloud,
+                                                             .map = map,
+                                                             .plots = plots,
+                                                             .terrain = farm.terrain,
+                                                             .seed = seed,
+                                                             .threads = threads}));
     const auto done = static_cast<double>(result.methods.size());
     report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
   }

@@ -141,17 +141,28 @@ std::vector<std::string> read_methods(const YamlSection& root) {
   return methods;
 }
 
+std::vector<std::string> read_truths(const YamlSection& root) {
+  std::vector<std::string> truths;
+  if (!root.has("truths")) return truths;
+  for (const YamlSection& entry : root.list("truths", 100, "name")) {
+    entry.allow_only({"name"});
+    truths.push_back(entry.text("name"));
+  }
+  return truths;
+}
+
 }  // namespace
 
 Suite load_suite(const std::filesystem::path& file) {
   const YamlSection root = YamlSection::load(file, {});
-  root.allow_only(
-      {"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "published", "baseline"});
+  root.allow_only({"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "truths",
+                   "published", "baseline"});
   Suite suite{.file = file,
               .name = read_name(root),
               .cases = read_cases(root),
               .seeds = read_seeds(root),
-              .methods = read_methods(root)};
+              .methods = read_methods(root),
+              .truths = read_truths(root)};
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
   if (root.has("baseline")) {
     std::vector<std::string> names;

@@ -11,6 +11,7 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
   SuiteResult result{.suite = suite.name,
                      .cases = {},
                      .methods = suite.methods,
+                     .truths = suite.truths,
                      .published = suite.published,
                      .baseline = suite.baseline,
                      .farms = std::move(farms)};
@@ -32,6 +33,7 @@ json to_json(const SuiteResult& result) {
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};
+  if (!result.truths.empty()) document["truths"] = result.truths;
   if (result.baseline) document["baseline"] = *result.baseline;
   return document;
 }
@@ -40,6 +42,7 @@ SuiteResult suite_result_from_json(const json& document) {
   SuiteResult result{.suite = document.at("suite"),
                      .cases = {},
                      .methods = document.at("methods"),
+                     .truths = document.value("truths", std::vector<std::string>()),
                      .published = {},
                      .baseline = {},
                      .farms = {}};

@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "core/text.h"
 #include "farmbench/methods.h"
+#include "score/height_score.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -19,14 +22,26 @@ constexpr std::array<const char*, 8> kColours = {"#56b4e9", "#e69f00", "#0072b2"
 }  // namespace
 
 Palette::Palette(const SuiteResult& result) {
+  std::set<std::string> truths;
+  for (const FarmResult& farm : result.farms) {
+    for (const MethodResult& run : farm.methods) truths.merge(score::true_heights(run.score));
+  }
+  std::size_t places = 0;
   for (const std::string& name : result.methods) {
-    for (const MethodHeight& height : method_named(name).heights) rows_.push_back(height.row);
+    std::optional<std::size_t> shared;
+    for (const MethodHeight& height : method_named(name).heights) {
+      if (!truths.contains(score::named_truth(height.height))) {
+        place_of_row_[height.row] = places++;
+        continue;
+      }
+      if (!shared) shared = places++;
+      place_of_row_[height.row] = *shared;
+    }
   }
 }
 
 const char* Palette::colour(const std::string& row) const {
-  const auto place = std::ranges::find(rows_, row) - rows_.begin();
-  return kColours[static_cast<std::size_t>(place) % kColours.size()];
+  return kColours[place_of_row_.at(row) % kColours.size()];
 }
 
 std::string escaped(const std::string& text) {

@@ -3,6 +3,8 @@
 
 // Private to the charts: what they draw with.
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,15 +18,15 @@ struct Frame {
   double bottom() const { return top + height; }
 };
 
-// The rows that the suite's methods make, and each one's colour, the same in every chart.
+// The colour of each row that the suite's methods make, the same in every chart. A method's heights
+// that are named after truths share one: each stands beside its own truth alone.
 class Palette {
  public:
   explicit Palette(const SuiteResult& result);
-  const std::vector<std::string>& rows() const { return rows_; }
   const char* colour(const std::string& row) const;
 
  private:
-  std::vector<std::string> rows_;
+  std::map<std::string, std::size_t> place_of_row_;
 };
 
 // Text as it may stand in HTML and SVG.

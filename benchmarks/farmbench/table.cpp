@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "core/csv.h"
 #include "core/statistics.h"
 #include "farmbench/bootstrap.h"
+#include "farmbench/format.h"
 #include "farmbench/methods.h"
 #include "score/height_score.h"
 #include "score/score.h"
@@ -74,12 +75,6 @@ void append_counts(std::string& line, std::initializer_list<std::size_t> counts)
 
 void append_values(std::string& line, std::initializer_list<double> values) {
   for (const double value : values) line += "," + field_of(value);
-}
-
-std::set<std::string> heights_of(const Method& method) {
-  std::set<std::string> names;
-  for (const MethodHeight& height : method.heights) names.insert(height.height);
-  return names;
 }
 
 void set_boxes(TableRow& row, const CaseOfMethod& collected) {
@@ -167,6 +162,14 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
   return table;
 }
 
+std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
+  std::vector<std::string> methods;
+  for (const TableRow& row : rows) {
+    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+  }
+  return methods;
+}
+
 std::string table_csv(const std::vector<TableRow>& table) {
   std::string text =
       "suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,"
@@ -176,12 +179,11 @@ std::string table_csv(const std::vector<TableRow>& table) {
   for (const TableRow& row : table) {
     text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
     append_counts(text, {row.farms, row.plots, row.found, row.missed, row.extra});
-    append_values(
-        text, {row.recall, row.precision, row.iou_mean, row.iou_median, row.iou_min,
-               100 * row.center_rmse_m, row.heading_rmse_rad * 180 / std::numbers::pi,
-               100 * row.rmse_m, 100 * row.rmse_low_m, 100 * row.rmse_high_m,
-               100 * row.rmse_change_m, 100 * row.rmse_change_low_m, 100 * row.rmse_change_high_m,
-               100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95});
+    append_values(text, {row.recall, row.precision, row.iou_mean, row.iou_median, row.iou_min,
+                         100 * row.center_rmse_m, degrees(row.heading_rmse_rad), 100 * row.rmse_m,
+                         100 * row.rmse_low_m, 100 * row.rmse_high_m, 100 * row.rmse_change_m,
+                         100 * row.rmse_change_low_m, 100 * row.rmse_change_high_m,
+                         100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95});
     append_counts(text, {row.flagged, row.large_unflagged});
     append_values(text, {row.large_unflagged_share, row.seconds});
     text += "\n";

@@ -27,8 +27,8 @@ struct TableRow {
   std::size_t missed = 0;
   std::size_t extra = 0;
   std::size_t without = 0;  // found plots without this height
-  double recall = 0;     // found / plots
-  double precision = 0;  // found / (found + extra)
+  double recall = 0;        // found / plots
+  double precision = 0;     // found / (found + extra)
   double iou_mean = 0;
   double iou_median = 0;
   double iou_min = 0;
@@ -56,6 +56,9 @@ struct TableRow {
 
 // All rows: by case, by method, by truth. `seed` draws the bootstrap's resamples.
 std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
+
+// The rows' methods, each once, in their order.
+std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
 // iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,

@@ -59,7 +59,7 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   const TemporaryFolder folder;
   const RunSummary summary = run(smoke_options(folder.path() / "smoke"));
   EXPECT_EQ(summary.result.farms.size(), 3U);
-  EXPECT_EQ(summary.table.size(), 3U * 7 * 7);  // cases, rows of the methods, truths
+  EXPECT_EQ(summary.table.size(), 3U * 7 * 9);  // cases, rows of the methods, truths
   const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
   const TableRow& given = row_of(summary.table, "flat", "dhami2020/raw-p99 true-boxes");
   const TableRow& oracle = row_of(summary.table, "flat", "oracle-ground");

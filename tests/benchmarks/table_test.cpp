@@ -75,6 +75,55 @@ TEST(MakeTable, PoolsTheFarmsOfACase) {
   EXPECT_LT(row.rmse_low_m, row.rmse_high_m);
 }
 
+// The found plots have intervals of 3.5 cm to either side of their first height, and one has a flag.
+SuiteResult result_with_intervals() {
+  SuiteResult result = small_result();
+  for (FarmResult& farm : result.farms) {
+    for (score::PlotScore& plot : farm.methods[0].score.plots) {
+      plot.truth.heights_m["height_p99_m"] = plot.truth.heights_m.at("height_max_m");
+      if (!plot.found) continue;
+      const double height_m = plot.found->heights_m.at("p99");
+      plot.found->errors["p99"] = {
+          .standard_error_m = 0.015, .low95_m = height_m - 0.035, .high95_m = height_m + 0.035};
+      plot.found->heights_m["p99"] += 0.019;  // errors 4.9, 0.9, 3.9, 5.9 and 6.9 cm
+    }
+  }
+  result.farms[2].methods[0].score.plots[0].found->flags = {"cut"};
+  return result;
+}
+
+TEST(MakeTable, CountsIntervalsAndFlags) {
+  const std::vector<TableRow> table = make_table(result_with_intervals(), 1);
+  ASSERT_EQ(table.size(), 4U);
+  const TableRow& largest = table[0];
+  EXPECT_FALSE(largest.named);
+  EXPECT_TRUE(std::isnan(largest.coverage95));  // p99's intervals say nothing of the tallest plant
+  const TableRow& named = table[1];
+  EXPECT_EQ(named.truth, "height_p99_m");
+  EXPECT_TRUE(named.named && named.shown);
+  EXPECT_DOUBLE_EQ(named.coverage95, 3.0 / 5);  // truths 3, -1, 2, 4 and 5 cm below
+  EXPECT_EQ(named.flagged, 1U);
+  EXPECT_EQ(named.large_unflagged, 1U);
+  EXPECT_DOUBLE_EQ(named.large_unflagged_share, 0.2);
+  EXPECT_DOUBLE_EQ(named.recall, 5.0 / 6);
+  EXPECT_DOUBLE_EQ(named.precision, 5.0 / 8);
+  EXPECT_NEAR(named.iou_mean, (0.9 + 0.8 + 0.7 + 0.95 + 0.85) / 5, 1e-12);
+}
+
+TEST(SummaryLines, SayHowFarAMethodIsToBeTrusted) {
+  const SuiteResult result = result_with_intervals();
+  const auto lines = summary_lines(result, make_table(result, 1));
+  for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_THAT(lines,
+              ::testing::Contains(::testing::AllOf(HasSubstr("60.0 %"), HasSubstr("1 (20.00 %)"))));
+  SuiteResult of_p99 = result;
+  of_p99.truths = {"height_p99_m"};
+  EXPECT_THAT(summary_lines(of_p99, make_table(of_p99, 1)),
+              ::testing::Contains(HasSubstr("Truth height_p99_m")));
+  const nlohmann::json document = to_json(of_p99);
+  EXPECT_EQ(to_json(suite_result_from_json(document)), document);
+}
+
 TEST(MakeTable, NothingFoundIsARowOfItsOwn) {
   const TableRow row = make_table(small_result(), 1)[1];
   EXPECT_EQ(row.case_name, "b");
@@ -106,8 +155,13 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
                                             "found",
                                             "missed",
                                             "extra",
+                                            "recall",
+                                            "precision",
+                                            "iou_mean",
                                             "iou_median",
                                             "iou_min",
+                                            "center_rmse_cm",
+                                            "heading_rmse_deg",
                                             "rmse_cm",
                                             "rmse_lo_cm",
                                             "rmse_hi_cm",
@@ -118,6 +172,9 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
                                             "mae_cm",
                                             "r2",
                                             "coverage95",
+                                            "flagged",
+                                            "over_5cm_unflagged",
+                                            "over_5cm_unflagged_share",
                                             "seconds"};
   std::string header = read_text(file);
   header.resize(header.find('\n'));
@@ -126,8 +183,8 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   EXPECT_EQ(header, expected);
   std::vector<std::string> rmses;
   read_csv(file, columns, {}, [&](const CsvRow& row) {
-    rmses.emplace_back(row.text(11));
-    EXPECT_EQ(row.text(20), "");  // no method gives intervals yet
+    rmses.emplace_back(row.text(16));
+    EXPECT_EQ(row.text(25), "");  // this method gives no intervals
   });
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }
@@ -143,10 +200,11 @@ TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
   const SuiteResult result = small_result();
   const auto lines = summary_lines(result, make_table(result, 1));
   for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
-  EXPECT_THAT(lines[2],
-              ::testing::AllOf(HasSubstr("oracle-ground"), HasSubstr("5/6"), HasSubstr("3.32 ["),
-                               HasSubstr("+2.60"), HasSubstr("4.8")));
+  EXPECT_THAT(lines[2], ::testing::AllOf(HasSubstr("oracle-ground"), HasSubstr("5/6"),
+                                         HasSubstr("0.8333"), HasSubstr("0.6250")));
   EXPECT_THAT(lines[3], ::testing::AllOf(HasSubstr("0/1"), Not(HasSubstr("nan"))));
+  EXPECT_THAT(lines[7], ::testing::AllOf(HasSubstr("oracle-ground"), HasSubstr("3.32 ["),
+                                         HasSubstr("+2.60"), HasSubstr("4.8")));
 }
 
 TEST(HtmlReport, DrawsWellFormedCharts) {

@@ -261,9 +261,8 @@ TEST(ScoreFiles, IntervalsConfidenceAndFlagsComeBack) {
              for (std::size_t i = 0; i < 4; ++i) text += std::string(row.text(i)) + "|";
              rows.push_back(text);
            });
-  EXPECT_THAT(rows,
-              ElementsAre("0.99|1.03|0.5||", "1.06|1.1|0.5|few returns  far away;cut|",
-                                     "0.9199999999999999|0.96|0.5||", "||0.5||"));
+  EXPECT_THAT(rows, ElementsAre("0.99|1.03|0.5||", "1.06|1.1|0.5|few returns  far away;cut|",
+                                "0.9199999999999999|0.96|0.5||", "||0.5||"));
 }
 
 TEST(ScoreFiles, OneRowAPlot) {
