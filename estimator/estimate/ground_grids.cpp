@@ -5,10 +5,13 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "estimate/esri_grid.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -38,6 +41,16 @@ void write_grid(const fs::path& path, const ground::Surface& surface,
 
 std::string to_tenth_millimetres(float metres) { return formatted("%.4f", metres); }
 
+// A grid on the same nodes as the surface, by their places there.
+std::vector<float> values_of(const fs::path& path, const ground::Surface& surface) {
+  EsriGrid grid = read_esri_grid(path);
+  const bool same = grid.columns == surface.columns && grid.rows == surface.rows &&
+                    std::abs(grid.cell - surface.cell_m) < 1e-6 * surface.cell_m &&
+                    (grid.first - surface.origin).norm() < 0.01 * surface.cell_m;
+  if (!same) throw InputError(path, "has other columns, rows, corner or cells than ground.asc");
+  return std::move(grid.values);
+}
+
 }  // namespace
 
 void write_ground(const fs::path& folder, const ground::Surface& surface) {
@@ -47,6 +60,19 @@ void write_ground(const fs::path& folder, const ground::Surface& surface) {
              [&](std::size_t node) { return to_tenth_millimetres(surface.sd_m[node]); });
   write_grid(folder / "ground_seen.asc", surface,
              [&](std::size_t node) { return std::string(surface.seen[node] ? "1" : "0"); });
+}
+
+ground::Surface read_ground(const fs::path& folder) {
+  EsriGrid heights = read_esri_grid(folder / "ground.asc");
+  ground::Surface surface{.origin = heights.first,
+                          .cell_m = heights.cell,
+                          .columns = heights.columns,
+                          .rows = heights.rows,
+                          .z_m = std::move(heights.values)};
+  surface.sd_m = values_of(folder / "ground_se.asc", surface);
+  for (const float seen : values_of(folder / "ground_seen.asc", surface))
+    surface.seen.push_back(seen > 0);
+  return surface;
 }
 
 }  // namespace plotscan::estimate

@@ -13,4 +13,9 @@ namespace plotscan::estimate {
 // of reach). Throws InputError when they cannot be written.
 void write_ground(const std::filesystem::path& folder, const ground::Surface& surface);
 
+// Reads the three grids of such a folder back, Plotscan's or another program's (lower left corner
+// or centre, any line breaks, any value for no data); `noise_m` is not in them and stays 0. Throws
+// InputError when one is missing, is no ESRI ASCII grid, or has other nodes than the first.
+ground::Surface read_ground(const std::filesystem::path& folder);
+
 }  // namespace plotscan::estimate
