@@ -2,10 +2,14 @@
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/program.h"
+#include "estimate/estimate.h"
+#include "estimate/ground_grids.h"
 #include "farm/farm.h"
 #include "mesh/mesh_import.h"
+#include "view/field_picture.h"
 #include "view/picture.h"
 #include "view/plant_picture.h"
+#include "view/plot_picture.h"
 
 namespace fs = std::filesystem;
 
@@ -69,6 +73,57 @@ void draw_plants(const plotscan::Program& program, const PlantsArguments& argume
   program.result({{"picture", arguments.png.string()}});
 }
 
+struct EstimateArguments {
+  fs::path cloud;
+  fs::path estimate;
+  fs::path png;
+  std::uint32_t plot = 0;
+  plotscan::view::FieldPictureOptions field;
+  plotscan::view::PlotPictureOptions side;
+};
+
+plotscan::estimate::Estimate estimate_with_ground(const fs::path& folder) {
+  if (!fs::is_directory(folder)) {
+    throw plotscan::InputError(folder, "is no estimate folder, as estimator run writes it");
+  }
+  plotscan::estimate::Estimate estimate = plotscan::estimate::read_estimate(folder);
+  if (!fs::exists(folder / "ground.asc")) {
+    throw plotscan::InputError(folder,
+                               "has no ground.asc: its method models no ground to draw "
+                               "over; estimator run --method lattice does");
+  }
+  estimate.ground = plotscan::estimate::read_ground(folder);
+  return estimate;
+}
+
+void draw_field(const plotscan::Program& program, const EstimateArguments& arguments) {
+  plotscan::view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
+                             estimate_with_ground(arguments.estimate), arguments.png,
+                             arguments.field);
+  program.say("wrote " + arguments.png.string());
+  program.result({{"picture", arguments.png.string()}});
+}
+
+void draw_plot(const plotscan::Program& program, const EstimateArguments& arguments) {
+  plotscan::view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
+                            estimate_with_ground(arguments.estimate), arguments.plot, arguments.png,
+                            arguments.side);
+  program.say("wrote " + arguments.png.string());
+  program.result({{"picture", arguments.png.string()}});
+}
+
+void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
+  command
+      .add_option("CLOUD", arguments.cloud,
+                  "the cloud, PCD, PLY or LAS, or the scan folder with it")
+      ->required();
+  command
+      .add_option("EST", arguments.estimate,
+                  "estimate folder of that cloud, from estimator run, with its ground")
+      ->required();
+  command.add_option("-o,--output", arguments.png, "the PNG to write")->required();
+}
+
 // Of pictures of both kinds.
 template <class Options>
 void add_view_options(CLI::App& command, Options& options) {
@@ -113,5 +168,28 @@ int main(int argc, char** argv) {
   plants.add_option("--up", several.up, "axis that points up in the meshes")
       ->check(CLI::IsMember({"z", "y"}));
   add_view_options(plants, several.options);
+
+  EstimateArguments of_field;
+  CLI::App& field = program.command(
+      "field", "Draw an estimate's plots over its cloud, from straight above, into a PNG.",
+      [&] { draw_field(program, of_field); });
+  add_estimate_arguments(field, of_field);
+  field.add_option("--width", of_field.field.width_px, "of the picture at most (pixels)");
+  field.add_option("--height", of_field.field.height_px, "of the picture at most (pixels)");
+  field.add_option("--margin", of_field.field.margin_m, "shown around the plots (metres)");
+
+  EstimateArguments of_plot;
+  CLI::App& plot =
+      program.command("plot", "Draw a plot from the side, with its ground and heights, into a PNG.",
+                      [&] { draw_plot(program, of_plot); });
+  add_estimate_arguments(plot, of_plot);
+  plot.add_option("--plot", of_plot.plot, "number of the plot")->required();
+  plot.add_option("--heights", of_plot.side.heights,
+                  "heights to draw, with commas between, such as mean,p95,max")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  plot.add_option("--beyond", of_plot.side.beyond_m, "shown before and behind the plot (metres)");
+  plot.add_option("--width", of_plot.side.width_px, "of the picture (pixels)");
+  plot.add_option("--height", of_plot.side.height_px, "of the picture at most (pixels)");
   return program.run(argc, argv);
 }

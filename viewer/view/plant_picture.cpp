@@ -23,9 +23,9 @@
 #include <vtkTexture.h>
 
 #include "core/error.h"
-#include "core/text.h"
 #include "view/display.h"
 #include "view/plant_layout.h"
+#include "view/scale.h"
 #include "view/surfaces.h"
 #include "view/window.h"
 
@@ -117,15 +117,6 @@ void add_text(vtkRenderer& renderer, const std::string& text, const Eigen::Vecto
   renderer.AddActor2D(actor);
 }
 
-// 1, 2 or 5 times a power of ten, at least that large.
-double round_step(double least) {
-  const double decade = std::pow(10, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * decade >= least) return factor * decade;
-  }
-  return 10 * decade;
-}
-
 // Lines in the picture's plane.
 class Lines {
  public:
@@ -174,22 +165,20 @@ void add_scale(vtkRenderer& renderer, const Sheet& sheet, const PlantRow& row,
                double px_per_height_m) {
   const double right_px = sheet.size_px.x() - 8;
   const double left_px = kScaleWidth_px;
-  const double step_m = round_step(kLeastTick_px / px_per_height_m);
-  const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step_m) - 1e-9)));
-  const int ticks = static_cast<int>(row.above_m * sheet.px_per_m / (px_per_height_m * step_m));
+  const double top_m = row.above_m * sheet.px_per_m / px_per_height_m;
+  const Ticks ticks = ticks_between(0, top_m, kLeastTick_px / px_per_height_m);
   Lines rulers;
-  for (int tick = 0; tick <= ticks; ++tick) {
-    const double y_px = row.ground_px + tick * step_m * px_per_height_m;
-    if (tick > 0) rulers.add(sheet.behind(left_px, y_px), sheet.behind(right_px, y_px));
-    const char* unit = tick == ticks ? " m" : "";
-    add_text(renderer, formatted("%.*f%s", decimals, tick * step_m, unit), {left_px - 8, y_px},
-             kTickFont_px, false);
+  for (const double tick_m : ticks.values) {
+    const double y_px = row.ground_px + tick_m * px_per_height_m;
+    if (tick_m > 0) rulers.add(sheet.behind(left_px, y_px), sheet.behind(right_px, y_px));
+    const char* unit = tick_m == ticks.values.back() ? " m" : "";
+    add_text(renderer, ticks.text(tick_m) + unit, {left_px - 8, y_px}, kTickFont_px, false);
   }
   rulers.show(renderer, 0.86, 1);
   Lines frame;
   frame.add(sheet.behind(left_px, row.ground_px), sheet.behind(right_px, row.ground_px));
   frame.add(sheet.behind(left_px, row.ground_px),
-            sheet.behind(left_px, row.ground_px + ticks * step_m * px_per_height_m));
+            sheet.behind(left_px, row.ground_px + ticks.values.back() * px_per_height_m));
   frame.show(renderer, 0.35, 1.5F);
 }
 

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/field_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scan/cloud_reader.h"
+#include "view/axes.h"
+#include "view/box_labels.h"
+#include "view/display.h"
+#include "view/height_colours.h"
+#include "view/page.h"
+#include "view/top_heights.h"
+#include "view/window.h"
+
+namespace plotscan::view {
+namespace {
+
+constexpr Range kSize_px{400, 8192};
+constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
+constexpr Rgb kPlotColour = kBlue;
+constexpr Rgb kFlaggedColour = kVermilion;
+// The colours end here: the share of pixels below, so that stray points do not bleach all others.
+constexpr double kTopShare = 0.995;
+constexpr double kLeastTop_m = 0.1;
+
+void validate(const estimate::Estimate& estimate, const FieldPictureOptions& options) {
+  require_range(options.width_px, kSize_px, "picture width");
+  require_range(options.height_px, kSize_px, "picture height");
+  require_range(options.margin_m, {0, 1e4}, "margin in metres");
+  if (!estimate.ground) throw InputError("the estimate has no ground");
+}
+
+Eigen::AlignedBox2d shown_part(const estimate::Estimate& estimate, double margin_m) {
+  Eigen::AlignedBox2d part;
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) part.extend(corner);
+  }
+  if (part.isEmpty()) {
+    const ground::Surface& ground = *estimate.ground;
+    const Eigen::Vector2d nodes(ground.columns - 1, ground.rows - 1);
+    return {ground.origin, ground.origin + ground.cell_m * nodes};
+  }
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  return {part.min() - margin, part.max() + margin};
+}
+
+std::size_t flagged(const estimate::Estimate& estimate) {
+  return std::ranges::count_if(estimate.plots,
+                               [](const auto& plot) { return !plot.flags.empty(); });
+}
+
+std::string title_of(const estimate::Estimate& estimate) {
+  if (estimate.plots.empty()) return "no plots found";
+  return formatted("%zu plots, %zu flagged", estimate.plots.size(), flagged(estimate));
+}
+
+// Where the map and its surroundings lie on the page.
+struct Layout {
+  Eigen::Vector2d page_px = Eigen::Vector2d::Zero();
+  Axes axes = {};
+  double text_px = 0;
+};
+
+Layout lay_out(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& options) {
+  Layout layout;
+  layout.text_px = kTextShare * std::max(options.width_px, options.height_px);
+  const double em = layout.text_px;
+  const Eigen::Vector2d before(5.2 * em, 4.2 * em);  // marks and titles, left and below
+  const Eigen::Vector2d behind(7.2 * em, 4.6 * em);  // colour bar at the right, title on top
+  const Eigen::Vector2d room =
+      Eigen::Vector2d(options.width_px, options.height_px) - before - behind;
+  const double px_per_m = room.cwiseQuotient(shown.sizes()).minCoeff();
+  const Eigen::Vector2d map_px = (px_per_m * shown.sizes()).array().floor().max(1.0).matrix();
+  layout.axes.shown = {shown.min(), shown.min() + map_px / px_per_m};
+  layout.axes.frame_px = {before.array().round().matrix(),
+                          before.array().round().matrix() + map_px};
+  layout.page_px = (before + map_px + behind).array().ceil();
+  layout.page_px.x() = std::max(layout.page_px.x(), 30 * em);  // the title's and legend's
+  return layout;
+}
+
+void add_boxes(Page& page, const Axes& axes, const estimate::Estimate& estimate, double text_px) {
+  // Flagged ones last, over their neighbours.
+  for (const bool with_flags : {false, true}) {
+    for (const estimate::PlotEstimate& plot : estimate.plots) {
+      if (plot.flags.empty() == with_flags) continue;
+      std::vector<Eigen::Vector2d> outline;
+      for (const Eigen::Vector2d& corner : plot.box.corners()) outline.push_back(axes.at(corner));
+      outline.push_back(outline.front());
+      outline.push_back(outline[1]);  // so that the first corner is closed
+      page.line(outline, {.colour = with_flags ? kFlaggedColour : kPlotColour,
+                          .width_px = (with_flags ? 0.17 : 0.12) * text_px});
+    }
+  }
+}
+
+void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate, double text_px) {
+  std::vector<BoxLabel> labels;
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    PlotBox box = plot.box;
+    box.center = axes.at(box.center);
+    box.width_m *= axes.px_per_m().x();
+    box.length_m *= axes.px_per_m().x();
+    labels.push_back({std::to_string(plot.id), box, !plot.flags.empty()});
+  }
+  for (const PlacedLabel& label : place_labels(labels, text_px)) {
+    const Lettering lettering{.size_px = label.size_px,
+                              .colour = labels[label.index].important ? kFlaggedColour : kInk,
+                              .across = Side::middle,
+                              .turn_rad = label.turn_rad,
+                              .bold = true};
+    page.area(label.corners, kWhite, 0.75);
+    page.text(labels[label.index].box_px.center, labels[label.index].text, lettering);
+  }
+}
+
+void add_title(Page& page, const Layout& layout, const estimate::Estimate& estimate) {
+  const double em = layout.text_px;
+  const double left = layout.axes.frame_px.min().x();
+  page.text({left, layout.page_px.y() - 1.3 * em}, title_of(estimate),
+            {.size_px = 1.2 * em, .bold = true});
+  std::vector<LegendEntry> entries;
+  if (flagged(estimate) < estimate.plots.size()) {
+    entries.push_back(
+        {.colour = kPlotColour, .width_px = 0.12 * em, .meaning = "plot with its number"});
+  }
+  if (flagged(estimate) > 0) {
+    entries.push_back({.colour = kFlaggedColour, .width_px = 0.17 * em, .meaning = "flagged plot"});
+  }
+  draw_legend(&page, {left, layout.page_px.y() - 2.5 * em}, layout.page_px.x() - left, entries, em);
+}
+
+}  // namespace
+
+void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
+                const std::filesystem::path& png, const FieldPictureOptions& options) {
+  validate(estimate, options);
+  const Display display;
+  const Layout layout = lay_out(shown_part(estimate, options.margin_m), options);
+  const Axes& axes = layout.axes;
+  TopHeights tops(axes.shown, axes.frame_px.sizes().cast<int>());
+  scan::read_positions(cloud, [&](auto points) { tops.add(points, *estimate.ground); });
+  if (tops.points() == 0) {
+    throw InputError(cloud,
+                     "has no point in the estimate's field; is it the cloud of this "
+                     "estimate, in the same coordinates?");
+  }
+  const HeightColours colours{.top_m = std::max(kLeastTop_m, tops.quantile_m(kTopShare))};
+
+  Page page(layout.page_px);
+  page.raster(axes.frame_px.min(), tops.drawn(colours));
+  add_boxes(page, axes, estimate, layout.text_px);
+  add_labels(page, axes, estimate, layout.text_px);
+  draw_axes(page, axes, "east", "north", layout.text_px);
+  const double em = layout.text_px;
+  const Eigen::Vector2d corner(axes.frame_px.max().x() + 1.2 * em, axes.frame_px.min().y());
+  const double bar_px = std::min(axes.frame_px.sizes().y(), 22 * em);
+  draw_colour_bar(page, colours, {corner, corner + Eigen::Vector2d(em, bar_px)},
+                  "height above ground (m)", em);
+  add_title(page, layout, estimate);
+  page.write(png);
+}
+
+}  // namespace plotscan::view

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/plot_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/error.h"
+#include "core/statistics.h"
+#include "core/text.h"
+#include "scan/cloud_reader.h"
+#include "view/axes.h"
+#include "view/display.h"
+#include "view/ground_profile.h"
+#include "view/height_lines.h"
+#include "view/page.h"
+#include "view/side_view.h"
+#include "view/window.h"
+
+namespace plotscan::view {
+namespace {
+
+constexpr Range kWidth_px{600, 8192};
+constexpr Range kHeight_px{400, 8192};
+constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
+constexpr double kDegrees = std::numbers::pi / 180;
+constexpr Rgb kInside{0, 136, 96};
+constexpr Rgb kBeyond = kGrey;
+constexpr double kInterval = 1.96;  // standard errors
+// Stray points above and below this share of all are not shown.
+constexpr double kStray = 0.001;
+constexpr std::array<double, 7> kExaggerations = {20, 10, 5, 3, 2, 1.5, 1};
+
+using Profile = std::vector<ProfilePoint>;
+
+void validate(const estimate::Estimate& estimate, const PlotPictureOptions& options) {
+  require_range(options.width_px, kWidth_px, "picture width");
+  require_range(options.height_px, kHeight_px, "picture height");
+  require_range(options.beyond_m, {0, 100}, "metres beyond the plot");
+  if (!estimate.ground) throw InputError("the estimate has no ground");
+}
+
+const estimate::PlotEstimate& plot_numbered(const estimate::Estimate& estimate,
+                                            std::uint32_t number) {
+  const auto found = std::ranges::find(estimate.plots, number, &estimate::PlotEstimate::id);
+  if (found != estimate.plots.end()) return *found;
+  if (estimate.plots.empty()) throw InputError("the estimate has no plots");
+  const auto [low, high] = std::ranges::minmax(estimate.plots, {}, &estimate::PlotEstimate::id);
+  throw InputError(
+      formatted("there is no plot %u; the estimate's %zu plots have numbers from %u "
+                "to %u",
+                number, estimate.plots.size(), low.id, high.id));
+}
+
+// What is drawn of a plot.
+struct Scene {
+  const estimate::PlotEstimate& plot;
+  Profile ground;         // with what lies beyond the plot
+  Profile ground_inside;  // its heights stand on this
+  std::vector<HeightLine> heights;
+  SideView points;
+};
+
+Eigen::AlignedBox2d shown_part(const Scene& scene, double beyond_m) {
+  std::vector<double> z;
+  for (const Eigen::Vector2d& point : scene.points.points()) z.push_back(point.y());
+  double low = quantile(z, kStray);
+  double high = quantile(std::move(z), 1 - kStray);
+  for (const ProfilePoint& point : scene.ground) {
+    if (std::isnan(point.z_m)) continue;
+    low = std::min(low, point.z_m - kInterval * std::max(0.0, point.standard_error_m));
+    high = std::max(high, point.z_m);
+  }
+  for (const HeightLine& height : scene.heights) {
+    for (const ProfilePoint& point : scene.ground_inside) {
+      if (!std::isnan(point.z_m)) high = std::max(high, point.z_m + height.high_m);
+    }
+  }
+  const double air = 0.04 * std::max(0.1, high - low);
+  return {Eigen::Vector2d(-beyond_m, low - air),
+          Eigen::Vector2d(scene.plot.box.length_m + beyond_m, high + 1.5 * air)};
+}
+
+std::string title_of(const estimate::PlotEstimate& plot) {
+  const std::string place = plot.row > 0 && plot.column > 0
+                                ? formatted(" (row %d, column %d)", plot.row, plot.column)
+                                : "";
+  return formatted("Plot %u", plot.id) + place;
+}
+
+std::string subtitle_of(const estimate::PlotEstimate& plot, double exaggeration) {
+  std::string text =
+      formatted("%.2f \u00d7 %.2f m, length %.1f\u00b0 from east; z drawn ", plot.box.length_m,
+                plot.box.width_m, plot.box.heading_rad / kDegrees);
+  text += exaggeration == 1 ? "to the same scale" : formatted("%.3g times as large", exaggeration);
+  if (plot.confidence) text += formatted("; confidence %.2f", *plot.confidence);
+  return text;
+}
+
+std::vector<LegendEntry> legend_of(double em) {
+  using Mark = LegendEntry::Mark;
+  return {{.mark = Mark::dots, .colour = kInside, .meaning = "points in the plot"},
+          {.mark = Mark::dots, .colour = kBeyond, .meaning = "points beyond its ends"},
+          {.colour = kInk, .width_px = 0.12 * em, .meaning = "ground, seen"},
+          {.colour = kInk,
+           .width_px = 0.12 * em,
+           .dash_px = 0.3 * em,
+           .meaning = "ground, interpolated"},
+          {.mark = Mark::area,
+           .colour = {190, 190, 190},
+           .meaning = "ground \u00b1 1.96 standard errors"}};
+}
+
+// The page from top to bottom: title, subtitle, flags, chart, legend.
+struct Layout {
+  Eigen::Vector2d page_px = Eigen::Vector2d::Zero();
+  Axes axes = {};
+  double exaggeration = 1;
+  double text_px = 0;
+  std::vector<std::string> flags;
+  std::vector<LegendEntry> legend;
+};
+
+Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
+  Layout layout;
+  layout.text_px = kTextShare * options.width_px;
+  const double em = layout.text_px;
+  if (!scene.plot.flags.empty()) {
+    layout.flags = wrapped("flagged: " + joined(scene.plot.flags, "; "), options.width_px - 2 * em,
+                           {.size_px = em});
+  }
+  layout.legend = legend_of(em);
+  const double legend_px =
+      draw_legend(nullptr, {0, 0}, options.width_px - 2 * em, layout.legend, em);
+  const double left = 5.4 * em;
+  const double right = labels_width_px(scene.heights, em);
+  const double below = 3.8 * em + legend_px;
+  const double above = (3.8 + 1.4 * static_cast<double>(layout.flags.size())) * em;
+
+  const Eigen::AlignedBox2d shown = shown_part(scene, options.beyond_m);
+  const Eigen::Vector2d room(options.width_px - left - right, options.height_px - below - above);
+  const double px_per_m = room.cwiseQuotient(shown.sizes()).minCoeff();
+  const auto fits = [&](double times) { return times * px_per_m * shown.sizes().y() <= room.y(); };
+  if (px_per_m * shown.sizes().x() >= room.x() - 1)
+    layout.exaggeration = *std::ranges::find_if(kExaggerations, fits);
+  const Eigen::Vector2d chart_px =
+      (px_per_m * shown.sizes().cwiseProduct(Eigen::Vector2d(1, layout.exaggeration)))
+          .array()
+          .round();
+  const Eigen::Vector2d corner(std::round(left), std::round(below));
+  layout.axes = {.shown = shown, .frame_px = {corner, corner + chart_px}};
+  layout.page_px = {options.width_px, std::ceil(below + chart_px.y() + above)};
+  return layout;
+}
+
+// Solid where the ground was seen, dashed where not.
+void add_ground(Page& page, const Layout& layout, const Profile& ground) {
+  const auto error_places = [&](double times) {
+    return [&layout, times](const ProfilePoint& point) {
+      return layout.axes.at({point.along_m, point.z_m + times * point.standard_error_m});
+    };
+  };
+  for (const ProfileRun& run : runs_of(ground, false)) {
+    page.band(places_of(run, error_places(-kInterval)), places_of(run, error_places(kInterval)),
+              kInk, 0.28);
+  }
+  for (const ProfileRun& run : runs_of(ground, true)) {
+    page.line(places_of(run, error_places(0)),
+              {.colour = kInk,
+               .width_px = 0.12 * layout.text_px,
+               .dash_px = run.front().seen ? 0 : 0.3 * layout.text_px});
+  }
+}
+
+void add_ends(Page& page, const Layout& layout, double length_m) {
+  for (const double end_m : {0.0, length_m}) {
+    const double x = layout.axes.at({end_m, 0}).x();
+    page.line({{x, layout.axes.frame_px.min().y()}, {x, layout.axes.frame_px.max().y()}},
+              {.colour = kGrey, .width_px = 0.06 * layout.text_px, .dash_px = layout.text_px / 2});
+  }
+}
+
+void add_words(Page& page, const Layout& layout, const estimate::PlotEstimate& plot) {
+  const double em = layout.text_px;
+  double y = layout.page_px.y() - 1.2 * em;
+  page.text({em, y}, title_of(plot), {.size_px = 1.2 * em, .bold = true});
+  y -= 1.5 * em;
+  page.text({em, y}, subtitle_of(plot, layout.exaggeration), {.size_px = em});
+  for (const std::string& line : layout.flags) {
+    y -= 1.4 * em;
+    page.text({em, y}, line, {.size_px = em, .colour = kVermilion, .bold = true});
+  }
+  const double legend_top = layout.axes.frame_px.min().y() - 3.6 * em;
+  draw_legend(&page, {em, legend_top}, layout.page_px.x() - 2 * em, layout.legend, em);
+}
+
+}  // namespace
+
+void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
+               std::uint32_t number, const std::filesystem::path& png,
+               const PlotPictureOptions& options) {
+  validate(estimate, options);
+  const estimate::PlotEstimate& plot = plot_numbered(estimate, number);
+  Scene scene{.plot = plot,
+              .ground = ground_profile(*estimate.ground, plot.box, options.beyond_m),
+              .ground_inside = ground_profile(*estimate.ground, plot.box, 0),
+              .heights = height_lines(plot, options.heights),
+              .points = SideView(plot.box, options.beyond_m)};
+  const Display display;
+  scan::read_positions(cloud, [&](auto points) { scene.points.add(points); });
+  if (scene.points.points().empty()) {
+    throw InputError(cloud, formatted("has no point in plot %u; is it the cloud of this estimate, "
+                                      "in the same coordinates?",
+                                      number));
+  }
+  const Layout layout = lay_out(scene, options);
+
+  Page page(layout.page_px);
+  page.raster(layout.axes.frame_px.min(), scene.points.drawn(layout.axes, kInside, kBeyond));
+  add_ends(page, layout, plot.box.length_m);
+  add_ground(page, layout, scene.ground);
+  draw_heights(page, layout.axes, scene.ground_inside, scene.heights, layout.text_px);
+  draw_axes(page, layout.axes, "distance along the plot", "z", layout.text_px);
+  add_words(page, layout, plot);
+  page.write(png);
+}
+
+}  // namespace plotscan::view

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plotscan::view {
+
+// 1, 2 or 5 times a power of ten, at least that large.
+double round_step(double least);
+
+// Marks of an axis at multiples of a round step.
+struct Ticks {
+  double step = 1;
+  std::vector<double> values = {};
+
+  // With the decimals that the step needs; `origin` is taken off.
+  std::string text(double value, double origin = 0) const;
+};
+
+// Those within [low, high], at least `least_step` apart.
+Ticks ticks_between(double low, double high, double least_step);
+
+}  // namespace plotscan::view
