@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <vector>
 
@@ -52,12 +53,14 @@ int main(int argc, char** argv) {
     const auto& points = map.points();
     const auto terrain = farm::read_terrain(std::filesystem::path(argv[i]) / "truth/terrain.ply");
     auto plots = farm::read_plots(std::filesystem::path(argv[i]) / "truth/plots.geojson");
+    const std::clock_t c0 = std::clock();
     const auto t0 = std::chrono::steady_clock::now();
     auto surface = ground::fit_surface(points, {.cell_m = 0.2, .noise_m = {}, .threads = 2});
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
     for (auto& plot : plots) plot.box.center -= map.origin().head<2>();
 
+    const double cpu = double(std::clock() - c0) / CLOCKS_PER_SEC;
     double sum = 0, squares = 0, point_squares = 0, worst = 0, worst_point = 0;
     int covered = 0;
     for (const auto& plot : plots) {
@@ -75,10 +78,11 @@ int main(int argc, char** argv) {
     }
     const double n = plots.size();
     std::printf(
-        "%s points %.2fM grid %dx%d noise %.4f time %.2f plots %.0f bias %.2f rms %.2f worst %.2f "
+        "%s points %.2fM grid %dx%d noise %.4f time %.2f cpu %.2f plots %.0f bias %.2f rms %.2f "
+        "worst %.2f "
         "point rms %.2f worst %.2f cover %.2f\n",
-        argv[i], 1e-6 * points.size(), surface.columns, surface.rows, surface.noise_m, seconds, n,
-        100 * sum / n, 100 * std::sqrt(squares / n), 100 * worst,
+        argv[i], 1e-6 * points.size(), surface.columns, surface.rows, surface.noise_m, seconds, cpu,
+        n, 100 * sum / n, 100 * std::sqrt(squares / n), 100 * worst,
         100 * std::sqrt(point_squares / n), 100 * worst_point, covered / n);
   }
 }

@@ -189,11 +189,9 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
 namespace {
 
 // The returns of a column that may tell of the ground.
-void keep_low(std::span<const Return> returns, float reach_m, std::vector<float>& z,
-              std::vector<Return>& kept) {
-  kept.clear();
+void keep_low(std::span<const Return> returns, float reach_m, std::vector<Return>& kept) {
   if (returns.empty()) return;
-  z.clear();
+  std::vector<float> z;
   for (const Return& r : returns) z.push_back(r.z_m);
   const auto low = z.begin() + static_cast<long>(z.size() / 100);
   std::nth_element(z.begin(), low, z.end());
@@ -208,30 +206,49 @@ void keep_low(std::span<const Return> returns, float reach_m, std::vector<float>
   kept.resize(count);
 }
 
-}  // namespace
-
-Columns low_part(const Columns& columns, float reach_m) {
+// The returns of each column that keep(node, returns, kept) leaves.
+template <class Keep>
+Columns part_of(const Columns& columns, const Keep& keep) {
   const Grid& grid = columns.grid;
   std::vector<std::vector<Return>> rows(grid.rows);
-  Columns low{.grid = grid, .base = columns.base};
-  low.first.assign(grid.nodes() + 1, 0);
+  Columns part{.grid = grid, .base = columns.base};
+  part.first.assign(grid.nodes() + 1, 0);
   for_rows(grid, [&](int row) {
-    std::vector<float> z;
     std::vector<Return> kept;
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
-      keep_low(columns.at(i), reach_m, z, kept);
+      kept.clear();
+      keep(i, columns.at(i), kept);
       rows[row].insert(rows[row].end(), kept.begin(), kept.end());
-      low.first[i + 1] = static_cast<std::uint32_t>(kept.size());
+      part.first[i + 1] = static_cast<std::uint32_t>(kept.size());
     }
   });
-  for (std::size_t i = 0; i < grid.nodes(); ++i) low.first[i + 1] += low.first[i];
-  low.returns.resize(low.first.back());
+  for (std::size_t i = 0; i < grid.nodes(); ++i) part.first[i + 1] += part.first[i];
+  part.returns.resize(part.first.back());
   for_rows(grid, [&](int row) {
     std::copy(rows[row].begin(), rows[row].end(),
-              low.returns.begin() + low.first[grid.index(0, row)]);
+              part.returns.begin() + part.first[grid.index(0, row)]);
   });
-  return low;
+  return part;
+}
+
+}  // namespace
+
+Columns low_part(const Columns& columns, float reach_m) {
+  return part_of(columns, [&](std::size_t, std::span<const Return> returns,
+                              std::vector<Return>& kept) { keep_low(returns, reach_m, kept); });
+}
+
+Columns near_part(const Columns& columns, const Field& surface, float low_m, float high_m,
+                  const std::vector<std::uint8_t>& whole) {
+  return part_of(columns,
+                 [&](std::size_t node, std::span<const Return> returns, std::vector<Return>& kept) {
+                   const float z = surface[node];
+                   for (const Return& r : returns) {
+                     if (whole[node] || (r.z_m > z + low_m && r.z_m < z + high_m))
+                       kept.push_back(r);
+                   }
+                 });
 }
 
 }  // namespace plotscan::ground

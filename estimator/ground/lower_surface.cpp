@@ -201,7 +201,6 @@ double bare_noise_m(const Columns& columns) {
   // with less noise in height.
   const double enough = std::max(16.0, 0.5 * usual_count(columns));
   constexpr double kPercentile = 0.2;
-  constexpr double kLeast = 0.003;
   std::vector<double> spreads;
   for (std::size_t i = 0; i < columns.grid.nodes(); i += 3) {
     const std::span<const Return> returns = columns.at(i);
@@ -212,7 +211,7 @@ double bare_noise_m(const Columns& columns) {
   if (spreads.empty()) return 0.03;
   const auto at = spreads.begin() + static_cast<long>(kPercentile * spreads.size());
   std::nth_element(spreads.begin(), at, spreads.end());
-  return std::max(kLeast, *at);
+  return std::max(kLeastNoise_m, *at);
 }
 
 Field slope_limited(const Grid& grid, const Field& z, double slope) {

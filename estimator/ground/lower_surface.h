@@ -6,8 +6,11 @@
 
 namespace plotscan::ground {
 
+// What a lidar's steps of range leave of noise, and the ground's own grain.
+inline constexpr double kLeastNoise_m = 0.003;
+
 // Sigma of the heights about bare ground: a low percentile, over the columns, of the standard
-// deviation about a column's own plane. No less than a lidar's steps of range give.
+// deviation about a column's own plane. No less than kLeastNoise_m.
 double bare_noise_m(const Columns& columns);
 
 // The highest surface under z that is nowhere steeper than `slope`; infinite z bound nothing. Two

@@ -69,42 +69,80 @@ void take_better(const Evidence& other, Evidence& evidence) {
   }
 }
 
-Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  const Columns all = sort_into_columns(points, grid_of(points, options.cell_m));
-  const Grid& grid = all.grid;
-  const double noise_m = options.noise_m ? std::max(*options.noise_m, 0.003) : bare_noise_m(all);
-  const Columns columns = low_part(all, static_cast<float>(0.4 + 6 * noise_m));
-  Field z = lower_surface(columns, noise_m);
-  const Evidence by_layers = weigh(columns, layer_surface(columns, noise_m), noise_m);
+// How far above and below a surface returns still count, in sigmas (mixture.cpp looks no farther).
+constexpr float kBelow = 20;
+constexpr float kAbove = 11;
+
+// One step towards the most likely surface: what the returns about it say, and the smoothest
+// surface that agrees. Bends are taken to be of one size at first, then of a Laplace law.
+void step(const Grid& grid, const Evidence& evidence, bool first, Field& z) {
+  const Field bends = curvature(grid, z);
+  constexpr float kFirstBend_m = 0.03f;
+  const Fit fit{.target = evidence.target_m,
+                .data = evidence.data,
+                .stiffness = first ? Field(grid.nodes(), 1 / (kFirstBend_m * kFirstBend_m))
+                                   : stiffness_of(bends, usual_bend(bends, evidence.data))};
+  solve(grid, fit, {.most_iterations = 100, .tolerance_m = 5e-4}, z);
+}
+
+std::vector<std::uint8_t> poorly_supported(const Evidence& evidence) {
+  std::vector<std::uint8_t> poor(evidence.support.size());
+  for (std::size_t i = 0; i < poor.size(); ++i) poor[i] = evidence.support[i] < 0.3f;
+  return poor;
+}
+
+// What is known of the ground and the surface that it makes.
+struct Ground {
+  Field z_m;  // above the columns' base
   Evidence evidence;
-  for (int round = 0; round < 8; ++round) {
-    evidence = weigh(columns, z, noise_m);
-    if (round < 4) take_better(by_layers, evidence);
-    const Field bends = curvature(grid, z);
-    const Fit fit{.target = evidence.target_m,
-                  .data = evidence.data,
-                  .stiffness = round < 2 ? Field(grid.nodes(), 1e3f)
-                                         : stiffness_of(bends, usual_bend(bends, evidence.data))};
-    solve(grid, fit, {.most_iterations = 100, .tolerance_m = 5e-4}, z);
+};
+
+Ground find_ground(const Columns& low, double noise_m) {
+  const Grid& grid = low.grid;
+  Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}};
+  const Evidence by_layers = weigh(low, layer_surface(low, noise_m), noise_m);
+  constexpr int kFirstRounds = 3;
+  for (int round = 0; round < kFirstRounds; ++round) {
+    ground.evidence = weigh(low, ground.z_m, noise_m);
+    take_better(by_layers, ground.evidence);
+    step(grid, ground.evidence, true, ground.z_m);
   }
+  const auto noise = static_cast<float>(noise_m);
+  const Columns near = near_part(low, ground.z_m, -kBelow * noise, kAbove * noise + 0.1f,
+                                 poorly_supported(ground.evidence));
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    ground.evidence = weigh(near, ground.z_m, noise_m);
+    step(grid, ground.evidence, false, ground.z_m);
+  }
+  return ground;
+}
+
+Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
+  const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
+  const double noise_m =
+      options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
+  const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * noise_m));
+  const Ground ground = find_ground(low, noise_m);
+  const Grid& grid = columns.grid;
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
                   .columns = grid.columns,
                   .rows = grid.rows,
-                  .z_m = z,
+                  .z_m = ground.z_m,
                   .sd_m = {},
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
-                  .errors = draw_errors(grid, z, evidence.data, noise_m)};
+                  .errors = draw_errors(grid, ground.z_m, ground.evidence.data, noise_m)};
   surface.sd_m = spread_of(grid, surface.errors);
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
                                 static_cast<double>(i / grid.columns));
     surface.z_m[i] +=
         static_cast<float>(columns.base.z_m + grid.cell_m * columns.base.slope.dot(place));
-    surface.seen[i] = evidence.support[i] > 0.5f && evidence.data[i] > 0;
+    surface.seen[i] = ground.evidence.support[i] > 0.5f && ground.evidence.data[i] > 0;
   }
-  forget_beyond_reach(grid, evidence.data, options.reach_m, surface);
+  forget_beyond_reach(grid, ground.evidence.data, options.reach_m, surface);
   return surface;
 }
 
