@@ -55,6 +55,16 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
   folder.write("posed.sdf",
                "<sdf version='1.9'><model name='hut'><pose>1 2 nan 0 0 0</pose><link name='l'/>"
                "</model></sdf>");
+  const std::string plots =
+      R"({"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": {)"
+      R"("type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 2], [0, 2], [0, 0]]]},)"
+      R"("properties": {"plot_number": 1, "height_p95_m": 0.5}}]})";
+  folder.write("groundless/plots.geojson", plots);
+  folder.write("estimate/plots.geojson", plots);
+  for (const char* grid : {"ground", "ground_se", "ground_seen"}) {
+    folder.write(std::string("estimate/") + grid + ".asc",
+                 "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\n0 0\n0 0\n");
+  }
   const auto before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
   const Finished finished = run(GetParam().command, folder.path().string());
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
@@ -109,7 +119,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots=-3", "plots"},
         BadCommand{"estimator score absent --truth not_a_farm", "absent"},
         BadCommand{"farmbench run broken.yaml -o out", "broken.yaml"},
-        BadCommand{"plotview picture not_a_farm -o p.png", "not_a_farm"}),
+        BadCommand{"plotview picture not_a_farm -o p.png", "not_a_farm"},
+        BadCommand{"plotview field index.ply absent -o p.png", "absent: is no estimate folder"},
+        BadCommand{"plotview field index.ply not_a_farm -o p.png", "plots.geojson"},
+        BadCommand{"plotview field index.ply groundless -o p.png", "ground.asc"},
+        BadCommand{"plotview field absent.las estimate -o p.png", "absent.las"},
+        BadCommand{"plotview plot index.ply groundless --plot 1 -o p.png", "ground.asc"},
+        BadCommand{"plotview plot index.ply estimate --plot 2 -o p.png", "no plot 2"},
+        BadCommand{"plotview plot index.ply estimate -o p.png", "--plot"},
+        BadCommand{"plotview plot index.ply estimate --plot 1 --heights p96 -o p.png", "p96"}),
     [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
 
 }  // namespace

@@ -125,7 +125,8 @@ TEST_F(Chain, NeverReplacesWhatItReads) {
 TEST_F(Chain, EveryCommandExplainsItself) {
   for (const std::string command :
        {"farmgen generate", "farmgen info", "farmgen check", "farmgen plant", "lidarsim fly",
-        "estimator run", "estimator score", "farmbench run", "plotview picture"}) {
+        "estimator run", "estimator score", "farmbench run", "plotview picture", "plotview field",
+        "plotview plot"}) {
     const std::string help = succeed(command + " --help").output;
     for (const char* option :
          {"--help", "--version", "--seed", "--threads", "--verbose", "--quiet", "--json"}) {

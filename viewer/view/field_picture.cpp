@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -21,6 +21,8 @@ namespace {
 
 constexpr Range kSize_px{400, 8192};
 constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
+constexpr double kLabelShare = 0.85;   // of the other text
+constexpr double kLineShare = 0.06;    // of the boxes' shorter side
 constexpr Rgb kPlotColour = kBlue;
 constexpr Rgb kFlaggedColour = kVermilion;
 // The colours end here: the share of pixels below, so that stray points do not bleach all others.
@@ -83,7 +85,16 @@ Layout lay_out(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& opti
   return layout;
 }
 
+// Of the boxes' lines: thinner where boxes are small.
+double line_px(const Axes& axes, const estimate::Estimate& estimate, double text_px) {
+  double shortest_m = std::numeric_limits<double>::infinity();
+  for (const estimate::PlotEstimate& plot : estimate.plots)
+    shortest_m = std::min({shortest_m, plot.box.width_m, plot.box.length_m});
+  return std::clamp(kLineShare * shortest_m * axes.px_per_m().x(), 0.05 * text_px, 0.12 * text_px);
+}
+
 void add_boxes(Page& page, const Axes& axes, const estimate::Estimate& estimate, double text_px) {
+  const double width_px = line_px(axes, estimate, text_px);
   // Flagged ones last, over their neighbours.
   for (const bool with_flags : {false, true}) {
     for (const estimate::PlotEstimate& plot : estimate.plots) {
@@ -92,8 +103,10 @@ void add_boxes(Page& page, const Axes& axes, const estimate::Estimate& estimate,
       for (const Eigen::Vector2d& corner : plot.box.corners()) outline.push_back(axes.at(corner));
       outline.push_back(outline.front());
       outline.push_back(outline[1]);  // so that the first corner is closed
+      // White beside it keeps the line apart from a dark canopy.
+      page.line(outline, {.colour = kWhite, .width_px = (with_flags ? 2.4 : 2) * width_px});
       page.line(outline, {.colour = with_flags ? kFlaggedColour : kPlotColour,
-                          .width_px = (with_flags ? 0.17 : 0.12) * text_px});
+                          .width_px = (with_flags ? 1.4 : 1) * width_px});
     }
   }
 }
@@ -107,13 +120,13 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
     box.length_m *= axes.px_per_m().x();
     labels.push_back({std::to_string(plot.id), box, !plot.flags.empty()});
   }
-  for (const PlacedLabel& label : place_labels(labels, text_px)) {
+  for (const PlacedLabel& label : place_labels(labels, kLabelShare * text_px)) {
     const Lettering lettering{.size_px = label.size_px,
                               .colour = labels[label.index].important ? kFlaggedColour : kInk,
                               .across = Side::middle,
                               .turn_rad = label.turn_rad,
                               .bold = true};
-    page.area(label.corners, kWhite, 0.75);
+    page.area(label.corners, kWhite, 0.7);
     page.text(labels[label.index].box_px.center, labels[label.index].text, lettering);
   }
 }

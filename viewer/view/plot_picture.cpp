@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/error.h"
 #include "core/statistics.h"
@@ -134,7 +133,7 @@ Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
   layout.legend = legend_of(em);
   const double legend_px =
       draw_legend(nullptr, {0, 0}, options.width_px - 2 * em, layout.legend, em);
-  const double left = 5.4 * em;
+  const double left = 6.2 * em;
   const double right = labels_width_px(scene.heights, em);
   const double below = 3.8 * em + legend_px;
   const double above = (3.8 + 1.4 * static_cast<double>(layout.flags.size())) * em;
