@@ -61,11 +61,10 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
     return;
   }
   const auto& field = diagnostics["field"];
-  program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg",
-                        field["width_m"].get<double>(), field["length_m"].get<double>(),
-                        field["heading_deg"].get<double>()));
-  program.say(formatted("lattice    %d rows, %d columns", field["rows"].get<int>(),
-                        field["columns"].get<int>()));
+  const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
+  program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg", number("width_m"),
+                        number("length_m"), number("heading_deg")));
+  program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
 }
 
 void say_how(const Program& program, const nlohmann::json& diagnostics) {

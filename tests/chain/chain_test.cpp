@@ -43,6 +43,10 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
   const auto scores = nlohmann::json::parse(scored.output);
   EXPECT_EQ(scores["boxes"]["plots"], 9);
   EXPECT_GE(scores["boxes"]["found"], 8);
+  succeed("estimator run scan -o from_cloud_alone");
+  const Finished alone = succeed("estimator score from_cloud_alone --truth farm --json");
+  EXPECT_EQ(nlohmann::json::parse(alone.output)["boxes"]["found"], 9);
+  EXPECT_EQ(nlohmann::json::parse(alone.output)["boxes"]["extra"], 0);
   for (const char* file :
        {"farm/world.sdf", "farm/truth/plots.geojson", "scan/cloud.pcd", "scan/trajectory.csv",
         "estimate/plots.geojson", "estimate/heights.csv", "estimate/manifest.json"}) {
@@ -56,7 +60,7 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
 TEST_F(Chain, EstimatesFromLasAsFromPcd) {
   succeed("farmgen generate " + kFarm + " -o farm --seed 101");
   succeed("lidarsim fly farm -o scan --format las");
-  const std::string options = " --plots 9 --crop-box=-5,-9,5,9";
+  const std::string options = " --method dhami2020 --plots 9 --crop-box=-5,-9,5,9";
   succeed("estimator run scan/cloud.pcd -o from_pcd" + options);
   succeed("estimator run scan/cloud.las -o from_las" + options);
   const std::vector<std::string> columns = {"plot_number", "center_x_m",       "center_y_m",
@@ -88,11 +92,13 @@ TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
     succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);
     succeed("lidarsim fly farm" + threads + " -o scan" + threads + " -j " + threads + " --speed 4");
     succeed("estimator run scan" + threads + "/cloud.pcd -o estimate" + threads +
-            " --plots 9 --crop-box=-5,-9,5,9 -j " + threads);
+            " --method dhami2020 --plots 9 --crop-box=-5,-9,5,9 -j " + threads);
+    succeed("estimator run scan" + threads + "/cloud.pcd -o lattice" + threads + " -j " + threads);
   }
   for (const std::string file :
        {"farm#/manifest.json", "farm#/truth/plants.csv", "scan#/manifest.json", "scan#/cloud.pcd",
-        "estimate#/manifest.json", "estimate#/heights.csv"}) {
+        "estimate#/manifest.json", "estimate#/heights.csv", "lattice#/manifest.json",
+        "lattice#/heights.csv", "lattice#/ground.asc", "lattice#/ground_se.asc"}) {
     const auto with = [&file](const std::string& threads) {
       std::string name = file;
       return name.replace(name.find('#'), 1, threads);
