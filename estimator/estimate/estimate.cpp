@@ -196,7 +196,7 @@ std::string method_of(const fs::path& folder) {
 void write_estimate(const fs::path& folder, const Estimate& estimate) {
   std::vector<PlotFeature> features;
   for (const PlotEstimate& plot : estimate.plots) features.push_back(feature_of(plot));
-  write_plot_features(folder / "plots.geojson", features);
+  write_plot_features(folder / "plots.geojson", features, estimate.crs);
   write_heights(folder / "heights.csv", estimate.plots);
   if (estimate.ground) write_ground(folder, *estimate.ground);
 }

@@ -41,6 +41,7 @@ struct PlotEstimate {
 struct Estimate {
   std::string method;  // "dhami2020"
   std::vector<PlotEstimate> plots = {};
+  std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };

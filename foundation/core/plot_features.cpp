@@ -46,13 +46,23 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
           {"properties", properties}};
 }
 
+// As GeoJSON 2008 names systems; well-known text that names no code stands there as it is.
+json crs_member(const std::string& crs) {
+  constexpr std::string_view kPrefix = "EPSG:";
+  const std::string name =
+      crs.starts_with(kPrefix) ? "urn:ogc:def:crs:EPSG::" + crs.substr(kPrefix.size()) : crs;
+  return {{"type", "name"}, {"properties", {{"name", name}}}};
+}
+
 void write_collection(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                      const char* coordinate_system, const Projection& projection) {
+                      const std::string& crs, const char* coordinate_system,
+                      const Projection& projection) {
   json features = json::array();
   for (const PlotFeature& plot : plots) features.push_back(feature_of(plot, projection));
-  const json document = {{"type", "FeatureCollection"},
-                         {"coordinate_system", coordinate_system},
-                         {"features", features}};
+  json document = {{"type", "FeatureCollection"},
+                   {"coordinate_system", coordinate_system},
+                   {"features", features}};
+  if (!crs.empty()) document["crs"] = crs_member(crs);
   std::ofstream out(path);
   out << document.dump(1) << '\n';
   if (!out.flush()) throw InputError(path, "cannot be written");
@@ -148,15 +158,18 @@ PlotFeature read_feature(const json& feature, const std::string& which) {
 
 }  // namespace
 
-void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots) {
-  write_collection(path, plots, "local metres, x east, y north; not WGS84",
+void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
+                         const std::string& crs) {
+  write_collection(path, plots, crs,
+                   crs.empty() ? "local metres, x east, y north; not WGS84"
+                               : "metres of the system in member crs, x east, y north; not WGS84",
                    [](const Eigen::Vector2d& corner) { return corner; });
 }
 
 void write_plot_features_wgs84(const std::filesystem::path& path,
                                const std::vector<PlotFeature>& plots,
                                const Projection& lonlat_deg_from_world) {
-  write_collection(path, plots,
+  write_collection(path, plots, "",
                    "WGS84 longitude, latitude in degrees; attributes in local metres, x east, "
                    "y north",
                    lonlat_deg_from_world);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -22,7 +23,11 @@ struct PlotFeature {
 // GeoJSON (RFC 7946 layout) FeatureCollection, one Polygon a plot, in local metres: the file says
 // so in a "coordinate_system" member, as RFC 7946 section 4 allows by prior arrangement. Each
 // feature also carries its box exactly: center_x_m, center_y_m, width_m, length_m, heading_deg.
-void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots);
+// Where the metres are those of a known system, `crs` names it, and so does a member "crs" of the
+// file: "EPSG:<code>" as GeoJSON 2008 (section 3) has it, which GIS programs read; else as the text
+// itself.
+void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
+                         const std::string& crs = "");
 
 // The same with each corner as WGS84 longitude and latitude, degrees, as RFC 7946 wants them:
 // `lonlat_deg_from_world` gives them. The box among the attributes stays in local metres.

@@ -170,12 +170,16 @@ double parse_number(const std::filesystem::path& file, std::size_t line_number,
 }
 
 void split_words(std::string_view line, std::vector<std::string_view>& words) {
-  constexpr std::string_view kSpace = " \t\r";
+  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   words.clear();
-  for (auto begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-    const auto end = std::min(line.find_first_of(kSpace, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSpace, end);
+  const char* at = line.data();
+  const char* end = at + line.size();
+  for (;;) {
+    while (at != end && is_space(*at)) ++at;
+    if (at == end) return;
+    const char* begin = at;
+    while (at != end && !is_space(*at)) ++at;
+    words.emplace_back(begin, static_cast<std::size_t>(at - begin));
   }
 }
 

@@ -58,7 +58,7 @@ struct CloudLayout {
 
   // Adds a field behind the others; its column and offset are set here.
   void append(ScalarField field);
-  // Well-known text, "EPSG:<code>", or "".
+  // "EPSG:<code>", well-known text where that names no code, or "".
   std::string crs() const;
   // Nothing when there is none of that name.
   const ScalarField* find(std::string_view name) const;

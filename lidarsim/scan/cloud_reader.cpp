@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "scan/cloud_layout.h"
+#include "scan/las_crs.h"
 #include "scan/las_format.h"
 
 namespace plotscan::scan {
@@ -55,7 +56,7 @@ const ScalarField* CloudLayout::find(std::string_view name) const {
 }
 
 std::string CloudLayout::crs() const {
-  if (!crs_wkt.empty()) return crs_wkt;
+  if (!crs_wkt.empty()) return short_crs(crs_wkt);
   return crs_epsg == 0 ? "" : "EPSG:" + std::to_string(crs_epsg);
 }
 

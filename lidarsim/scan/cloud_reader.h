@@ -18,8 +18,8 @@ struct CloudSummary {
   std::size_t points = 0;      // handed to the sink
   std::size_t not_finite = 0;  // left out: a coordinate was NaN or infinite
   std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  // The coordinate system where the file names it (LAS): well-known text, or "EPSG:<code>" from
-  // GeoTIFF keys; else "".
+  // The coordinate system where the file names it (LAS): "EPSG:<code>", or well-known text where
+  // that names no code; else "".
   std::string crs = {};
   bool in_degrees = false;  // x and y are longitude and latitude: the file says so
 };

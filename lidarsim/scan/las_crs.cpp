@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/las_crs.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "core/text.h"
 
 namespace plotscan::scan {
+namespace {
+
+// The digits that follow, in quotes or not.
+std::string code_at(std::string_view text) {
+  if (text.starts_with('"')) text.remove_prefix(1);
+  return std::string(text.substr(0, text.find_first_not_of("0123456789")));
+}
+
+}  // namespace
 
 std::string local_crs_wkt() {
   return R"(LOCAL_CS["Plotscan world frame",LOCAL_DATUM["Centre of the farm",0],)"
@@ -26,6 +38,26 @@ std::string utm_crs_wkt(const UtmZone& zone) {
          formatted(R"(AXIS["Northing",NORTH],AUTHORITY["EPSG","%d"]],)", epsg) +
          R"(VERT_CS["WGS 84 ellipsoidal height",VERT_DATUM["Ellipsoid",2002],)"
          R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Up",UP]]])";
+}
+
+std::string short_crs(const std::string& wkt) {
+  const std::size_t start = std::min(wkt.find("PROJCS["), wkt.find("PROJCRS["));
+  if (start == std::string::npos) return wkt;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t at = start; at < wkt.size(); ++at) {
+    if (wkt[at] == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (wkt[at] == '[') ++depth;
+    if (wkt[at] == ']' && --depth == 0) break;
+    if (depth != 1) continue;
+    const std::string_view rest = std::string_view(wkt).substr(at);
+    for (const std::string_view name : {R"(AUTHORITY["EPSG",)", R"(ID["EPSG",)"}) {
+      const std::string code = rest.starts_with(name) ? code_at(rest.substr(name.size())) : "";
+      if (!code.empty()) return "EPSG:" + code;
+    }
+  }
+  return wkt;
 }
 
 }  // namespace plotscan::scan

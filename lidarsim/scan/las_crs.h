@@ -15,4 +15,8 @@ std::string local_crs_wkt();
 // WGS 84 / UTM in the zone, EPSG 326xx or 327xx, with heights over the ellipsoid.
 std::string utm_crs_wkt(const UtmZone& zone);
 
+// "EPSG:<code>" of the projected system that a text (WKT 1 or 2) describes, where it names the
+// code; else the text itself.
+std::string short_crs(const std::string& wkt);
+
 }  // namespace plotscan::scan

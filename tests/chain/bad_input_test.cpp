@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad input gets one message and exit code 2, and leaves nothing behind.
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <ostream>
 
 #include "programs.h"
@@ -14,6 +16,24 @@ using testing::run;
 using testing::TemporaryFolder;
 
 const std::string kPaper = std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'";
+
+// A LAS 1.2 header that promises ten points of 20 bytes, and no more.
+std::string las_header(std::uint8_t point_format) {
+  std::string bytes(227, '\0');
+  const auto put = [&bytes](std::size_t offset, auto value) {
+    std::memcpy(&bytes[offset], &value, sizeof value);
+  };
+  std::memcpy(bytes.data(), "LASF", 4);
+  put(24, std::uint8_t{1});
+  put(25, std::uint8_t{2});
+  put(94, std::uint16_t{227});
+  put(96, std::uint32_t{227});
+  put(104, point_format);
+  put(105, std::uint16_t{20});
+  put(107, std::uint32_t{10});
+  for (const std::size_t axis : {0, 1, 2}) put(131 + 8 * axis, 0.001);
+  return bytes;
+}
 
 struct BadCommand {
   std::string command;
@@ -32,6 +52,10 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
       "truncated.pcd",
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 100\nHEIGHT 1\n"
       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 100\nDATA binary\nabc");
+  folder.write("nan.pcd",
+               "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\nnan 0 0\n0 0 inf\n");
+  folder.write("compressed.laz", las_header(1 | 0x80));
+  folder.write("truncated.las", las_header(0) + std::string(190, 'x'));
   folder.write("not_a_farm/readme", "x");
   folder.write("web/manifest.json", "{}");
   folder.write("no_seeds.yaml",
@@ -114,6 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
                    "truncated.pcd"},
         BadCommand{"estimator run absent.pcd -o out", "absent.pcd"},
         BadCommand{"estimator run truncated.pcd -o out", "truncated.pcd"},
+        BadCommand{"estimator run nan.pcd -o out", "no point of the cloud has finite"},
+        BadCommand{"estimator run compressed.laz -o out", "(LAZ)"},
+        BadCommand{"estimator run truncated.las -o out", "promises 10 points of 20"},
+        BadCommand{"estimator run index.ply -o out --crop-box 50,50,60,60",
+                   "none of its 3 points lies in"},
         BadCommand{"estimator run truncated.pcd -o out --plots 3", "belongs to --method dhami2020"},
         BadCommand{"estimator run truncated.pcd -o out --noise=-1", "noise"},
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots=-3", "plots"},

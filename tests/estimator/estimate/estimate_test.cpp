@@ -43,6 +43,35 @@ TEST(Estimate, ReadsWhatItWrites) {
   EXPECT_TRUE(read.plots[1].heights_m.empty());
 }
 
+// A box in UTM: its corners, its centre and a program that reads the polygon alone keep every
+// millimetre, and the file names the system.
+TEST(Estimate, KeepsMillimetresInMapGridCoordinates) {
+  const TemporaryFolder folder;
+  const PlotBox box{
+      .center = {512345.678, 4123456.789}, .width_m = 1.234, .length_m = 5.678, .heading_rad = 0.7};
+  write_estimate(folder.path(), {.method = "lattice",
+                                 .plots = {{.id = 1, .box = box, .heights_m = {{"mean", 0.5}}}},
+                                 .crs = "EPSG:32617"});
+  auto document = nlohmann::json::parse(read_text(folder.path() / "plots.geojson"));
+  EXPECT_EQ(document["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::32617");
+  const auto& ring = document["features"][0]["geometry"]["coordinates"][0];
+  ASSERT_EQ(ring.size(), 5u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d corner(ring[i][0].get<double>(), ring[i][1].get<double>());
+    EXPECT_LT((corner - box.corners()[i]).norm(), 1e-6);
+  }
+  document["features"][0]["properties"] = {{"height_mean_m", 0.5}};
+  folder.write("polygons.geojson", document.dump());
+  for (const auto& file : {folder.path() / "plots.geojson", folder.path() / "polygons.geojson"}) {
+    const PlotBox read = read_estimate(file).plots.at(0).box;
+    EXPECT_LT((read.center - box.center).norm(), 1e-6);
+    EXPECT_NEAR(read.width_m, 1.234, 1e-6);
+    EXPECT_NEAR(read.length_m, 5.678, 1e-6);
+    EXPECT_NEAR(read.heading_rad, 0.7, 1e-6);
+  }
+  EXPECT_THAT(read_text(folder.path() / "heights.csv"), HasSubstr("512345.678,4123456.789,1.234"));
+}
+
 TEST(Estimate, WritesOneLineAPlot) {
   const TemporaryFolder folder;
   write_estimate(folder.path(), two_plots());

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "scan/cloud_reader.h"
+#include "scan/las_crs.h"
 
 namespace plotscan::scan {
 namespace {
@@ -186,7 +187,7 @@ TEST_F(ForeignLasFile, MarksAreNotReadFromOtherFormats) {
 }
 
 TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
-  const std::string wkt = R"(PROJCS["WGS 84 / UTM zone 17N",GEOGCS["WGS 84"]])";
+  const std::string wkt = R"(PROJCS["WGS 84 / UTM zone 17N",GEOGCS["WGS 84"]])";  // as ESRI's
   EXPECT_EQ(read({.minor = 4,
                   .format = 6,
                   .records = record("LASF_Projection", 2112, wkt + '\0'),
@@ -216,6 +217,19 @@ TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
   const std::string degrees = R"(GEOGCS["WGS 84",DATUM["WGS_1984"]])";
   EXPECT_TRUE(read({.records = record("LASF_Projection", 2112, degrees), .record_count = 1}, {{}})
                   .summary.in_degrees);
+}
+
+TEST(ShortCrs, IsTheCodeOfTheProjectedSystem) {
+  EXPECT_EQ(short_crs(utm_crs_wkt(UtmZone{.number = 17, .north = true})), "EPSG:32617");
+  EXPECT_EQ(short_crs(utm_crs_wkt(UtmZone{.number = 33, .north = false})), "EPSG:32733");
+  EXPECT_EQ(short_crs(R"(PROJCRS["ETRS89 / UTM zone 32N [x]",BASEGEOGCRS["E",ID["EPSG",4258]],)"
+                      R"(CONVERSION["U",ID["EPSG",16032]],ID["EPSG",25832]])"),
+            "EPSG:25832");
+  for (const std::string& none :
+       {std::string(), local_crs_wkt(),
+        std::string(R"(PROJCS["x",GEOGCS["y",AUTHORITY["EPSG","4326"]]])"),
+        std::string(R"(PROJCS["broken)")})
+    EXPECT_EQ(short_crs(none), none);
 }
 
 TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
