@@ -21,6 +21,8 @@ namespace {
 
 constexpr Range kSize_px{400, 8192};
 constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
+constexpr double kWidest = 1.6;        // of the heights; wider pictures have smaller text
+constexpr double kLeastWidth = 42;     // of the page in texts, for title and legend
 constexpr double kLabelShare = 0.85;   // of the other text
 constexpr double kLineShare = 0.06;    // of the boxes' shorter side
 constexpr Rgb kPlotColour = kBlue;
@@ -69,7 +71,7 @@ struct Layout {
 
 Layout lay_out(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& options) {
   Layout layout;
-  layout.text_px = kTextShare * std::max(options.width_px, options.height_px);
+  layout.text_px = kTextShare * std::min(1.0 * options.width_px, kWidest * options.height_px);
   const double em = layout.text_px;
   const Eigen::Vector2d before(5.2 * em, 4.2 * em);  // marks and titles, left and below
   const Eigen::Vector2d behind(7.2 * em, 4.6 * em);  // colour bar at the right, title on top
@@ -81,7 +83,7 @@ Layout lay_out(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& opti
   layout.axes.frame_px = {before.array().round().matrix(),
                           before.array().round().matrix() + map_px};
   layout.page_px = (before + map_px + behind).array().ceil();
-  layout.page_px.x() = std::max(layout.page_px.x(), 30 * em);  // the title's and legend's
+  layout.page_px.x() = std::max(layout.page_px.x(), kLeastWidth * em);
   return layout;
 }
 
@@ -131,7 +133,8 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
   }
 }
 
-void add_title(Page& page, const Layout& layout, const estimate::Estimate& estimate) {
+void add_title(Page& page, const Layout& layout, const estimate::Estimate& estimate,
+               bool groundless) {
   const double em = layout.text_px;
   const double left = layout.axes.frame_px.min().x();
   page.text({left, layout.page_px.y() - 1.3 * em}, title_of(estimate),
@@ -143,6 +146,11 @@ void add_title(Page& page, const Layout& layout, const estimate::Estimate& estim
   }
   if (flagged(estimate) > 0) {
     entries.push_back({.colour = kFlaggedColour, .width_px = 0.17 * em, .meaning = "flagged plot"});
+  }
+  if (groundless) {
+    entries.push_back({.mark = LegendEntry::Mark::area,
+                       .colour = kNoGroundColour,
+                       .meaning = "no ground within reach"});
   }
   draw_legend(&page, {left, layout.page_px.y() - 2.5 * em}, layout.page_px.x() - left, entries, em);
 }
@@ -174,7 +182,7 @@ void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& es
   const double bar_px = std::min(axes.frame_px.sizes().y(), 22 * em);
   draw_colour_bar(page, colours, {corner, corner + Eigen::Vector2d(em, bar_px)},
                   "height above ground (m)", em);
-  add_title(page, layout, estimate);
+  add_title(page, layout, estimate, tops.groundless());
   page.write(png);
 }
 

@@ -136,7 +136,7 @@ void draw_heights(Page& page, const Axes& axes, const std::vector<ProfilePoint>&
   }
   const std::vector<double> places =
       spread_out(ends, 2.5 * text_px, axes.frame_px.min().y() + text_px,
-                 axes.frame_px.max().y() - 0.5 * text_px);
+                 axes.frame_px.max().y() - 0.9 * text_px);
   const double edge = axes.frame_px.max().x();
   for (std::size_t i = 0; i < upwards.size(); ++i) {
     if (last != ground.rend()) {

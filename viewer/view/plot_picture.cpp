@@ -24,6 +24,8 @@ namespace {
 constexpr Range kWidth_px{600, 8192};
 constexpr Range kHeight_px{400, 8192};
 constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
+constexpr double kWidest = 2;          // of the heights; wider pictures have smaller text
+constexpr double kLeastChart = 5;      // height of the chart, in texts
 constexpr double kDegrees = std::numbers::pi / 180;
 constexpr Rgb kInside{0, 136, 96};
 constexpr Rgb kBeyond = kGrey;
@@ -124,7 +126,7 @@ struct Layout {
 
 Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
   Layout layout;
-  layout.text_px = kTextShare * options.width_px;
+  layout.text_px = kTextShare * std::min(1.0 * options.width_px, kWidest * options.height_px);
   const double em = layout.text_px;
   if (!scene.plot.flags.empty()) {
     layout.flags = wrapped("flagged: " + joined(scene.plot.flags, "; "), options.width_px - 2 * em,
@@ -139,9 +141,12 @@ Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
   const double above = (3.8 + 1.4 * static_cast<double>(layout.flags.size())) * em;
 
   const Eigen::AlignedBox2d shown = shown_part(scene, options.beyond_m);
-  const Eigen::Vector2d room(options.width_px - left - right, options.height_px - below - above);
+  const Eigen::Vector2d room(options.width_px - left - right,
+                             std::max(kLeastChart * em, options.height_px - below - above));
   const double px_per_m = room.cwiseQuotient(shown.sizes()).minCoeff();
-  const auto fits = [&](double times) { return times * px_per_m * shown.sizes().y() <= room.y(); };
+  const auto fits = [&](double times) {
+    return times * px_per_m * shown.sizes().y() <= room.y() + 1;
+  };
   if (px_per_m * shown.sizes().x() >= room.x() - 1)
     layout.exaggeration = *std::ranges::find_if(kExaggerations, fits);
   const Eigen::Vector2d chart_px =

@@ -9,8 +9,10 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1'000'000;
 constexpr double kOpacity = 0.55;  // of one point
-// Dots are larger where points are fewer than this share of the frame's pixels.
-constexpr double kFewPoints = 0.08;
+// Fewer points have larger dots, which would cover this share of the frame side by side.
+constexpr double kCover = 0.12;
+constexpr double kSmallestDot_px = 2;
+constexpr double kLargestDot_px = 6;
 
 std::uint8_t mixed(std::uint8_t paper, std::uint8_t ink, double share) {
   return static_cast<std::uint8_t>(std::lround(paper + (ink - paper) * share));
@@ -35,7 +37,8 @@ void SideView::add(std::span<const Eigen::Vector3d> points) {
 Raster SideView::drawn(const Axes& axes, const Rgb& inside, const Rgb& beyond) const {
   const Eigen::Vector2i size = axes.frame_px.sizes().cast<int>();
   const double pixels = static_cast<double>(size.x()) * size.y();
-  const int dot_px = static_cast<double>(points_.size()) < kFewPoints * pixels ? 3 : 2;
+  const double share_px = std::sqrt(kCover * pixels / static_cast<double>(points_.size()));
+  const int dot_px = static_cast<int>(std::clamp(share_px, kSmallestDot_px, kLargestDot_px));
   std::vector<int> count(static_cast<std::size_t>(pixels), 0);
   for (const Eigen::Vector2d& point : points_) {
     const Eigen::Vector2d px = axes.at(point) - axes.frame_px.min();

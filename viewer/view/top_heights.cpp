@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/statistics.h"
 
@@ -13,7 +14,6 @@ namespace {
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
 constexpr float kNoGround = -1e9F;
 
-constexpr Rgb kNoGroundColour{200, 200, 205};
 constexpr double kLargestDot_px = 6;
 constexpr double kPointsInDot = 4;  // on average
 
@@ -47,6 +47,7 @@ void TopHeights::add(std::span<const Eigen::Vector3d> points, const ground::Surf
     const double ground_z = ground.height(place);
     const float height_m =
         std::isnan(ground_z) ? kNoGround : static_cast<float>(point.z() - ground_z);
+    groundless_ = groundless_ || std::isnan(ground_z);
     float& top = top_m_[static_cast<std::size_t>(px.y()) * size_px_.x() + px.x()];
     top = std::max(top, height_m);
     ++points_;
