@@ -31,6 +31,7 @@ Bands best_bands(const std::vector<double>& steps, int width, const BandSearch& 
   for (int end = 1; end < ends; ++end) {
     const auto at = static_cast<std::size_t>(end);
     best[at] = best[at - 1];
+    if (-steps[at] <= search.penalty) continue;
     for (int w = width - search.tolerance; w <= width + search.tolerance; ++w) {
       const int begin = end - w;
       if (w < 1 || begin < 0) continue;

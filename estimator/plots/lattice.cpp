@@ -5,28 +5,14 @@
 #include <cmath>
 #include <tuple>
 
+#include "plots/statistics.h"
+
 namespace plotscan::plots {
 namespace {
 
 constexpr double kReach_m = 0.2;
 constexpr double kLeastShare = 0.3;
 constexpr double kLeastContrast = 0.25;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
-// The usual distance of neighbours: the median of those not much longer than the shorter ones.
-double usual_step(std::vector<double> steps) {
-  if (steps.empty()) return 0;
-  std::ranges::sort(steps);
-  const double low = steps[steps.size() / 4];
-  std::erase_if(steps, [&](double step) { return step > 1.3 * low; });
-  return median(steps);
-}
 
 struct Cells {
   int r0, r1, c0, c1;
@@ -48,7 +34,7 @@ double inner_cover(const Lattice& lattice, const Place& place) {
 double outline_contrast(const Lattice& lattice, const Place& place) {
   const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
-  return side_contrast(lattice.view, box.r0, box.r1, box.c0, box.c1, reach).mean;
+  return side_contrast(lattice.view, box.r0, box.r1, box.c0, box.c1, reach).mean();
 }
 
 // The columns that run through all rows: positions that lie together; none where they do not.

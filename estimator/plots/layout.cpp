@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
@@ -10,7 +13,8 @@ namespace {
 constexpr double kLeastSide_m = 0.35, kMostSide_m = 25;
 constexpr double kReach_m = 0.2;       // of the strips on either side of an edge
 constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
-constexpr std::size_t kRowSizes = 4;   // sizes across the rows that are tried along them
+constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
+constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
 
 int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
@@ -22,7 +26,7 @@ struct SizeScore {
 };
 
 // Local maxima of a score over sizes, the best ones first.
-std::vector<SizeScore> peaks(const std::vector<SizeScore>& scores) {
+std::vector<SizeScore> best_peaks(const std::vector<SizeScore>& scores) {
   std::vector<SizeScore> found;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const double left = i > 0 ? scores[i - 1].score : 0;
@@ -32,12 +36,21 @@ std::vector<SizeScore> peaks(const std::vector<SizeScore>& scores) {
     }
   }
   std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.score > b.score; });
+  found.resize(std::min(found.size(), kSizes));
   return found;
 }
 
 std::vector<double> profile_over_rows(const RowView& view) {
   std::vector<double> profile;
-  for (int r = 0; r < view.r_cells(); ++r) profile.push_back(view.cover(r, r + 1, 0, view.c_cells()));
+  double most = 0;
+  for (int r = 0; r < view.r_cells(); ++r) {
+    most = std::max(most, view.seen_cells(r, r + 1, 0, view.c_cells()));
+  }
+  for (int r = 0; r < view.r_cells(); ++r) {
+    // A few cells at the survey's edge, seen by a few returns, are no evidence.
+    const double seen = view.seen_cells(r, r + 1, 0, view.c_cells());
+    profile.push_back(view.cover(r, r + 1, 0, view.c_cells()) * std::min(1.0, 4 * seen / most));
+  }
   return profile;
 }
 
@@ -51,7 +64,19 @@ std::vector<double> profile_in_row(const RowView& view, const Band& band) {
 }
 
 BandSearch search_for(double strongest, double cell_m) {
-  return {.tolerance = 1, .least_gap = cells(0.15, cell_m), .penalty = kPenaltyShare * strongest};
+  return {.least_gap = cells(0.15, cell_m), .penalty = kPenaltyShare * strongest};
+}
+
+// Edges of single plots are rough: a band may be a little wider or narrower than all.
+Bands bands_of(const std::vector<double>& steps, int size, BandSearch search) {
+  search.tolerance = std::max(1, size / 30);
+  return best_bands(steps, size, search);
+}
+
+int median_size(const std::vector<Band>& bands) {
+  std::vector<double> widths;
+  for (const Band& band : bands) widths.push_back(band.end - band.begin);
+  return static_cast<int>(median(widths));
 }
 
 double strongest(const std::vector<double>& steps) {
@@ -63,84 +88,210 @@ double strongest(const std::vector<double>& steps) {
 std::vector<int> sizes(int most_cells, double cell_m) {
   std::vector<int> list;
   const int last = std::min(most_cells, cells(kMostSide_m, cell_m));
-  for (int size = cells(kLeastSide_m, cell_m); size <= last; ++size) list.push_back(size);
+  for (int size = cells(kLeastSide_m, cell_m); size <= last; size += std::max(1, size / 60)) {
+    list.push_back(size);
+  }
   return list;
 }
 
-// Plots along every one of these rows, of the size that explains most.
-Layout with_plots(const RowView& view, int r_size, const std::vector<Band>& bands) {
-  const int reach = cells(kReach_m, view.cell_m());
+// Share of the neighbours' steps that are a whole number of the usual step.
+double regularity(const Layout& layout) {
+  std::vector<double> steps;
+  for (const Row& row : layout.rows) {
+    for (std::size_t i = 1; i < row.plots.size(); ++i) {
+      steps.push_back((row.plots[i].begin + row.plots[i].end - row.plots[i - 1].begin -
+                       row.plots[i - 1].end) * layout.view.cell_m() / 2);
+    }
+  }
+  if (steps.size() < 2) return 1;
+  const double usual_m = usual_step(steps);
+  const auto regular = std::ranges::count_if(steps, [&](double step) {
+    const double off_m = std::abs(step - usual_m * std::max(1.0, std::round(step / usual_m)));
+    return off_m < std::clamp(0.08 * usual_m, 0.06, 0.15);
+  });
+  return static_cast<double>(regular) / static_cast<double>(steps.size());
+}
+
+// An edge is an edge: one between canopies that touch counts hardly less than one to bare ground.
+// What the best of many places shows by chance counts nothing, and a step inwards against it.
+double edge_value(double contrast) {
+  constexpr double kChance = 0.08, kClear = 0.35;
+  return std::clamp((contrast - kChance) / (kClear - kChance), -1.0, 1.0);
+}
+
+// Metres of edges that a layout explains. Bands that the texture of a canopy suggests do not lie at
+// equal steps.
+double score_of(const Layout& layout) {
+  const int reach = cells(kReach_m, layout.view.cell_m());
+  std::vector<double> covers;
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      covers.push_back(layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end));
+    }
+  }
+  const double full = std::max(1e-6, median(covers));
+  double score = 0;
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      const SideContrast side = side_contrast(layout.view, row.band.begin, row.band.end, plot.begin,
+                                              plot.end, reach);
+      for (const double contrast : side.across_r) score += layout.c_size * edge_value(contrast / full);
+      for (const double contrast : side.across_c) score += layout.r_size * edge_value(contrast / full);
+    }
+  }
+  const double regular = std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
+  return score * layout.view.cell_m() * regular;
+}
+
+void add(std::vector<Layout>& layouts, Layout layout) {
+  std::vector<Band> rows, plots;
+  for (const Row& row : layout.rows) {
+    rows.push_back(row.band);
+    plots.insert(plots.end(), row.plots.begin(), row.plots.end());
+  }
+  if (plots.empty()) return;
+  layout.r_size = median_size(rows);
+  layout.c_size = median_size(plots);
+  layout.score = score_of(layout);
+  layouts.push_back(std::move(layout));
+}
+
+// Layouts with plots of the best sizes along these rows, every row by itself: rows may start at
+// different offsets.
+void add_with_plots(std::vector<Layout>& layouts, const RowView& view,
+                    const std::vector<Band>& bands) {
   std::vector<std::vector<double>> steps;
   double most = 0;
   for (const Band& band : bands) {
-    steps.push_back(steps_of(profile_in_row(view, band), reach));
+    steps.push_back(steps_of(profile_in_row(view, band), cells(kReach_m, view.cell_m())));
     most = std::max(most, strongest(steps.back()));
   }
   const BandSearch search = search_for(most, view.cell_m());
-  Layout best{.view = view, .r_size = r_size};
+  std::vector<SizeScore> scores;
   for (const int size : sizes(view.c_cells(), view.cell_m())) {
     double score = 0;
-    for (const auto& row : steps) score += best_bands(row, size, search).score;
-    if (score <= best.score) continue;
-    best.score = score;
-    best.c_size = size;
+    for (const auto& row : steps) score += bands_of(row, size, search).score;
+    scores.push_back({size, score});
   }
-  if (best.c_size == 0) return best;
-  best.score = 0;
-  const double perimeter_m = 2 * (r_size + best.c_size) * view.cell_m();
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    Row row{bands[i], best_bands(steps[i], best.c_size, search).bands};
-    for (const Band& plot : row.plots) {
-      const SideContrast contrast = side_contrast(view, row.band.begin, row.band.end, plot.begin,
-                                                  plot.end, reach);
-      // A box without an edge on one side is not a plot.
-      const double whole = std::clamp(contrast.weakest / (0.3 * contrast.mean), 0.0, 1.0);
-      best.score += perimeter_m * std::max(0.0, contrast.mean) * whole;
+  for (const SizeScore& tried : best_peaks(scores)) {
+    Layout layout{.view = view};
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      Row row{bands[i], bands_of(steps[i], tried.size, search).bands};
+      if (!row.plots.empty()) layout.rows.push_back(std::move(row));
     }
-    if (!row.plots.empty()) best.rows.push_back(std::move(row));
+    add(layouts, std::move(layout));
   }
-  return best;
 }
 
-Layout best_layout_of(const RowView& view) {
+// The same with columns that run through all rows, which shows weaker edges than one row does.
+void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
+                      const std::vector<Band>& bands) {
+  std::vector<double> profile(static_cast<std::size_t>(view.c_cells()));
+  for (const Band& band : bands) {
+    const std::vector<double> row = profile_in_row(view, band);
+    for (std::size_t i = 0; i < profile.size(); ++i) profile[i] += row[i];
+  }
+  const std::vector<double> steps = steps_of(profile, cells(kReach_m, view.cell_m()));
+  const BandSearch search = search_for(strongest(steps), view.cell_m());
+  std::vector<SizeScore> scores;
+  for (const int size : sizes(view.c_cells(), view.cell_m())) {
+    scores.push_back({size, bands_of(steps, size, search).score});
+  }
+  for (const SizeScore& tried : best_peaks(scores)) {
+    const std::vector<Band> columns = bands_of(steps, tried.size, search).bands;
+    std::vector<double> covers;
+    for (const Band& row : bands) {
+      for (const Band& column : columns) {
+        covers.push_back(view.cover(row.begin, row.end, column.begin, column.end));
+      }
+    }
+    const double least = kLeastCover * median(covers);
+    Layout layout{.view = view};
+    for (const Band& band : bands) {
+      Row row{.band = band};
+      for (const Band& column : columns) {
+        if (view.cover(band.begin, band.end, column.begin, column.end) < least) continue;
+        row.plots.push_back(column);
+      }
+      if (!row.plots.empty()) layout.rows.push_back(std::move(row));
+    }
+    add(layouts, std::move(layout));
+  }
+}
+
+std::vector<Layout> layouts_of(const RowView& view) {
   const std::vector<double> steps = steps_of(profile_over_rows(view), cells(kReach_m, view.cell_m()));
   const BandSearch search = search_for(strongest(steps), view.cell_m());
   std::vector<SizeScore> scores;
   for (const int size : sizes(view.r_cells(), view.cell_m())) {
-    scores.push_back({size, best_bands(steps, size, search).score});
+    scores.push_back({size, bands_of(steps, size, search).score});
   }
-  std::vector<SizeScore> best_sizes = peaks(scores);
-  best_sizes.resize(std::min(best_sizes.size(), kRowSizes));
-  Layout best{.view = view};
-  for (const SizeScore& tried : best_sizes) {
-    Layout layout = with_plots(view, tried.size, best_bands(steps, tried.size, search).bands);
-    if (layout.score > best.score) best = std::move(layout);
+  std::vector<Layout> layouts;
+  for (const SizeScore& tried : best_peaks(scores)) {
+    const std::vector<Band> rows = bands_of(steps, tried.size, search).bands;
+    add_with_plots(layouts, view, rows);
+    add_with_columns(layouts, view, rows);
   }
-  return best;
+  return layouts;
 }
 
 }  // namespace
 
+double SideContrast::mean() const {
+  return (across_r[0] + across_r[1] + across_c[0] + across_c[1]) / 4;
+}
+
 SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach) {
   const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
   const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
-  const double sides[] = {
-      view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb),
-      view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb),
-      view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0),
-      view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)};
-  SideContrast contrast{.weakest = sides[0]};
-  for (const double side : sides) {
-    contrast.weakest = std::min(contrast.weakest, side);
-    contrast.mean += side / 4;
+  return {.across_r = {view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb),
+                       view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb)},
+          .across_c = {view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0),
+                       view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)}};
+}
+
+// Drill rows of one plot are no plots. A layout of narrow stripes gives way to one of bands that
+// hold the same number of them each.
+bool are_stripes_of(const Layout& fine, const Layout& coarse) {
+  const double cell_m = fine.view.cell_m();
+  const auto stripes = [&](int narrow, int other) {
+    return narrow * cell_m < 0.75 && other > 4 * narrow;
+  };
+  const bool along_r = stripes(fine.r_size, fine.c_size), along_c = stripes(fine.c_size, fine.r_size);
+  if (fine.view.swapped != coarse.view.swapped || (!along_r && !along_c)) return false;
+  const auto near = [](int a, int b) { return std::abs(a - b) <= 0.15 * std::max(a, b) + 2; };
+  if (along_r ? !near(fine.c_size, coarse.c_size) : !near(fine.r_size, coarse.r_size)) return false;
+  std::vector<double> held;  // stripes in each band
+  for (const Row& row : coarse.rows) {
+    for (const Band& plot : row.plots) {
+      int count = 0;
+      for (const Row& fine_row : fine.rows) {
+        const int r = (fine_row.band.begin + fine_row.band.end) / 2;
+        if (r < row.band.begin || r >= row.band.end) continue;
+        for (const Band& stripe : fine_row.plots) {
+          const int c = (stripe.begin + stripe.end) / 2;
+          count += c >= plot.begin && c < plot.end ? 1 : 0;
+        }
+      }
+      held.push_back(count);
+    }
   }
-  return contrast;
+  const double usual = median(held);
+  const auto as_usual = std::ranges::count(held, usual);
+  return usual >= 2 && static_cast<double>(as_usual) > 0.6 * static_cast<double>(held.size()) &&
+         coarse.score > 0.25 * fine.score;
 }
 
 Layout best_layout(const CanopyRaster& raster) {
-  Layout along_a = best_layout_of({.raster = &raster, .swapped = false});
-  Layout along_b = best_layout_of({.raster = &raster, .swapped = true});
-  return along_b.score > along_a.score ? along_b : along_a;
+  std::vector<Layout> layouts = layouts_of({.raster = &raster, .swapped = false});
+  for (Layout& layout : layouts_of({.raster = &raster, .swapped = true})) {
+    layouts.push_back(std::move(layout));
+  }
+  if (layouts.empty()) return {};
+  std::ranges::stable_sort(layouts, std::greater<>{}, &Layout::score);
+  const auto grouped = std::ranges::find_if(
+      layouts, [&](const Layout& layout) { return are_stripes_of(layouts.front(), layout); });
+  return grouped == layouts.end() ? layouts.front() : *grouped;
 }
 
 }  // namespace plotscan::plots

@@ -3,7 +3,7 @@
 
 // Private to the library: rows of plots on a canopy raster.
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "plots/bands.h"
@@ -34,8 +34,8 @@ struct RowView {
 };
 
 struct Row {
-  Band band;                // across the row
-  std::vector<Band> plots;  // along it
+  Band band;                     // across the row
+  std::vector<Band> plots = {};  // along it
 };
 
 struct Layout {
@@ -45,11 +45,13 @@ struct Layout {
   double score = 0;  // contrast of the plots' sides, metres of perimeter
 };
 
-// Contrast of the weakest and of the mean side of a box, in cells: cover within it less cover
-// beyond it, in strips of `reach` cells.
+// Contrast of a box's sides, in cells: cover within it less cover beyond it, in strips of `reach`
+// cells along the middle three quarters of the side.
 struct SideContrast {
-  double weakest = 0;
-  double mean = 0;
+  std::array<double, 2> across_r = {};  // sides that lie along c, at the box's lowest and highest r
+  std::array<double, 2> across_c = {};
+
+  double mean() const;
 };
 SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach);
 

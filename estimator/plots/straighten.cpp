@@ -6,16 +6,10 @@
 
 #include "plots/centers.h"
 #include "plots/lattice.h"
+#include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 // One mean for each row (or column) and a common slope within them.
 std::vector<double> means_and_slope(const std::vector<int>& group, int groups,
