@@ -10,12 +10,17 @@ namespace {
 
 constexpr int kAround = 2;  // cells on either side over which shares are pooled
 
+// Of the canopy's density near the ground, which moves the ground's peak by as much of a sigma for
+// a contrast of one.
+constexpr float kDoubt = 0.3f;
+
 // Counts of returns by height above the surface, in sigmas.
 struct Counts {
   Field below;  // under -3
   Field about;  // -2 to 2
   Field low;    // 2.5 to 5
   Field mid;    // 5 to 10
+  Field all;
 };
 
 // Standard normal density and distribution, by table.
@@ -92,7 +97,8 @@ Counts count(const Columns& columns, const Field& surface, float noise) {
   Counts counts{.below = Field(grid.nodes()),
                 .about = Field(grid.nodes()),
                 .low = Field(grid.nodes()),
-                .mid = Field(grid.nodes())};
+                .mid = Field(grid.nodes()),
+                .all = Field(grid.nodes())};
   for_rows(grid, [&](int row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
@@ -109,9 +115,12 @@ Counts count(const Columns& columns, const Field& surface, float noise) {
       counts.about[i] = static_cast<float>(about);
       counts.low[i] = static_cast<float>(low);
       counts.mid[i] = static_cast<float>(mid);
+      counts.all[i] = static_cast<float>(columns.at(i).size());
     }
   });
-  for (Field* field : {&counts.below, &counts.about, &counts.low, &counts.mid}) pool(grid, *field);
+  for (Field* field : {&counts.below, &counts.about, &counts.low, &counts.mid, &counts.all}) {
+    pool(grid, *field);
+  }
   return counts;
 }
 
@@ -120,6 +129,7 @@ struct Shares {
   float ground = 0;         // returns in all
   float canopy = 0;         // density at the surface
   float canopy_growth = 0;  // of the density, a sigma
+  float contrast = 0;       // of the ground's peak to the canopy right above
   float support = 0;
 };
 
@@ -131,10 +141,18 @@ Shares shares_at(const Counts& counts, std::size_t i) {
   shares.canopy_growth = (low - shares.canopy) / 3.75f;
   shares.ground = std::max(0.0f, (counts.about[i] - 2 * shares.canopy) / 0.954f);
   const float peak = 0.4f * shares.ground;
-  const float contrast = peak / (low + 0.5f);
+  shares.contrast = peak / (low + 0.5f);
   const float balance = counts.about[i] / (counts.about[i] + 4 * counts.below[i] + 1);
-  shares.support = std::clamp((contrast - 0.8f) / 0.8f, 0.0f, 1.0f) * balance;
+  shares.support = std::clamp((shares.contrast - 0.8f) / 0.8f, 0.0f, 1.0f) * balance;
   return shares;
+}
+
+// Whether a column has the ground returns that those around it promise: a surface that cuts a ridge
+// off misses its own column's, though the columns around support it.
+float agreement(float found, float expected) {
+  constexpr float kFew = 5;
+  if (expected < kFew) return 1;
+  return std::clamp((found / expected - 0.1f) / 0.3f, 0.0f, 1.0f);
 }
 
 }  // namespace
@@ -143,13 +161,16 @@ Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
   const Counts counts = count(columns, surface, noise);
-  Evidence evidence{
-      .target_m = surface, .data = Field(grid.nodes()), .support = Field(grid.nodes())};
+  Evidence evidence{.target_m = surface,
+                    .data = Field(grid.nodes()),
+                    .doubt_m = Field(grid.nodes()),
+                    .support = Field(grid.nodes())};
   for_rows(grid, [&](int row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
       const Shares shares = shares_at(counts, i);
       evidence.support[i] = shares.support;
+      evidence.doubt_m[i] = kDoubt * noise / std::max(shares.contrast, 0.5f);
       if (shares.support <= 0) continue;
       const float floor = 0.002f * shares.ground;
       const Patch patch(grid, surface, column, row);
@@ -165,10 +186,12 @@ Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
         moment += p * x;
         missing += p * (1 - p) * x * x;
       }
+      evidence.support[i] *=
+          agreement(sum, shares.ground * static_cast<float>(columns.at(i).size()) / counts.all[i]);
       const float information = std::max(sum - missing, 0.3f * sum);
       if (information <= 0) continue;
       evidence.target_m[i] += noise * std::clamp(moment / information, -2.0f, 2.0f);
-      evidence.data[i] = shares.support * information / (noise * noise);
+      evidence.data[i] = evidence.support[i] * information / (noise * noise);
     }
   });
   return evidence;

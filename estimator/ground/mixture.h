@@ -11,6 +11,7 @@ namespace plotscan::ground {
 struct Evidence {
   Field target_m;  // where the ground returns put the node
   Field data;      // 1 / m^2: the precision of that; 0 where no return supports it
+  Field doubt_m;   // standard error that the canopy's unknown shape near the ground adds to it
   Field support;   // 0 to 1: how far the peak of ground stands out of the canopy around
 };
 

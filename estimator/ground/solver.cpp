@@ -14,11 +14,6 @@ struct Bends {
   Field xx, yy, xy;
 };
 
-float mixed_stiffness(const Grid& grid, const Field& stiffness, std::size_t i) {
-  const std::size_t up = i + grid.columns;
-  return 0.25f * (stiffness[i] + stiffness[i + 1] + stiffness[up] + stiffness[up + 1]);
-}
-
 void bend(const Grid& grid, const Field& mixed, const Field& stiffness, const Field& s, int row,
           Bends& bends) {
   const int n = grid.columns;
@@ -76,7 +71,7 @@ class Operator {
       if (row + 1 == grid.rows) return;
       for (int c = 0; c + 1 < grid.columns; ++c) {
         const std::size_t i = grid.index(c, row);
-        mixed_[i] = mixed_stiffness(grid, fit.stiffness, i);
+        mixed_[i] = middle_stiffness(grid, fit.stiffness, i);
       }
     });
   }
@@ -132,6 +127,11 @@ double dot(const Grid& grid, const Field& a, const Field& b) {
 }
 
 }  // namespace
+
+float middle_stiffness(const Grid& grid, const Field& stiffness, std::size_t i) {
+  const std::size_t up = i + grid.columns;
+  return 0.25f * (stiffness[i] + stiffness[i + 1] + stiffness[up] + stiffness[up + 1]);
+}
 
 int solve(const Grid& grid, const Fit& fit, const SolveOptions& options, Field& surface) {
   Field right(grid.nodes());

@@ -28,6 +28,9 @@ int solve(const Grid& grid, const Fit& fit, const SolveOptions& options, Field& 
 int solve_right_side(const Grid& grid, const Fit& fit, const Field& right,
                      const SolveOptions& options, Field& surface);
 
+// Stiffness in the middle of four nodes, of which i is the lower left one.
+float middle_stiffness(const Grid& grid, const Field& stiffness, std::size_t i);
+
 // sqrt(xx^2 + yy^2 + 2 xy^2) at each node, metres a cell^2.
 Field curvature(const Grid& grid, const Field& surface);
 

@@ -65,6 +65,7 @@ void take_better(const Evidence& other, Evidence& evidence) {
     if (other.support[i] < evidence.support[i] + kBetter) continue;
     evidence.target_m[i] = other.target_m[i];
     evidence.data[i] = other.data[i];
+    evidence.doubt_m[i] = other.doubt_m[i];
     evidence.support[i] = other.support[i];
   }
 }
@@ -85,9 +86,11 @@ void step(const Grid& grid, const Evidence& evidence, bool first, Field& z) {
   solve(grid, fit, {.most_iterations = 100, .tolerance_m = 5e-4}, z);
 }
 
+constexpr float kSupported = 0.3f;
+
 std::vector<std::uint8_t> poorly_supported(const Evidence& evidence) {
   std::vector<std::uint8_t> poor(evidence.support.size());
-  for (std::size_t i = 0; i < poor.size(); ++i) poor[i] = evidence.support[i] < 0.3f;
+  for (std::size_t i = 0; i < poor.size(); ++i) poor[i] = evidence.support[i] < kSupported;
   return poor;
 }
 
@@ -97,10 +100,26 @@ struct Ground {
   Evidence evidence;
 };
 
+// Where the surface is supported by nothing, it may have cut a ridge off, whose returns it then
+// took for canopy: half of the way up to the lowest layer, as far as this ground bends at all.
+void doubt_the_unsupported(const Grid& grid, const Field& layers, Ground& ground) {
+  constexpr double kBends = 2;
+  const Field bends = curvature(grid, ground.z_m);
+  double squares = 0;
+  for (const float bend : bends) squares += bend * bend;
+  const auto most = static_cast<float>(kBends * std::sqrt(squares / bends.size()));
+  Evidence& evidence = ground.evidence;
+  for (std::size_t i = 0; i < bends.size(); ++i) {
+    if (evidence.support[i] >= kSupported) continue;
+    evidence.doubt_m[i] = std::min(0.5f * std::abs(layers[i] - ground.z_m[i]), most);
+  }
+}
+
 Ground find_ground(const Columns& low, double noise_m) {
   const Grid& grid = low.grid;
   Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}};
-  const Evidence by_layers = weigh(low, layer_surface(low, noise_m), noise_m);
+  const Field layers = layer_surface(low, noise_m);
+  const Evidence by_layers = weigh(low, layers, noise_m);
   constexpr int kFirstRounds = 3;
   for (int round = 0; round < kFirstRounds; ++round) {
     ground.evidence = weigh(low, ground.z_m, noise_m);
@@ -115,6 +134,7 @@ Ground find_ground(const Columns& low, double noise_m) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
     step(grid, ground.evidence, false, ground.z_m);
   }
+  doubt_the_unsupported(grid, layers, ground);
   return ground;
 }
 
@@ -133,7 +153,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .sd_m = {},
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
-                  .errors = draw_errors(grid, ground.z_m, ground.evidence.data, noise_m)};
+                  .errors = draw_errors(grid, ground.z_m, ground.evidence, noise_m)};
   surface.sd_m = spread_of(grid, surface.errors);
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
@@ -189,6 +209,7 @@ double Surface::mean_standard_error(const PlotBox& box) const {
   const int across = std::max(2, static_cast<int>(std::ceil(box.width_m / kStep_m)));
   const std::size_t nodes = static_cast<std::size_t>(errors.columns) * errors.rows;
   std::vector<double> means(errors.draws, 0);
+  double doubt = 0;
   for (int a = 0; a < along; ++a) {
     for (int b = 0; b < across; ++b) {
       const Eigen::Vector2d place = box.center +
@@ -198,12 +219,13 @@ double Surface::mean_standard_error(const PlotBox& box) const {
       const int column = std::clamp(static_cast<int>(at.x()), 0, errors.columns - 1);
       const int row = std::clamp(static_cast<int>(at.y()), 0, errors.rows - 1);
       const std::size_t node = static_cast<std::size_t>(row) * errors.columns + column;
+      doubt += errors.doubt_m[node] / (along * across);
       for (int draw = 0; draw < errors.draws; ++draw) {
         means[draw] += errors.heights_m[draw * nodes + node] / (along * across);
       }
     }
   }
-  double squares = errors.common_m * errors.common_m;
+  double squares = doubt * doubt;
   for (const double mean : means) squares += mean * mean / errors.draws;
   return std::sqrt(squares);
 }

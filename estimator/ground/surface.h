@@ -20,8 +20,8 @@ struct ErrorDraws {
   int columns = 0;
   int rows = 0;
   int draws = 0;
-  double common_m = 0;                // standard error that all places share
   std::vector<float> heights_m = {};  // draw by draw
+  std::vector<float> doubt_m = {};    // by node: standard error that near places share, besides
 };
 
 // The ground of a whole field as heights of a square grid's nodes, bilinear between them. Node

@@ -12,9 +12,11 @@ namespace plotscan::ground {
 namespace {
 
 constexpr int kDraws = 32;
-constexpr int kCoarser = 2;          // the draws' grid is as many times coarser
-constexpr double kEfficiency = 0.5;  // of the data's precision: neighbours share their errors
+constexpr int kCoarser = 2;           // the draws' grid is as many times coarser
+constexpr int kAround = 2;            // nodes on either side whose bends say how rough a place is
+constexpr double kLeastDoubt = 0.03;  // of the noise: what even bare ground leaves
 constexpr double kLeastBend_m = 5e-4;
+constexpr double kUnknownBend_m = 0.1;  // without any evidence
 
 // Every second node, with all data around it.
 Grid coarse_grid(const Grid& grid) {
@@ -29,20 +31,43 @@ std::size_t fine_index(const Grid& grid, int column, int row) {
                     std::min(kCoarser * row, grid.rows - 1));
 }
 
-Field coarse_data(const Grid& grid, const Grid& coarse, const Field& data) {
+// Precision of the evidence around each coarse node, 1 / m^2.
+Field coarse_data(const Grid& grid, const Grid& coarse, const Evidence& evidence) {
   Field sums(coarse.nodes(), 0);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const int c = std::min(column / kCoarser, coarse.columns - 1);
       const int r = std::min(row / kCoarser, coarse.rows - 1);
-      sums[coarse.index(c, r)] += static_cast<float>(kEfficiency) * data[grid.index(column, row)];
+      const std::size_t i = grid.index(column, row);
+      if (evidence.data[i] <= 0) continue;
+      sums[coarse.index(c, r)] += evidence.support[i] * evidence.data[i];
     }
   }
   return sums;
 }
 
-// Mean square of the bends between nodes with data.
-double bend_variance(const Grid& grid, const Field& surface, const Field& data) {
+// Mean doubt of the evidence around each coarse node.
+Field coarse_doubt(const Grid& grid, const Grid& coarse, const Evidence& evidence, double noise_m) {
+  Field sums(coarse.nodes(), 0), counts(coarse.nodes(), 0);
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::size_t i = grid.index(column, row);
+      const std::size_t at = coarse.index(std::min(column / kCoarser, coarse.columns - 1),
+                                          std::min(row / kCoarser, coarse.rows - 1));
+      sums[at] += evidence.doubt_m[i];
+      counts[at] += 1;
+    }
+  }
+  const auto least = static_cast<float>(kLeastDoubt * noise_m);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sums[i] = std::max(least, counts[i] > 0 ? sums[i] / counts[i] : 0);
+  }
+  return sums;
+}
+
+// Mean square of the bends to expect at each node: as much from those around it as from all, both
+// where there is evidence.
+Field bend_variances(const Grid& grid, const Field& surface, const Field& data) {
   const Field bends = curvature(grid, surface);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < bends.size(); ++i) {
@@ -50,7 +75,25 @@ double bend_variance(const Grid& grid, const Field& surface, const Field& data) 
     sum += bends[i] * bends[i];
     ++count;
   }
-  return std::max(kLeastBend_m * kLeastBend_m, count > 0 ? sum / count : 0.01);
+  const double usual = std::max(kLeastBend_m * kLeastBend_m,
+                                count > 0 ? sum / count : kUnknownBend_m * kUnknownBend_m);
+  Field variances(grid.nodes());
+  for_rows(grid, [&](int row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      double here = 0;
+      int nodes = 0;
+      for (int r = std::max(0, row - kAround); r <= std::min(grid.rows - 1, row + kAround); ++r) {
+        for (int c = std::max(0, column - kAround);
+             c <= std::min(grid.columns - 1, column + kAround); ++c) {
+          const double bend = bends[grid.index(c, r)];
+          here += bend * bend;
+          ++nodes;
+        }
+      }
+      variances[grid.index(column, row)] = static_cast<float>(0.5 * usual + 0.5 * here / nodes);
+    }
+  });
+  return variances;
 }
 
 // The right-hand side whose solution is a draw (Papandreou and Yuille, 2010): every term of the
@@ -61,13 +104,12 @@ Field random_right_side(const Grid& grid, const Fit& fit, std::uint64_t draw) {
   for (std::size_t i = 0; i < right.size(); ++i) {
     right[i] = std::sqrt(fit.data[i]) * static_cast<float>(stream.normal());
   }
-  const float straight = std::sqrt(fit.stiffness[0]);
-  const float askew = std::sqrt(2.0f) * straight;
   const int n = grid.columns;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < n; ++column) {
       const std::size_t i = grid.index(column, row);
       const auto [a, b] = stream.normal_pair();
+      const float straight = std::sqrt(fit.stiffness[i]);
       if (column > 0 && column + 1 < n) {
         const float x = straight * static_cast<float>(a);
         right[i - 1] += x;
@@ -81,7 +123,8 @@ Field random_right_side(const Grid& grid, const Fit& fit, std::uint64_t draw) {
         right[i + n] += y;
       }
       if (column + 1 < n && row + 1 < grid.rows) {
-        const float xy = askew * static_cast<float>(stream.normal());
+        const float xy = std::sqrt(2 * middle_stiffness(grid, fit.stiffness, i)) *
+                         static_cast<float>(stream.normal());
         right[i] += xy;
         right[i + 1] -= xy;
         right[i + n] -= xy;
@@ -94,23 +137,24 @@ Field random_right_side(const Grid& grid, const Fit& fit, std::uint64_t draw) {
 
 }  // namespace
 
-ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Field& data, double noise_m) {
+ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& evidence,
+                       double noise_m) {
   const Grid coarse = coarse_grid(grid);
-  Fit fit{.target = {}, .data = coarse_data(grid, coarse, data), .stiffness = {}};
+  Fit fit{.target = {}, .data = coarse_data(grid, coarse, evidence), .stiffness = {}};
   Field heights(coarse.nodes());
   for (int row = 0; row < coarse.rows; ++row) {
     for (int column = 0; column < coarse.columns; ++column) {
       heights[coarse.index(column, row)] = surface[fine_index(grid, column, row)];
     }
   }
-  const double variance = bend_variance(coarse, heights, fit.data);
-  fit.stiffness.assign(coarse.nodes(), static_cast<float>(1 / variance));
+  fit.stiffness = bend_variances(coarse, heights, fit.data);
+  for (float& value : fit.stiffness) value = 1 / value;
   ErrorDraws errors{.cell_m = coarse.cell_m,
                     .columns = coarse.columns,
                     .rows = coarse.rows,
                     .draws = kDraws,
-                    .common_m = 0.05 * noise_m,
-                    .heights_m = std::vector<float>(kDraws * coarse.nodes())};
+                    .heights_m = std::vector<float>(kDraws * coarse.nodes()),
+                    .doubt_m = coarse_doubt(grid, coarse, evidence, noise_m)};
   tbb::parallel_for(0, kDraws, [&](int draw) {
     const Field right = random_right_side(coarse, fit, draw);
     Field error(coarse.nodes(), 0);
@@ -124,7 +168,8 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Field& data
 Field spread_of(const Grid& grid, const ErrorDraws& errors) {
   Field spread(grid.nodes());
   const std::size_t nodes = static_cast<std::size_t>(errors.columns) * errors.rows;
-  std::vector<double> squares(nodes, errors.common_m * errors.common_m);
+  std::vector<double> squares(nodes);
+  for (std::size_t i = 0; i < nodes; ++i) squares[i] = errors.doubt_m[i] * errors.doubt_m[i];
   for (int draw = 0; draw < errors.draws; ++draw) {
     for (std::size_t i = 0; i < nodes; ++i) {
       const double error = errors.heights_m[draw * nodes + i];
