@@ -2,6 +2,8 @@
 #include "farmbench/run.h"
 
 #include <algorithm>
+#include <chrono>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -90,20 +92,25 @@ void run_task(Task& task, const Suite& suite, const RunOptions& options, const f
 }
 
 void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& options,
-               const ProgressReport& progress) {
+               const ProgressReport& progress, const FarmReport& finished) {
   std::vector<Task*> open;
   for (Task& task : tasks) {
     if (!task.result) open.push_back(&task);
   }
   const TemporaryPath work(options.output / (".work-" + std::to_string(getpid())));
   const int threads = std::max(1, options.threads / options.jobs);
+  std::mutex report_mutex;
   run_queue(open.size(), options.jobs, progress, [&](std::size_t i, const ProgressReport& own) {
+    const auto start = std::chrono::steady_clock::now();
     try {
       run_task(*open[i], suite, options, work.path(), threads, own);
     } catch (const InputError& error) {
       throw InputError(options.suite, "case " + open[i]->suite_case.name + ", seed " +
                                           std::to_string(open[i]->seed) + ": " + error.what());
     }
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    const std::lock_guard lock(report_mutex);
+    if (finished) finished(*open[i]->result, took.count());
   });
 }
 
@@ -117,7 +124,8 @@ void write_run_manifest(const RunOptions& options, const std::vector<Task>& task
 
 }  // namespace
 
-RunSummary run(const RunOptions& options, const ProgressReport& progress) {
+RunSummary run(const RunOptions& options, const ProgressReport& progress,
+               const FarmReport& finished) {
   require_sound(options);
   const Suite suite = load_suite(options.suite);
   std::vector<Task> tasks = plan(suite, options);
@@ -125,7 +133,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress) {
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
   fs::create_directories(options.output / "farms");
   write_run_manifest(options, tasks, false);
-  run_tasks(tasks, suite, options, progress);
+  run_tasks(tasks, suite, options, progress, finished);
   std::vector<FarmResult> farms;
   farms.reserve(tasks.size());
   for (Task& task : tasks) farms.push_back(std::move(*task.result));

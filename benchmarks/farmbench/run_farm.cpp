@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <limits>
 
 #include "core/error.h"
@@ -12,6 +13,7 @@
 #include "farm/generate.h"
 #include "farm/write_farm.h"
 #include "farmbench/methods.h"
+#include "farmbench/survey.h"
 #include "lidar/canopy_height.h"
 #include "lidar/fly.h"
 #include "lidar/fly_settings.h"
@@ -55,7 +57,28 @@ estimate::Area field_area(const std::vector<score::TruePlot>& plots, double marg
   return {low.x(), low.y(), high.x(), high.y()};
 }
 
-MethodResult run_method(const Method& method, const Field& field) {
+// A farm's scan and the cloud that methods get of it.
+struct ScannedFarm {
+  lidar::FlySummary flown;
+  fs::path cloud;
+};
+
+ScannedFarm scan_farm(const SuiteCase& suite_case, const farm::Farm& farm, std::uint64_t seed,
+                      const fs::path& folder, int threads, const ProgressReport& progress) {
+  lidar::FlyOptions flight = suite_case.flight;
+  flight.seed = seed;
+  flight.threads = threads;
+  const fs::path scan = folder / "scan";
+  if (!suite_case.survey)
+    return {lidar::fly(farm, scan, flight, true, progress), scan / "cloud.pcd"};
+  const lidar::FlySummary flown = fly_survey(farm, *suite_case.survey, scan, flight, progress);
+  crop_cloud(scan / "cloud.pcd", *suite_case.survey, folder / "survey.pcd");
+  return {flown, folder / "survey.pcd"};
+}
+
+// `truth`: all plots of the field, those that are not scored among them.
+MethodResult run_method(const Method& method, const Field& field,
+                        const std::vector<score::TruePlot>& truth) {
   MethodResult result{.method = method.name, .failure = {}, .score = {}};
   estimate::Estimate estimate{.method = method.name};
   const auto start = std::chrono::steady_clock::now();
@@ -67,7 +90,7 @@ MethodResult run_method(const Method& method, const Field& field) {
     result.failure = error.what();
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.score = score::score_field(field.plots, estimate);
+  result.score = score::score_field(truth, estimate);
   return result;
 }
 
@@ -84,42 +107,45 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
        farm::input_files(farm::load_description(suite_case.farm, suite_case.overrides))) {
     files.push_back({{"file", file.filename().string()}, {"hash", file_hash(file)}});
   }
-  return {{"plotscan", version()},
-          {"build", build},
-          {"files", files},
-          {"set", suite_case.overrides},
-          {"seed", seed},
-          {"flight", lidar::settings_json(suite_case.flight)},
-          {"crop_margin_m", suite.crop_margin_m},
-          {"methods", suite.methods}};
+  json document = {{"plotscan", version()},
+                   {"build", build},
+                   {"files", files},
+                   {"set", suite_case.overrides},
+                   {"seed", seed},
+                   {"flight", lidar::settings_json(suite_case.flight)},
+                   {"crop_margin_m", suite.crop_margin_m},
+                   {"methods", suite.methods}};
+  if (suite_case.survey) document["survey_m"] = *suite_case.survey;
+  return document;
 }
 
 FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                     const fs::path& folder, int threads, const ProgressReport& progress) {
   const farm::Farm farm = make_farm(suite_case, seed, folder / "farm", threads);
-  lidar::FlyOptions flight = suite_case.flight;
-  flight.seed = seed;
-  flight.threads = threads;
-  const lidar::FlySummary flown = lidar::fly(
-      farm, folder / "scan", flight, true, [&](double share) { report(progress, kFlown * share); });
-  const std::vector<score::TruePlot> plots = score::read_truth(folder / "farm");
-  const fs::path cloud = folder / "scan" / "cloud.pcd";
-  const estimate::CloudMap map = estimate::read_map(cloud, field_area(plots, suite.crop_margin_m));
+  const ScannedFarm scanned = scan_farm(suite_case, farm, seed, folder, threads,
+                                        [&](double share) { report(progress, kFlown * share); });
+  std::vector<score::TruePlot> truth = score::read_truth(folder / "farm");
+  if (suite_case.survey) leave_to_survey(truth, *suite_case.survey);
+  std::vector<score::TruePlot> plots;
+  std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
+  const estimate::CloudMap map =
+      estimate::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
   report(progress, kRead);
   FarmResult result{.case_name = suite_case.name,
                     .seed = seed,
                     .made_from = {},
-                    .shots = flown.shots,
-                    .points = flown.points,
-                    .flight_s = flown.duration_s,
+                    .shots = scanned.flown.shots,
+                    .points = scanned.flown.points,
+                    .flight_s = scanned.flown.duration_s,
                     .methods = {}};
+  const Field field{.cloud = scanned.cloud,
+                    .map = map,
+                    .plots = plots,
+                    .terrain = farm.terrain,
+                    .seed = seed,
+                    .threads = threads};
   for (const std::string& name : suite.methods) {
-    result.methods.push_back(run_method(method_named(name), {.cloud = cloud,
-                                                             .map = map,
-                                                             .plots = plots,
-                                                             .terrain = farm.terrain,
-                                                             .seed = seed,
-                                                             .threads = threads}));
+    result.methods.push_back(run_method(method_named(name), field, truth));
     const auto done = static_cast<double>(result.methods.size());
     report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
   }

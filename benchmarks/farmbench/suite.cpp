@@ -79,8 +79,19 @@ lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions fligh
   return flight;
 }
 
+estimate::Area read_survey(const YamlSection& section) {
+  const std::vector<double> numbers = section.numbers("survey_m", 4, {-100'000, 100'000});
+  const estimate::Area area = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  try {
+    estimate::require_area(area, "survey_m");
+  } catch (const InputError& error) {
+    section.fail("survey_m", std::string("does not hold: ") + error.what());
+  }
+  return area;
+}
+
 SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight) {
-  section.allow_only({"name", "farm", "set", "flight", "published_rmse_cm"});
+  section.allow_only({"name", "farm", "set", "flight", "survey_m", "published_rmse_cm"});
   SuiteCase suite_case{.name = read_name(section),
                        .farm = section.file().parent_path() / section.text("farm"),
                        .flight = read_flight(section, flight)};
@@ -92,6 +103,7 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
   }
   if (section.has("published_rmse_cm"))
     suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
+  if (section.has("survey_m")) suite_case.survey = read_survey(section);
   require_farm(section, suite_case);
   return suite_case;
 }

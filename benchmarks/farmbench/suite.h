@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "estimate/cloud_map.h"
 #include "lidar/fly.h"
 
 namespace plotscan::farmbench {
@@ -19,6 +20,8 @@ struct SuiteCase {
   std::vector<std::string> overrides = {};  // "terrain.side_m=20"
   lidar::FlyOptions flight = {};            // the suite's, with what the case replaces in it
   std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
+  // What is surveyed, where it is not the whole field: flown over, and all that the cloud keeps.
+  std::optional<estimate::Area> survey = std::nullopt;
 };
 
 // What somebody published, to stand beside what is measured.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -20,14 +21,15 @@ namespace plotscan::farm {
 namespace {
 
 // The plots of a farm whose plants a table places.
-std::vector<Plot> laid_out_plots(const FarmDescription& description, std::uint64_t seed) {
-  if (!description.plots) {
+std::vector<Plot> laid_out_plots(const FarmDescription& description,
+                                 const std::optional<PlotGridDescription>& grid,
+                                 std::uint64_t seed) {
+  if (!grid) {
     return description.layout->plots ? read_plot_boxes(*description.layout->plots)
                                      : std::vector<Plot>();
   }
-  std::vector<Plot> plots = grid_plots(*description.plots);
-  std::erase_if(plots,
-                [&](const Plot& plot) { return is_missing(*description.plots, plot.id, seed); });
+  std::vector<Plot> plots = grid_plots(*grid);
+  std::erase_if(plots, [&](const Plot& plot) { return is_missing(*grid, plot.id, seed); });
   return plots;
 }
 
@@ -80,9 +82,12 @@ void measure_plots(Farm& farm) {
 }  // namespace
 
 Farm generate(const FarmDescription& description, std::uint64_t seed) {
+  std::optional<PlotGridDescription> grid = description.plots;
+  if (grid) grid = turned(*grid, seed);
   std::vector<SownPlot> sown;
-  if (description.plants) sown = sow(*description.plots, *description.plants, seed);
-  std::vector<Plot> plots = description.plants ? plots_of(sown) : laid_out_plots(description, seed);
+  if (description.plants) sown = sow(*grid, *description.plants, seed);
+  std::vector<Plot> plots =
+      description.plants ? plots_of(sown) : laid_out_plots(description, grid, seed);
   MadeTerrain ground = make_terrain(description.terrain, plots, seed, description.source);
   Farm farm{.name = description.name,
             .seed = seed,

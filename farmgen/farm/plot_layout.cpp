@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "core/error.h"
@@ -115,6 +116,13 @@ std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
     plot.box.center = grid.position_m + world_from_grid * (plot.box.center - bounds.center());
   }
   return plots;
+}
+
+PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed) {
+  if (!grid.random_heading) return grid;
+  grid.heading_rad =
+      RandomStream(seed, random_purpose("plots/heading"), 0).uniform(0, 2 * std::numbers::pi);
+  return grid;
 }
 
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(

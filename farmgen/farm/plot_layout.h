@@ -16,6 +16,10 @@ namespace plotscan::farm {
 // them. Each box's length axis is the axis from row to row.
 std::vector<Plot> grid_plots(const PlotGridDescription& grid);
 
+// The grid with the heading that the seed draws for it, uniform in [0, 360) degrees, where it is to
+// be random; else as it is.
+PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed);
+
 // The numbers of two plots of which one lies on the other, the lower first; nothing where none
 // does.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(

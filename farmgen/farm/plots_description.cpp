@@ -147,7 +147,9 @@ PlotGridDescription read_plot_grid(const YamlSection& section) {
   grid.length_m = section.number("length_m", kPlotSize);
   grid.gap_width_m = section.number("gap_width_m", kGap, 0.0);
   grid.gap_length_m = section.number("gap_length_m", kGap, 0.0);
-  grid.heading_rad = section.number("heading_deg", kHeading, 0.0) * kRadians;
+  grid.random_heading = section.text("heading_deg", "0") == "random";
+  if (!grid.random_heading)
+    grid.heading_rad = section.number("heading_deg", kHeading, 0.0) * kRadians;
   grid.skew_rad = section.number("skew_deg", kSkew, 0.0) * kRadians;
   const auto [x, y] = section.pair("position_m", kPlace, std::pair{0.0, 0.0});
   grid.position_m = {x, y};

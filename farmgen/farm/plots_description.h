@@ -38,6 +38,7 @@ struct PlotGridDescription {
   double gap_width_m = 0;                                // between neighbours in a row
   double gap_length_m = 0;                               // between rows
   double heading_rad = 0;                                // of the whole grid, counter-clockwise
+  bool random_heading = false;                           // in its place: drawn from the farm's seed
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  // centre of the grid's bounding rectangle
   std::vector<PlotRowDescription> rows;
   double skew_rad = 0;  // turns the row-to-row axis further, away from perpendicular to the rows

@@ -153,6 +153,10 @@ void Program::say(const std::string& line) const {
   if (!common_.json && common_.verbosity >= 0) std::cout << line << '\n';
 }
 
+void Program::log(const std::string& line) const {
+  if (common_.verbosity >= 0 && isatty(STDERR_FILENO) == 0) std::cerr << line << '\n';
+}
+
 void Program::result(const nlohmann::json& document) const {
   if (common_.json) std::cout << document.dump(1) << '\n';
 }

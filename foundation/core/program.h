@@ -47,6 +47,9 @@ class Program {
 
   // A line for the person at the terminal, on stdout; silent with --json or -q.
   void say(const std::string& line) const;
+  // A line of long work's log on stderr, where progress() has no terminal for its bar; silent with
+  // -q.
+  void log(const std::string& line) const;
   // What --json prints: the command's whole result. Call it once.
   void result(const nlohmann::json& document) const;
   // A progress bar with the time left on stderr, when that is a terminal and -q and --json are

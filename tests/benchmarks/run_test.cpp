@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "farmbench/farm_queue.h"
+#include "scan/cloud_reader.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -57,7 +58,13 @@ RunOptions smoke_options(const fs::path& output) {
 
 TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   const TemporaryFolder folder;
-  const RunSummary summary = run(smoke_options(folder.path() / "smoke"));
+  std::vector<std::string> finished;
+  const RunSummary summary =
+      run(smoke_options(folder.path() / "smoke"), {}, [&](const FarmResult& farm, double seconds) {
+        finished.push_back(farm.case_name);
+        EXPECT_GT(seconds, 0);
+      });
+  EXPECT_THAT(finished, ::testing::ElementsAre("flat", "half", "one"));
   EXPECT_EQ(summary.result.farms.size(), 3U);
   EXPECT_EQ(summary.table.size(), 3U * 7 * 9);  // cases, rows of the methods, truths
   const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
@@ -156,6 +163,36 @@ TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
   const TableRow& oracle = row_of(summary.table, "bare", "oracle-ground");
   EXPECT_EQ(oracle.without, 4U);  // found, but nothing stands on the ground
   EXPECT_TRUE(fs::exists(options.output / "clouds" / "bare-1" / "scan" / "cloud.pcd"));
+}
+
+// The survey holds the first two of four plots and half of the third.
+TEST(RunSuite, PlotsOutsideTheSurveyAreNotScored) {
+  const TemporaryFolder folder;
+  const fs::path suite = folder.write(
+      "part.yaml",
+      "name: part\ncases:\n  - name: part\n    farm: " + std::string(PLOTSCAN_SOURCE_DIR) +
+          "/worlds/paper_flat.yaml\n    set: {terrain.side_m: 30, plants.count: 30, "
+          "plots.rows: '[{plots: 4}]'}\n    survey_m: [-6, -3, 1.25, 3]\nseeds: [1]\n"
+          "flight: {altitude_m: 6, speed_m_s: 3}\nmethods: [oracle-ground]\n");
+  RunOptions options{.suite = suite, .output = folder.path() / "part", .build = "test"};
+  options.keep_clouds = true;
+  const RunSummary summary = run(options);
+  const TableRow& row = row_of(summary.table, "part", "oracle-ground");
+  EXPECT_EQ(row.plots, 2U);
+  EXPECT_EQ(row.found, 2U);
+  EXPECT_LT(row.rmse_m, 0.15);
+  double left = 0, right = 0;
+  scan::read_positions(options.output / "clouds" / "part-1" / "survey.pcd",
+                       [&](std::span<const Eigen::Vector3d> points) {
+                         for (const Eigen::Vector3d& point : points) {
+                           left = std::min(left, point.x());
+                           right = std::max(right, point.x());
+                         }
+                       });
+  EXPECT_GE(left, -6);
+  EXPECT_LT(left, -5.9);
+  EXPECT_LE(right, 1.25);
+  EXPECT_GT(right, 1.2);
 }
 
 TEST(RunSuite, RefusesAFolderOfSomebodyElse) {

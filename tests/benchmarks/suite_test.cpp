@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/suite.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "farm/description.h"
+#include "farm/generate.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -55,6 +59,54 @@ TEST(LoadSuite, ThePapersProtocol) {
     for (const farm::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
     EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
   }
+}
+
+std::vector<std::string> shipped_suites() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kSuites))
+    names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+class ShippedSuite : public ::testing::TestWithParam<std::string> {};
+
+// Its descriptions hold, and its farms can be made: every plot on the terrain, every mesh there.
+TEST_P(ShippedSuite, IsSound) {
+  const Suite suite = load_suite(kSuites / (GetParam() + ".yaml"));
+  EXPECT_EQ(suite.name, GetParam());
+  for (const std::uint64_t seed : suite.seeds) EXPECT_LT(seed, 1000U) << "others tune";
+  for (const SuiteCase& suite_case : suite.cases) {
+    if (suite_case.overrides.empty()) continue;  // a shipped world, which has tests of its own
+    const farm::Farm farm = farm::generate(
+        farm::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
+    EXPECT_FALSE(farm.plots.empty() || farm.plants.empty()) << suite_case.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedSuite, ::testing::ValuesIn(shipped_suites()),
+                         [](const auto& suite) { return suite.param; });
+
+// Every case is as hard as its name says.
+TEST(LoadSuite, HardFieldsAreHard) {
+  const Suite suite = load_suite(kSuites / "hard.yaml");
+  const auto made = [&](const std::string& name, std::uint64_t seed) {
+    const auto found = std::ranges::find(suite.cases, name, &SuiteCase::name);
+    if (found == suite.cases.end()) throw std::runtime_error("no case " + name);
+    return farm::generate(farm::load_description(found->farm, found->overrides), seed);
+  };
+  EXPECT_NE(made("heading", 1).plots[0].box.heading_rad,
+            made("heading", 2).plots[0].box.heading_rad);
+  std::size_t standing = 0;
+  for (const std::uint64_t seed : suite.seeds) standing += made("missing", seed).plots.size();
+  EXPECT_LT(standing, 30 * suite.seeds.size());
+  EXPECT_EQ(made("plots-500", 1).plots.size(), 500U);
+  EXPECT_EQ(made("unequal-rows", 1).plots.size(), 26U);
+  const farm::Farm weeds = made("weeds", 1);
+  EXPECT_GT(std::ranges::count(weeds.plants, farm::PlantKind::weed, &farm::Plant::kind), 100);
+  for (const farm::Plot& plot : weeds.plots) EXPECT_EQ(plot.weed_count, 0U);
+  for (const farm::Plot& plot : made("maize", 1).plots) EXPECT_NEAR(plot.heights.mean, 2.5, 0.15);
+  for (const farm::Plot& plot : made("low", 1).plots) EXPECT_NEAR(plot.heights.mean, 0.2, 0.02);
 }
 
 TEST(LoadSuite, OverridesSeedsAndFlight) {
@@ -128,6 +180,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{kSound + "baseline: other\n", ":6: baseline \"other\" is not one of"},
         BadSuite{with(".yaml}", ".yaml, flight: {pose_error: laser}}"),
                  ":3: cases.0.flight.pose_error \"laser\" is not one of"},
+        BadSuite{with(".yaml}", ".yaml, survey_m: [1, 2, 0, 3]}"),
+                 ":3: cases.0.survey_m does not hold: "},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace

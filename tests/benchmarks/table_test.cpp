@@ -75,7 +75,8 @@ TEST(MakeTable, PoolsTheFarmsOfACase) {
   EXPECT_LT(row.rmse_low_m, row.rmse_high_m);
 }
 
-// The found plots have intervals of 3.5 cm to either side of their first height, and one has a flag.
+// The found plots have intervals of 3.5 cm to either side of their first height, and one has a
+// flag.
 SuiteResult result_with_intervals() {
   SuiteResult result = small_result();
   for (FarmResult& farm : result.farms) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -46,6 +47,21 @@ TEST(PlotGrid, SerpentineNumbersTurnRoundAtTheEndOfARow) {
     const Eigen::Vector2d step = plots[i].box.center - plots[i - 1].box.center;
     EXPECT_NEAR(step.norm(), i % 4 == 0 ? 8 : 3, 1e-12) << "always to a neighbour";
   }
+}
+
+TEST(PlotGrid, TheSeedTurnsAGridOfRandomHeading) {
+  PlotGridDescription grid = three_by_four();
+  EXPECT_EQ(turned(grid, 5).heading_rad, 0) << "not asked for";
+  grid.random_heading = true;
+  std::array<int, 4> quadrants = {};
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const double heading = turned(grid, seed).heading_rad;
+    ASSERT_GE(heading, 0);
+    ASSERT_LT(heading, 2 * std::numbers::pi);
+    EXPECT_EQ(turned(grid, seed).heading_rad, heading);
+    ++quadrants[static_cast<std::size_t>(heading / (std::numbers::pi / 2))];
+  }
+  for (const int count : quadrants) EXPECT_NEAR(count, 100, 35);  // 4 standard deviations
 }
 
 TEST(PlotGrid, AlleysTakeThePlaceOfGaps) {

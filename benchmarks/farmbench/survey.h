@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/progress.h"
+#include "estimate/cloud_map.h"
+#include "farm/farm.h"
+#include "lidar/fly.h"
+#include "score/score.h"
+
+// Surveys of a part of a field (docs/benchmark.md).
+namespace plotscan::farmbench {
+
+// Leaves those plots scored that lie wholly in what was surveyed. Throws InputError when none does.
+void leave_to_survey(std::vector<score::TruePlot>& plots, const estimate::Area& survey);
+
+// Flies strips over the rectangle in place of the farm's plots, whose plants stand still. Throws
+// InputError as lidar::fly does.
+lidar::FlySummary fly_survey(const farm::Farm& farm, const estimate::Area& survey,
+                             const std::filesystem::path& folder, const lidar::FlyOptions& flight,
+                             const ProgressReport& progress);
+
+// Writes those points of a cloud, with all that is known of them, that lie in the area.
+void crop_cloud(const std::filesystem::path& cloud, const estimate::Area& area,
+                const std::filesystem::path& cropped);
+
+}  // namespace plotscan::farmbench
