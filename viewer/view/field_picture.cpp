@@ -123,11 +123,8 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
     labels.push_back({std::to_string(plot.id), box, !plot.flags.empty()});
   }
   for (const PlacedLabel& label : place_labels(labels, kLabelShare * text_px)) {
-    const Lettering lettering{.size_px = label.size_px,
-                              .colour = labels[label.index].important ? kFlaggedColour : kInk,
-                              .across = Side::middle,
-                              .turn_rad = label.turn_rad,
-                              .bold = true};
+    const Lettering lettering{
+        .size_px = label.size_px, .across = Side::middle, .turn_rad = label.turn_rad, .bold = true};
     page.area(label.corners, kWhite, 0.7);
     page.text(labels[label.index].box_px.center, labels[label.index].text, lettering);
   }
