@@ -157,6 +157,7 @@ void add_title(Page& page, const Layout& layout, const estimate::Estimate& estim
 void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
                 const std::filesystem::path& png, const FieldPictureOptions& options) {
   validate(estimate, options);
+  require_file(cloud);
   const Display display;
   const Layout layout = lay_out(shown_part(estimate, options.margin_m), options);
   const Axes& axes = layout.axes;

@@ -206,6 +206,7 @@ void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& est
                std::uint32_t number, const std::filesystem::path& png,
                const PlotPictureOptions& options) {
   validate(estimate, options);
+  require_file(cloud);
   const estimate::PlotEstimate& plot = plot_numbered(estimate, number);
   Scene scene{.plot = plot,
               .ground = ground_profile(*estimate.ground, plot.box, options.beyond_m),
