@@ -40,15 +40,8 @@ FoundPlot found_plot(const Lattice& lattice, const Place& place, double r_headin
   return plot;
 }
 
-// The box's axis along r: the line of the columns, where they run through all rows, and the normal
-// of the rows' line agree within their errors or the columns' counts.
 double box_heading(const Lattice& lattice) {
-  const Eigen::Vector2d column = lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis();
-  const Eigen::Vector2d row = lattice.view.c_axis() + lattice.r_per_c * lattice.view.r_axis();
-  const double from_column = angle_of(column);
-  const double from_row = angle_of(row) + std::numbers::pi / 2;
-  const double apart = std::remainder(from_row - from_column, std::numbers::pi);
-  return std::abs(apart) < 0.003 ? from_column + apart / 2 : from_column;
+  return angle_of(lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis());
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ FieldAxes find_axes(const CanopyRaster& raster, std::optional<double> hint_rad, 
   for (int i = 0; i < kAngles; ++i) {
     if (hint_rad && std::abs(std::remainder(i * kDegree - *hint_rad, kPi)) > 5 * kDegree) continue;
     for (int d = 60; d <= 120; ++d) {
-      // A skewed lattice is rarer than a straight one, by far.
-      const double doubt = 1 - 0.005 * std::min(20, std::abs(d - 90));
+      // A skewed lattice is rarer than rows with offsets of their own, which look like one.
+      const double doubt = 1 - 0.03 * std::clamp(std::abs(d - 90) - 1, 0, 6);
       const double sum = doubt * (values[static_cast<std::size_t>(i)] +
                                   values[static_cast<std::size_t>((i + d) % kAngles)]);
       if (sum > best) {

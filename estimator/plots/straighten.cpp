@@ -91,44 +91,175 @@ double rms_about(const std::vector<int>& group, const std::vector<double>& at, d
   return std::sqrt(squares / std::max(1.0, free));
 }
 
+// Centres as measured, and their rows and columns.
+struct Centers {
+  std::vector<int> row, column;
+  std::vector<double> r, c;
+};
+
+Centers measured_centers(const Lattice& lattice) {
+  const auto r_shifts = measured_shifts(lattice, true), c_shifts = measured_shifts(lattice, false);
+  Centers centers;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& place = lattice.places[i];
+    centers.row.push_back(place.row);
+    centers.column.push_back(place.column);
+    centers.r.push_back(place.r_m + r_shifts[i].value_or(0));
+    centers.c.push_back(place.c_m + c_shifts[i].value_or(0));
+  }
+  return centers;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double spread_of(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return squares;
+}
+
+// Means by group of values less what another grouping explains.
+std::vector<double> group_means(const std::vector<int>& group, int groups,
+                                const std::vector<double>& values) {
+  std::vector<double> sums(static_cast<std::size_t>(groups));
+  for (std::size_t i = 0; i < group.size(); ++i) sums[static_cast<std::size_t>(group[i])] += values[i];
+  const std::vector<double> counts = counts_of(group, groups);
+  for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= std::max(1.0, counts[g]);
+  return sums;
+}
+
+// c of a plot = its column's place + its row's offset.
+struct Columns {
+  std::vector<double> column_at, row_offset;
+  double rms_m = 0;
+};
+
+Columns fit_columns(const Lattice& lattice, const Centers& centers) {
+  constexpr int kRounds = 8;
+  Columns fit;
+  fit.row_offset.assign(static_cast<std::size_t>(lattice.rows), 0);
+  const std::vector<double> counts = counts_of(centers.column, lattice.columns);
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> rest(centers.c);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      rest[i] -= fit.row_offset[static_cast<std::size_t>(centers.row[i])];
+    }
+    if (lattice.aligned) {
+      fit.column_at = group_means(centers.column, lattice.columns, rest);
+      const double error_m = rms_about(centers.column, fit.column_at, 0, rest, rest);
+      fit.column_at = with_equal_steps(fit.column_at, counts, error_m);
+    } else {
+      double pitch_m = 0;
+      const std::vector<double> index(centers.column.begin(), centers.column.end());
+      means_and_slope(centers.row, lattice.rows, index, rest, pitch_m);
+      fit.column_at.clear();
+      for (int column = 0; column < lattice.columns; ++column) fit.column_at.push_back(pitch_m * column);
+    }
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      rest[i] = centers.c[i] - fit.column_at[static_cast<std::size_t>(centers.column[i])];
+    }
+    fit.row_offset = group_means(centers.row, lattice.rows, rest);
+    fit.rms_m = rms_about(centers.row, fit.row_offset, 0, rest, rest);
+  }
+  return fit;
+}
+
+// c that every metre along r adds, where the rows' offsets lie on a line.
+struct Skew {
+  double c_per_r = 0, error = 0;
+  bool straight = false;
+};
+
+Skew fit_skew(const Lattice& lattice, const std::vector<double>& row_at, const Centers& centers,
+              const Columns& columns) {
+  std::vector<double> x, y;
+  for (const int row : centers.row) {
+    x.push_back(row_at[static_cast<std::size_t>(row)]);
+    y.push_back(columns.row_offset[static_cast<std::size_t>(row)]);
+  }
+  const double spread = spread_of(x), mean_x = mean_of(x), mean_y = mean_of(y);
+  if (spread <= 0) return {};
+  Skew skew;
+  for (std::size_t i = 0; i < x.size(); ++i) skew.c_per_r += (x[i] - mean_x) * (y[i] - mean_y) / spread;
+  skew.error = std::max(0.005, columns.rms_m) / std::sqrt(spread);
+  skew.straight = true;
+  const std::vector<double> counts = counts_of(centers.row, lattice.rows);
+  for (std::size_t row = 0; row < row_at.size(); ++row) {
+    const double off_m = columns.row_offset[row] - mean_y - skew.c_per_r * (row_at[row] - mean_x);
+    skew.straight = skew.straight && std::abs(off_m) < std::max(0.03, 3.5 * columns.rms_m / std::sqrt(counts[row]));
+  }
+  return skew;
+}
+
 }  // namespace
 
 void straighten(Lattice& lattice) {
-  std::vector<int> row, column;
-  std::vector<double> r, c;
-  const auto r_shifts = measured_shifts(lattice, true), c_shifts = measured_shifts(lattice, false);
-  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
-    const Place& place = lattice.places[i];
-    row.push_back(place.row);
-    column.push_back(place.column);
-    r.push_back(place.r_m + r_shifts[i].value_or(0));
-    c.push_back(place.c_m + c_shifts[i].value_or(0));
+  const Centers centers = measured_centers(lattice);
+  std::vector<double> row_at =
+      means_and_slope(centers.row, lattice.rows, centers.c, centers.r, lattice.r_per_c);
+  lattice.r_rms_m = rms_about(centers.row, row_at, lattice.r_per_c, centers.c, centers.r);
+  Columns columns = fit_columns(lattice, centers);
+  lattice.c_rms_m = columns.rms_m;
+  const Skew skew = fit_skew(lattice, row_at, centers, columns);
+
+  // Axes are perpendicular unless the rows' offsets say otherwise beyond doubt.
+  std::vector<double> within_rows(centers.c);
+  const std::vector<double> row_c = group_means(centers.row, lattice.rows, centers.c);
+  for (std::size_t i = 0; i < within_rows.size(); ++i) {
+    within_rows[i] -= row_c[static_cast<std::size_t>(centers.row[i])];
   }
-  std::vector<double> row_at = means_and_slope(row, lattice.rows, c, r, lattice.r_per_c);
-  row_at = with_equal_steps(row_at, counts_of(row, lattice.rows),
-                            rms_about(row, row_at, lattice.r_per_c, c, r));
-  std::vector<double> column_at;
-  if (lattice.aligned) {
-    column_at = means_and_slope(column, lattice.columns, r, c, lattice.c_per_r);
-    column_at = with_equal_steps(column_at, counts_of(column, lattice.columns),
-                                 rms_about(column, column_at, lattice.c_per_r, r, c));
+  const double row_spread = spread_of(within_rows);
+  const double row_error = row_spread > 0 ? std::max(0.005, lattice.r_rms_m) / std::sqrt(row_spread) : 1;
+  const double between = lattice.view.r_axis().dot(lattice.view.c_axis());
+  const double off = skew.c_per_r + (between + lattice.r_per_c) / (1 + between * lattice.r_per_c);
+  const double error = std::hypot(skew.error, row_error);
+  const bool rows_tell = row_spread > 1;
+  const bool columns_tell = skew.straight && lattice.rows >= 2;
+  lattice.perpendicular = !columns_tell || !rows_tell || std::abs(off) < std::max(0.001, 3 * error) ||
+                          (lattice.rows < 3 && std::abs(off) > 0.01);
+  const bool straight = columns_tell && (!lattice.perpendicular || std::abs(off) < std::max(0.001, 3 * error));
+  if (!rows_tell) {
+    lattice.c_per_r = skew.c_per_r;
+    lattice.r_per_c = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
+  } else if (!lattice.perpendicular) {
+    lattice.c_per_r = skew.c_per_r;
+  } else if (straight) {
+    const double share = skew.error * skew.error / (error * error);
+    lattice.c_per_r = skew.c_per_r - share * off;
+    lattice.r_per_c -= (1 - share) * off;
   } else {
-    std::vector<double> index(column.begin(), column.end());
-    column_at = means_and_slope(row, lattice.rows, index, c, lattice.c_pitch_m);
+    lattice.c_per_r = skew.c_per_r - off;
   }
-  double r_squares = 0, c_squares = 0;
+
+  std::vector<double> rest(centers.r);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= lattice.r_per_c * centers.c[i];
+  row_at = with_equal_steps(group_means(centers.row, lattice.rows, rest),
+                            counts_of(centers.row, lattice.rows), lattice.r_rms_m);
+  if (straight) {
+    std::vector<double> offsets;
+    for (std::size_t i = 0; i < centers.r.size(); ++i) {
+      offsets.push_back(columns.row_offset[static_cast<std::size_t>(centers.row[i])] -
+                        lattice.c_per_r * centers.r[i]);
+    }
+    const double offset = mean_of(offsets);
+    const std::vector<double> mean_r = group_means(centers.row, lattice.rows, centers.r);
+    for (std::size_t row = 0; row < row_at.size(); ++row) {
+      columns.row_offset[row] = offset + lattice.c_per_r * mean_r[row];
+    }
+  }
+  const std::vector<double> mean_r = group_means(centers.row, lattice.rows, centers.r);
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     Place& place = lattice.places[i];
-    place.r_m = row_at[static_cast<std::size_t>(place.row)] + lattice.r_per_c * c[i];
-    place.c_m = lattice.aligned
-                    ? column_at[static_cast<std::size_t>(place.column)] + lattice.c_per_r * r[i]
-                    : column_at[static_cast<std::size_t>(place.row)] + lattice.c_pitch_m * place.column;
-    r_squares += (place.r_m - r[i]) * (place.r_m - r[i]);
-    c_squares += (place.c_m - c[i]) * (place.c_m - c[i]);
+    const auto row = static_cast<std::size_t>(place.row);
+    const double c = columns.column_at[static_cast<std::size_t>(place.column)] + columns.row_offset[row];
+    place.r_m = row_at[row] + lattice.r_per_c * c;
+    place.c_m = c + lattice.c_per_r * (place.r_m - mean_r[row]);
   }
-  const double count = std::max<double>(1, static_cast<double>(lattice.places.size()));
-  lattice.r_rms_m = std::sqrt(r_squares / count);
-  lattice.c_rms_m = std::sqrt(c_squares / count);
 }
 
 }  // namespace plotscan::plots
