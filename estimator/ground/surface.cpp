@@ -102,12 +102,14 @@ struct Ground {
 
 // Where the surface is supported by nothing, it may have cut a ridge off, whose returns it then
 // took for canopy: half of the way up to the lowest layer, as far as this ground bends at all.
-void doubt_the_unsupported(const Grid& grid, const Field& layers, Ground& ground) {
+void doubt_the_unsupported(const Grid& grid, const Field& layers, double noise_m, Ground& ground) {
   constexpr double kBends = 2;
+  constexpr double kLeast = 0.1;  // of the noise, on the levellest ground
   const Field bends = curvature(grid, ground.z_m);
   double squares = 0;
   for (const float bend : bends) squares += bend * bend;
-  const auto most = static_cast<float>(kBends * std::sqrt(squares / bends.size()));
+  const auto most = static_cast<float>(
+      std::max(kLeast * noise_m, kBends * std::sqrt(squares / static_cast<double>(bends.size()))));
   Evidence& evidence = ground.evidence;
   for (std::size_t i = 0; i < bends.size(); ++i) {
     if (evidence.support[i] >= kSupported) continue;
@@ -134,7 +136,7 @@ Ground find_ground(const Columns& low, double noise_m) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
     step(grid, ground.evidence, false, ground.z_m);
   }
-  doubt_the_unsupported(grid, layers, ground);
+  doubt_the_unsupported(grid, layers, noise_m, ground);
   return ground;
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ground/surface.h"
 
+#include <array>
 #include <cmath>
-#include <functional>
+#include <cstring>
+#include <limits>
 #include <vector>
 
+#include "synthetic_field.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -13,32 +16,150 @@
 namespace plotscan::ground {
 namespace {
 
-using Terrain = std::function<double(double, double)>;
-
-// Returns of bare ground, uniform over a square about the origin.
-std::vector<Eigen::Vector3f> bare_field(const Terrain& terrain, double side_m, int per_m2,
-                                        double noise_m) {
-  RandomStream random(5, random_purpose("test/ground"), 0);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < per_m2 * side_m * side_m; ++i) {
-    const double x = random.uniform(-0.5 * side_m, 0.5 * side_m);
-    const double y = random.uniform(-0.5 * side_m, 0.5 * side_m);
-    points.push_back(
-        Eigen::Vector3d(x, y, terrain(x, y) + noise_m * random.normal()).cast<float>());
-  }
-  return points;
-}
+const Terrain kPlane = [](double x, double y) { return 5 + 0.15 * x - 0.08 * y; };
+const Terrain kWaves = [](double x, double y) {
+  return 0.15 * std::sin(0.8 * x) * std::cos(0.6 * y) + 0.05 * x;
+};
 
 TEST(FitSurface, FindsAPlaneAndItsNoise) {
-  const Terrain plane = [](double x, double y) { return 5 + 0.15 * x - 0.08 * y; };
-  const Surface surface = fit_surface(bare_field(plane, 12, 400, 0.03), SurfaceOptions());
+  const Surface surface = fit_surface(returns_of({.terrain = kPlane}), SurfaceOptions());
   EXPECT_NEAR(surface.noise_m, 0.03, 0.003);
   for (double x = -5; x <= 5; x += 0.5) {
     for (double y = -5; y <= 5; y += 0.5) {
-      EXPECT_NEAR(surface.height({x, y}), plane(x, y), 0.01);
+      EXPECT_NEAR(surface.height({x, y}), kPlane(x, y), 0.01);
       EXPECT_NEAR(surface.slope({x, y}).x(), 0.15, 0.05);
+      EXPECT_NEAR(surface.slope({x, y}).y(), -0.08, 0.05);
+      EXPECT_LT(surface.standard_error({x, y}), 0.01);
     }
   }
+}
+
+TEST(FitSurface, TakesBareGroundWithoutNoise) {
+  const Surface surface =
+      fit_surface(returns_of({.terrain = kWaves, .noise_m = 0}), SurfaceOptions());
+  EXPECT_LT(surface.noise_m, 0.006);
+  for (double x = -5; x <= 5; x += 0.5) {
+    EXPECT_NEAR(surface.height({x, 0.3 * x}), kWaves(x, 0.3 * x), 0.004);
+  }
+}
+
+TEST(FitSurface, KeepsABreakline) {
+  const Terrain roof = [](double x, double) { return -0.4 * std::abs(x - 0.33); };
+  const Surface surface = fit_surface(returns_of({.terrain = roof}), SurfaceOptions());
+  for (double y = -5; y <= 5; y += 0.25) {
+    EXPECT_NEAR(surface.height({0.33, y}), 0, 0.04);  // half a cell may be cut off: 2 cm
+    for (const double x : {-3.0, -0.3, 1.0, 4.0}) {
+      EXPECT_NEAR(surface.height({x, y}), roof(x, y), 0.012) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(FitSurface, SeesTheGroundThroughACanopy) {
+  const SyntheticField field = {.terrain = kWaves,
+                                .returns_m2 = 1500,
+                                .plots = two_rows_of_plots(),
+                                .canopy_low_m = 0.05,
+                                .gaps = 0.15};
+  const Surface surface = fit_surface(returns_of(field), SurfaceOptions());
+  for (const PlotBox& plot : field.plots) {
+    EXPECT_NEAR(mean_error(surface, kWaves, plot), 0, 0.005);
+    EXPECT_LT(surface.mean_standard_error(plot), 0.01);
+  }
+}
+
+TEST(FitSurface, BridgesAClosedCanopyAndSaysSo) {
+  const SyntheticField field = {.terrain = kPlane, .plots = two_rows_of_plots(), .gaps = 0};
+  const Surface surface = fit_surface(returns_of(field), SurfaceOptions());
+  for (const PlotBox& plot : field.plots) {
+    EXPECT_NEAR(mean_error(surface, kPlane, plot), 0, 0.015);
+    EXPECT_GT(surface.standard_error(plot.center), 1.5 * surface.standard_error({1.05, 0}));
+    const Eigen::Vector2d at = (plot.center - surface.origin) / surface.cell_m;
+    const int node =
+        static_cast<int>(at.y() + 0.5) * surface.columns + static_cast<int>(at.x() + 0.5);
+    EXPECT_EQ(surface.seen[node], 0);
+  }
+}
+
+TEST(FitSurface, HoldsAgainstStrayPoints) {
+  const SyntheticField field = {.terrain = kWaves, .plots = two_rows_of_plots()};
+  std::vector<Eigen::Vector3f> points = returns_of(field);
+  RandomStream random(6, random_purpose("test/ground"), 0);
+  for (int i = 0; i < 200; ++i) {
+    const double x = random.uniform(-6, 6), y = random.uniform(-6, 6);
+    const double off = i % 2 == 0 ? random.uniform(-8, -0.5) : random.uniform(2, 30);
+    points.emplace_back(x, y, kWaves(x, y) + off);
+  }
+  points.emplace_back(900.f, -700.f, 3.f);
+  points.emplace_back(0.f, 0.f, std::numeric_limits<float>::quiet_NaN());
+  for (int i = 0; i < 500; ++i) points.push_back(points[i]);
+  const Surface surface = fit_surface(points, SurfaceOptions());
+  EXPECT_LT(surface.columns, 80);
+  for (const PlotBox& plot : field.plots) {
+    EXPECT_NEAR(mean_error(surface, kWaves, plot), 0, 0.01);
+  }
+}
+
+TEST(FitSurface, HasNoGroundBeyondReach) {
+  std::vector<Eigen::Vector3f> points = returns_of({.terrain = kPlane, .side_m = 20});
+  std::erase_if(points, [](const Eigen::Vector3f& p) { return p.x() > 0 && p.y() > 0; });
+  const Surface surface = fit_surface(points, SurfaceOptions());
+  EXPECT_TRUE(std::isfinite(surface.height({1, 1})));
+  EXPECT_GT(surface.standard_error({2, 2}), 3 * surface.standard_error({-2, -2}));
+  EXPECT_TRUE(std::isnan(surface.height({8, 8})));
+  EXPECT_TRUE(std::isnan(surface.standard_error({8, 8})));
+  const PlotBox beyond = {.center = {8, 8}, .width_m = 1, .length_m = 1, .heading_rad = 0};
+  EXPECT_TRUE(std::isnan(surface.mean_standard_error(beyond)));
+  EXPECT_TRUE(std::isnan(surface.height({100, 0})));
+}
+
+TEST(FitSurface, GivesTheSameBytesForAnyNumberOfThreads) {
+  const std::vector<Eigen::Vector3f> points =
+      returns_of({.terrain = kWaves, .plots = two_rows_of_plots()});
+  SurfaceOptions options;
+  const Surface one = fit_surface(points, options);
+  for (const int threads : {2, 3}) {
+    options.threads = threads;
+    const Surface many = fit_surface(points, options);
+    ASSERT_EQ(one.z_m.size(), many.z_m.size());
+    EXPECT_EQ(std::memcmp(one.z_m.data(), many.z_m.data(), 4 * one.z_m.size()), 0);
+    EXPECT_EQ(std::memcmp(one.sd_m.data(), many.sd_m.data(), 4 * one.sd_m.size()), 0);
+    EXPECT_EQ(one.seen, many.seen);
+    EXPECT_EQ(one.errors.heights_m, many.errors.heights_m);
+  }
+}
+
+// Plots on many random grounds, through whose canopies much, little or no ground is seen: the truth
+// lies within 1.96 standard errors about as often as it should.
+TEST(FitSurface, GivesHonestStandardErrors) {
+  int inside = 0, all = 0;
+  double worst = 0;
+  for (int seed = 0; seed < 24; ++seed) {
+    RandomStream random(seed, random_purpose("test/ground/terrain"), 0);
+    const double a = random.uniform(0.02, 0.2), k = random.uniform(0.4, 1.2);
+    const double at = random.uniform(0, 6);
+    const Terrain terrain = [=](double x, double y) {
+      return a * std::sin(k * x + at) * std::cos(0.7 * k * y - at) + a * std::abs(y - 0.4 * x - at);
+    };
+    const SyntheticField field = {.terrain = terrain,
+                                  .plots = two_rows_of_plots(),
+                                  .gaps = std::array{0.2, 0.05, 0.0}[seed % 3],
+                                  .seed = static_cast<std::uint64_t>(seed)};
+    const Surface surface = fit_surface(returns_of(field), SurfaceOptions());
+    for (const PlotBox& plot : field.plots) {
+      const double off = mean_error(surface, terrain, plot) / surface.mean_standard_error(plot);
+      inside += std::abs(off) < 1.96;
+      worst = std::max(worst, std::abs(off));
+      ++all;
+    }
+  }
+  EXPECT_GT(inside, 0.88 * all);
+  EXPECT_LT(worst, 6);
+}
+
+TEST(FitSurface, TakesTheNoiseThatIsGiven) {
+  SurfaceOptions options;
+  options.noise_m = 0.05;
+  EXPECT_EQ(fit_surface(returns_of({.terrain = kPlane}), options).noise_m, 0.05);
 }
 
 TEST(FitSurface, RefusesACellOutOfRangeAndACloudWithoutPoints) {
