@@ -43,7 +43,7 @@ struct TileStoreOptions {
 // Takes points as they come and keeps, in each cell of 0.125 m, at most points_per_cell of them: a
 // sample as good as drawn by lot that depends neither on their order nor on the number of threads.
 // A point that repeats another to 0.06 mm counts once. Memory is bounded by the area over which the
-// points lie: at most 40 bytes for each point kept, or 340 MB where that is more.
+// points lie: at most 48 bytes for each point kept, or 340 MB where that is more.
 class TileStore {
  public:
   struct Counts {
