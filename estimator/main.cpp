@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <map>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>

@@ -11,7 +11,7 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kLeastSide_m = 0.35, kMostSide_m = 25;
-constexpr double kReach_m = 0.2;       // of the strips on either side of an edge
+constexpr double kReach_m = 0.2;        // of the strips on either side of an edge
 constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
 constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
 constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
@@ -99,8 +99,9 @@ double regularity(const Layout& layout) {
   std::vector<double> steps;
   for (const Row& row : layout.rows) {
     for (std::size_t i = 1; i < row.plots.size(); ++i) {
-      steps.push_back((row.plots[i].begin + row.plots[i].end - row.plots[i - 1].begin -
-                       row.plots[i - 1].end) * layout.view.cell_m() / 2);
+      steps.push_back(
+          (row.plots[i].begin + row.plots[i].end - row.plots[i - 1].begin - row.plots[i - 1].end) *
+          layout.view.cell_m() / 2);
     }
   }
   if (steps.size() < 2) return 1;
@@ -119,6 +120,49 @@ double edge_value(double contrast) {
   return std::clamp((contrast - kChance) / (kClear - kChance), -1.0, 1.0);
 }
 
+// Cover of canopy: mean of the cells' cover, weighted with itself.
+double full_cover(const RowView& view) {
+  double cover = 0;
+  double square = 0;
+  constexpr int kCells = 4;
+  for (int r = 0; r + kCells <= view.r_cells(); r += kCells) {
+    for (int c = 0; c + kCells <= view.c_cells(); c += kCells) {
+      const double seen = view.seen_cells(r, r + kCells, c, c + kCells);
+      const double here = view.cover(r, r + kCells, c, c + kCells);
+      cover += seen * here;
+      square += seen * here * here;
+    }
+  }
+  return cover > 0 ? square / cover : 0;
+}
+
+// Cells of canopy that the plots hold beyond bare ones: an alley in a plot, or canopy in an alley,
+// counts against a layout.
+double held_canopy(const Layout& layout, double full) {
+  double held = 0;
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      const int r0 = row.band.begin;
+      const int r1 = row.band.end;
+      held += (layout.view.cover(r0, r1, plot.begin, plot.end) - full / 2) *
+              layout.view.seen_cells(r0, r1, plot.begin, plot.end);
+    }
+  }
+  return std::max(0.0, held);
+}
+
+// Scores the layouts beside each other.
+void weigh_with_canopy(std::vector<Layout>& layouts) {
+  if (layouts.empty()) return;
+  const double full = full_cover(layouts.front().view);
+  std::vector<double> held;
+  for (const Layout& layout : layouts) held.push_back(held_canopy(layout, full));
+  const double most = std::max(1e-9, *std::ranges::max_element(held));
+  for (std::size_t i = 0; i < layouts.size(); ++i) {
+    layouts[i].score *= (held[i] / most) * (held[i] / most);
+  }
+}
+
 // Metres of edges that a layout explains. Bands that the texture of a canopy suggests do not lie at
 // equal steps.
 double score_of(const Layout& layout) {
@@ -133,10 +177,12 @@ double score_of(const Layout& layout) {
   double score = 0;
   for (const Row& row : layout.rows) {
     for (const Band& plot : row.plots) {
-      const SideContrast side = side_contrast(layout.view, row.band.begin, row.band.end, plot.begin,
-                                              plot.end, reach);
-      for (const double contrast : side.across_r) score += layout.c_size * edge_value(contrast / full);
-      for (const double contrast : side.across_c) score += layout.r_size * edge_value(contrast / full);
+      const SideContrast side =
+          side_contrast(layout.view, row.band.begin, row.band.end, plot.begin, plot.end, reach);
+      for (const double contrast : side.across_r)
+        score += layout.c_size * edge_value(contrast / full);
+      for (const double contrast : side.across_c)
+        score += layout.r_size * edge_value(contrast / full);
     }
   }
   const double regular = std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
@@ -220,7 +266,8 @@ void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
 }
 
 std::vector<Layout> layouts_of(const RowView& view) {
-  const std::vector<double> steps = steps_of(profile_over_rows(view), cells(kReach_m, view.cell_m()));
+  const std::vector<double> steps =
+      steps_of(profile_over_rows(view), cells(kReach_m, view.cell_m()));
   const BandSearch search = search_for(strongest(steps), view.cell_m());
   std::vector<SizeScore> scores;
   for (const int size : sizes(view.r_cells(), view.cell_m())) {
@@ -257,7 +304,8 @@ bool are_stripes_of(const Layout& fine, const Layout& coarse) {
   const auto stripes = [&](int narrow, int other) {
     return narrow * cell_m < 0.75 && other > 4 * narrow;
   };
-  const bool along_r = stripes(fine.r_size, fine.c_size), along_c = stripes(fine.c_size, fine.r_size);
+  const bool along_r = stripes(fine.r_size, fine.c_size),
+             along_c = stripes(fine.c_size, fine.r_size);
   if (fine.view.swapped != coarse.view.swapped || (!along_r && !along_c)) return false;
   const auto near = [](int a, int b) { return std::abs(a - b) <= 0.15 * std::max(a, b) + 2; };
   if (along_r ? !near(fine.c_size, coarse.c_size) : !near(fine.r_size, coarse.r_size)) return false;
@@ -288,6 +336,7 @@ Layout best_layout(const CanopyRaster& raster) {
     layouts.push_back(std::move(layout));
   }
   if (layouts.empty()) return {};
+  weigh_with_canopy(layouts);
   std::ranges::stable_sort(layouts, std::greater<>{}, &Layout::score);
   const auto grouped = std::ranges::find_if(
       layouts, [&](const Layout& layout) { return are_stripes_of(layouts.front(), layout); });
