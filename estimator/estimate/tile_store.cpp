@@ -21,9 +21,12 @@ struct Thinned {
   std::size_t repeated = 0;
 };
 
-// Sorts a tile's keys and moves those to keep to the front.
-Thinned thin(std::span<std::uint64_t> keys, std::size_t points_per_cell) {
-  std::ranges::sort(keys);
+// Sorts a tile's keys, of which the first `sorted` are in order, and moves those to keep to the
+// front.
+Thinned thin(std::span<std::uint64_t> keys, std::size_t sorted, std::size_t points_per_cell) {
+  const auto middle = keys.begin() + static_cast<std::ptrdiff_t>(sorted);
+  std::sort(middle, keys.end());
+  std::inplace_merge(keys.begin(), middle, keys.end());
   Thinned result;
   std::size_t in_cell = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -73,7 +76,7 @@ void TileStore::add(std::span<const Eigen::Vector3d> points) {
     new_keys_.push_back(placed->key);
     new_slots_.push_back(slot);
   }
-  if (new_keys_.size() >= std::max(options_.least_merged, kept_size_)) merge({});
+  if (new_keys_.size() >= options_.buffered_points) merge({});
 }
 
 // Groups the kept and the new keys by slot, then sorts and thins each slot's in their place. Slots
@@ -102,7 +105,8 @@ void TileStore::merge(const std::vector<char>& unwanted) {
     tbb::parallel_for(std::size_t{0}, slots, [&](std::size_t slot) {
       const std::span keys(&grouped[begin[slot]], end[slot] - begin[slot]);
       const bool dropped = !unwanted.empty() && unwanted[slot];
-      const Thinned thinned = dropped ? Thinned{} : thin(keys, options_.points_per_cell);
+      const Thinned thinned =
+          dropped ? Thinned{} : thin(keys, tiles_[slot].kept, options_.points_per_cell);
       tiles_[slot].kept = thinned.kept;
       tiles_[slot].repeated += thinned.repeated;
     });
@@ -155,6 +159,8 @@ TiledKeys TileStore::take(const std::function<bool(Tile)>& wanted) {
     taken.keys.insert(taken.keys.end(), first, first + range.size);
   }
   taken.begin.push_back(taken.keys.size());
+  kept_.reset();
+  kept_size_ = 0;
   return taken;
 }
 

@@ -34,16 +34,15 @@ struct TiledKeys {
 
 struct TileStoreOptions {
   std::size_t points_per_cell = 256;
-  // New points are merged with the kept ones when there are as many, and at least this many, so
-  // that each point is moved a bounded number of times however long the cloud is.
-  std::size_t least_merged = std::size_t{1} << 24;
+  // New points are merged with the kept ones when so many have come: 340 MB of memory with 2^24.
+  std::size_t buffered_points = std::size_t{1} << 24;
   int threads = 1;
 };
 
 // Takes points as they come and keeps, in each cell of 0.125 m, at most points_per_cell of them: a
 // sample as good as drawn by lot that depends neither on their order nor on the number of threads.
 // A point that repeats another to 0.06 mm counts once. Memory is bounded by the area over which the
-// points lie: at most 48 bytes for each point kept, or 340 MB where that is more.
+// points lie: at most 16 bytes for each point kept, and the buffer of new ones.
 class TileStore {
  public:
   struct Counts {

@@ -101,10 +101,11 @@ TEST(TileStore, TheOrderOfThePointsChangesNothing) {
   Points points = random_points(60000, 3);
   const TiledKeys once = taken(points, {.points_per_cell = 20});
   EXPECT_LT(once.keys.size(), 0.9 * static_cast<double>(points.size()));
-  for (const std::size_t least_merged : {1000u, 7000u, 100000u}) {
-    std::shuffle(points.begin(), points.end(), std::mt19937(least_merged));
-    expect_same(taken(points, {.points_per_cell = 20, .least_merged = least_merged, .threads = 2}),
-                once);
+  for (const std::size_t buffered_points : {1000u, 7000u, 100000u}) {
+    std::shuffle(points.begin(), points.end(), std::mt19937(buffered_points));
+    expect_same(
+        taken(points, {.points_per_cell = 20, .buffered_points = buffered_points, .threads = 2}),
+        once);
   }
 }
 
@@ -159,7 +160,7 @@ TEST(TileStore, KeepsAFairSample) {
 
 // What is kept stops growing with the number of points, and so does the memory.
 TEST(TileStore, IsBoundedByTheArea) {
-  TileStore store({.points_per_cell = 16, .least_merged = 1u << 20, .threads = 2});
+  TileStore store({.points_per_cell = 16, .buffered_points = 1u << 22, .threads = 2});
   constexpr std::size_t kPoints = 50'000'000;
   std::mt19937_64 random(1);
   Points piece(1u << 16);
@@ -172,7 +173,7 @@ TEST(TileStore, IsBoundedByTheArea) {
                static_cast<double>(bits >> 40) * 0x2p-24};
     }
     store.add(piece);
-    ASSERT_LE(store.points_held(), 16 * 16 * kCellsATile * 16u + (2u << 20));
+    ASSERT_LE(store.points_held(), 16 * 16 * kCellsATile * 16u + (1u << 22) + piece.size());
   }
   const TiledKeys keys = store.take([](Tile) { return true; });
   EXPECT_EQ(keys.keys.size(), 16 * 16 * kCellsATile * 16u);
