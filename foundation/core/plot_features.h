@@ -24,8 +24,8 @@ struct PlotFeature {
 // so in a "coordinate_system" member, as RFC 7946 section 4 allows by prior arrangement. Each
 // feature also carries its box exactly: center_x_m, center_y_m, width_m, length_m, heading_deg.
 // Where the metres are those of a known system, `crs` names it, and so does a member "crs" of the
-// file: "EPSG:<code>" as GeoJSON 2008 (section 3) has it, which GIS programs read; else as the text
-// itself.
+// file: "EPSG:<code>" as GeoJSON 2008 (section 3; cited from memory) has it, which GIS programs
+// read; else as the text itself.
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
                          const std::string& crs = "");
 
