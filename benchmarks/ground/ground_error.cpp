@@ -1,88 +1,108 @@
 // SPDX-License-Identifier: Apache-2.0
+// ground_error [--each] (FARM SCAN)...: the error of the ground under the plots of simulated farms,
+// by method, against the true terrain (docs/ground.md).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
+#include <map>
+#include <string_view>
 #include <vector>
 
-#include "ground/surface.h"
-#include <Eigen/Core>
+#include "methods.h"
 
 #include "estimate/cloud_map.h"
-#include "farm/farm.h"
 #include "farm/plot_table.h"
-#include "farm/terrain.h"
 #include "farm/terrain_ply.h"
 
 namespace {
+
 using namespace plotscan;
 
+// Error of one plot's ground: its mean, the mean of its square.
 struct PlotError {
-  double mean = 0, rms = 0, sd = 0, worst = 0;
-  double seen = 0;
+  double mean_m = 0;
+  double square_m2 = 0;
 };
 
-PlotError error_of(const ground::Surface& surface, const farm::Terrain& terrain, const PlotBox& box,
-                   const Eigen::Vector3d& origin) {
-  PlotError e;
-  int n = 0;
-  for (double a = -0.5 * box.length_m + 0.025; a < 0.5 * box.length_m; a += 0.05) {
-    for (double b = -0.5 * box.width_m + 0.025; b < 0.5 * box.width_m; b += 0.05) {
-      const Eigen::Vector2d p = box.center + a * box.length_axis() + b * box.width_axis();
+PlotError error_of(const ground_error::PlotGround& ground, const PlotBox& box,
+                   const farm::Terrain& terrain, const Eigen::Vector3d& origin) {
+  constexpr double kStep_m = 0.05;
+  PlotError error;
+  int count = 0;
+  for (double a = 0.5 * (kStep_m - box.length_m); a < 0.5 * box.length_m; a += kStep_m) {
+    for (double b = 0.5 * (kStep_m - box.width_m); b < 0.5 * box.width_m; b += kStep_m) {
+      const Eigen::Vector2d place = box.center + a * box.length_axis() + b * box.width_axis();
+      const Eigen::Vector2d world = place + origin.head<2>();
       const double off =
-          surface.height(p) + origin.z() - *terrain.height(p.x() + origin.x(), p.y() + origin.y());
-      e.mean += off;
-      e.rms += off * off;
-      e.worst = std::max(e.worst, std::abs(off));
-      ++n;
+          ground.height(place) + origin.z() - terrain.height(world.x(), world.y()).value();
+      error.mean_m += off;
+      error.square_m2 += off * off;
+      ++count;
     }
   }
-  e.mean /= n;
-  e.rms /= n;
-  return e;
+  return {.mean_m = error.mean_m / count, .square_m2 = error.square_m2 / count};
+}
+
+// Sums over the plots of all farms, by method.
+struct Score {
+  int plots = 0, without = 0, inside = 0, over_1cm = 0;
+  double sum_m = 0, squares_m2 = 0, point_squares_m2 = 0, worst_m = 0, seconds = 0;
+
+  void add(const PlotError& error, double standard_error_m) {
+    if (!std::isfinite(error.mean_m)) {
+      ++without;
+      return;
+    }
+    ++plots;
+    sum_m += error.mean_m;
+    squares_m2 += error.mean_m * error.mean_m;
+    point_squares_m2 += error.square_m2;
+    worst_m = std::max(worst_m, std::abs(error.mean_m));
+    over_1cm += std::abs(error.mean_m) > 0.01;
+    inside += std::abs(error.mean_m) < 1.96 * standard_error_m;
+  }
+};
+
+void measure(const std::filesystem::path& farm, const std::filesystem::path& scan, bool each,
+             std::map<std::string, Score>& scores) {
+  const estimate::CloudMap map = estimate::read_map(scan / "cloud.pcd", {});
+  const farm::Terrain terrain = farm::read_terrain(farm / "truth/terrain.ply");
+  std::vector<PlotBox> boxes;
+  for (const farm::Plot& plot : farm::read_plots(farm / "truth/plots.geojson")) {
+    boxes.push_back(plot.box);
+    boxes.back().center -= map.origin().head<2>();
+  }
+  for (const ground_error::Method& method : ground_error::methods(2)) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<ground_error::PlotGround> grounds = method.ground(map.points(), boxes);
+    Score& score = scores[method.name];
+    score.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const PlotError error = error_of(grounds[i], boxes[i], terrain, map.origin());
+      score.add(error, grounds[i].standard_error_m);
+      if (!each) continue;
+      std::printf("%s %s %zu mean_cm %.2f point_rms_cm %.2f standard_error_cm %.2f\n", farm.c_str(),
+                  method.name.c_str(), i + 1, 100 * error.mean_m, 100 * std::sqrt(error.square_m2),
+                  100 * grounds[i].standard_error_m);
+    }
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const estimate::CloudMap map =
-        estimate::read_map(std::filesystem::path(argv[i + 1]) / "cloud.pcd", {});
-    const auto& points = map.points();
-    const auto terrain = farm::read_terrain(std::filesystem::path(argv[i]) / "truth/terrain.ply");
-    auto plots = farm::read_plots(std::filesystem::path(argv[i]) / "truth/plots.geojson");
-    const std::clock_t c0 = std::clock();
-    const auto t0 = std::chrono::steady_clock::now();
-    auto surface = ground::fit_surface(points, {.cell_m = 0.2, .noise_m = {}, .threads = 2});
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - t0).count();
-    for (auto& plot : plots) plot.box.center -= map.origin().head<2>();
-
-    const double cpu = double(std::clock() - c0) / CLOCKS_PER_SEC;
-    double sum = 0, squares = 0, point_squares = 0, worst = 0, worst_point = 0;
-    int covered = 0;
-    for (const auto& plot : plots) {
-      PlotError e = error_of(surface, terrain, plot.box, map.origin());
-      e.sd = surface.mean_standard_error(plot.box);
-      if (getenv("EACH"))
-        std::printf("  %u %.2f sd %.2f rms %.2f worst %.2f\n", plot.id, 100 * e.mean, 100 * e.sd,
-                    100 * std::sqrt(e.rms), 100 * e.worst);
-      sum += e.mean;
-      squares += e.mean * e.mean;
-      point_squares += e.rms;
-      worst = std::max(worst, std::abs(e.mean));
-      worst_point = std::max(worst_point, e.worst);
-      covered += std::abs(e.mean) < 1.96 * e.sd;
-    }
-    const double n = plots.size();
-    std::printf(
-        "%s points %.2fM grid %dx%d noise %.4f time %.2f cpu %.2f plots %.0f bias %.2f rms %.2f "
-        "worst %.2f "
-        "point rms %.2f worst %.2f cover %.2f\n",
-        argv[i], 1e-6 * points.size(), surface.columns, surface.rows, surface.noise_m, seconds, cpu,
-        n, 100 * sum / n, 100 * std::sqrt(squares / n), 100 * worst,
-        100 * std::sqrt(point_squares / n), 100 * worst_point, covered / n);
+  const bool each = argc > 1 && std::string_view(argv[1]) == "--each";
+  std::map<std::string, Score> scores;
+  for (int i = each ? 2 : 1; i + 1 < argc; i += 2) measure(argv[i], argv[i + 1], each, scores);
+  std::printf("method plots without bias_cm rms_cm worst_cm over_1cm point_rms_cm inside_95 s\n");
+  for (const auto& [method, score] : scores) {
+    const double n = score.plots;
+    std::printf("%s %d %d %.2f %.2f %.2f %.3f %.2f %.3f %.1f\n", method.c_str(), score.plots,
+                score.without, 100 * score.sum_m / n, 100 * std::sqrt(score.squares_m2 / n),
+                100 * score.worst_m, score.over_1cm / n,
+                100 * std::sqrt(score.point_squares_m2 / n), score.inside / n, score.seconds);
   }
 }

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "ground/surface.h"
+#include <pcl/point_types.h>
+#include <pcl/segmentation/progressive_morphological_filter.h>
+
+#include "estimate/dhami2020/ground_plane.h"
+#include "estimate/dhami2020/plot_heights.h"
+#include "estimate/dhami2020/voxel_filter.h"
+
+namespace plotscan::ground_error {
+namespace {
+
+using Points = std::span<const Eigen::Vector3f>;
+using Boxes = std::vector<PlotBox>;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<PlotGround> planes(Points points, const Boxes& boxes) {
+  constexpr double kVoxel_m = 0.05, kExtend_m = 0.5, kTolerance_m = 0.05;  // the authors' settings
+  Boxes longer = boxes;
+  for (PlotBox& box : longer) box.length_m += 2 * kExtend_m;
+  const std::vector<Eigen::Vector3f> voxels = estimate::voxel_filter(points, kVoxel_m);
+  std::vector<PlotGround> grounds;
+  for (const std::vector<Eigen::Vector3f>& inside : estimate::points_in_boxes(voxels, longer)) {
+    std::vector<Eigen::Vector3d> of_plot;
+    for (const Eigen::Vector3f& point : inside) of_plot.push_back(point.cast<double>());
+    const auto plane = estimate::find_ground_plane(of_plot, kTolerance_m);
+    grounds.push_back({.height = [plane](const Eigen::Vector2d& place) {
+      if (!plane) return kNaN;
+      const Eigen::Vector2d off = place - plane->centroid.head<2>();
+      return plane->centroid.z() - plane->normal.head<2>().dot(off) / plane->normal.z();
+    }});
+  }
+  return grounds;
+}
+
+// Heights of cells, empty ones filled from the mean of their neighbours, from the filled ones
+// inwards.
+struct Raster {
+  Eigen::Array2d low;
+  double cell_m = 0.2;
+  int columns = 0, rows = 0;
+  std::vector<double> z;
+
+  double at(const Eigen::Vector2d& place) const {
+    const Eigen::Array2d cell = (place.array() - low) / cell_m - 0.5;
+    const int c = std::clamp(static_cast<int>(cell.x()), 0, columns - 2);
+    const int r = std::clamp(static_cast<int>(cell.y()), 0, rows - 2);
+    const double e = cell.x() - c, n = cell.y() - r;
+    const double* const south = &z[static_cast<std::size_t>(r) * columns + c];
+    const double* const north = south + columns;
+    return (1 - n) * ((1 - e) * south[0] + e * south[1]) + n * ((1 - e) * north[0] + e * north[1]);
+  }
+  void fill() {
+    for (bool empty = true; empty;) {
+      empty = false;
+      std::vector<double> filled = z;
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < columns; ++c) {
+          const std::size_t i = static_cast<std::size_t>(r) * columns + c;
+          if (!std::isnan(z[i])) continue;
+          double sum = 0, count = 0;
+          for (int y = std::max(0, r - 1); y <= std::min(rows - 1, r + 1); ++y) {
+            for (int x = std::max(0, c - 1); x <= std::min(columns - 1, c + 1); ++x) {
+              const double near = z[static_cast<std::size_t>(y) * columns + x];
+              if (std::isnan(near)) continue;
+              sum += near;
+              ++count;
+            }
+          }
+          if (count > 0) filled[i] = sum / count;
+          empty = empty || count == 0;
+        }
+      }
+      z = filled;
+    }
+  }
+};
+
+// The lowest point of each cell, in the rectangle about the plots.
+pcl::PointCloud<pcl::PointXYZ>::Ptr lowest_points(Points points, const Eigen::Array2d& low,
+                                                  const Eigen::Array2d& high, double cell_m) {
+  std::map<std::pair<int, int>, Eigen::Vector3f> lowest;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Array2d place = point.head<2>().cast<double>().array();
+    if ((place < low).any() || (place > high).any()) continue;
+    const Eigen::Array2d cell = (place - low) / cell_m;
+    const auto [entry, added] =
+        lowest.try_emplace({static_cast<int>(cell.x()), static_cast<int>(cell.y())}, point);
+    if (!added && point.z() < entry->second.z()) entry->second = point;
+  }
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  for (const auto& [cell, point] : lowest) cloud->push_back({point.x(), point.y(), point.z()});
+  return cloud;
+}
+
+std::vector<PlotGround> morphological(Points points, const Boxes& boxes) {
+  constexpr double kAround_m = 2, kThin_m = 0.1;
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::max());
+  Eigen::Array2d high = -low;
+  for (const PlotBox& box : boxes) {
+    for (const Eigen::Vector2d& corner : box.corners()) {
+      low = low.min(corner.array() - kAround_m);
+      high = high.max(corner.array() + kAround_m);
+    }
+  }
+  const auto cloud = lowest_points(points, low, high, kThin_m);
+  pcl::ProgressiveMorphologicalFilter<pcl::PointXYZ> filter;
+  filter.setInputCloud(cloud);
+  filter.setCellSize(0.2f);
+  filter.setMaxWindowSize(3);  // metres: wider than a plot, so that alleys lie in every window
+  filter.setSlope(0.5f);
+  filter.setInitialDistance(0.1f);
+  filter.setMaxDistance(0.3f);
+  pcl::Indices ground;
+  filter.extract(ground);
+  auto raster = std::make_shared<Raster>();
+  raster->low = low;
+  raster->columns = static_cast<int>((high - low).x() / raster->cell_m) + 2;
+  raster->rows = static_cast<int>((high - low).y() / raster->cell_m) + 2;
+  std::vector<double> sums(static_cast<std::size_t>(raster->columns) * raster->rows, 0);
+  std::vector<double> counts(sums.size(), 0);
+  for (const int index : ground) {
+    const pcl::PointXYZ& point = (*cloud)[index];
+    const Eigen::Array2d cell = (Eigen::Array2d(point.x, point.y) - low) / raster->cell_m;
+    const std::size_t i =
+        static_cast<std::size_t>(cell.y()) * raster->columns + static_cast<std::size_t>(cell.x());
+    sums[i] += point.z;
+    ++counts[i];
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) raster->z.push_back(sums[i] / counts[i]);
+  raster->fill();
+  return std::vector<PlotGround>(boxes.size(), {.height = [raster](const Eigen::Vector2d& place) {
+                                   return raster->at(place);
+                                 }});
+}
+
+std::vector<PlotGround> surface(Points points, const Boxes& boxes, int threads) {
+  ground::SurfaceOptions options;
+  options.threads = threads;
+  const auto fitted = std::make_shared<const ground::Surface>(ground::fit_surface(points, options));
+  std::vector<PlotGround> grounds;
+  for (const PlotBox& box : boxes) {
+    grounds.push_back({.height = [fitted](const Eigen::Vector2d& p) { return fitted->height(p); },
+                       .standard_error_m = fitted->mean_standard_error(box)});
+  }
+  return grounds;
+}
+
+}  // namespace
+
+std::vector<Method> methods(int threads) {
+  return {{"plane", planes},
+          {"pmf", morphological},
+          {"surface", [threads](Points points, const Boxes& boxes) {
+             return surface(points, boxes, threads);
+           }}};
+}
+
+}  // namespace plotscan::ground_error
