@@ -12,7 +12,7 @@
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
 #include "estimate/dhami2020/ground_plane.h"
-#include "estimate/dhami2020/plot_heights.h"
+#include "estimate/points_in_boxes.h"
 #include "estimate/dhami2020/voxel_filter.h"
 
 namespace plotscan::ground_error {
