@@ -96,9 +96,11 @@ json describe(const FieldCloud& cloud) {
   return {{"points_read", counts.read},
           {"points_in_area", counts.kept},
           {"not_finite", counts.not_finite},
+          {"marked", counts.marked},
           {"outside", counts.outside},
           {"repeated", counts.repeated},
           {"thinned", counts.thinned},
+          {"outliers", counts.outliers},
           {"area_m", cloud.area}};
 }
 
@@ -150,6 +152,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   require_sound(options);
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
+  estimate.crs = cloud.crs;
   const ground::Surface surface =
       ground::fit_surface(cloud.points, {.noise_m = options.noise_m, .threads = options.threads});
   report(progress, 0.6);
