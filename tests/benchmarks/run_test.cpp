@@ -66,7 +66,7 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
       });
   EXPECT_THAT(finished, ::testing::ElementsAre("flat", "half", "one"));
   EXPECT_EQ(summary.result.farms.size(), 3U);
-  EXPECT_EQ(summary.table.size(), 3U * 7 * 9);  // cases, rows of the methods, truths
+  EXPECT_EQ(summary.table.size(), 3U * 15 * 9);  // cases, rows of the methods, truths
   const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
   const TableRow& given = row_of(summary.table, "flat", "dhami2020/raw-p99 true-boxes");
   const TableRow& oracle = row_of(summary.table, "flat", "oracle-ground");
@@ -74,6 +74,10 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   EXPECT_EQ(own.extra, 0U);
   EXPECT_GT(own.iou_median, 0.6);
   EXPECT_LT(own.rmse_m, 0.12);
+  const TableRow& alone = row_of(summary.table, "flat", "lattice/max");
+  EXPECT_EQ(alone.found, alone.plots);
+  EXPECT_EQ(alone.extra, 0U);
+  EXPECT_LT(alone.rmse_m, 0.05);
   // On flat ground a plane is as good as the truth.
   EXPECT_NEAR(given.bias_m, oracle.bias_m, 0.01);
   for (const char* terrain : {"flat", "half", "one"}) {
