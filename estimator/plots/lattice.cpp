@@ -184,7 +184,9 @@ void renumber(Lattice& lattice) {
 Lattice fit_lattice(const Layout& layout) {
   Lattice lattice{.view = layout.view,
                   .r_size_m = layout.r_size * layout.view.cell_m(),
-                  .c_size_m = layout.c_size * layout.view.cell_m()};
+                  .c_size_m = layout.c_size * layout.view.cell_m(),
+                  .r_band_m = layout.r_size * layout.view.cell_m(),
+                  .c_band_m = layout.c_size * layout.view.cell_m()};
   number(lattice, layout);
   straighten(lattice);
   add_places(lattice);

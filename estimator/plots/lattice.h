@@ -21,6 +21,7 @@ struct Place {
 struct Lattice {
   RowView view;
   double r_size_m = 0, c_size_m = 0;   // of a plot
+  double r_band_m = 0, c_band_m = 0;   // of the layout's bands
   double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
   double r_pitch_m = 0, c_pitch_m = 0;  // 0 where there is one row or one column only
   int rows = 0, columns = 0;

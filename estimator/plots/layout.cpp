@@ -13,6 +13,7 @@ namespace {
 constexpr double kLeastSide_m = 0.35, kMostSide_m = 25;
 constexpr double kReach_m = 0.2;        // of the strips on either side of an edge
 constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
+constexpr double kPiece_m = 0.3;        // of an edge, judged by itself
 constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
 constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
 
@@ -163,10 +164,28 @@ void weigh_with_canopy(std::vector<Layout>& layouts) {
   }
 }
 
+// Cells of edges that a box explains, in pieces: one across a gap in the canopy shows none there.
+double edges_of(const RowView& view, const Band& r, const Band& c, double full) {
+  const int reach = cells(kReach_m, view.cell_m()), piece = cells(kPiece_m, view.cell_m());
+  double explained = 0;
+  for (int from = c.begin; from < c.end; from += piece) {
+    const int to = std::min(c.end, from + piece);
+    const auto cover = [&](int low) { return view.cover(low, low + reach, from, to); };
+    explained += (to - from) * edge_value((cover(r.begin) - cover(r.begin - reach)) / full);
+    explained += (to - from) * edge_value((cover(r.end - reach) - cover(r.end)) / full);
+  }
+  for (int from = r.begin; from < r.end; from += piece) {
+    const int to = std::min(r.end, from + piece);
+    const auto cover = [&](int low) { return view.cover(from, to, low, low + reach); };
+    explained += (to - from) * edge_value((cover(c.begin) - cover(c.begin - reach)) / full);
+    explained += (to - from) * edge_value((cover(c.end - reach) - cover(c.end)) / full);
+  }
+  return explained;
+}
+
 // Metres of edges that a layout explains. Bands that the texture of a canopy suggests do not lie at
 // equal steps.
 double score_of(const Layout& layout) {
-  const int reach = cells(kReach_m, layout.view.cell_m());
   std::vector<double> covers;
   for (const Row& row : layout.rows) {
     for (const Band& plot : row.plots) {
@@ -177,12 +196,7 @@ double score_of(const Layout& layout) {
   double score = 0;
   for (const Row& row : layout.rows) {
     for (const Band& plot : row.plots) {
-      const SideContrast side =
-          side_contrast(layout.view, row.band.begin, row.band.end, plot.begin, plot.end, reach);
-      for (const double contrast : side.across_r)
-        score += layout.c_size * edge_value(contrast / full);
-      for (const double contrast : side.across_c)
-        score += layout.r_size * edge_value(contrast / full);
+      score += edges_of(layout.view, row.band, plot, full);
     }
   }
   const double regular = std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
@@ -199,6 +213,8 @@ void add(std::vector<Layout>& layouts, Layout layout) {
   layout.r_size = median_size(rows);
   layout.c_size = median_size(plots);
   layout.score = score_of(layout);
+  layout.quality = layout.score / (2 * (layout.r_size + layout.c_size) * layout.view.cell_m() *
+                                   static_cast<double>(plots.size()));
   layouts.push_back(std::move(layout));
 }
 

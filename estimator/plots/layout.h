@@ -42,7 +42,8 @@ struct Layout {
   RowView view;
   int r_size = 0, c_size = 0;  // of a plot, cells
   std::vector<Row> rows = {};
-  double score = 0;  // contrast of the plots' sides, metres of perimeter
+  double score = 0;    // metres of edges explained
+  double quality = 0;  // of all edges of the plots, times the regularity of their steps; 1 at best
 };
 
 // Contrast of a box's sides, in cells: cover within it less cover beyond it, in strips of `reach`

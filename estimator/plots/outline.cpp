@@ -97,14 +97,18 @@ EdgeFit fit_edges_along(const Lattice& lattice, bool along_r) {
       best = {.size_m = size, .blur_m = blur};
     }
   }
-  best.size_m = half_depth_size(profile, depth, best, pitch_m, share);
+  const double half_m = half_depth_size(profile, depth, best, pitch_m, share);
+  if (std::abs(half_m - best.size_m) < 0.15) best.size_m = half_m;
   return best;
 }
 
 }  // namespace
 
 void fit_edges(Lattice& lattice) {
-  const EdgeFit r = fit_edges_along(lattice, true), c = fit_edges_along(lattice, false);
+  constexpr double kMost_m = 0.3;  // from the size of the bands
+  EdgeFit r = fit_edges_along(lattice, true), c = fit_edges_along(lattice, false);
+  r.size_m = std::clamp(r.size_m, lattice.r_band_m - kMost_m, lattice.r_band_m + kMost_m);
+  c.size_m = std::clamp(c.size_m, lattice.c_band_m - kMost_m, lattice.c_band_m + kMost_m);
   lattice.r_size_m = r.size_m;
   lattice.r_blur_m = r.blur_m;
   lattice.c_size_m = c.size_m;

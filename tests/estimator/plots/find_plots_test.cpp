@@ -1,4 +1,104 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/find_plots.h"
 
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Plots of 1.5 x 4 m on a lattice turned by 33 degrees, with the given gaps.
+struct Trial {
+  int rows = 3, columns = 6;
+  double gap_m = 0.4, row_gap_m = 0.8, heading_rad = 33 * kDegree;
+  std::vector<double> offsets_m = {0, 0, 0};
+  int missing = -1;  // number of the plot that is not there, row by row
+
+  std::vector<PlotBox> boxes() const {
+    std::vector<PlotBox> list;
+    const PlotBox axes{.heading_rad = heading_rad};
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        if (row * columns + column == missing) continue;
+        const double along = (row - 1) * (4 + row_gap_m);
+        const double across =
+            (column - 2.5) * (1.5 + gap_m) + offsets_m[static_cast<std::size_t>(row)];
+        list.push_back({.center = axes.length_axis() * along + axes.width_axis() * across,
+                        .width_m = 1.5,
+                        .length_m = 4,
+                        .heading_rad = heading_rad});
+      }
+    }
+    return list;
+  }
+};
+
+// Returns spread evenly over a square; in a box three of four are from its canopy.
+std::vector<Eigen::Vector3f> points_over(const std::vector<PlotBox>& boxes) {
+  constexpr int kPoints = 400000;
+  constexpr double kHalf_m = 12;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < kPoints; ++i) {
+    RandomStream random(7, random_purpose("test/point"), static_cast<std::uint64_t>(i));
+    const Eigen::Vector2d place(random.uniform(-kHalf_m, kHalf_m), random.uniform(-kHalf_m, kHalf_m));
+    double height = 0.02 * random.normal();
+    for (const PlotBox& box : boxes) {
+      if (box.contains(place) && random.uniform() < 0.75) height = random.uniform(0.3, 0.8);
+    }
+    points.emplace_back(place.cast<float>().x(), place.cast<float>().y(), static_cast<float>(height));
+  }
+  return points;
+}
+
+void expect_found(const Trial& trial) {
+  const std::vector<PlotBox> truths = trial.boxes();
+  const PlotField field = find_plots(points_over(truths), 0.02, {}, 2);
+  EXPECT_EQ(field.nothing, "");
+  ASSERT_EQ(field.plots.size(), truths.size());
+  for (const PlotBox& truth : truths) {
+    double best = 0;
+    for (const FoundPlot& plot : field.plots) {
+      best = std::max(best, intersection_over_union(truth, plot.box));
+    }
+    EXPECT_GT(best, 0.9) << truth.center.transpose();
+  }
+  const double off_rad = heading_difference(field.plots.front().box.heading_rad, trial.heading_rad);
+  EXPECT_LT(off_rad, 0.3 * kDegree);
+}
+
+TEST(FindPlots, FindsATurnedTrial) { expect_found({}); }
+TEST(FindPlots, LeavesAMissingPlotOut) { expect_found({.missing = 8}); }
+TEST(FindPlots, FindsPlotsWithNarrowGaps) { expect_found({.gap_m = 0.2, .row_gap_m = 0.3}); }
+TEST(FindPlots, FollowsRowsThatStartAtOffsets) { expect_found({.offsets_m = {0.6, -0.5, 0.1}}); }
+
+TEST(FindPlots, SaysThatBareGroundHasNone) {
+  const PlotField field = find_plots(points_over({}), 0.02, {}, 2);
+  EXPECT_TRUE(field.plots.empty());
+  EXPECT_NE(field.nothing, "");
+}
+
+TEST(FindPlots, SaysThatThereAreNoPoints) {
+  EXPECT_NE(find_plots({}, 0.02, {}, 1).nothing, "");
+}
+
+TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
+  const std::vector<Eigen::Vector3f> points = points_over(Trial{}.boxes());
+  const PlotField one = find_plots(points, 0.02, {}, 1), two = find_plots(points, 0.02, {}, 2);
+  ASSERT_EQ(one.plots.size(), two.plots.size());
+  for (std::size_t i = 0; i < one.plots.size(); ++i) {
+    EXPECT_EQ(one.plots[i].box.center, two.plots[i].box.center);
+    EXPECT_EQ(one.plots[i].box.heading_rad, two.plots[i].box.heading_rad);
+    EXPECT_EQ(one.plots[i].confidence, two.plots[i].confidence);
+  }
+  EXPECT_EQ(one.fit.dump(), two.fit.dump());
+}
+
+}  // namespace
+}  // namespace plotscan::plots
