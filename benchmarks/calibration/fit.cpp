@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "heights/features.h"
 #include "heights/plot_ground.h"
+#include "heights/ratio_model.h"
 #include <Eigen/Cholesky>
 
 #include "core/statistics.h"
@@ -30,8 +33,8 @@ std::vector<int> library_groups(const heights::Calibration& calibration) {
 }
 
 // Mean negative log density of each farm's ratio, predicted without its group.
-double surprise(const heights::Kriging& kriging, const Eigen::VectorXd& ratios,
-                std::span<const int> groups) {
+double surprise_without(const heights::Kriging& kriging, const Eigen::VectorXd& ratios,
+                        std::span<const int> groups) {
   const std::vector<heights::Prediction> predictions = kriging.without_own_group(groups);
   double sum = 0;
   for (std::size_t i = 0; i < predictions.size(); ++i) {
@@ -42,20 +45,43 @@ double surprise(const heights::Kriging& kriging, const Eigen::VectorXd& ratios,
   return sum / static_cast<double>(predictions.size());
 }
 
+// The same for new plants of a known kind and for those of a new one, half and half.
+double surprise(const heights::Kriging& kriging, const Eigen::VectorXd& ratios,
+                std::span<const int> groups) {
+  std::vector<int> each_alone(groups.size());
+  std::iota(each_alone.begin(), each_alone.end(), 0);
+  return 0.5 * (surprise_without(kriging, ratios, groups) +
+                surprise_without(kriging, ratios, each_alone));
+}
+
+// A covariance, and by what the noise was multiplied for it.
+struct FittedCovariance {
+  Covariance covariance;
+  double noise_factor = 1;
+};
+
+std::vector<double> scaled_by(std::vector<double> noise, double factor) {
+  for (double& sd : noise) sd *= factor;
+  return noise;
+}
+
 // Pattern search over the logarithms of the four numbers (Hooke and Jeeves 1961, its exploratory
 // moves).
-Covariance best_covariance(const Eigen::MatrixXd& places, const Eigen::VectorXd& ratios,
-                           std::span<const int> groups) {
-  const auto covariance_of = [](const std::array<double, 4>& logs) {
-    return Covariance{.signal = std::exp(logs[0]),
-                      .length = std::exp(logs[1]),
-                      .linear = std::exp(logs[2]),
-                      .noise = std::exp(logs[3])};
+FittedCovariance best_covariance(const Eigen::MatrixXd& places, const Eigen::VectorXd& ratios,
+                                 const std::vector<double>& noise, std::span<const int> groups) {
+  const auto fitted = [](const std::array<double, 4>& logs) {
+    return FittedCovariance{.covariance = {.signal = std::exp(logs[0]),
+                                           .length = std::exp(logs[1]),
+                                           .linear = std::exp(logs[2])},
+                            .noise_factor = std::exp(logs[3])};
   };
   const auto cost = [&](const std::array<double, 4>& logs) {
-    return surprise(heights::Kriging(places, ratios, covariance_of(logs)), ratios, groups);
+    const FittedCovariance tried = fitted(logs);
+    return surprise(
+        heights::Kriging(places, ratios, scaled_by(noise, tried.noise_factor), tried.covariance),
+        ratios, groups);
   };
-  std::array<double, 4> best = {std::log(0.08), std::log(1.0), std::log(0.03), std::log(0.02)};
+  std::array<double, 4> best = {std::log(0.08), std::log(1.0), std::log(0.05), 0};
   double least = cost(best);
   constexpr double kFirstStep = 0.6;
   constexpr double kLastStep = 0.1;
@@ -74,34 +100,79 @@ Covariance best_covariance(const Eigen::MatrixXd& places, const Eigen::VectorXd&
     }
     if (!better) step /= 2;
   }
-  return covariance_of(best);
+  return fitted(best);
 }
 
-// The weights of the differences from the field's medians, by ridge regression.
-void fit_within(std::span<const MeasuredField> fields, const heights::Calibration& calibration,
-                const std::string& height, heights::HeightModel& model) {
+// The noise of each farm's ratio: first alike, then in proportion to the errors of the farms most
+// like it, each predicted by the others. Some crops show their plants better than others.
+void fit_between(const std::string& height, std::span<const int> groups,
+                 heights::Calibration& calibration) {
+  constexpr double kFirstNoise = 0.025;
+  constexpr double kLeastNoise = 0.008;
+  constexpr int kRounds = 2;
+  const Eigen::MatrixXd places = calibration.scaled_farms();
+  const Eigen::VectorXd ratios = calibration.ratios_of(height);
+  std::vector<double> noise(calibration.farms.size(), kFirstNoise);
+  FittedCovariance fitted = best_covariance(places, ratios, noise, groups);
+  std::vector<int> each_alone(noise.size());
+  std::iota(each_alone.begin(), each_alone.end(), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    const heights::Kriging kriging(places, ratios, scaled_by(noise, fitted.noise_factor),
+                                   fitted.covariance);
+    const std::vector<heights::Prediction> others = kriging.without_own_group(each_alone);
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < others.size(); ++i)
+      errors.push_back(others[i].value - ratios(static_cast<Eigen::Index>(i)));
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+      noise[i] = std::max(kLeastNoise,
+                          kriging.local_spread(places.row(static_cast<Eigen::Index>(i)), errors));
+    }
+    fitted = best_covariance(places, ratios, noise, groups);
+  }
+  calibration.models[height].covariance = fitted.covariance;
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    calibration.farms[i].noise[height] = noise[i] * fitted.noise_factor;
+}
+
+// A plot's difference from its field's medians: its scaled features', and its ratio's.
+struct Difference {
+  Eigen::VectorXd features;
+  double ratio = 0;
+};
+
+Difference difference(const MeasuredPlot& plot, const heights::Calibration& calibration,
+                      const heights::CalibrationFarm& farm, const std::string& height) {
+  return {.features = calibration.scaled(plot.features) - calibration.scaled(farm.features),
+          .ratio = plot.truth.at(height) / plot.top_m - farm.ratios.at(height)};
+}
+
+// The weights of the differences by ridge regression, and what they leave of each farm's.
+void fit_within(std::span<const MeasuredField> fields, const std::string& height,
+                heights::Calibration& calibration) {
   const Eigen::Index count = calibration.center.size();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
-  double squares = 0;
   double plots = 0;
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    const heights::CalibrationFarm& farm = calibration.farms[f];
     for (const MeasuredPlot& plot : fields[f].plots) {
-      const Eigen::VectorXd own =
-          calibration.scaled(plot.features) - calibration.scaled(farm.features);
-      const double ratio = plot.truth.at(height) / plot.top_m - farm.ratios.at(height);
-      normal += own * own.transpose();
-      right += own * ratio;
-      squares += ratio * ratio;
+      const Difference own = difference(plot, calibration, calibration.farms[f], height);
+      normal += own.features * own.features.transpose();
+      right += own.features * own.ratio;
       plots += 1;
     }
   }
   const Eigen::MatrixXd ridged = normal + plots * kRidge * Eigen::MatrixXd::Identity(count, count);
-  model.within = ridged.ldlt().solve(right);
-  const double left =
-      squares - 2 * model.within.dot(right) + model.within.dot(normal * model.within);
-  model.within_sd = std::sqrt(std::max(0.0, left) / plots);
+  const Eigen::VectorXd weights = ridged.ldlt().solve(right);
+  calibration.models[height].within = weights;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    double squares = 0;
+    for (const MeasuredPlot& plot : fields[f].plots) {
+      const Difference own = difference(plot, calibration, calibration.farms[f], height);
+      squares += std::pow(own.ratio - weights.dot(own.features), 2);
+    }
+    calibration.farms[f].within[height] =
+        std::sqrt(squares / static_cast<double>(fields[f].plots.size()));
+  }
 }
 
 heights::CalibrationFarm farm_of(const MeasuredField& field) {
@@ -116,6 +187,19 @@ heights::CalibrationFarm farm_of(const MeasuredField& field) {
     farm.ratios[height] = quantile(ratios, 0.5);
   }
   return farm;
+}
+
+std::set<std::string> libraries_of(const heights::Calibration& calibration) {
+  std::set<std::string> libraries;
+  for (const heights::CalibrationFarm& farm : calibration.farms) libraries.insert(farm.library);
+  return libraries;
+}
+
+void add(double error, bool inside, LeftOut& row) {
+  row.farms += 1;
+  row.rmse += error * error;
+  row.bias += error;
+  row.inside += inside ? 1 : 0;
 }
 
 }  // namespace
@@ -150,34 +234,29 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   calibration.scale = (centred.array().square().colwise().mean().sqrt()).max(kLeastScale);
 
   const std::vector<int> groups = library_groups(calibration);
-  const Eigen::MatrixXd places = calibration.scaled_farms();
   for (const auto& [height, ratio] : calibration.farms.front().ratios) {
-    heights::HeightModel& model = calibration.models[height];
-    model.covariance = best_covariance(places, calibration.ratios_of(height), groups);
-    fit_within(fields, calibration, height, model);
+    fit_between(height, groups, calibration);
+    fit_within(fields, height, calibration);
   }
   return calibration;
 }
 
 std::vector<LeftOut> leave_library_out(const heights::Calibration& calibration) {
-  constexpr double kNormal95 = 1.96;
-  const std::vector<int> groups = library_groups(calibration);
-  const Eigen::MatrixXd places = calibration.scaled_farms();
+  constexpr double kQuantile95 = 2.064;
   std::map<std::pair<std::string, std::string>, LeftOut> table;
-  for (const auto& [height, model] : calibration.models) {
-    const Eigen::VectorXd ratios = calibration.ratios_of(height);
-    const std::vector<heights::Prediction> predictions =
-        heights::Kriging(places, ratios, model.covariance).without_own_group(groups);
-    for (std::size_t i = 0; i < predictions.size(); ++i) {
-      const double error = predictions[i].value - ratios(static_cast<Eigen::Index>(i));
-      for (const std::string& library : {calibration.farms[i].library, std::string("all")}) {
-        LeftOut& row = table[{library, height}];
-        row.library = library;
-        row.height = height;
-        row.farms += 1;
-        row.rmse += error * error;
-        row.bias += error;
-        row.inside += std::abs(error) < kNormal95 * predictions[i].sd ? 1 : 0;
+  for (const std::string& library : libraries_of(calibration)) {
+    heights::Calibration others = calibration;
+    std::erase_if(others.farms, [&](const auto& farm) { return farm.library == library; });
+    for (const auto& [height, model] : calibration.models) {
+      const heights::RatioModel ratios(others, height);
+      for (const heights::CalibrationFarm& farm : calibration.farms) {
+        if (farm.library != library) continue;
+        const heights::FieldRatio found = ratios.at(calibration.scaled(farm.features));
+        const double error = found.value - farm.ratios.at(height);
+        for (const std::string& name : {library, std::string("all")})
+          add(error, std::abs(error) < kQuantile95 * found.field_sd,
+              table.try_emplace({name, height}, LeftOut{.library = name, .height = height})
+                  .first->second);
       }
     }
   }

@@ -35,18 +35,27 @@ Eigen::VectorXd Calibration::ratios_of(const std::string& height) const {
   return ratios;
 }
 
+std::vector<double> Calibration::noise_of(const std::string& height) const {
+  std::vector<double> noise;
+  for (const CalibrationFarm& farm : farms) noise.push_back(farm.noise.at(height));
+  return noise;
+}
+
 json json_of(const Calibration& calibration) {
   json farms = json::array();
   for (const CalibrationFarm& farm : calibration.farms) {
     farms.push_back({{"library", farm.library},
                      {"features", numbers_of(farm.features)},
-                     {"ratios", farm.ratios}});
+                     {"ratios", farm.ratios},
+                     {"noise", farm.noise},
+                     {"within", farm.within}});
   }
   json models = json::object();
   for (const auto& [height, model] : calibration.models) {
-    models[height] = {{"signal", model.covariance.signal},  {"length", model.covariance.length},
-                      {"linear", model.covariance.linear},  {"noise", model.covariance.noise},
-                      {"within", numbers_of(model.within)}, {"within_sd", model.within_sd}};
+    models[height] = {{"signal", model.covariance.signal},
+                      {"length", model.covariance.length},
+                      {"linear", model.covariance.linear},
+                      {"within", numbers_of(model.within)}};
   }
   return {{"features", calibration.features},
           {"center", numbers_of(calibration.center)},
@@ -62,15 +71,15 @@ Calibration calibration_of(const json& document) {
   for (const json& farm : document.at("farms")) {
     calibration.farms.push_back({.library = farm.at("library"),
                                  .features = vector_of(farm.at("features")),
-                                 .ratios = farm.at("ratios")});
+                                 .ratios = farm.at("ratios"),
+                                 .noise = farm.at("noise"),
+                                 .within = farm.at("within")});
   }
   for (const auto& [height, model] : document.at("heights").items()) {
     calibration.models[height] = {.covariance = {.signal = model.at("signal"),
                                                  .length = model.at("length"),
-                                                 .linear = model.at("linear"),
-                                                 .noise = model.at("noise")},
-                                  .within = vector_of(model.at("within")),
-                                  .within_sd = model.at("within_sd")};
+                                                 .linear = model.at("linear")},
+                                  .within = vector_of(model.at("within"))};
   }
   return calibration;
 }

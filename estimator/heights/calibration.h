@@ -17,14 +17,15 @@ struct CalibrationFarm {
   std::string library;                        // of its plants
   Eigen::VectorXd features;                   // median over its plots
   std::map<std::string, double> ratios = {};  // true height over the canopy's top, the same
+  std::map<std::string, double> noise = {};   // sd of such ratios that features do not explain
+  std::map<std::string, double> within = {};  // sd of its plots' ratios about what is predicted
 };
 
 // How one height follows from a canopy's features: its ratio to the canopy's top is kriged from the
 // field's features and corrected by what the plot's differ from the field's.
 struct HeightModel {
   Covariance covariance;
-  Eigen::VectorXd within;  // of the scaled differences
-  double within_sd = 0;    // of a plot's ratio about that
+  Eigen::VectorXd within;  // weights of the scaled differences
 };
 
 // The file that benchmarks/calibration writes (heights/calibration.json).
@@ -41,6 +42,7 @@ struct Calibration {
   // A row a farm.
   Eigen::MatrixXd scaled_farms() const;
   Eigen::VectorXd ratios_of(const std::string& height) const;
+  std::vector<double> noise_of(const std::string& height) const;
 };
 
 nlohmann::json json_of(const Calibration& calibration);

@@ -28,7 +28,7 @@ struct FlagOptions {
   double largest_ground_error_m = 0.025;
   double least_top_m = 0.05;       // lower and there is no crop to measure
   double least_top_sigmas = 3;     // of the heights' noise
-  double largest_error_m = 0.026;  // standard error of the mean: +-5 cm at 95 %
+  double largest_error_m = 0.035;  // standard error of the mean: +-7 cm at 95 %
 };
 
 // Why the plot's heights should not be trusted; empty when they may be.

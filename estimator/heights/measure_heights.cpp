@@ -76,7 +76,7 @@ std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
     field.push_back(seen[i].canopy);
   }
   const std::vector<std::map<std::string, Height>> heights =
-      options.calibrated ? calibrated_heights(field, shipped_calibration())
+      options.calibrated ? calibrated_heights(field, shipped_calibration(), options.threads)
                          : quantile_heights(field);
   std::vector<PlotHeights> results(plots.size());
   for (std::size_t k = 0; k < measured.size(); ++k) results[measured[k]].heights = heights[k];

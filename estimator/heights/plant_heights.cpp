@@ -3,16 +3,37 @@
 
 #include <cmath>
 
+#include "heights/ratio_model.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 namespace plotscan::heights {
 namespace {
 
-constexpr double kNormal95 = 1.96;
+// Of Student's t with the 24 degrees of freedom that a standard deviation from 25 farms has.
+constexpr double kQuantile95 = 2.064;
 
 Height height_of(double value_m, double sd_m) {
   return {.value_m = value_m,
           .standard_error_m = sd_m,
-          .low95_m = value_m - kNormal95 * sd_m,
-          .high95_m = value_m + kNormal95 * sd_m};
+          .low95_m = value_m - kQuantile95 * sd_m,
+          .high95_m = value_m + kQuantile95 * sd_m};
+}
+
+std::map<std::string, FieldRatio> field_ratios(const Calibration& calibration,
+                                               const Eigen::VectorXd& place, int threads) {
+  std::vector<std::string> names;
+  for (const auto& [name, model] : calibration.models) names.push_back(name);
+  std::vector<FieldRatio> ratios(names.size());
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
+      ratios[i] = RatioModel(calibration, names[i]).at(place);
+    });
+  });
+  std::map<std::string, FieldRatio> by_name;
+  for (std::size_t i = 0; i < names.size(); ++i) by_name[names[i]] = ratios[i];
+  return by_name;
 }
 
 }  // namespace
@@ -43,19 +64,18 @@ std::vector<std::map<std::string, Height>> quantile_heights(std::span<const Plot
 }
 
 std::vector<std::map<std::string, Height>> calibrated_heights(std::span<const PlotCanopy> field,
-                                                              const Calibration& calibration) {
+                                                              const Calibration& calibration,
+                                                              int threads) {
   std::vector<std::map<std::string, Height>> heights(field.size());
   if (field.empty()) return heights;
   std::vector<Eigen::VectorXd> features;
   for (const PlotCanopy& plot : field) features.push_back(plot.features);
   const Eigen::VectorXd place = calibration.scaled(field_features(features));
-  const Eigen::MatrixXd farms = calibration.scaled_farms();
-  for (const auto& [name, model] : calibration.models) {
-    const Kriging kriging(farms, calibration.ratios_of(name), model.covariance);
-    const Prediction ratio = kriging.at(place);
+  for (const auto& [name, ratio] : field_ratios(calibration, place, threads)) {
+    const Eigen::VectorXd& within = calibration.models.at(name).within;
     for (std::size_t i = 0; i < field.size(); ++i) {
-      const double own = model.within.dot(calibration.scaled(field[i].features) - place);
-      const double sd_m = std::hypot(ratio.sd, model.within_sd) * field[i].top_m;
+      const double own = within.dot(calibration.scaled(field[i].features) - place);
+      const double sd_m = std::hypot(ratio.field_sd, ratio.within_sd) * field[i].top_m;
       heights[i][name] = height_of((ratio.value + own) * field[i].top_m,
                                    std::hypot(sd_m, field[i].ground_error_m));
     }

@@ -31,6 +31,7 @@ std::vector<std::map<std::string, Height>> quantile_heights(std::span<const Plot
 
 // The same by what the calibration's farms teach of canopies like the field's.
 std::vector<std::map<std::string, Height>> calibrated_heights(std::span<const PlotCanopy> field,
-                                                              const Calibration& calibration);
+                                                              const Calibration& calibration,
+                                                              int threads);
 
 }  // namespace plotscan::heights

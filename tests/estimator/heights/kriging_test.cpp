@@ -10,7 +10,8 @@
 namespace plotscan::heights {
 namespace {
 
-constexpr Covariance kCovariance = {.signal = 0.3, .length = 0.8, .linear = 0.2, .noise = 0.02};
+constexpr Covariance kCovariance = {.signal = 0.3, .length = 0.8, .linear = 0.2};
+constexpr double kNoise = 0.02;
 
 double curve(double x, double y) { return 0.7 + 0.2 * std::sin(2 * x) + 0.1 * y; }
 
@@ -24,18 +25,17 @@ Known known(Eigen::Index count) {
   Known data{.places = Eigen::MatrixXd(count, 2), .values = Eigen::VectorXd(count)};
   for (Eigen::Index i = 0; i < count; ++i) {
     data.places.row(i) << random.uniform(-2, 2), random.uniform(-2, 2);
-    data.values(i) =
-        curve(data.places(i, 0), data.places(i, 1)) + kCovariance.noise * random.normal();
+    data.values(i) = curve(data.places(i, 0), data.places(i, 1)) + kNoise * random.normal();
   }
   return data;
 }
 
 TEST(Kriging, FollowsACurveAndKnowsWhereItDoesNot) {
   const Known data = known(150);
-  const Kriging kriging(data.places, data.values, kCovariance);
+  const Kriging kriging(data.places, data.values, std::vector<double>(150, kNoise), kCovariance);
   const Prediction inside = kriging.at(Eigen::Vector2d(0.4, -0.7));
   EXPECT_NEAR(inside.value, curve(0.4, -0.7), 0.02);
-  EXPECT_NEAR(inside.sd, kCovariance.noise, 0.01);
+  EXPECT_NEAR(inside.sd, kNoise, 0.01);
   EXPECT_GT(kriging.at(Eigen::Vector2d(6, 6)).sd, 0.2);
 }
 
@@ -45,11 +45,13 @@ TEST(Kriging, WithoutOwnGroupIsAFitWithoutIt) {
   std::vector<int> groups;
   for (int i = 0; i < 40; ++i) groups.push_back(i % 7);
   const std::vector<Prediction> predictions =
-      Kriging(data.places, data.values, kCovariance).without_own_group(groups);
+      Kriging(data.places, data.values, std::vector<double>(40, kNoise), kCovariance)
+          .without_own_group(groups);
   std::vector<Eigen::Index> others;
   for (Eigen::Index i = 0; i < 40; ++i)
     if (groups[static_cast<std::size_t>(i)] != 3) others.push_back(i);
-  const Kriging rest(data.places(others, Eigen::all), data.values(others), kCovariance);
+  const Kriging rest(data.places(others, Eigen::all), data.values(others),
+                     std::vector<double>(others.size(), kNoise), kCovariance);
   for (Eigen::Index i = 3; i < 40; i += 7) {
     const Prediction expected = rest.at(data.places.row(i));
     const Prediction found = predictions[static_cast<std::size_t>(i)];
