@@ -36,7 +36,7 @@ struct ProfileOptions {
 
 // The profile of the returns (x, y, height) in a box. Each cell of a grid over the box counts the
 // same however many returns it has, so that strips flown twice, or obliquely, do not count twice.
-// Heights further than kReach_m from the ground are taken for it.
+// `margin_m` is room for noise beyond the lowest and the highest return.
 HeightProfile height_profile(const PlotBox& box, std::span<const Eigen::Vector3f> points,
                              double margin_m, const ProfileOptions& options = {});
 
