@@ -140,12 +140,16 @@ Ground find_ground(const Columns& low, double noise_m) {
   return ground;
 }
 
+// A cell's bilinear patch leaves as much of a broken ground's heights, whatever the sensor's noise.
+constexpr double kLeastSpread_m = 0.01;
+
 Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
   const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
   const double noise_m =
       options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
-  const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * noise_m));
-  const Ground ground = find_ground(low, noise_m);
+  const double spread_m = std::max(noise_m, kLeastSpread_m);
+  const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * spread_m));
+  const Ground ground = find_ground(low, spread_m);
   const Grid& grid = columns.grid;
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
@@ -155,7 +159,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .sd_m = {},
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
-                  .errors = draw_errors(grid, ground.z_m, ground.evidence, noise_m)};
+                  .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
   surface.sd_m = spread_of(grid, surface.errors);
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
