@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "ground/columns.h"
 #include "ground/lower_surface.h"
@@ -250,6 +251,10 @@ Surface fit_surface(std::span<const Eigen::Vector3f> points, const SurfaceOption
   if (!(options.cell_m >= 0.02 && options.cell_m <= 10)) {
     throw InputError("the ground's cell is " + std::to_string(options.cell_m) +
                      " m; it has to lie in 0.02 to 10 m");
+  }
+  if (options.noise_m && !(*options.noise_m >= 0 && *options.noise_m <= 1)) {
+    throw InputError("the noise of heights is " + std::to_string(*options.noise_m) +
+                     " m; it has to lie in 0 to 1 m");
   }
   tbb::task_arena arena(std::max(1, options.threads));
   return arena.execute([&] { return fit(points, options); });

@@ -35,7 +35,7 @@ struct Surface {
   std::vector<float> sd_m = {};         // standard error of z_m; NaN where that is
   std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
   double noise_m = 0;                   // sigma of the returns' heights about bare ground
-  ErrorDraws errors = {};
+  ErrorDraws errors = {};               // what the standard errors come from
 
   // NaN outside of the grid, and where a node of the cell is NaN.
   double height(const Eigen::Vector2d& place) const;
@@ -54,7 +54,9 @@ struct SurfaceOptions {
   int threads = 1;
 };
 
-// The ground under the points (x, y, z up, metres; any order), under canopy too.
+// The ground under the points (x, y, z up, metres; any order), under canopy too: docs/ground.md.
+// The same points give the same bytes for any number of threads. Throws InputError on an option out
+// of its range, when no point is finite, and when the field is too large for a grid of this step.
 Surface fit_surface(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options);
 
 }  // namespace plotscan::ground

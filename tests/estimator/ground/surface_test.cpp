@@ -162,11 +162,14 @@ TEST(FitSurface, TakesTheNoiseThatIsGiven) {
   EXPECT_EQ(fit_surface(returns_of({.terrain = kPlane}), options).noise_m, 0.05);
 }
 
-TEST(FitSurface, RefusesACellOutOfRangeAndACloudWithoutPoints) {
+TEST(FitSurface, RefusesOptionsOutOfRangeAndACloudWithoutPoints) {
   EXPECT_THROW(fit_surface({}, SurfaceOptions()), InputError);
   const std::vector<Eigen::Vector3f> points(100, Eigen::Vector3f::Zero());
   SurfaceOptions options;
   options.cell_m = 0;
+  EXPECT_THROW(fit_surface(points, options), InputError);
+  options.cell_m = 0.2;
+  options.noise_m = -0.01;
   EXPECT_THROW(fit_surface(points, options), InputError);
 }
 
