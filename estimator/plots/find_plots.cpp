@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
-constexpr double kLeastContrast = 0.06;  // of the plots' sides: noise over bare ground shows less
+constexpr double kLeastContrast = 0.03;  // of the plots' sides: noise over bare ground shows less
 constexpr double kLeastQuality = 0.3;  // of a layout's edges: random bushes reach less
 constexpr int kRounds = 2;  // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
