@@ -16,6 +16,7 @@ namespace plotscan::plots {
 namespace {
 
 constexpr std::uint32_t kFullCover = 200;    // steps of a cell's cover in the table
+constexpr std::uint32_t kUnseen = 255;       // in place of the cover of a cell without returns
 constexpr std::uint64_t kCanopyReturn = std::uint64_t{1} << 32;
 constexpr double kMostCells = 1e8;           // 10 m of oblique rows or an outlier must not eat memory
 
@@ -37,6 +38,29 @@ Bounds bounds_of(std::span<const Eigen::Vector3f> points, const Eigen::Matrix2d&
   return bounds;
 }
 
+// Greatest or least value of the square window about each cell, one axis after the other.
+std::vector<std::uint32_t> extreme_of_window(const std::vector<std::uint32_t>& values, int a_cells,
+                                             int b_cells, int reach, bool greatest) {
+  const auto extreme_along = [&](const std::vector<std::uint32_t>& from, bool along_a) {
+    std::vector<std::uint32_t> to(from.size());
+    for (int a = 0; a < a_cells; ++a) {
+      for (int b = 0; b < b_cells; ++b) {
+        const int here = along_a ? a : b;
+        const int last = std::min(here + reach, (along_a ? a_cells : b_cells) - 1);
+        std::uint32_t best = from[static_cast<std::size_t>(a) * b_cells + b];
+        for (int at = std::max(0, here - reach); at <= last; ++at) {
+          const std::uint32_t value = from[static_cast<std::size_t>(along_a ? at : a) * b_cells +
+                                           (along_a ? b : at)];
+          best = greatest ? std::max(best, value) : std::min(best, value);
+        }
+        to[static_cast<std::size_t>(a) * b_cells + b] = best;
+      }
+    }
+    return to;
+  };
+  return extreme_along(extreme_along(values, true), false);
+}
+
 }  // namespace
 
 Eigen::Matrix2d Frame::ab_from_world() const {
@@ -54,21 +78,51 @@ Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
 CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
                            std::span<const std::uint64_t> returns)
     : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
-  const std::size_t stride = static_cast<std::size_t>(b_cells) + 1;
-  seen_.assign((static_cast<std::size_t>(a_cells) + 1) * stride, 0);
+  std::vector<std::uint32_t> cover(returns.size());
+  std::ranges::transform(returns, cover.begin(), [](std::uint64_t cell) {
+    const std::uint64_t all = cell % kCanopyReturn;
+    return all > 0 ? static_cast<std::uint32_t>(cell / kCanopyReturn * kFullCover / all) : kUnseen;
+  });
+  sum_up(cover);
+}
+
+void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
   covered_.assign(seen_.size(), 0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells_); ++i) {
     std::uint32_t seen = 0, covered = 0;
     for (std::size_t j = 0; j + 1 < stride; ++j) {
-      const std::uint64_t cell = returns[i * (stride - 1) + j];
-      const std::uint64_t all = cell % kCanopyReturn;
-      seen += all > 0 ? 1 : 0;
-      covered += all > 0 ? static_cast<std::uint32_t>(cell / kCanopyReturn * kFullCover / all) : 0;
+      const std::uint32_t cell = cover[i * (stride - 1) + j];
+      seen += cell != kUnseen ? 1 : 0;
+      covered += cell != kUnseen ? cell : 0;
       const std::size_t at = (i + 1) * stride + j + 1;
       seen_[at] = seen_[at - stride] + seen;
       covered_[at] = covered_[at - stride] + covered;
     }
   }
+}
+
+CanopyRaster CanopyRaster::closed(double width_m) const {
+  const int reach = std::max(1, static_cast<int>(std::lround(width_m / cell_m_ / 2)));
+  const auto cells = static_cast<std::size_t>(a_cells_) * static_cast<std::size_t>(b_cells_);
+  std::vector<std::uint32_t> cover(cells);
+  std::vector<bool> unseen(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const int a = static_cast<int>(i) / b_cells_;
+    const int b = static_cast<int>(i) % b_cells_;
+    unseen[i] = sum(seen_, a, a + 1, b, b + 1) == 0;
+    cover[i] = static_cast<std::uint32_t>(sum(covered_, a, a + 1, b, b + 1));
+  }
+  for (const bool widest : {true, false}) {
+    cover = extreme_of_window(cover, a_cells_, b_cells_, reach, widest);
+  }
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (unseen[i]) cover[i] = kUnseen;
+  }
+  CanopyRaster closed = *this;
+  closed.sum_up(cover);
+  return closed;
 }
 
 std::uint64_t CanopyRaster::sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0,

@@ -41,7 +41,12 @@ class CanopyRaster {
   // Mean cover in [0, 1] of the seen ones; 0 where none is.
   double cover(int a0, int a1, int b0, int b1) const;
 
+  // With gaps in the cover up to width_m closed along both axes, greyscale closing by a square
+  // (Serra, Image Analysis and Mathematical Morphology, 1982, from memory): outer edges stay.
+  CanopyRaster closed(double width_m) const;
+
  private:
+  void sum_up(std::span<const std::uint32_t> cover);  // 0 to 200 by cell, 255 where unseen
   std::uint64_t sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0, int b1) const;
 
   Frame frame_;

@@ -10,6 +10,7 @@
 #include "plots/lattice.h"
 #include "plots/layout.h"
 #include "plots/outline.h"
+#include "plots/search.h"
 
 namespace plotscan::plots {
 namespace {
@@ -21,7 +22,6 @@ constexpr double kLeastQuality = 0.3;  // of a layout's edges: random bushes rea
 constexpr int kRounds = 2;  // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-Eigen::Vector2d direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
 
 PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
@@ -98,9 +98,8 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const double threshold_m = canopy_threshold(points, noise_m);
   const CanopyRaster coarse = rasterise(points, {}, kAxisCell_m, threshold_m, threads);
   const FieldAxes axes = find_axes(coarse, hints.heading_rad, threads);
-  const Frame frame{.a_axis = direction(axes.first_rad), .b_axis = direction(axes.second_rad)};
-  const CanopyRaster raster = rasterise(points, frame, kCell_m, threshold_m, threads);
-  const Layout layout = best_layout(raster);
+  const Sighting sighting = find_layout(points, axes, threshold_m, kCell_m, threads);
+  const Layout& layout = sighting.layout;
   if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
   if (layout.quality < kLeastQuality) {
     return nothing("canopy lies here, but not in plots of one size at equal steps");

@@ -14,6 +14,8 @@ constexpr double kLeastSide_m = 0.35, kMostSide_m = 25;
 constexpr double kReach_m = 0.2;        // of the strips on either side of an edge
 constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
 constexpr double kPiece_m = 0.3;        // of an edge, judged by itself
+constexpr double kCanopyBlock_m = 0.6;  // whose mean cover evens out gaps between plants
+constexpr double kStripe_m = 0.75;       // narrower ones may be rows of plants
 constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
 constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
 
@@ -114,6 +116,10 @@ double regularity(const Layout& layout) {
   return static_cast<double>(regular) / static_cast<double>(steps.size());
 }
 
+double regular_share(const Layout& layout) {
+  return std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
+}
+
 // An edge is an edge: one between canopies that touch counts hardly less than one to bare ground.
 // What the best of many places shows by chance counts nothing, and a step inwards against it.
 double edge_value(double contrast) {
@@ -125,11 +131,11 @@ double edge_value(double contrast) {
 double full_cover(const RowView& view) {
   double cover = 0;
   double square = 0;
-  constexpr int kCells = 4;
-  for (int r = 0; r + kCells <= view.r_cells(); r += kCells) {
-    for (int c = 0; c + kCells <= view.c_cells(); c += kCells) {
-      const double seen = view.seen_cells(r, r + kCells, c, c + kCells);
-      const double here = view.cover(r, r + kCells, c, c + kCells);
+  const int block = cells(kCanopyBlock_m, view.cell_m());
+  for (int r = 0; r + block <= view.r_cells(); r += block) {
+    for (int c = 0; c + block <= view.c_cells(); c += block) {
+      const double seen = view.seen_cells(r, r + block, c, c + block);
+      const double here = view.cover(r, r + block, c, c + block);
       cover += seen * here;
       square += seen * here * here;
     }
@@ -199,8 +205,26 @@ double score_of(const Layout& layout) {
       score += edges_of(layout.view, row.band, plot, full);
     }
   }
-  const double regular = std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
-  return score * layout.view.cell_m() * regular;
+  return score * layout.view.cell_m() * regular_share(layout);
+}
+
+// Contrast of the plots' sides as a share of their cover, of the weaker pair of sides: means over
+// all plots, in which the gaps between plants even out.
+double clarity_of(const Layout& layout) {
+  const int reach = cells(kReach_m, layout.view.cell_m());
+  double across_r = 0;
+  double across_c = 0;
+  double cover = 0;
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      const SideContrast side = side_contrast(layout.view, row.band.begin, row.band.end,
+                                              plot.begin, plot.end, reach);
+      across_r += (side.across_r[0] + side.across_r[1]) / 2;
+      across_c += (side.across_c[0] + side.across_c[1]) / 2;
+      cover += layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
+    }
+  }
+  return std::min(across_r, across_c) / std::max(1e-9, cover);
 }
 
 void add(std::vector<Layout>& layouts, Layout layout) {
@@ -213,6 +237,7 @@ void add(std::vector<Layout>& layouts, Layout layout) {
   layout.r_size = median_size(rows);
   layout.c_size = median_size(plots);
   layout.score = score_of(layout);
+  layout.clarity = clarity_of(layout) * regular_share(layout);
   layout.quality = layout.score / (2 * (layout.r_size + layout.c_size) * layout.view.cell_m() *
                                    static_cast<double>(plots.size()));
   layouts.push_back(std::move(layout));
@@ -298,6 +323,30 @@ std::vector<Layout> layouts_of(const RowView& view) {
   return layouts;
 }
 
+// A plot's cells on the raster.
+struct Cells {
+  Band a, b;
+};
+
+std::vector<Cells> boxes_of(const Layout& layout) {
+  std::vector<Cells> boxes;
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      boxes.push_back(layout.view.swapped ? Cells{plot, row.band} : Cells{row.band, plot});
+    }
+  }
+  return boxes;
+}
+
+// Whether the centre of the other lies within.
+bool holds(const Cells& box, const Cells& other) {
+  const auto within = [](const Band& band, const Band& inner) {
+    const int middle = (inner.begin + inner.end) / 2;
+    return middle >= band.begin && middle < band.end;
+  };
+  return within(box.a, other.a) && within(box.b, other.b);
+}
+
 }  // namespace
 
 double SideContrast::mean() const {
@@ -313,37 +362,32 @@ SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, 
                        view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)}};
 }
 
-// Drill rows of one plot are no plots. A layout of narrow stripes gives way to one of bands that
-// hold the same number of them each.
+bool has_stripes(const Layout& layout) {
+  if (layout.rows.empty()) return false;
+  const double cell_m = layout.view.cell_m();
+  const int narrow = std::min(layout.r_size, layout.c_size);
+  return narrow * cell_m < kStripe_m && std::max(layout.r_size, layout.c_size) > 4 * narrow;
+}
+
 bool are_stripes_of(const Layout& fine, const Layout& coarse) {
-  const double cell_m = fine.view.cell_m();
-  const auto stripes = [&](int narrow, int other) {
-    return narrow * cell_m < 0.75 && other > 4 * narrow;
-  };
-  const bool along_r = stripes(fine.r_size, fine.c_size),
-             along_c = stripes(fine.c_size, fine.r_size);
-  if (fine.view.swapped != coarse.view.swapped || (!along_r && !along_c)) return false;
-  const auto near = [](int a, int b) { return std::abs(a - b) <= 0.15 * std::max(a, b) + 2; };
-  if (along_r ? !near(fine.c_size, coarse.c_size) : !near(fine.r_size, coarse.r_size)) return false;
-  std::vector<double> held;  // stripes in each band
-  for (const Row& row : coarse.rows) {
-    for (const Band& plot : row.plots) {
-      int count = 0;
-      for (const Row& fine_row : fine.rows) {
-        const int r = (fine_row.band.begin + fine_row.band.end) / 2;
-        if (r < row.band.begin || r >= row.band.end) continue;
-        for (const Band& stripe : fine_row.plots) {
-          const int c = (stripe.begin + stripe.end) / 2;
-          count += c >= plot.begin && c < plot.end ? 1 : 0;
-        }
-      }
-      held.push_back(count);
-    }
+  if (!has_stripes(fine)) return false;
+  const std::vector<Cells> stripes = boxes_of(fine);
+  const std::vector<Cells> plots = boxes_of(coarse);
+  if (plots.empty()) return false;
+  const bool along_a = stripes.front().a.end - stripes.front().a.begin >
+                       stripes.front().b.end - stripes.front().b.begin;
+  const int length = std::max(fine.r_size, fine.c_size);
+  const Band& side = along_a ? plots.front().a : plots.front().b;
+  if (std::abs(side.end - side.begin - length) > 0.15 * length + 2) return false;
+  std::vector<double> held;  // stripes in each plot
+  for (const Cells& plot : plots) {
+    held.push_back(static_cast<double>(
+        std::ranges::count_if(stripes, [&](const Cells& stripe) { return holds(plot, stripe); })));
   }
   const double usual = median(held);
   const auto as_usual = std::ranges::count(held, usual);
   return usual >= 2 && static_cast<double>(as_usual) > 0.6 * static_cast<double>(held.size()) &&
-         coarse.score > 0.25 * fine.score;
+         (coarse.quality > 0.5 * fine.quality || coarse.score > 0.25 * fine.score);
 }
 
 Layout best_layout(const CanopyRaster& raster) {

@@ -43,6 +43,7 @@ struct Layout {
   int r_size = 0, c_size = 0;  // of a plot, cells
   std::vector<Row> rows = {};
   double score = 0;    // metres of edges explained
+  double clarity = 0;  // contrast of the weaker pair of sides, as a share of the plots' cover
   double quality = 0;  // of all edges of the plots, times the regularity of their steps; 1 at best
 };
 
@@ -55,6 +56,12 @@ struct SideContrast {
   double mean() const;
 };
 SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach);
+
+// Whether the plots are as narrow as rows of plants.
+bool has_stripes(const Layout& layout);
+
+// Whether `fine` has the drill rows of `coarse`'s plots: narrow stripes, as many of them in each.
+bool are_stripes_of(const Layout& fine, const Layout& coarse);
 
 // The layout of equal plots that explains most edges: bands of rows over the whole field, then
 // plots in each row by itself, for either role of the two axes.
