@@ -112,6 +112,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
     straighten(lattice);
   }
   fit_edges(lattice);
+  if (sighting.sown_width_m > 0) lattice.c_size_m = sighting.sown_width_m;
   PlotField field;
   const double heading_rad = box_heading(lattice);
   for (const Place& place : lattice.places) {

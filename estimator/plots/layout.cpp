@@ -15,7 +15,6 @@ constexpr double kReach_m = 0.2;        // of the strips on either side of an ed
 constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
 constexpr double kPiece_m = 0.3;        // of an edge, judged by itself
 constexpr double kCanopyBlock_m = 0.6;  // whose mean cover evens out gaps between plants
-constexpr double kStripe_m = 0.75;       // narrower ones may be rows of plants
 constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
 constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
 
@@ -323,30 +322,6 @@ std::vector<Layout> layouts_of(const RowView& view) {
   return layouts;
 }
 
-// A plot's cells on the raster.
-struct Cells {
-  Band a, b;
-};
-
-std::vector<Cells> boxes_of(const Layout& layout) {
-  std::vector<Cells> boxes;
-  for (const Row& row : layout.rows) {
-    for (const Band& plot : row.plots) {
-      boxes.push_back(layout.view.swapped ? Cells{plot, row.band} : Cells{row.band, plot});
-    }
-  }
-  return boxes;
-}
-
-// Whether the centre of the other lies within.
-bool holds(const Cells& box, const Cells& other) {
-  const auto within = [](const Band& band, const Band& inner) {
-    const int middle = (inner.begin + inner.end) / 2;
-    return middle >= band.begin && middle < band.end;
-  };
-  return within(box.a, other.a) && within(box.b, other.b);
-}
-
 }  // namespace
 
 double SideContrast::mean() const {
@@ -362,34 +337,6 @@ SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, 
                        view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)}};
 }
 
-bool has_stripes(const Layout& layout) {
-  if (layout.rows.empty()) return false;
-  const double cell_m = layout.view.cell_m();
-  const int narrow = std::min(layout.r_size, layout.c_size);
-  return narrow * cell_m < kStripe_m && std::max(layout.r_size, layout.c_size) > 4 * narrow;
-}
-
-bool are_stripes_of(const Layout& fine, const Layout& coarse) {
-  if (!has_stripes(fine)) return false;
-  const std::vector<Cells> stripes = boxes_of(fine);
-  const std::vector<Cells> plots = boxes_of(coarse);
-  if (plots.empty()) return false;
-  const bool along_a = stripes.front().a.end - stripes.front().a.begin >
-                       stripes.front().b.end - stripes.front().b.begin;
-  const int length = std::max(fine.r_size, fine.c_size);
-  const Band& side = along_a ? plots.front().a : plots.front().b;
-  if (std::abs(side.end - side.begin - length) > 0.15 * length + 2) return false;
-  std::vector<double> held;  // stripes in each plot
-  for (const Cells& plot : plots) {
-    held.push_back(static_cast<double>(
-        std::ranges::count_if(stripes, [&](const Cells& stripe) { return holds(plot, stripe); })));
-  }
-  const double usual = median(held);
-  const auto as_usual = std::ranges::count(held, usual);
-  return usual >= 2 && static_cast<double>(as_usual) > 0.6 * static_cast<double>(held.size()) &&
-         (coarse.quality > 0.5 * fine.quality || coarse.score > 0.25 * fine.score);
-}
-
 Layout best_layout(const CanopyRaster& raster) {
   std::vector<Layout> layouts = layouts_of({.raster = &raster, .swapped = false});
   for (Layout& layout : layouts_of({.raster = &raster, .swapped = true})) {
@@ -398,9 +345,7 @@ Layout best_layout(const CanopyRaster& raster) {
   if (layouts.empty()) return {};
   weigh_with_canopy(layouts);
   std::ranges::stable_sort(layouts, std::greater<>{}, &Layout::score);
-  const auto grouped = std::ranges::find_if(
-      layouts, [&](const Layout& layout) { return are_stripes_of(layouts.front(), layout); });
-  return grouped == layouts.end() ? layouts.front() : *grouped;
+  return layouts.front();
 }
 
 }  // namespace plotscan::plots

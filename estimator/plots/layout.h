@@ -57,12 +57,6 @@ struct SideContrast {
 };
 SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach);
 
-// Whether the plots are as narrow as rows of plants.
-bool has_stripes(const Layout& layout);
-
-// Whether `fine` has the drill rows of `coarse`'s plots: narrow stripes, as many of them in each.
-bool are_stripes_of(const Layout& fine, const Layout& coarse);
-
 // The layout of equal plots that explains most edges: bands of rows over the whole field, then
 // plots in each row by itself, for either role of the two axes.
 Layout best_layout(const CanopyRaster& raster);

@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "plots/stripes.h"
 
 namespace plotscan::plots {
 namespace {
@@ -50,6 +53,20 @@ class Search {
       best_look_ = look;
     }
     return is_clear(best_.layout) && stripes_.rows.empty();
+  }
+
+  // Whether the best layout's plots were drill rows, and are plots now.
+  bool put_drill_rows_together() {
+    if (!has_stripes(best_.layout)) return false;
+    std::optional<DrilledLayout> drilled = plots_of_stripes(best_.layout);
+    if (!drilled) return false;
+    constexpr double kMore_m = 0.1;
+    best_.raster = std::make_unique<const CanopyRaster>(
+        best_.raster->closed(drilled->gap_m + kMore_m));
+    best_.layout = std::move(drilled->layout);
+    best_.layout.view.raster = best_.raster.get();
+    best_.sown_width_m = drilled->sown_width_m;
+    return true;
   }
 
   const Look& best_look() const { return best_look_; }
@@ -117,7 +134,8 @@ Sighting find_layout(std::span<const Eigen::Vector3f> points, const FieldAxes& a
                      double threshold_m, double cell_m, int threads) {
   Search search(points, cell_m, threads);
   const Look first{axes.first_rad, axes.second_rad, threshold_m, 0};
-  const bool clear = search.look(first) || look_along_perpendicular_axes(search, axes, first) ||
+  const bool clear = search.look(first) || search.put_drill_rows_together() ||
+                     look_along_perpendicular_axes(search, axes, first) ||
                      look_higher(search) || look_with_gaps_closed(search);
   static_cast<void>(clear);
   return search.take();

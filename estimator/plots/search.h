@@ -18,9 +18,11 @@ namespace plotscan::plots {
 struct Sighting {
   std::unique_ptr<const CanopyRaster> raster;  // the layout's view points to it
   Layout layout;
+  double sown_width_m = 0;  // along c, of plots whose drill rows show; else 0
 };
 
-// Looks at the cover above threshold_m along the axes. Where no clear layout of plots shows, looks
+// Looks at the cover above threshold_m along the axes. Drill rows that show are put together into
+// plots. Where no clear layout of plots shows, looks
 // again along perpendicular axes (rows with offsets of their own can tilt the second one), above
 // higher thresholds (tall leaves lean over the alleys), and with gaps between plants or drill rows
 // closed, wider and wider; of these, the first clear layout, else the clearest.
