@@ -209,21 +209,24 @@ double score_of(const Layout& layout) {
 
 // Contrast of the plots' sides as a share of their cover, of the weaker pair of sides: means over
 // all plots, in which the gaps between plants even out.
-double clarity_of(const Layout& layout) {
+void measure_clarity(Layout& layout) {
   const int reach = cells(kReach_m, layout.view.cell_m());
   double across_r = 0;
   double across_c = 0;
-  double cover = 0;
+  double plots = 0;
   for (const Row& row : layout.rows) {
     for (const Band& plot : row.plots) {
       const SideContrast side = side_contrast(layout.view, row.band.begin, row.band.end,
                                               plot.begin, plot.end, reach);
       across_r += (side.across_r[0] + side.across_r[1]) / 2;
       across_c += (side.across_c[0] + side.across_c[1]) / 2;
-      cover += layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
+      layout.cover += layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
+      ++plots;
     }
   }
-  return std::min(across_r, across_c) / std::max(1e-9, cover);
+  layout.clarity =
+      std::min(across_r, across_c) / std::max(1e-9, layout.cover) * regular_share(layout);
+  layout.cover /= plots;
 }
 
 void add(std::vector<Layout>& layouts, Layout layout) {
@@ -236,7 +239,7 @@ void add(std::vector<Layout>& layouts, Layout layout) {
   layout.r_size = median_size(rows);
   layout.c_size = median_size(plots);
   layout.score = score_of(layout);
-  layout.clarity = clarity_of(layout) * regular_share(layout);
+  measure_clarity(layout);
   layout.quality = layout.score / (2 * (layout.r_size + layout.c_size) * layout.view.cell_m() *
                                    static_cast<double>(plots.size()));
   layouts.push_back(std::move(layout));

@@ -43,6 +43,7 @@ struct Layout {
   int r_size = 0, c_size = 0;  // of a plot, cells
   std::vector<Row> rows = {};
   double score = 0;    // metres of edges explained
+  double cover = 0;    // mean of the plots'
   double clarity = 0;  // contrast of the weaker pair of sides, as a share of the plots' cover
   double quality = 0;  // of all edges of the plots, times the regularity of their steps; 1 at best
 };

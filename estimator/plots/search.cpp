@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kClearQuality = 0.6;   // of a layout that is taken as it is,
 constexpr double kClearSides = 0.65;    // or the clarity of its sides
+constexpr double kDenseCover = 0.5;     // of plots, above the canopy's threshold
 constexpr double kThresholds[] = {2, 2.8};                   // times the canopy's threshold
 constexpr double kClosings_m[] = {0.2, 0.3, 0.45, 0.6, 0.8};  // widths of gaps that are closed
 
@@ -69,6 +70,9 @@ class Search {
     return true;
   }
 
+  bool is_dense() const {
+    return best_.layout.cover > kDenseCover && !has_stripes(best_.layout);
+  }
   const Look& best_look() const { return best_look_; }
   Sighting take() { return std::move(best_); }
 
@@ -118,7 +122,9 @@ bool look_higher(Search& search) {
   return false;
 }
 
+// Not where canopy is dense: there a gap parts two plots.
 bool look_with_gaps_closed(Search& search) {
+  if (search.is_dense()) return false;
   const Look first = search.best_look();
   for (const double closing_m : kClosings_m) {
     Look look = first;
