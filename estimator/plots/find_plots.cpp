@@ -98,7 +98,8 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const double threshold_m = canopy_threshold(points, noise_m);
   const CanopyRaster coarse = rasterise(points, {}, kAxisCell_m, threshold_m, threads);
   const FieldAxes axes = find_axes(coarse, hints.heading_rad, threads);
-  const Sighting sighting = find_layout(points, axes, threshold_m, kCell_m, threads);
+  const Sighting sighting = find_layout(
+      points, axes, threshold_m, kCell_m, {hints.width_m, hints.length_m}, threads);
   const Layout& layout = sighting.layout;
   if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
   if (layout.quality < kLeastQuality) {

@@ -87,11 +87,30 @@ double strongest(const std::vector<double>& steps) {
   return most;
 }
 
-std::vector<int> sizes(int most_cells, double cell_m) {
+// Whether a side is one that the user gave: leaves lean out over it.
+bool is_side(double side_m, const std::optional<double>& known_m) {
+  return known_m && std::abs(side_m - *known_m) <= 0.15 + 0.05 * *known_m;
+}
+
+bool agrees(const Layout& layout, const KnownSides& known) {
+  const double r_m = layout.r_size * layout.view.cell_m();
+  const double c_m = layout.c_size * layout.view.cell_m();
+  if (known.width_m && known.length_m) {
+    return (is_side(r_m, known.width_m) && is_side(c_m, known.length_m)) ||
+           (is_side(c_m, known.width_m) && is_side(r_m, known.length_m));
+  }
+  const std::optional<double>& one = known.width_m ? known.width_m : known.length_m;
+  return !one || is_side(r_m, one) || is_side(c_m, one);
+}
+
+std::vector<int> sizes(int most_cells, double cell_m, const KnownSides& known) {
+  const bool both = known.width_m && known.length_m;
   std::vector<int> list;
   const int last = std::min(most_cells, cells(kMostSide_m, cell_m));
   for (int size = cells(kLeastSide_m, cell_m); size <= last; size += std::max(1, size / 60)) {
-    list.push_back(size);
+    const double side_m = size * cell_m;
+    if (!both || is_side(side_m, known.width_m) || is_side(side_m, known.length_m))
+      list.push_back(size);
   }
   return list;
 }
@@ -229,7 +248,7 @@ void measure_clarity(Layout& layout) {
   layout.cover /= plots;
 }
 
-void add(std::vector<Layout>& layouts, Layout layout) {
+void add(std::vector<Layout>& layouts, Layout layout, const KnownSides& known) {
   std::vector<Band> rows, plots;
   for (const Row& row : layout.rows) {
     rows.push_back(row.band);
@@ -238,6 +257,7 @@ void add(std::vector<Layout>& layouts, Layout layout) {
   if (plots.empty()) return;
   layout.r_size = median_size(rows);
   layout.c_size = median_size(plots);
+  if (!agrees(layout, known)) return;
   layout.score = score_of(layout);
   measure_clarity(layout);
   layout.quality = layout.score / (2 * (layout.r_size + layout.c_size) * layout.view.cell_m() *
@@ -248,7 +268,7 @@ void add(std::vector<Layout>& layouts, Layout layout) {
 // Layouts with plots of the best sizes along these rows, every row by itself: rows may start at
 // different offsets.
 void add_with_plots(std::vector<Layout>& layouts, const RowView& view,
-                    const std::vector<Band>& bands) {
+                    const std::vector<Band>& bands, const KnownSides& known) {
   std::vector<std::vector<double>> steps;
   double most = 0;
   for (const Band& band : bands) {
@@ -257,7 +277,7 @@ void add_with_plots(std::vector<Layout>& layouts, const RowView& view,
   }
   const BandSearch search = search_for(most, view.cell_m());
   std::vector<SizeScore> scores;
-  for (const int size : sizes(view.c_cells(), view.cell_m())) {
+  for (const int size : sizes(view.c_cells(), view.cell_m(), known)) {
     double score = 0;
     for (const auto& row : steps) score += bands_of(row, size, search).score;
     scores.push_back({size, score});
@@ -268,13 +288,13 @@ void add_with_plots(std::vector<Layout>& layouts, const RowView& view,
       Row row{bands[i], bands_of(steps[i], tried.size, search).bands};
       if (!row.plots.empty()) layout.rows.push_back(std::move(row));
     }
-    add(layouts, std::move(layout));
+    add(layouts, std::move(layout), known);
   }
 }
 
 // The same with columns that run through all rows, which shows weaker edges than one row does.
 void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
-                      const std::vector<Band>& bands) {
+                      const std::vector<Band>& bands, const KnownSides& known) {
   std::vector<double> profile(static_cast<std::size_t>(view.c_cells()));
   for (const Band& band : bands) {
     const std::vector<double> row = profile_in_row(view, band);
@@ -283,7 +303,7 @@ void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
   const std::vector<double> steps = steps_of(profile, cells(kReach_m, view.cell_m()));
   const BandSearch search = search_for(strongest(steps), view.cell_m());
   std::vector<SizeScore> scores;
-  for (const int size : sizes(view.c_cells(), view.cell_m())) {
+  for (const int size : sizes(view.c_cells(), view.cell_m(), known)) {
     scores.push_back({size, bands_of(steps, size, search).score});
   }
   for (const SizeScore& tried : best_peaks(scores)) {
@@ -304,23 +324,23 @@ void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
       }
       if (!row.plots.empty()) layout.rows.push_back(std::move(row));
     }
-    add(layouts, std::move(layout));
+    add(layouts, std::move(layout), known);
   }
 }
 
-std::vector<Layout> layouts_of(const RowView& view) {
+std::vector<Layout> layouts_of(const RowView& view, const KnownSides& known) {
   const std::vector<double> steps =
       steps_of(profile_over_rows(view), cells(kReach_m, view.cell_m()));
   const BandSearch search = search_for(strongest(steps), view.cell_m());
   std::vector<SizeScore> scores;
-  for (const int size : sizes(view.r_cells(), view.cell_m())) {
+  for (const int size : sizes(view.r_cells(), view.cell_m(), known)) {
     scores.push_back({size, bands_of(steps, size, search).score});
   }
   std::vector<Layout> layouts;
   for (const SizeScore& tried : best_peaks(scores)) {
     const std::vector<Band> rows = bands_of(steps, tried.size, search).bands;
-    add_with_plots(layouts, view, rows);
-    add_with_columns(layouts, view, rows);
+    add_with_plots(layouts, view, rows, known);
+    add_with_columns(layouts, view, rows, known);
   }
   return layouts;
 }
@@ -340,9 +360,9 @@ SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, 
                        view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)}};
 }
 
-Layout best_layout(const CanopyRaster& raster) {
-  std::vector<Layout> layouts = layouts_of({.raster = &raster, .swapped = false});
-  for (Layout& layout : layouts_of({.raster = &raster, .swapped = true})) {
+Layout best_layout(const CanopyRaster& raster, const KnownSides& known) {
+  std::vector<Layout> layouts = layouts_of({.raster = &raster, .swapped = false}, known);
+  for (Layout& layout : layouts_of({.raster = &raster, .swapped = true}, known)) {
     layouts.push_back(std::move(layout));
   }
   if (layouts.empty()) return {};

@@ -4,6 +4,7 @@
 // Private to the library: rows of plots on a canopy raster.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "plots/bands.h"
@@ -58,8 +59,14 @@ struct SideContrast {
 };
 SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach);
 
-// The layout of equal plots that explains most edges: bands of rows over the whole field, then
+// Sides of the plots that the user knows, metres; either may lie along either axis.
+struct KnownSides {
+  std::optional<double> width_m = std::nullopt;
+  std::optional<double> length_m = std::nullopt;
+};
+
+// The layout of equal plots, of known sides where they are, that explains most edges: bands of rows over the whole field, then
 // plots in each row by itself, for either role of the two axes.
-Layout best_layout(const CanopyRaster& raster);
+Layout best_layout(const CanopyRaster& raster, const KnownSides& known = {});
 
 }  // namespace plotscan::plots

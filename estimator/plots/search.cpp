@@ -37,8 +37,9 @@ bool is_clear(const Layout& layout) { return clearness(layout) >= 1 && !has_stri
 
 class Search {
  public:
-  Search(std::span<const Eigen::Vector3f> points, double cell_m, int threads)
-      : points_(points), cell_m_(cell_m), threads_(threads) {}
+  Search(std::span<const Eigen::Vector3f> points, double cell_m, const KnownSides& known,
+         int threads)
+      : points_(points), cell_m_(cell_m), known_(known), threads_(threads) {}
 
   // Whether there is no need to look further.
   bool look(const Look& look) {
@@ -47,7 +48,7 @@ class Search {
     CanopyRaster raster = rasterise(points_, frame, cell_m_, look.threshold_m, threads_);
     if (look.closing_m > 0) raster = raster.closed(look.closing_m);
     seen.raster = std::make_unique<const CanopyRaster>(std::move(raster));
-    seen.layout = best_layout(*seen.raster);
+    seen.layout = best_layout(*seen.raster, known_);
     if (!best_.raster || is_better(seen.layout)) {
       if (best_.raster && has_stripes(best_.layout)) keep_stripes();
       best_ = std::move(seen);
@@ -93,6 +94,7 @@ class Search {
 
   std::span<const Eigen::Vector3f> points_;
   double cell_m_;
+  KnownSides known_;
   int threads_;
   Layout stripes_;  // the drill rows that the best layout's plots are made of
   std::unique_ptr<const CanopyRaster> stripes_raster_;
@@ -137,8 +139,8 @@ bool look_with_gaps_closed(Search& search) {
 }  // namespace
 
 Sighting find_layout(std::span<const Eigen::Vector3f> points, const FieldAxes& axes,
-                     double threshold_m, double cell_m, int threads) {
-  Search search(points, cell_m, threads);
+                     double threshold_m, double cell_m, const KnownSides& known, int threads) {
+  Search search(points, cell_m, known, threads);
   const Look first{axes.first_rad, axes.second_rad, threshold_m, 0};
   const bool clear = search.look(first) || search.put_drill_rows_together() ||
                      look_along_perpendicular_axes(search, axes, first) ||

@@ -27,6 +27,6 @@ struct Sighting {
 // higher thresholds (tall leaves lean over the alleys), and with gaps between plants or drill rows
 // closed, wider and wider; of these, the first clear layout, else the clearest.
 Sighting find_layout(std::span<const Eigen::Vector3f> points, const FieldAxes& axes,
-                     double threshold_m, double cell_m, int threads);
+                     double threshold_m, double cell_m, const KnownSides& known, int threads);
 
 }  // namespace plotscan::plots

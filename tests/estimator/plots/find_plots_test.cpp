@@ -104,6 +104,25 @@ TEST(FindPlots, FollowsRowsThatStartAtOffsets) { expect_found({.offsets_m = {0.6
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
 TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_clumps, 0.8); }
 
+// Half-plots stand side by side: only the user knows that two of them are one plot.
+TEST(FindPlots, TakesTheSidesThatAreKnown) {
+  std::vector<PlotBox> halves;
+  for (const PlotBox& box : Trial{.gap_m = 0.8}.boxes()) {
+    for (const double side : {-0.42, 0.42}) {
+      halves.push_back(box);
+      halves.back().center += side * box.width_axis();
+      halves.back().width_m = 0.66;
+    }
+  }
+  const std::vector<Eigen::Vector3f> points = points_over(halves);
+  const PlotField free = find_plots(points, 0.02, {}, 2);
+  const PlotField known = find_plots(points, 0.02, {.width_m = 1.5, .length_m = 4}, 2);
+  EXPECT_EQ(known.plots.size(), 18U);
+  EXPECT_NEAR(known.plots.front().box.width_m, 1.5, 0.1);
+  EXPECT_NEAR(known.plots.front().box.length_m, 4, 0.1);
+  EXPECT_EQ(free.plots.size(), 36U);
+}
+
 TEST(FindPlots, SaysThatBareGroundHasNone) {
   const PlotField field = find_plots(points_over({}), 0.02, {}, 2);
   EXPECT_TRUE(field.plots.empty());
