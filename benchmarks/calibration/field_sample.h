@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "calibration/farm_plan.h"
-#include "ground/surface.h"
 
 #include "core/plot_box.h"
+#include "ground/surface.h"
 
 namespace plotscan::calibration {
 

@@ -7,12 +7,12 @@
 #include <numeric>
 #include <set>
 
-#include "heights/features.h"
-#include "heights/plot_ground.h"
-#include "heights/ratio_model.h"
 #include <Eigen/Cholesky>
 
 #include "core/statistics.h"
+#include "heights/features.h"
+#include "heights/plot_ground.h"
+#include "heights/ratio_model.h"
 
 namespace plotscan::calibration {
 namespace {

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "calibration/field_sample.h"
-#include "heights/calibration.h"
 #include <Eigen/Core>
+
+#include "heights/calibration.h"
 
 namespace plotscan::calibration {
 

@@ -59,8 +59,7 @@ std::string row_name(const std::string& method, const std::string& height) {
 // The heights of the lattice method, in rows named after the method.
 std::vector<MethodHeight> lattice_heights(const std::string& method) {
   std::vector<MethodHeight> heights;
-  for (const char* name :
-       {"max", "mean", "p50", "p90", "p95", "p99", "canopy_p95", "canopy_p99"}) {
+  for (const char* name : {"max", "mean", "p50", "p90", "p95", "p99", "canopy_p95", "canopy_p99"}) {
     heights.push_back({name, row_name(method, name)});
   }
   return heights;

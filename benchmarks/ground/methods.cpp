@@ -7,13 +7,13 @@
 #include <map>
 #include <optional>
 
-#include "ground/surface.h"
 #include <pcl/point_types.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
 #include "estimate/dhami2020/ground_plane.h"
-#include "estimate/points_in_boxes.h"
 #include "estimate/dhami2020/voxel_filter.h"
+#include "estimate/points_in_boxes.h"
+#include "ground/surface.h"
 
 namespace plotscan::ground_error {
 namespace {

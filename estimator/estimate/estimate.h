@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "ground/surface.h"
 #include <nlohmann/json.hpp>
 
 #include "core/plot_box.h"
 #include "core/plot_features.h"
+#include "ground/surface.h"
 
 namespace plotscan::estimate {
 

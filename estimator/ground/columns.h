@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "ground/grid.h"
 #include <Eigen/Core>
+
+#include "ground/grid.h"
 
 namespace plotscan::ground {
 

@@ -8,8 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "ground/solver.h"
 #include <Eigen/Dense>
+
+#include "ground/solver.h"
 
 namespace plotscan::ground {
 namespace {

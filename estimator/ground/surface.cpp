@@ -6,14 +6,14 @@
 #include <limits>
 #include <string>
 
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
 #include "ground/columns.h"
 #include "ground/lower_surface.h"
 #include "ground/mixture.h"
 #include "ground/solver.h"
 #include "ground/uncertainty.h"
-#include <tbb/task_arena.h>
-
-#include "core/error.h"
 
 namespace plotscan::ground {
 namespace {

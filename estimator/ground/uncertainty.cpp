@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ground/solver.h"
-
 #include "core/random.h"
+#include "ground/solver.h"
 
 namespace plotscan::ground {
 namespace {

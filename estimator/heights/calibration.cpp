@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/calibration.h"
 
-#include "heights/calibration_files.h"
-
 #include "core/statistics.h"
+#include "heights/calibration_files.h"
 
 namespace plotscan::heights {
 namespace {

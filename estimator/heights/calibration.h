@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "heights/kriging.h"
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
+
+#include "heights/kriging.h"
 
 namespace plotscan::heights {
 

@@ -5,10 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/csv.h"
 #include "heights/box_cells.h"
 #include "heights/deconvolve.h"
-
-#include "core/csv.h"
 
 namespace plotscan::heights {
 namespace {

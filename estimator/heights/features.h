@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "heights/height_profile.h"
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "heights/height_profile.h"
 
 namespace plotscan::heights {
 

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include "heights/box_cells.h"
 #include "heights/features.h"
 #include "heights/flags.h"
 #include "heights/height_profile.h"
 #include "heights/plant_heights.h"
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 namespace plotscan::heights {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "ground/surface.h"
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "ground/surface.h"
 
 namespace plotscan::heights {
 

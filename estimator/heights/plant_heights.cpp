@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "heights/ratio_model.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include "heights/ratio_model.h"
 
 namespace plotscan::heights {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ground/surface.h"
-
 #include "core/plot_box.h"
+#include "ground/surface.h"
 
 namespace plotscan::heights {
 

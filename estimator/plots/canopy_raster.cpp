@@ -15,10 +15,10 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr std::uint32_t kFullCover = 200;    // steps of a cell's cover in the table
-constexpr std::uint32_t kUnseen = 255;       // in place of the cover of a cell without returns
+constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the table
+constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
 constexpr std::uint64_t kCanopyReturn = std::uint64_t{1} << 32;
-constexpr double kMostCells = 1e8;           // 10 m of oblique rows or an outlier must not eat memory
+constexpr double kMostCells = 1e8;  // 10 m of oblique rows or an outlier must not eat memory
 
 bool finite(const Eigen::Vector3f& point) { return point.allFinite(); }
 
@@ -49,8 +49,8 @@ std::vector<std::uint32_t> extreme_of_window(const std::vector<std::uint32_t>& v
         const int last = std::min(here + reach, (along_a ? a_cells : b_cells) - 1);
         std::uint32_t best = from[static_cast<std::size_t>(a) * b_cells + b];
         for (int at = std::max(0, here - reach); at <= last; ++at) {
-          const std::uint32_t value = from[static_cast<std::size_t>(along_a ? at : a) * b_cells +
-                                           (along_a ? b : at)];
+          const std::uint32_t value =
+              from[static_cast<std::size_t>(along_a ? at : a) * b_cells + (along_a ? b : at)];
           best = greatest ? std::max(best, value) : std::min(best, value);
         }
         to[static_cast<std::size_t>(a) * b_cells + b] = best;
@@ -162,18 +162,21 @@ CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axe
                                      static_cast<std::size_t>(b_cells));
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1 << 16), [&](const auto& r) {
-      for (std::size_t i = r.begin(); i != r.end(); ++i) {
-        if (!finite(points[i])) continue;
-        const Eigen::Vector2d ab =
-            (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
-        const auto a = static_cast<std::size_t>(std::clamp(static_cast<int>(ab.x()), 0, a_cells - 1));
-        const auto b = static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
-        std::atomic_ref<std::uint64_t> cell(returns[a * static_cast<std::size_t>(b_cells) + b]);
-        cell.fetch_add(1 + (points[i].z() > threshold_m ? kCanopyReturn : 0),
-                       std::memory_order_relaxed);
-      }
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, points.size(), 1 << 16), [&](const auto& r) {
+          for (std::size_t i = r.begin(); i != r.end(); ++i) {
+            if (!finite(points[i])) continue;
+            const Eigen::Vector2d ab =
+                (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
+            const auto a =
+                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.x()), 0, a_cells - 1));
+            const auto b =
+                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
+            std::atomic_ref<std::uint64_t> cell(returns[a * static_cast<std::size_t>(b_cells) + b]);
+            cell.fetch_add(1 + (points[i].z() > threshold_m ? kCanopyReturn : 0),
+                           std::memory_order_relaxed);
+          }
+        });
   });
   Frame frame = axes;
   frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;

@@ -15,7 +15,7 @@ constexpr double kEdge_m = 0.12;   // width of the edges' filter
 constexpr double kBeyond_m = 0.6;  // of a plot's edge that takes part
 
 struct Neighbour {
-  double at_m = 0;     // from the plot's centre
+  double at_m = 0;  // from the plot's centre
   double depth = 0;
 };
 

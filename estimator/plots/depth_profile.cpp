@@ -40,7 +40,8 @@ const std::array<double, 2 * kTableSteps + 2>& normal_table() {
   static const auto table = [] {
     std::array<double, 2 * kTableSteps + 2> values{};
     for (int i = 0; i < 2 * kTableSteps + 2; ++i) {
-      values[static_cast<std::size_t>(i)] = 0.5 * std::erfc(-(i - kTableSteps) / 100.0 / std::sqrt(2.0));
+      values[static_cast<std::size_t>(i)] =
+          0.5 * std::erfc(-(i - kTableSteps) / 100.0 / std::sqrt(2.0));
     }
     return values;
   }();
@@ -55,7 +56,8 @@ DepthProfile profile_of(const Lattice& lattice, const Place& place, bool along_r
   const Strip strip = strip_of(lattice, place, along_r);
   DepthProfile profile;
   const int last = static_cast<int>(std::floor((center_m + reach_m) / cell_m));
-  for (int cell = static_cast<int>(std::floor((center_m - reach_m) / cell_m)); cell <= last; ++cell) {
+  for (int cell = static_cast<int>(std::floor((center_m - reach_m) / cell_m)); cell <= last;
+       ++cell) {
     if (!seen_at(lattice, along_r, cell, strip)) continue;
     profile.x_m.push_back((cell + 0.5) * cell_m - center_m);
     profile.depth.push_back(depth_of(cover_at(lattice, along_r, cell, strip)));

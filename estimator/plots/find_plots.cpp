@@ -18,8 +18,8 @@ namespace {
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
 constexpr double kLeastContrast = 0.03;  // of the plots' sides: noise over bare ground shows less
-constexpr double kLeastQuality = 0.3;  // of a layout's edges: random bushes reach less
-constexpr int kRounds = 2;  // of size and centres in turn
+constexpr double kLeastQuality = 0.3;    // of a layout's edges: random bushes reach less
+constexpr int kRounds = 2;               // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
@@ -69,7 +69,8 @@ nlohmann::json fit_of(const Lattice& lattice, const Layout& layout, const PlotFi
     return turned ? along_width : along_length;
   };
   const Eigen::Vector2d row_axis = lattice.view.c_axis() + lattice.r_per_c * lattice.view.r_axis();
-  const Eigen::Vector2d column_axis = lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis();
+  const Eigen::Vector2d column_axis =
+      lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis();
   const PlotBox& box = field.plots.front().box;
   const double skew_rad = std::remainder(
       angle_of(row_axis) - angle_of(column_axis) - std::numbers::pi / 2, std::numbers::pi);
@@ -98,16 +99,18 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const double threshold_m = canopy_threshold(points, noise_m);
   const CanopyRaster coarse = rasterise(points, {}, kAxisCell_m, threshold_m, threads);
   const FieldAxes axes = find_axes(coarse, hints.heading_rad, threads);
-  const Sighting sighting = find_layout(
-      points, axes, threshold_m, kCell_m, {hints.width_m, hints.length_m}, threads);
+  const Sighting sighting =
+      find_layout(points, axes, threshold_m, kCell_m, {hints.width_m, hints.length_m}, threads);
   const Layout& layout = sighting.layout;
   if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
   if (layout.quality < kLeastQuality) {
     return nothing("canopy lies here, but not in plots of one size at equal steps");
   }
   Lattice lattice = fit_lattice(layout);
-  if (lattice.places.size() < 2) return nothing("a single plot, or one field closed by canopy, is no lattice");
-  if (lattice.contrast < kLeastContrast) return nothing("no canopy stands out from the ground here");
+  if (lattice.places.size() < 2)
+    return nothing("a single plot, or one field closed by canopy, is no lattice");
+  if (lattice.contrast < kLeastContrast)
+    return nothing("no canopy stands out from the ground here");
   for (int round = 0; round < kRounds; ++round) {
     fit_edges(lattice);
     straighten(lattice);

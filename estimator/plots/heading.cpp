@@ -34,7 +34,8 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
 
 // Sum of the squared steps of the lines' mean cover, for lines in direction angle_rad.
 double sharpness(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m) {
-  const auto c = static_cast<float>(std::cos(angle_rad)), s = static_cast<float>(std::sin(angle_rad));
+  const auto c = static_cast<float>(std::cos(angle_rad)),
+             s = static_cast<float>(std::sin(angle_rad));
   float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
   for (const Cell& cell : cells) {
     const float along = c * cell.x + s * cell.y, across = c * cell.y - s * cell.x;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the lattice on which a field's plots lie, and which of its places hold one.
+// Private to the library: the lattice on which a field's plots lie, and which of its places hold
+// one.
 
 #include <vector>
 
@@ -11,26 +12,26 @@ namespace plotscan::plots {
 
 // A place of the lattice. Coordinates are the view's, metres.
 struct Place {
-  int row = 0, column = 0;   // from 0
-  double r_m = 0, c_m = 0;   // centre
-  double share = 0;          // its canopy as a share of a full plot's
-  double contrast = 0;       // of its sides, as a share of a full plot's
-  bool full = false;         // holds a plot
+  int row = 0, column = 0;  // from 0
+  double r_m = 0, c_m = 0;  // centre
+  double share = 0;         // its canopy as a share of a full plot's
+  double contrast = 0;      // of its sides, as a share of a full plot's
+  bool full = false;        // holds a plot
 };
 
 struct Lattice {
   RowView view;
-  double r_size_m = 0, c_size_m = 0;   // of a plot
-  double r_band_m = 0, c_band_m = 0;   // of the layout's bands
+  double r_size_m = 0, c_size_m = 0;      // of a plot
+  double r_band_m = 0, c_band_m = 0;      // of the layout's bands
   double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
-  double r_pitch_m = 0, c_pitch_m = 0;  // 0 where there is one row or one column only
+  double r_pitch_m = 0, c_pitch_m = 0;    // 0 where there is one row or one column only
   int rows = 0, columns = 0;
-  bool aligned = true;     // columns run through all rows; else every row has its own offset
+  bool aligned = true;        // columns run through all rows; else every row has its own offset
   bool perpendicular = true;  // the axes are, as far as the plots tell
-  double r_per_c = 0;      // how far a row's plots move along r for every metre along c
-  double c_per_r = 0;      // how far a column's plots move along c for every metre along r
+  double r_per_c = 0;         // how far a row's plots move along r for every metre along c
+  double c_per_r = 0;         // how far a column's plots move along c for every metre along r
   double r_rms_m = 0, c_rms_m = 0;  // plots' centres about the lattice
-  double contrast = 0;     // median of the plots' sides
+  double contrast = 0;              // median of the plots' sides
   std::vector<Place> places = {};
 };
 

@@ -87,11 +87,6 @@ double strongest(const std::vector<double>& steps) {
   return most;
 }
 
-// Whether a side is one that the user gave: leaves lean out over it.
-bool is_side(double side_m, const std::optional<double>& known_m) {
-  return known_m && std::abs(side_m - *known_m) <= 0.15 + 0.05 * *known_m;
-}
-
 bool agrees(const Layout& layout, const KnownSides& known) {
   const double r_m = layout.r_size * layout.view.cell_m();
   const double c_m = layout.c_size * layout.view.cell_m();
@@ -235,8 +230,8 @@ void measure_clarity(Layout& layout) {
   double plots = 0;
   for (const Row& row : layout.rows) {
     for (const Band& plot : row.plots) {
-      const SideContrast side = side_contrast(layout.view, row.band.begin, row.band.end,
-                                              plot.begin, plot.end, reach);
+      const SideContrast side =
+          side_contrast(layout.view, row.band.begin, row.band.end, plot.begin, plot.end, reach);
       across_r += (side.across_r[0] + side.across_r[1]) / 2;
       across_c += (side.across_c[0] + side.across_c[1]) / 2;
       layout.cover += layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
@@ -346,6 +341,10 @@ std::vector<Layout> layouts_of(const RowView& view, const KnownSides& known) {
 }
 
 }  // namespace
+
+bool is_side(double side_m, const std::optional<double>& known_m) {
+  return known_m && std::abs(side_m - *known_m) <= 0.15 + 0.05 * *known_m;
+}
 
 double SideContrast::mean() const {
   return (across_r[0] + across_r[1] + across_c[0] + across_c[1]) / 4;

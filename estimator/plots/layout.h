@@ -30,8 +30,12 @@ struct RowView {
     const Eigen::Vector2d ab = swapped ? Eigen::Vector2d(c_m, r_m) : Eigen::Vector2d(r_m, c_m);
     return raster->frame().to_world(ab);
   }
-  Eigen::Vector2d r_axis() const { return swapped ? raster->frame().b_axis : raster->frame().a_axis; }
-  Eigen::Vector2d c_axis() const { return swapped ? raster->frame().a_axis : raster->frame().b_axis; }
+  Eigen::Vector2d r_axis() const {
+    return swapped ? raster->frame().b_axis : raster->frame().a_axis;
+  }
+  Eigen::Vector2d c_axis() const {
+    return swapped ? raster->frame().a_axis : raster->frame().b_axis;
+  }
 };
 
 struct Row {
@@ -65,8 +69,11 @@ struct KnownSides {
   std::optional<double> length_m = std::nullopt;
 };
 
-// The layout of equal plots, of known sides where they are, that explains most edges: bands of rows over the whole field, then
-// plots in each row by itself, for either role of the two axes.
+// Whether a side is the given one: leaves lean out over it.
+bool is_side(double side_m, const std::optional<double>& known_m);
+
+// The layout of equal plots, of known sides where they are, that explains most edges: bands of rows
+// over the whole field, then plots in each row by itself, for either role of the two axes.
 Layout best_layout(const CanopyRaster& raster, const KnownSides& known = {});
 
 }  // namespace plotscan::plots

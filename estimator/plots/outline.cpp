@@ -49,8 +49,8 @@ double squares_of(const DepthProfile& profile, double depth, const BlurredBox& s
   return squares - 2 * level * rest + n * level * level;
 }
 
-// Where the depth falls through half of the plateau's, of both sides together, from the line through
-// the samples about it; the neighbours' share in it is taken away first.
+// Where the depth falls through half of the plateau's, of both sides together, from the line
+// through the samples about it; the neighbours' share in it is taken away first.
 double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit, double pitch,
                        double share) {
   constexpr double kAbout_m = 0.1;
@@ -83,7 +83,8 @@ EdgeFit fit_edges_along(const Lattice& lattice, bool along_r) {
   const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
   const double pitch_m = along_r ? lattice.r_pitch_m : lattice.c_pitch_m;
   const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;
-  const DepthProfile profile = pooled_profile(lattice, along_r, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
+  const DepthProfile profile =
+      pooled_profile(lattice, along_r, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
   const double share = pitch_m > 0 ? neighbour_share(lattice, along_r) : 0;
   const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
@@ -91,7 +92,8 @@ EdgeFit fit_edges_along(const Lattice& lattice, bool along_r) {
   for (double size = size_m - 0.35; size <= size_m + 0.35; size += 0.01) {
     if (size < 0.2) continue;
     for (double blur = 0.03; blur <= 0.25; blur += 0.02) {
-      const double squares = squares_of(profile, depth, BlurredBox(size, blur), pitch_m, share, size_m / 2);
+      const double squares =
+          squares_of(profile, depth, BlurredBox(size, blur), pitch_m, share, size_m / 2);
       if (squares >= best_squares) continue;
       best_squares = squares;
       best = {.size_m = size, .blur_m = blur};

@@ -12,10 +12,10 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kClearQuality = 0.6;   // of a layout that is taken as it is,
-constexpr double kClearSides = 0.65;    // or the clarity of its sides
-constexpr double kDenseCover = 0.5;     // of plots, above the canopy's threshold
-constexpr double kThresholds[] = {2, 2.8};                   // times the canopy's threshold
+constexpr double kClearQuality = 0.6;       // of a layout that is taken as it is,
+constexpr double kClearSides = 0.65;        // or the clarity of its sides
+constexpr double kDenseCover = 0.5;         // of plots, above the canopy's threshold
+constexpr double kThresholds[] = {2, 2.8};  // times the canopy's threshold
 constexpr double kClosings_m[] = {0.2, 0.3, 0.45, 0.6, 0.8};  // widths of gaps that are closed
 
 // What to look at: along which axes, above which height, with gaps of which width closed.
@@ -62,18 +62,19 @@ class Search {
     if (!has_stripes(best_.layout)) return false;
     std::optional<DrilledLayout> drilled = plots_of_stripes(best_.layout);
     if (!drilled) return false;
+    const double length_m = drilled->layout.r_size * cell_m_;
+    if (known_.width_m && !is_side(drilled->sown_width_m, known_.width_m)) return false;
+    if (known_.length_m && !is_side(length_m, known_.length_m)) return false;
     constexpr double kMore_m = 0.1;
-    best_.raster = std::make_unique<const CanopyRaster>(
-        best_.raster->closed(drilled->gap_m + kMore_m));
+    best_.raster =
+        std::make_unique<const CanopyRaster>(best_.raster->closed(drilled->gap_m + kMore_m));
     best_.layout = std::move(drilled->layout);
     best_.layout.view.raster = best_.raster.get();
     best_.sown_width_m = drilled->sown_width_m;
     return true;
   }
 
-  bool is_dense() const {
-    return best_.layout.cover > kDenseCover && !has_stripes(best_.layout);
-  }
+  bool is_dense() const { return best_.layout.cover > kDenseCover && !has_stripes(best_.layout); }
   const Look& best_look() const { return best_look_; }
   Sighting take() { return std::move(best_); }
 
@@ -143,8 +144,8 @@ Sighting find_layout(std::span<const Eigen::Vector3f> points, const FieldAxes& a
   Search search(points, cell_m, known, threads);
   const Look first{axes.first_rad, axes.second_rad, threshold_m, 0};
   const bool clear = search.look(first) || search.put_drill_rows_together() ||
-                     look_along_perpendicular_axes(search, axes, first) ||
-                     look_higher(search) || look_with_gaps_closed(search);
+                     look_along_perpendicular_axes(search, axes, first) || look_higher(search) ||
+                     look_with_gaps_closed(search);
   static_cast<void>(clear);
   return search.take();
 }

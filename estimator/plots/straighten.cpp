@@ -44,7 +44,8 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
   const auto size = static_cast<Eigen::Index>(positions.size());
   if (size < 3) return positions;
   std::vector<double> steps;
-  for (std::size_t i = 1; i < positions.size(); ++i) steps.push_back(positions[i] - positions[i - 1]);
+  for (std::size_t i = 1; i < positions.size(); ++i)
+    steps.push_back(positions[i] - positions[i - 1]);
   const double step_m = median(steps);
   std::vector<std::size_t> alleys;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -127,7 +128,8 @@ double spread_of(const std::vector<double>& values) {
 std::vector<double> group_means(const std::vector<int>& group, int groups,
                                 const std::vector<double>& values) {
   std::vector<double> sums(static_cast<std::size_t>(groups));
-  for (std::size_t i = 0; i < group.size(); ++i) sums[static_cast<std::size_t>(group[i])] += values[i];
+  for (std::size_t i = 0; i < group.size(); ++i)
+    sums[static_cast<std::size_t>(group[i])] += values[i];
   const std::vector<double> counts = counts_of(group, groups);
   for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= std::max(1.0, counts[g]);
   return sums;
@@ -158,7 +160,8 @@ Columns fit_columns(const Lattice& lattice, const Centers& centers) {
       const std::vector<double> index(centers.column.begin(), centers.column.end());
       means_and_slope(centers.row, lattice.rows, index, rest, pitch_m);
       fit.column_at.clear();
-      for (int column = 0; column < lattice.columns; ++column) fit.column_at.push_back(pitch_m * column);
+      for (int column = 0; column < lattice.columns; ++column)
+        fit.column_at.push_back(pitch_m * column);
     }
     for (std::size_t i = 0; i < rest.size(); ++i) {
       rest[i] = centers.c[i] - fit.column_at[static_cast<std::size_t>(centers.column[i])];
@@ -185,13 +188,15 @@ Skew fit_skew(const Lattice& lattice, const std::vector<double>& row_at, const C
   const double spread = spread_of(x), mean_x = mean_of(x), mean_y = mean_of(y);
   if (spread <= 0) return {};
   Skew skew;
-  for (std::size_t i = 0; i < x.size(); ++i) skew.c_per_r += (x[i] - mean_x) * (y[i] - mean_y) / spread;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    skew.c_per_r += (x[i] - mean_x) * (y[i] - mean_y) / spread;
   skew.error = std::max(0.005, columns.rms_m) / std::sqrt(spread);
   skew.straight = true;
   const std::vector<double> counts = counts_of(centers.row, lattice.rows);
   for (std::size_t row = 0; row < row_at.size(); ++row) {
     const double off_m = columns.row_offset[row] - mean_y - skew.c_per_r * (row_at[row] - mean_x);
-    skew.straight = skew.straight && std::abs(off_m) < std::max(0.03, 3.5 * columns.rms_m / std::sqrt(counts[row]));
+    skew.straight = skew.straight &&
+                    std::abs(off_m) < std::max(0.03, 3.5 * columns.rms_m / std::sqrt(counts[row]));
   }
   return skew;
 }
@@ -214,15 +219,18 @@ void straighten(Lattice& lattice) {
     within_rows[i] -= row_c[static_cast<std::size_t>(centers.row[i])];
   }
   const double row_spread = spread_of(within_rows);
-  const double row_error = row_spread > 0 ? std::max(0.005, lattice.r_rms_m) / std::sqrt(row_spread) : 1;
+  const double row_error =
+      row_spread > 0 ? std::max(0.005, lattice.r_rms_m) / std::sqrt(row_spread) : 1;
   const double between = lattice.view.r_axis().dot(lattice.view.c_axis());
   const double off = skew.c_per_r + (between + lattice.r_per_c) / (1 + between * lattice.r_per_c);
   const double error = std::hypot(skew.error, row_error);
   const bool rows_tell = row_spread > 1;
   const bool columns_tell = skew.straight && lattice.rows >= 2;
-  lattice.perpendicular = !columns_tell || !rows_tell || std::abs(off) < std::max(0.001, 3 * error) ||
+  lattice.perpendicular = !columns_tell || !rows_tell ||
+                          std::abs(off) < std::max(0.001, 3 * error) ||
                           (lattice.rows < 3 && std::abs(off) > 0.01);
-  const bool straight = columns_tell && (!lattice.perpendicular || std::abs(off) < std::max(0.001, 3 * error));
+  const bool straight =
+      columns_tell && (!lattice.perpendicular || std::abs(off) < std::max(0.001, 3 * error));
   if (!rows_tell) {
     lattice.c_per_r = skew.c_per_r;
     lattice.r_per_c = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
@@ -256,7 +264,8 @@ void straighten(Lattice& lattice) {
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     Place& place = lattice.places[i];
     const auto row = static_cast<std::size_t>(place.row);
-    const double c = columns.column_at[static_cast<std::size_t>(place.column)] + columns.row_offset[row];
+    const double c =
+        columns.column_at[static_cast<std::size_t>(place.column)] + columns.row_offset[row];
     place.r_m = row_at[row] + lattice.r_per_c * c;
     place.c_m = c + lattice.c_per_r * (place.r_m - mean_r[row]);
   }

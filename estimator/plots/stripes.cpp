@@ -11,9 +11,9 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kStripe_m = 0.75;      // narrower ones may be rows of plants
-constexpr double kLeastBreak = 1.25;    // times the usual step: between two plots
-constexpr double kLeastAlike = 0.6;     // share of groups that hold the usual number of rows
+constexpr double kStripe_m = 0.75;    // narrower ones may be rows of plants
+constexpr double kLeastBreak = 1.25;  // times the usual step: between two plots
+constexpr double kLeastAlike = 0.6;   // share of groups that hold the usual number of rows
 
 // A plot's cells on the raster.
 struct Cells {
@@ -81,8 +81,8 @@ double usual_small_step(const std::vector<Row>& rows) {
 std::vector<std::vector<Band>> groups_of(const std::vector<Band>& stripes, double step) {
   std::vector<std::vector<Band>> groups;
   for (const Band& stripe : stripes) {
-    const bool apart = groups.empty() || middle_of(stripe) - middle_of(groups.back().back()) >
-                                             kLeastBreak * step;
+    const bool apart =
+        groups.empty() || middle_of(stripe) - middle_of(groups.back().back()) > kLeastBreak * step;
     if (apart) groups.emplace_back();
     groups.back().push_back(stripe);
   }
@@ -98,8 +98,8 @@ std::size_t usual_count(const std::vector<std::vector<std::vector<Band>>>& group
     groups += row.size();
   }
   if (groups < 2 * groups_by_row.size()) return 0;
-  const auto usual = std::ranges::max_element(
-      groups_by_count, {}, [](const auto& entry) { return entry.second; });
+  const auto usual =
+      std::ranges::max_element(groups_by_count, {}, [](const auto& entry) { return entry.second; });
   const double alike = static_cast<double>(usual->second) / static_cast<double>(groups);
   return usual->first >= 2 && alike >= kLeastAlike ? usual->first : 0;
 }

@@ -15,12 +15,12 @@ bool has_stripes(const Layout& layout);
 // Whether `fine` has the drill rows of `coarse`'s plots: narrow stripes, as many of them in each.
 bool are_stripes_of(const Layout& fine, const Layout& coarse);
 
-// Plots of drill rows. The layout's bands end where the outer rows' canopy does; what is sown reaches
-// half a row's spacing beyond the outer rows.
+// Plots of drill rows. The layout's bands end where the outer rows' canopy does; what is sown
+// reaches half a row's spacing beyond the outer rows.
 struct DrilledLayout {
-  Layout layout;          // along c, the plots lie beside each other
-  double row_m = 0;       // from drill row to drill row
-  double gap_m = 0;       // between the canopies of two of them
+  Layout layout;     // along c, the plots lie beside each other
+  double row_m = 0;  // from drill row to drill row
+  double gap_m = 0;  // between the canopies of two of them
   double sown_width_m = 0;
 };
 

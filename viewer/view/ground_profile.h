@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "ground/surface.h"
-
 #include "core/plot_box.h"
+#include "ground/surface.h"
 
 namespace plotscan::view {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "ground/surface.h"
 #include <Eigen/Geometry>
 
+#include "ground/surface.h"
 #include "view/height_colours.h"
 #include "view/page.h"
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "ground/surface.h"
-#include "heights/measure_heights.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -13,6 +11,8 @@
 #include "core/error.h"
 #include "estimate/given_boxes.h"
 #include "estimate/points_in_boxes.h"
+#include "ground/surface.h"
+#include "heights/measure_heights.h"
 
 namespace plotscan::estimate {
 namespace {

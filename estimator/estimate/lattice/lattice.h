@@ -5,13 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "plots/find_plots.h"
-
 #include "core/plot_box.h"
 #include "core/progress.h"
 #include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
 #include "estimate/field_cloud.h"
+#include "plots/find_plots.h"
 
 namespace plotscan::estimate {
 

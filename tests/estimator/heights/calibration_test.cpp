@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "heights/features.h"
 #include <gtest/gtest.h>
+
+#include "heights/features.h"
 
 namespace plotscan::heights {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "ground/surface.h"
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
 #include "core/random.h"
+#include "ground/surface.h"
 
 namespace plotscan::heights {
 

@@ -2,8 +2,9 @@
 #include "heights/height_profile.h"
 
 #include "canopies.h"
-#include "heights/features.h"
 #include <gtest/gtest.h>
+
+#include "heights/features.h"
 
 namespace plotscan::heights {
 namespace {
