@@ -15,15 +15,16 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
   const auto returns = static_cast<double>(evidence.returns);
   raise(evidence.returns < options.least_returns ||
             returns < options.least_returns_m2 * evidence.area_m2,
-        "few-returns");
-  raise(evidence.scanned_share < options.least_scanned_share, "cut-off");
-  raise(evidence.ground.reached_share < options.least_ground_share, "no-ground");
-  raise(evidence.ground.standard_error_m > options.largest_ground_error_m, "unsure-ground");
+        "too few returns");
+  raise(evidence.scanned_share < options.least_scanned_share, "part of the plot was not scanned");
+  raise(evidence.ground.reached_share < options.least_ground_share, "no ground within reach");
+  raise(evidence.ground.standard_error_m > options.largest_ground_error_m,
+        "ground is unsure by centimetres");
   raise(evidence.top_m < std::max(options.least_top_m, options.least_top_sigmas * evidence.noise_m),
-        "low-canopy");
+        "canopy is too low to measure");
   const auto mean = heights.find("mean");
   raise(mean != heights.end() && mean->second.standard_error_m > options.largest_error_m,
-        "unsure-height");
+        "heights are unsure by centimetres");
   return flags;
 }
 

@@ -45,8 +45,8 @@ TEST(LoadSuite, ThePapersProtocol) {
   EXPECT_EQ(suite.name, "paper");
   EXPECT_THAT(suite.seeds, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
   ASSERT_EQ(suite.cases.size(), 3U);
-  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice uncalibrated", "lattice true-boxes",
-                                         "dhami2020", "dhami2020 true-boxes", "oracle-ground"));
+  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice uncalibrated", "dhami2020",
+                                         "dhami2020 true-boxes", "oracle-ground"));
   const double relief_m[] = {0, 0.5, 1};
   const double published_cm[] = {4.8, 6.1, 16.0};
   for (std::size_t i = 0; i < 3; ++i) {

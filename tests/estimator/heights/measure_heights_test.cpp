@@ -71,8 +71,8 @@ TEST(MeasureHeights, FlagsFewReturns) {
   Field field = domes(4);
   field.returns[1].resize(80);
   const std::vector<PlotHeights> plots = field.measured();
-  EXPECT_THAT(plots[0].flags, Not(Contains("few-returns")));
-  EXPECT_THAT(plots[1].flags, Contains("few-returns"));
+  EXPECT_THAT(plots[0].flags, Not(Contains("too few returns")));
+  EXPECT_THAT(plots[1].flags, Contains("too few returns"));
 }
 
 TEST(MeasureHeights, FlagsAPlotWithoutReturns) {
@@ -80,7 +80,7 @@ TEST(MeasureHeights, FlagsAPlotWithoutReturns) {
   field.returns[2].clear();
   const std::vector<PlotHeights> plots = field.measured();
   EXPECT_THAT(plots[2].heights, IsEmpty());
-  EXPECT_THAT(plots[2].flags, Contains("few-returns"));
+  EXPECT_THAT(plots[2].flags, Contains("too few returns"));
 }
 
 TEST(MeasureHeights, FlagsAPlotThatTheSurveyCuts) {
@@ -89,18 +89,19 @@ TEST(MeasureHeights, FlagsAPlotThatTheSurveyCuts) {
     return field.boxes[3].box_from_world(point.head<2>().cast<double>()).x() > 1;
   });
   const std::vector<PlotHeights> plots = field.measured();
-  EXPECT_THAT(plots[2].flags, Not(Contains("cut-off")));
-  EXPECT_THAT(plots[3].flags, Contains("cut-off"));
+  EXPECT_THAT(plots[2].flags, Not(Contains("part of the plot was not scanned")));
+  EXPECT_THAT(plots[3].flags, Contains("part of the plot was not scanned"));
 }
 
 TEST(MeasureHeights, FlagsGroundThatIsUnsureOrAbsent) {
   Field field = domes(3);
   std::ranges::fill(field.surface.sd_m, 0.05F);
   for (const PlotHeights& plot : field.measured())
-    EXPECT_THAT(plot.flags, Contains("unsure-ground"));
+    EXPECT_THAT(plot.flags, Contains("ground is unsure by centimetres"));
   std::ranges::fill(field.surface.z_m, NAN);
   std::ranges::fill(field.surface.sd_m, NAN);
-  for (const PlotHeights& plot : field.measured()) EXPECT_THAT(plot.flags, Contains("no-ground"));
+  for (const PlotHeights& plot : field.measured())
+    EXPECT_THAT(plot.flags, Contains("no ground within reach"));
 }
 
 TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {
@@ -113,7 +114,7 @@ TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {
 
 TEST(MeasureHeights, FlagsWhatIsTooLowToBeACrop) {
   for (const PlotHeights& plot : domes(3, 0.05).measured())
-    EXPECT_THAT(plot.flags, Contains("low-canopy"));
+    EXPECT_THAT(plot.flags, Contains("canopy is too low to measure"));
 }
 
 }  // namespace
