@@ -126,15 +126,14 @@ bool look_higher(Search& search) {
 }
 
 // Not where canopy is dense: there a gap parts two plots.
-bool look_with_gaps_closed(Search& search) {
-  if (search.is_dense()) return false;
+void look_with_gaps_closed(Search& search) {
+  if (search.is_dense()) return;
   const Look first = search.best_look();
   for (const double closing_m : kClosings_m) {
     Look look = first;
     look.closing_m = closing_m;
-    if (search.look(look)) return true;
+    if (search.look(look)) return;
   }
-  return false;
 }
 
 }  // namespace
@@ -143,10 +142,11 @@ Sighting find_layout(std::span<const Eigen::Vector3f> points, const FieldAxes& a
                      double threshold_m, double cell_m, const KnownSides& known, int threads) {
   Search search(points, cell_m, known, threads);
   const Look first{axes.first_rad, axes.second_rad, threshold_m, 0};
-  const bool clear = search.look(first) || search.put_drill_rows_together() ||
-                     look_along_perpendicular_axes(search, axes, first) || look_higher(search) ||
-                     look_with_gaps_closed(search);
-  static_cast<void>(clear);
+  if (search.look(first) || search.put_drill_rows_together()) return search.take();
+  if (look_along_perpendicular_axes(search, axes, first) || look_higher(search)) {
+    return search.take();
+  }
+  look_with_gaps_closed(search);
   return search.take();
 }
 
