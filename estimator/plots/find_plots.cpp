@@ -19,12 +19,19 @@ constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is so
 constexpr double kCell_m = 0.05;
 constexpr double kLeastContrast = 0.03;  // of the plots' sides: noise over bare ground shows less
 constexpr double kLeastQuality = 0.3;    // of a layout's edges: random bushes reach less
+constexpr std::size_t kLeastPlots = 4;   // fewer lie at equal steps by chance
+constexpr double kLeastFilled = 0.4;     // of the lattice's places: random bushes fill fewer
 constexpr int kRounds = 2;               // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
 
 PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
+
+double filled_share(const Lattice& lattice) {
+  return static_cast<double>(lattice.places.size()) /
+         std::max(1.0, static_cast<double>(lattice.rows) * lattice.columns);
+}
 
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
@@ -111,6 +118,13 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
     return nothing("a single plot, or one field closed by canopy, is no lattice");
   if (lattice.contrast < kLeastContrast)
     return nothing("no canopy stands out from the ground here");
+  if (lattice.places.size() < kLeastPlots) {
+    return nothing(
+        "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured");
+  }
+  if (filled_share(lattice) < kLeastFilled) {
+    return nothing("canopy lies here, but on too few places of any lattice");
+  }
   for (int round = 0; round < kRounds; ++round) {
     fit_edges(lattice);
     straighten(lattice);

@@ -129,6 +129,26 @@ TEST(FindPlots, SaysThatBareGroundHasNone) {
   EXPECT_NE(field.nothing, "");
 }
 
+TEST(FindPlots, SaysThatASinglePlotIsNoLattice) {
+  const std::vector<PlotBox> one = {Trial{}.boxes().front()};
+  EXPECT_NE(find_plots(points_over(one), 0.02, {}, 2).nothing, "");
+}
+
+TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
+  for (const std::uint64_t bushes : {12, 25, 50, 100}) {
+    std::vector<PlotBox> boxes;
+    for (std::uint64_t i = 0; i < bushes; ++i) {
+      RandomStream random(bushes, random_purpose("test/bush"), i);
+      const Eigen::Vector2d place(random.uniform(-9, 9), random.uniform(-9, 9));
+      boxes.push_back({.center = place,
+                       .width_m = random.uniform(0.4, 0.9),
+                       .length_m = random.uniform(0.4, 0.9),
+                       .heading_rad = random.uniform(0, 3)});
+    }
+    EXPECT_NE(find_plots(points_over(boxes), 0.02, {}, 2).nothing, "") << bushes;
+  }
+}
+
 TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).nothing, ""); }
 
 TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
