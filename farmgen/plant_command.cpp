@@ -25,19 +25,25 @@ struct PlantArguments {
   bool force = false;
 };
 
-// The mesh and its materials, written beside their places and renamed when they are whole.
-void write_mesh(const fs::path& output, const mesh::Mesh& mesh) {
-  const TemporaryPath partial(output.string() + ".partial");
+void require_free(const fs::path& path) {
+  if (fs::exists(path)) throw InputError(path, "exists; --force replaces it");
+}
+
+// The mesh, its materials and their pictures, written beside their places and renamed when they are
+// whole.
+void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
+  const TemporaryPath partial(partial_path(output));
   std::error_code ignored;  // writing into the folder says what is wrong
   fs::create_directory(partial.path(), ignored);
   mesh::write_obj(partial.path() / output.filename(), mesh);
+  std::vector<fs::path> names;
   for (const auto& file : fs::directory_iterator(partial.path())) {
-    fs::rename(file.path(), output.parent_path() / file.path().filename());
+    names.push_back(file.path().filename());
+    if (!replace) require_free(output.parent_path() / names.back());
   }
-}
-
-void require_free(const fs::path& path) {
-  if (fs::exists(path)) throw InputError(path, "exists; --force replaces it");
+  for (const fs::path& name : names) {
+    fs::rename(partial.path() / name, output.parent_path() / name);
+  }
 }
 
 void run_plant(const Program& program, const PlantArguments& arguments) {
@@ -50,7 +56,7 @@ void run_plant(const Program& program, const PlantArguments& arguments) {
   crop::GrowOptions options = arguments.options;
   options.detail = arguments.detail == "light" ? crop::Detail::light : crop::Detail::scan;
   const mesh::Mesh mesh = crop::grow(options, program.common().seed);
-  write_mesh(output, mesh);
+  write_mesh(output, mesh, arguments.force);
   const crop::StageFacts facts = crop::stage_facts(options.crop, options.stage);
   const double height_m = mesh::mesh_height(mesh);
   const double leaf_area_m2 = mesh::ScaledArea::of_leaves(mesh).at();

@@ -73,6 +73,25 @@ std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
   return tasks;
 }
 
+fs::path kept_clouds(const RunOptions& options, const Task& task) {
+  return options.output / "clouds" / task.name;
+}
+
+// Before hours of work: what stands where a farm's clouds go is an earlier run's.
+void require_places(const RunOptions& options, const std::vector<Task>& tasks) {
+  if (!options.keep_clouds) return;
+  for (const Task& task : tasks)
+    if (!task.result) require_replaceable_folder(kept_clouds(options, task), kCommand);
+}
+
+void keep_clouds(const fs::path& folder, const fs::path& kept, std::uint64_t seed) {
+  write_manifest(folder, {.command = kCommand, .seed = seed});
+  require_replaceable_folder(kept, kCommand);
+  fs::create_directories(kept.parent_path());
+  fs::remove_all(kept);
+  fs::rename(folder, kept);
+}
+
 void run_task(Task& task, const Suite& suite, const RunOptions& options, const fs::path& work,
               int threads, const ProgressReport& progress) {
   const fs::path folder = work / task.name;
@@ -81,14 +100,8 @@ void run_task(Task& task, const Suite& suite, const RunOptions& options, const f
   result.made_from = task.made_from;
   write_text(result_file(options, task), to_json(result).dump(1) + "\n");
   task.result = std::move(result);
-  if (options.keep_clouds) {
-    const fs::path kept = options.output / "clouds" / task.name;
-    fs::create_directories(kept.parent_path());
-    fs::remove_all(kept);
-    fs::rename(folder, kept);
-  } else {
-    fs::remove_all(folder);
-  }
+  if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task.seed);
+  fs::remove_all(folder);
 }
 
 void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& options,
@@ -131,6 +144,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
   std::vector<Task> tasks = plan(suite, options);
   const auto resumed =
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
+  require_places(options, tasks);
   fs::create_directories(options.output / "farms");
   write_run_manifest(options, tasks, false);
   run_tasks(tasks, suite, options, progress, finished);

@@ -109,7 +109,9 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
                      joined(method_names(), ", "));
   }
   const fs::path cloud = cloud_file(options.cloud);
-  OutputFolder folder(options.output, options.replace, "estimator run");
+  std::vector<fs::path> inputs = {options.cloud};
+  if (options.boxes) inputs.push_back(*options.boxes);
+  OutputFolder folder(options.output, options.replace, "estimator run", inputs);
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),

@@ -20,7 +20,8 @@ fs::path file_in(const fs::path& path, const fs::path& inside) {
 }
 
 void write_scores(const Scores& scores, const RunOptions& options) {
-  OutputFolder folder(*options.output, options.replace, "estimator score");
+  OutputFolder folder(*options.output, options.replace, "estimator score",
+                      {{options.estimate, options.truth}});
   const fs::path file = folder.path() / "scores.json";
   std::ofstream out(file);
   out << to_json(scores).dump(1) << '\n';

@@ -108,7 +108,7 @@ void write_farm(const Farm& farm, const fs::path& folder, bool replace, Manifest
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
-  OutputFolder output(folder, replace, origin.command);
+  OutputFolder output(folder, replace, origin.command, origin.inputs);
   write_models(output.path(), farm);
   write_truth(output.path() / "truth", farm);
   report(kTruthShare);

@@ -81,7 +81,7 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
   const std::vector<PlantGroups> groups =
       options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
   require_different_names(farm, groups, options.drone);
-  OutputFolder output(folder, replace, origin.command);
+  OutputFolder output(folder, replace, origin.command, {{farm_folder}});
   const PlantSurfaces surfaces = plant_surfaces(farm, options.lod);
   ExportSummary summary{.counts = {}, .plants = farm.plants.size()};
   summary.counts = write_models(output.path(), farm, groups, surfaces, options,

@@ -5,6 +5,8 @@
 #include <array>
 #include <fstream>
 #include <memory>
+#include <set>
+#include <utility>
 
 #include <xxhash.h>
 
@@ -100,6 +102,26 @@ void require_unchanged(const fs::path& folder, const std::string& part) {
   } catch (const nlohmann::json::exception& error) {
     throw InputError(folder / "manifest.json", std::string("lists no outputs: ") + error.what());
   }
+}
+
+std::vector<fs::path> unlisted_files(const fs::path& folder) {
+  std::set<fs::path> listed = {"manifest.json"};
+  const nlohmann::json manifest = read_manifest(folder);
+  try {
+    for (const nlohmann::json& output : manifest.value("outputs", nlohmann::json::array()))
+      listed.insert(fs::path(output.at("file").get<std::string>()));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(folder / "manifest.json", std::string("lists no outputs: ") + error.what());
+  }
+  std::vector<fs::path> unlisted;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory() && !entry.is_symlink()) continue;
+    fs::path file = fs::relative(entry.path().parent_path(), folder) / entry.path().filename();
+    file = file.lexically_normal();
+    if (!listed.contains(file)) unlisted.push_back(std::move(file));
+  }
+  std::ranges::sort(unlisted);
+  return unlisted;
 }
 
 }  // namespace plotscan

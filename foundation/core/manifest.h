@@ -36,6 +36,10 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
 // hashed it.
 void require_unchanged(const std::filesystem::path& folder, const std::string& part);
 
+// Files and links below the folder that its manifest does not list, hidden ones too, relative to
+// it, in their order. Throws InputError as read_manifest does.
+std::vector<std::filesystem::path> unlisted_files(const std::filesystem::path& folder);
+
 // Throws InputError when the folder has no manifest.json that can be parsed.
 nlohmann::json read_manifest(const std::filesystem::path& folder);
 

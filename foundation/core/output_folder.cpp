@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/output_folder.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -19,11 +20,6 @@ fs::path without_trailing_slash(const fs::path& path) {
   return absolute.has_filename() ? absolute : absolute.parent_path();
 }
 
-fs::path beside(const fs::path& path, const std::string& what) {
-  return path.parent_path() /
-         ("." + path.filename().string() + "." + what + "-" + std::to_string(getpid()));
-}
-
 bool is_taken(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return false;
@@ -31,6 +27,18 @@ bool is_taken(const fs::path& path) {
   const bool empty = fs::is_empty(path, error);
   if (error) throw InputError(path, "cannot be read: " + error.message());
   return !empty;
+}
+
+// Whether `path` is `folder` or lies in it; both without links.
+bool is_within(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+// Without links and dots, as far as the path exists.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(without_trailing_slash(path), error);
+  return error ? without_trailing_slash(path) : real;
 }
 
 }  // namespace
@@ -48,10 +56,45 @@ void require_own_folder(const fs::path& folder, const std::string& command) {
   }
 }
 
-OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::string& command)
-    : final_(without_trailing_slash(final_path)), temporary_(beside(final_, "partial")) {
+void require_replaceable_folder(const fs::path& folder, const std::string& command) {
+  require_own_folder(folder, command);
+  if (!is_taken(folder)) return;
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> strangers;
+  for (const fs::path& file : unlisted_files(folder)) strangers.push_back(file.string());
+  if (strangers.empty()) return;
+  const std::size_t more = strangers.size() - std::min(strangers.size(), kNamed);
+  strangers.resize(strangers.size() - more);
+  throw InputError(folder, "is not replaced: it holds what " + command + " did not write (" +
+                               joined(strangers, ", ") +
+                               (more > 0 ? " and " + std::to_string(more) + " more" : "") +
+                               "); move that away, or choose another folder");
+}
+
+void require_apart(const fs::path& output, std::span<const fs::path> inputs) {
+  const fs::path out = resolved(output);
+  for (const fs::path& input : inputs) {
+    const fs::path in =
+        resolved(input.filename() == "manifest.json" ? fs::absolute(input).parent_path() : input);
+    if (out == in) throw InputError(output, "is the input; choose another place");
+    if (is_within(out, in)) {
+      throw InputError(output,
+                       "lies in the input " + in.string() + "; choose a place outside of it");
+    }
+    if (is_within(in, out))
+      throw InputError(output, "holds the input " + in.string() + "; choose another place");
+  }
+}
+
+OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::string& command,
+                           std::span<const fs::path> inputs)
+    : final_(without_trailing_slash(final_path)),
+      command_(command),
+      temporary_(partial_path(final_)) {
+  require_apart(final_path, inputs);
   require_own_folder(final_, command);
   if (is_taken(final_) && !replace) throw InputError(final_path, "exists; --force replaces it");
+  require_replaceable_folder(final_, command);
   std::error_code error;
   fs::remove_all(path(), error);
   fs::create_directories(path(), error);
@@ -59,6 +102,7 @@ OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::
 }
 
 void OutputFolder::commit() {
+  require_replaceable_folder(final_, command_);
   // Where the file system can, old and new change places in one step: there is no moment without a
   // whole folder, and what goes with this object is the old one.
   if (renameat2(AT_FDCWD, path().c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0) return;

@@ -3,7 +3,10 @@
 
 #include <mutex>
 #include <set>
+#include <string>
 #include <utility>
+
+#include <unistd.h>
 
 namespace plotscan {
 namespace {
@@ -39,6 +42,11 @@ void TemporaryPath::remove_all() {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);
   }
+}
+
+std::filesystem::path partial_path(const std::filesystem::path& final_path) {
+  return final_path.parent_path() / ("." + final_path.stem().string() + ".partial-" +
+                                     std::to_string(getpid()) + final_path.extension().string());
 }
 
 }  // namespace plotscan

@@ -25,4 +25,7 @@ class TemporaryPath {
   std::filesystem::path path_;
 };
 
+// Where this process writes what becomes `final_path`: hidden, beside it, with its extension.
+std::filesystem::path partial_path(const std::filesystem::path& final_path);
+
 }  // namespace plotscan

@@ -41,9 +41,16 @@ void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
 
+std::vector<std::filesystem::path> inputs_of(const FlyOptions& options) {
+  std::vector<std::filesystem::path> inputs = options.inputs;
+  if (options.flight) inputs.push_back(*options.flight);
+  if (options.waypoints) inputs.push_back(*options.waypoints);
+  return inputs;
+}
+
 Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOptions& options,
                      const FlySummary& summary) {
-  Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = options.inputs};
+  Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = inputs_of(options)};
   manifest.options = settings_json(options);
   manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
   if (!sensor.wedges) manifest.options["spin_hz"] = sensor::chosen_spin_hz(sensor, options.spin_hz);
@@ -53,14 +60,8 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
                                   {"longitude_deg", site.anchor->longitude_deg},
                                   {"altitude_m", site.anchor->altitude_m}};
   }
-  if (options.flight) {
-    manifest.options["flight"] = options.flight->filename().string();
-    manifest.inputs.push_back(*options.flight);
-  }
-  if (options.waypoints) {
-    manifest.options["waypoints"] = options.waypoints->filename().string();
-    manifest.inputs.push_back(*options.waypoints);
-  }
+  if (options.flight) manifest.options["flight"] = options.flight->filename().string();
+  if (options.waypoints) manifest.options["waypoints"] = options.waypoints->filename().string();
   if (!options.formats.empty()) manifest.options["formats"] = options.formats;
   manifest.results = {
       {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};
@@ -83,7 +84,7 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options, sensor);
   const double spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz);
-  OutputFolder output(scan_folder, replace, "lidarsim fly");
+  OutputFolder output(scan_folder, replace, "lidarsim fly", inputs_of(options));
   const flight::PoseErrors errors =
       flight::combined(flight::pose_error_preset(options.pose_error), options.pose_errors);
   const DroneFlight flight = fly_drone(site, scene, errors, options);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "core/output_folder.h"
 #include "core/text.h"
 #include "core/utc_time.h"
 #include "scan/trajectory.h"
@@ -153,6 +154,12 @@ ConvertSummary write_points(const Source& source, const fs::path& out, const Wri
 
 ConvertSummary convert(const fs::path& in, const fs::path& out, const ConvertOptions& options,
                        const ProgressReport& progress) {
+  require_apart(out, {{in}});
+  return convert_within(in, out, options, progress);
+}
+
+ConvertSummary convert_within(const fs::path& in, const fs::path& out,
+                              const ConvertOptions& options, const ProgressReport& progress) {
   OutputFile file(out, options.replace);
   if (!fs::is_directory(in)) require_file(in);
   ConvertSummary summary;

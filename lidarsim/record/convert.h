@@ -38,9 +38,14 @@ struct ConvertSummary {
 // Converts `in`, a scan folder, a cloud, a recording or a trajectory, to the file `out`, whose
 // format its extension says (docs/formats.md). Points stream: memory does not grow with them, but
 // for compressed PCD. `out` appears whole or not at all. Throws InputError on broken input, an
-// extension that no format has, a file that exists, and where `out` needs what `in` does not say.
+// extension that no format has, a file that exists, an `out` that is `in` or lies in it, and where
+// `out` needs what `in` does not say.
 ConvertSummary convert(const std::filesystem::path& in, const std::filesystem::path& out,
                        const ConvertOptions& options, const ProgressReport& progress = {});
+
+// The same where `out` may lie in the scan folder `in`: for who writes that folder.
+ConvertSummary convert_within(const std::filesystem::path& in, const std::filesystem::path& out,
+                              const ConvertOptions& options, const ProgressReport& progress = {});
 
 // The second half of convert: the points of an open source to a file of `out`'s extension, which
 // may not appear whole.

@@ -34,7 +34,7 @@ void write_formats(const std::vector<std::string>& formats,
                    const std::filesystem::path& scan_folder) {
   for (const std::string& name : formats) {
     const std::string stem = format_of(name).needs_flight ? "flight." : "cloud.";
-    if (name != "pcd") convert(scan_folder, scan_folder / (stem + name), {.replace = true});
+    if (name != "pcd") convert_within(scan_folder, scan_folder / (stem + name), {.replace = true});
   }
 }
 

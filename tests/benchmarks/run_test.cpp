@@ -166,7 +166,13 @@ TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
   EXPECT_TRUE(std::isnan(row.rmse_m));
   const TableRow& oracle = row_of(summary.table, "bare", "oracle-ground");
   EXPECT_EQ(oracle.without, 4U);  // found, but nothing stands on the ground
-  EXPECT_TRUE(fs::exists(options.output / "clouds" / "bare-1" / "scan" / "cloud.pcd"));
+  const fs::path kept = options.output / "clouds" / "bare-1";
+  EXPECT_TRUE(fs::exists(kept / "scan" / "cloud.pcd"));
+  options.force = true;
+  run(options);
+  std::ofstream(kept / "notes.txt") << "precious";
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("notes.txt"));
+  EXPECT_TRUE(fs::exists(kept / "notes.txt"));
 }
 
 // The survey holds the first two of four plots and half of the third.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/csv.h"
+#include "core/error.h"
 #include "core/manifest.h"
 
 namespace plotscan {
@@ -124,8 +125,27 @@ TEST_F(Chain, LeavesNothingWhenInterrupted) {
 
 TEST_F(Chain, NeverReplacesWhatItReads) {
   succeed("farmgen generate " + kFarm + " -o farm");
-  EXPECT_EQ(run("lidarsim fly farm -o farm --force", folder_.path().string()).exit_code, 2);
+  succeed("lidarsim fly farm -o scan --speed 4");
+  for (const std::string command :
+       {"lidarsim fly farm -o farm --force", "lidarsim fly farm -o farm/scan",
+        "farmgen export farm --gazebo sim -o farm/world", "estimator run scan -o scan/estimate",
+        "lidarsim convert scan scan/cloud.pcd --force", "lidarsim convert scan scan/cloud.las"}) {
+    EXPECT_EQ(run(command, folder_.path().string()).exit_code, 2) << command;
+  }
   EXPECT_TRUE(exists("farm/truth/plants.csv"));
+  EXPECT_FALSE(exists("farm/scan") || exists("farm/world") || exists("scan/estimate"));
+}
+
+TEST_F(Chain, NeverReplacesWhatItDidNotWrite) {
+  const std::string generate = "farmgen generate " + kFarm + " -o farm";
+  succeed(generate);
+  const std::filesystem::path notes = folder_.write("farm/notes.txt", "precious");
+  const Finished refused = run(generate + " --force", folder_.path().string());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("notes.txt"), std::string::npos) << refused.errors;
+  EXPECT_EQ(read_text(notes), "precious");
+  std::filesystem::remove(notes);
+  succeed(generate + " --force");
 }
 
 TEST_F(Chain, EveryCommandExplainsItself) {

@@ -191,7 +191,7 @@ TEST_F(Farmgen, ExportsNothingOfBadInput) {
            {"export farm --gazebo sim --merge all -o w", "--merge"},
            {"export farm --gazebo sim --lod fine -o w", "--lod"},
            {"export farm --gazebo sim --collision sphere -o w", "--collision"},
-           {"export farm --gazebo sim -o farm --force", "was not written by farmgen export"}}) {
+           {"export farm --gazebo sim -o farm --force", "is the input"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;

@@ -2,6 +2,7 @@
 #include "core/output_folder.h"
 
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "core/output_file.h"
@@ -64,6 +65,64 @@ TEST(OutputFolder, ReplacesItsOwnWhenCommitted) {
   EXPECT_FALSE(fs::exists(folder.path() / "ours/manifest.json"));
   EXPECT_TRUE(fs::exists(folder.path() / "ours/new"));
   EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+std::string with_outputs(const std::string& outputs) {
+  return R"({"plotscan": "0.1.0", "command": "farmgen generate", "outputs": [)" + outputs + "]}";
+}
+
+TEST(OutputFolder, IsNotReplacedWithFilesOfOthersInIt) {
+  const testing::TemporaryFolder folder;
+  folder.write("ours/manifest.json", with_outputs(R"({"file": "truth/plots.csv", "hash": ""})"));
+  folder.write("ours/truth/plots.csv", "of the command");
+  const auto replace = [&] {
+    OutputFolder replaced(folder.path() / "ours", true, "farmgen generate");
+    std::ofstream(replaced.path() / "new") << "x";
+    replaced.commit();
+  };
+  for (const std::string stranger :
+       {"notes.txt", "truth/notes.txt", ".git/config", "scan/cloud.pcd", "scan/manifest.json"}) {
+    const auto file = folder.write("ours/" + stranger, "precious");
+    EXPECT_THAT(testing::message_of<InputError>(replace), ::testing::HasSubstr(stranger));
+    EXPECT_EQ(read_text(file), "precious");
+    EXPECT_EQ(entries(folder.path()), 1u);
+    fs::remove(file);
+  }
+  fs::create_symlink("/", folder.path() / "ours/link");
+  EXPECT_THAT(testing::message_of<InputError>(replace), ::testing::HasSubstr("link"));
+  fs::remove(folder.path() / "ours/link");
+  replace();
+  EXPECT_EQ(entries(folder.path() / "ours"), 1u);
+}
+
+TEST(OutputFolder, KeepsWhatCameWhileItWasWritten) {
+  const testing::TemporaryFolder folder;
+  folder.write("ours/manifest.json", kManifest);
+  {
+    OutputFolder replaced(folder.path() / "ours", true, "farmgen generate");
+    folder.write("ours/notes.txt", "precious");
+    EXPECT_THROW(replaced.commit(), InputError);
+  }
+  EXPECT_EQ(read_text(folder.path() / "ours/notes.txt"), "precious");
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+TEST(OutputFolder, LiesApartFromItsInputs) {
+  const testing::TemporaryFolder folder;
+  const fs::path farm = folder.write("data/farm/manifest.json", kManifest).parent_path();
+  fs::create_symlink(farm, folder.path() / "link");
+  const std::vector<fs::path> inputs = {farm / "manifest.json"};
+  const auto make = [&](const fs::path& out) {
+    const OutputFolder made(out, true, "farmgen generate", inputs);
+  };
+  for (const fs::path& out :
+       {farm, farm / "scan", farm / "a/b", farm / "../farm/scan", farm.parent_path(),
+        folder.path() / "link/scan", folder.path() / "link"}) {
+    EXPECT_THROW(make(out), InputError) << out;
+  }
+  EXPECT_NO_THROW(make(farm.parent_path() / "farm2"));
+  EXPECT_NO_THROW(make(farm.parent_path() / "scan"));
+  EXPECT_EQ(entries(farm), 1u);
 }
 
 TEST(TemporaryPath, IsRemovedWithItsObjectOrAtOnce) {

@@ -157,6 +157,7 @@ TEST_F(Convert, TrajectoriesGoToTumAndBack) {
 }
 
 TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
+  fs::create_directory(folder_.path() / "empty");
   folder_.write("taken.pcd", "x");
   folder_.write("text.xyz", "1 2 3\n");
   const auto before = files();
@@ -170,12 +171,17 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   EXPECT_THAT(refusal(scan_, "none/out.pcd"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder_.path() / "absent.pcd", "out.pcd"), HasSubstr("no such file"));
   EXPECT_THAT(refusal(folder_.path() / "text.xyz", "out.pcd"), HasSubstr("neither"));
-  EXPECT_THAT(refusal(folder_.path(), "out.pcd"), HasSubstr("no manifest.json"));
+  EXPECT_THAT(refusal(folder_.path() / "empty", "out.pcd"), HasSubstr("no manifest.json"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.tum"), HasSubstr("no trajectory"));
   EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"), HasSubstr("is a trajectory"));
   EXPECT_THAT(refusal(scan_, "out.pcd", {.flight = FlightOptions{}}), HasSubstr("by itself"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.pcd", {.flight = FlightOptions{}}),
               HasSubstr("only with --trajectory"));
+  for (const fs::path& in : {scan_, scan_ / "cloud.pcd"}) {
+    ConvertOptions forced;
+    forced.replace = true;
+    EXPECT_THROW(convert(in, scan_ / "cloud.pcd", forced), InputError) << in;
+  }
   EXPECT_EQ(files(), before);
 }
 
