@@ -22,6 +22,7 @@ struct ExportArguments {
   std::string lod = "light";
   std::string collision = "none";
   bool drone = false;
+  std::string lidar = "gpu";
   bool force = false;
 };
 
@@ -34,6 +35,8 @@ const std::map<std::string, gazebo::Detail> kDetails = {{"light", gazebo::Detail
 const std::map<std::string, gazebo::Collision> kCollisions = {{"none", gazebo::Collision::none},
                                                               {"box", gazebo::Collision::box},
                                                               {"mesh", gazebo::Collision::mesh}};
+const std::map<std::string, gazebo::Lidar> kLidars = {{"gpu", gazebo::Lidar::gpu},
+                                                      {"cpu", gazebo::Lidar::cpu}};
 
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
@@ -47,7 +50,8 @@ Manifest manifest_of(const ExportArguments& arguments) {
                       {"merge", arguments.merge},
                       {"lod", arguments.lod},
                       {"collision", arguments.collision},
-                      {"drone", arguments.drone}},
+                      {"drone", arguments.drone},
+                      {"lidar", arguments.lidar}},
           .inputs = {std::filesystem::path(arguments.farm) / "manifest.json"}};
 }
 
@@ -60,6 +64,7 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                             .lod = kDetails.at(arguments.lod),
                             .collision = kCollisions.at(arguments.collision),
                             .drone = arguments.drone,
+                            .lidar = kLidars.at(arguments.lidar),
                             .threads = program.common().threads},
                            arguments.force, manifest_of(arguments), program.progress("exporting"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -116,5 +121,10 @@ void add_export_command(Program& program) {
       ->capture_default_str();
   command.add_flag("--drone", arguments->drone,
                    "a quadrotor with a VLP-16, and a script that flies it along a trajectory.csv");
+  add_choice(command, "--lidar", arguments->lidar,
+             "the drone's in Gazebo Classic: gpu sees what is drawn and needs a display; cpu sees "
+             "collisions (--collision mesh) and needs none",
+             kLidars)
+      ->capture_default_str();
   command.add_flag("--force", arguments->force, "replace a world that is already there");
 }

@@ -22,7 +22,7 @@ constexpr double kRangeNoise_m = 0.03;
 
 class Drone {
  public:
-  Drone(XmlFile& xml, Gazebo gazebo) : xml_(xml), gazebo_(gazebo) {}
+  Drone(XmlFile& xml, Gazebo gazebo, Lidar lidar) : xml_(xml), gazebo_(gazebo), lidar_(lidar) {}
 
   void write(bool gps) {
     xml_.open("link", "base_link");
@@ -128,9 +128,10 @@ class Drone {
 
   void write_lidar() {
     const bool classic = gazebo_ == Gazebo::classic;
-    // Gazebo Classic's "ray" would meet collisions, of which plants have none; "gpu_ray" sees what
-    // is drawn, as "gpu_lidar" does in Gazebo Sim.
-    open_sensor("vlp16", classic ? "gpu_ray" : "gpu_lidar", "10", "vlp16");
+    // Gazebo Classic's "ray" meets collisions; "gpu_ray" sees what is drawn, as "gpu_lidar" does in
+    // Gazebo Sim.
+    const char* classic_type = lidar_ == Lidar::cpu ? "ray" : "gpu_ray";
+    open_sensor("vlp16", classic ? classic_type : "gpu_lidar", "10", "vlp16");
     xml_.text("pose", "0 0 0 0 1.5707963267948966 0");
     xml_.text("visualize", "false");
     xml_.open(classic ? "ray" : "lidar");
@@ -165,17 +166,18 @@ class Drone {
 
   XmlFile& xml_;
   Gazebo gazebo_;
+  Lidar lidar_;
   std::uint64_t visuals_ = 0;
 };
 
 }  // namespace
 
-EntityCounts write_drone_model(const ModelFolder& models, bool gps) {
+EntityCounts write_drone_model(const ModelFolder& models, Lidar lidar, bool gps) {
   std::filesystem::create_directories(models.path / kDroneModel);
   farm::XmlFile xml =
       begin_model(models, kDroneModel, "A quadrotor with a VLP-16, moved by fly_drone.sh",
                   models.gazebo == Gazebo::sim);
-  Drone drone(xml, models.gazebo);
+  Drone drone(xml, models.gazebo, lidar);
   drone.write(gps);
   end_model(xml);
   return {.models = 1, .links = 1, .visuals = drone.visuals()};

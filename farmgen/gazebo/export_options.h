@@ -26,12 +26,20 @@ enum class Collision {
   mesh,  // the surfaces themselves
 };
 
+// What the drone's lidar of Gazebo Classic sees. Gazebo Sim has only the first.
+enum class Lidar {
+  gpu,  // what is drawn: needs a display, without a graphics card slow
+  cpu,  // collisions: needs no display, meets the meshes of Collision::mesh to a tenth of a
+        // millimetre
+};
+
 struct ExportOptions {
   Gazebo gazebo = Gazebo::sim;
   Merge merge = Merge::plot;
   Detail lod = Detail::light;
   Collision collision = Collision::none;
   bool drone = false;  // a quadrotor with a VLP-16, and a script that flies it
+  Lidar lidar = Lidar::gpu;
   int threads = 1;
 };
 

@@ -39,13 +39,29 @@ void require_different_names(const farm::Farm& farm, const std::vector<PlantGrou
   }
 }
 
+void require_possible(const ExportOptions& options) {
+  if (options.lidar == Lidar::gpu) return;
+  if (!options.drone) throw InputError("the lidar is the drone's: --lidar cpu needs --drone");
+  if (options.gazebo == Gazebo::sim) {
+    throw InputError(
+        "Gazebo Sim has no lidar without a renderer: --lidar cpu needs --gazebo classic");
+  }
+  if (options.collision == Collision::none) {
+    throw InputError(
+        "the CPU's lidar sees collisions, and the plants have none: --lidar cpu needs "
+        "--collision mesh, or box");
+  }
+}
+
 EntityCounts write_models(const fs::path& folder, const farm::Farm& farm,
                           const std::vector<PlantGroups>& groups, const PlantSurfaces& surfaces,
                           const ExportOptions& options, const ProgressReport& progress) {
   const ModelFolder models{.path = folder / "models", .gazebo = options.gazebo};
   EntityCounts counts = write_terrain_model(models, farm);
   counts += write_merged_plants(models, farm, groups, surfaces, options, progress);
-  if (options.drone) counts += write_drone_model(models, farm.anchor.has_value());
+  if (options.drone) {
+    counts += write_drone_model(models, options.lidar, farm.anchor.has_value());
+  }
   return counts;
 }
 
@@ -108,6 +124,7 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
 ExportSummary export_world(const farm::Farm& farm, const fs::path& farm_folder,
                            const fs::path& folder, const ExportOptions& options, bool replace,
                            Manifest origin, const ProgressReport& progress) {
+  require_possible(options);
   std::optional<tbb::global_control> more_threads;
   if (options.threads > tbb::info::default_concurrency()) {
     more_threads.emplace(tbb::global_control::max_allowed_parallelism,

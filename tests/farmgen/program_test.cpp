@@ -191,6 +191,9 @@ TEST_F(Farmgen, ExportsNothingOfBadInput) {
            {"export farm --gazebo sim --merge all -o w", "--merge"},
            {"export farm --gazebo sim --lod fine -o w", "--lod"},
            {"export farm --gazebo sim --collision sphere -o w", "--collision"},
+           {"export farm --gazebo classic --drone --lidar sonar -o w", "--lidar"},
+           {"export farm --gazebo classic --drone --lidar cpu -o w",
+            "--lidar cpu needs --collision mesh"},
            {"export farm --gazebo sim -o farm --force", "is the input"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;

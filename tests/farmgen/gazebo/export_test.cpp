@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The corners of an OBJ file's triangles, in the file's order; its normals have to fit them.
 std::vector<Eigen::Vector3d> corners_in(const fs::path& file) {
@@ -238,6 +239,42 @@ TEST(Export, APlantModelCalledAsAPlotIsRefused) {
     EXPECT_THAT(message, HasSubstr("plant model \"" + name + "\""));
     EXPECT_FALSE(fs::exists(example.path() / "world"));
   }
+}
+
+TEST(Export, TheLidarOfTheCpuIsClassicsRay) {
+  const ExportExample example;
+  const auto sensor = [&](const std::string& name, const Lidar lidar) {
+    example.write(
+        name,
+        {.gazebo = Gazebo::classic, .collision = Collision::mesh, .drone = true, .lidar = lidar});
+    return read_text(example.path() / name / "models/drone/model.sdf");
+  };
+  const std::string gpu = sensor("gpu", Lidar::gpu);
+  std::string cpu = sensor("cpu", Lidar::cpu);
+  const std::size_t type = cpu.find("type=\"ray\"");
+  ASSERT_NE(type, std::string::npos);
+  EXPECT_EQ(cpu.replace(type, 10, "type=\"gpu_ray\""), gpu) << "nothing else differs";
+  EXPECT_THAT(read_text(example.path() / "gpu/README.md"), HasSubstr("xvfb-run"));
+  EXPECT_THAT(read_text(example.path() / "cpu/README.md"), Not(HasSubstr("xvfb-run")));
+}
+
+TEST(Export, ALidarThatWouldSeeNothingIsRefused) {
+  const ExportExample example;
+  const ExportOptions good{
+      .gazebo = Gazebo::classic, .collision = Collision::box, .drone = true, .lidar = Lidar::cpu};
+  ExportOptions sim = good, bare = good, without = good;
+  sim.gazebo = Gazebo::sim;
+  bare.collision = Collision::none;
+  without.drone = false;
+  for (const auto& [options, message] : std::vector<std::pair<ExportOptions, std::string>>{
+           {sim, "--lidar cpu needs --gazebo classic"},
+           {bare, "--lidar cpu needs --collision mesh"},
+           {without, "--lidar cpu needs --drone"}}) {
+    EXPECT_THAT(testing::message_of<InputError>([&] { example.write("world", options); }),
+                HasSubstr(message));
+    EXPECT_FALSE(fs::exists(example.path() / "world"));
+  }
+  EXPECT_NO_THROW(example.write("world", good));
 }
 
 }  // namespace
