@@ -9,6 +9,13 @@
 namespace plotscan::gazebo {
 namespace {
 
+// How long the drone stands at the first pose of Gazebo Classic: a lidar that is made while the
+// world is paused publishes its first scans without the plants.
+constexpr double kLead_s = 1;
+// Of the lidar, and the least time of a pose: Gazebo Classic moves actors every 34 ms, the rest is
+// left to the lidar.
+constexpr double kTurn_s = 0.1;
+
 constexpr const char* kUsage = R"sh(
 usage() {
   cat <<END
@@ -47,8 +54,8 @@ if [ $# -ne 1 ]; then
 fi
 trajectory=$1
 [ -r "$trajectory" ] || fail "$trajectory: cannot be read" 2
-steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
-[ "$steps" -ge 1 ] || fail "-s $step_s: at least $physics_step_s s is expected" 2
+awk "BEGIN { exit !($step_s >= $least_step_s) }" ||
+  fail "-s $step_s: at least $least_step_s s is expected" 2
 )sh";
 
 // Position linear, attitude a slerp, the shorter way round: as docs/scan-format.md has it.
@@ -157,36 +164,12 @@ run_steps() {
 
 has_run() { [ "$(iterations)" -ge "$goal" ]; }
 
+steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
 call control WorldControl "pause: true"
 goal=$(iterations)
 )sh";
 
-constexpr const char* kClassic = R"sh(
-command -v gz >/dev/null 2>&1 || fail "gz is not installed"
-
-# The line of `gz stats`: factor, simulated seconds, real seconds, paused.
-simulated_s() {
-  gz stats -w "$world" -p -d 0.5 2>/dev/null |
-    awk -F, 'NF >= 4 && $1 !~ /#/ { t = $2 } END { print t + 0 }'
-}
-
-move_to() {
-  gz model -w "$world" -m "$drone" -x "$2" -y "$3" -z "$4" -R "$9" -P "${10}" -Y "${11}" ||
-    fail "the world $world does not answer; is it open?"
-}
-
-run_steps() {
-  gz world -w "$world" -m "$steps" || fail "the world $world does not answer; is it open?"
-  goal=$(awk "BEGIN { print $goal + $steps * $physics_step_s }")
-}
-
-has_run() { awk "BEGIN { exit !($(simulated_s) >= $goal - $physics_step_s / 2) }"; }
-
-gz world -w "$world" -p 1 || fail "the world $world does not answer; is it open?"
-goal=$(simulated_s)
-)sh";
-
-constexpr const char* kLoop = R"sh(
+constexpr const char* kSimLoop = R"sh(
 count=$(printf '%s\n' "$list" | wc -l)
 done=0
 while read -r pose; do
@@ -206,6 +189,118 @@ END
 [ ! -t 2 ] || echo >&2
 )sh";
 
+// Gazebo Classic reads messages that move models five times a second, and one `gz` takes about a
+// second: too slow for a stream of poses. Gazebo itself moves an <actor> along the waypoints of its
+// <script>, 30 times a second of simulated time. So the drone is taken out and comes back as an
+// actor that holds each pose for a turn of the lidar, and changes it while the lidar does not
+// measure: sensors run beside the physics, and where the pose changed as they measured, the pose
+// that Gazebo publishes with a scan would not be that of its ranges.
+constexpr const char* kClassic = R"sh(
+command -v gz >/dev/null 2>&1 || fail "gz is not installed"
+model=$(dirname "$0")/models/$drone/model.sdf
+[ -r "$model" ] || fail "$model: cannot be read" 2
+
+# Prints the simulated time, or nothing: a busy Gazebo does not always answer within the second.
+stats_s() {
+  gz topic -e "/gazebo/$world/world_stats" -u -d 1 2>/dev/null | awk '
+    match($0, /sim_time *[{] *sec: *[0-9]+ *nsec: *[0-9]+/) {
+      split(substr($0, RSTART, RLENGTH), word, /[^0-9]+/)
+      t = sprintf("%d.%09d", word[2], word[3])
+    }
+    END { if (t != "") print t }'
+}
+
+simulated_s() {
+  for _ in 1 2 3 4 5; do
+    seconds=$(stats_s)
+    [ -z "$seconds" ] || break
+  done
+  [ -n "$seconds" ] || fail "the world $world does not answer; is it open?"
+  echo "$seconds"
+}
+
+# The drone's model as an actor: the lidar measures at whole turns after the actor has been placed,
+# at most 20 ms late; a pose holds from 0.4 -s before to 0.6 -s behind. Four waypoints a pose, since
+# Gazebo draws a spline through them: it is flat only between two with the same pose on either side.
+actor() {
+  sed -n -e 's/<model /<actor /' -e '/<actor /,/<\/model>/p' "$model" |
+    sed -e '/<static>/d' -e '/<\/model>/d'
+  printf '%s\n' "$list" | awk -v step="$step_s" -v lead="$lead_s" '
+    function waypoint(t) { printf "<waypoint><time>%.6f</time><pose>%s</pose></waypoint>\n", t, pose }
+    {
+      pose = $2 " " $3 " " $4 " " $9 " " $10 " " $11
+      if (NR == 1) {
+        print "<pose>" pose "</pose><script><loop>false</loop><delay_start>0</delay_start>"
+        print "<auto_start>true</auto_start><trajectory id=\"0\" type=\"flight\">"
+      }
+      first = NR == 1 ? 0 : lead + (NR - 1.4) * step
+      last = lead + (NR - 0.4) * step
+      waypoint(first)
+      waypoint(first + 0.001)
+      waypoint(last - 0.002)
+      waypoint(last - 0.001)
+    }
+    END { print "</trajectory></script></actor>" }'
+}
+
+# The text of a gazebo.msgs.Factory: strings side by side are one.
+message() {
+  echo sdf:
+  { echo "<sdf version='1.6'>"; actor; echo '</sdf>'; } |
+    sed -e 's/\\/\\\\/g' -e "s/'/\\\\'/g" -e "s/^/'/" -e "s/\$/ '/"
+}
+
+stands() { gz model -w "$world" -m "$drone" -i 2>/dev/null | grep -q '^ *name:'; }
+
+# wait_until WHAT COMMAND...
+wait_until() {
+  what=$1
+  shift
+  tries=0
+  until "$@"; do
+    tries=$((tries + 1))
+    [ $tries -lt 20 ] || fail "$what"
+  done
+}
+gone() { ! stands; }
+
+now=$(simulated_s)
+file=$(mktemp)
+trap 'rm -f "$file"' EXIT
+message > "$file"
+
+# Paused, the actor's clock begins at the very time that is read below. The turns of its lidar begin
+# there too, but with gzserver --lockstep at whole tenths of a second: so it begins at one.
+gz world -w "$world" -p 1
+now=$(simulated_s)
+steps=$(awk "BEGIN { n = int($now / $turn_s + 1 - 1e-6); print int((n * $turn_s - $now) / $physics_step_s + 0.5) }")
+[ "$steps" -eq 0 ] || gz world -w "$world" -m "$steps"
+if stands; then
+  gz model -w "$world" -m "$drone" -d
+  wait_until "the drone cannot be taken out of the world" gone
+fi
+gz topic -p "/gazebo/$world/factory" -f "$file"
+wait_until "the drone does not appear in the world" stands
+
+count=$(printf '%s\n' "$list" | wc -l)
+now=$(simulated_s)
+begin=$(awk "BEGIN { printf \"%.3f\", $now + $lead_s }")
+end=$(awk "BEGIN { printf \"%.3f\", $begin + ($count - 1) * $step_s }")
+echo "$((count)) poses, from $begin s to $end s of simulated time"
+gz world -w "$world" -p 0
+
+now=
+while
+  before=$now
+  now=$(simulated_s)
+  awk "BEGIN { exit !($now < $end + $step_s) }"
+do
+  [ "$now" != "$before" ] || fail "Gazebo stands still at $now s; is it paused?"
+  [ ! -t 2 ] || printf '\rat %s of %s s' "$now" "$end" >&2
+done
+[ ! -t 2 ] || echo >&2
+)sh";
+
 }  // namespace
 
 void write_fly_script(const std::filesystem::path& path, const std::string& world, Gazebo gazebo) {
@@ -214,9 +309,15 @@ void write_fly_script(const std::filesystem::path& path, const std::string& worl
          "# Moves the drone of this world along the trajectory of a scan. -h tells how.\n"
          "set -eu\n"
          "export LC_ALL=C\n\n"
-      << "world='" << world << "'\ndrone='" << kDroneModel
-      << "'\nphysics_step_s=" << format_number(kStep_s) << "\n"
-      << kUsage << kPoses << (gazebo == Gazebo::sim ? kSim : kClassic) << kLoop;
+      << "world='" << world << "'\ndrone='" << kDroneModel << "'\n";
+  if (gazebo == Gazebo::sim) {
+    out << "physics_step_s=" << format_number(kStep_s) << "\nleast_step_s=$physics_step_s\n"
+        << kUsage << kPoses << kSim << kSimLoop;
+  } else {
+    out << "physics_step_s=" << format_number(kStep_s) << "\nturn_s=" << format_number(kTurn_s)
+        << "\nlead_s=" << format_number(kLead_s) << "\nleast_step_s=$turn_s\n"
+        << kUsage << kPoses << kClassic;
+  }
   out.close();
   std::filesystem::permissions(path,
                                std::filesystem::perms::owner_exec |

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <tinyxml2.h>
 
 #include "core/error.h"
 #include "scan/trajectory.h"
@@ -38,20 +39,36 @@ case "$1" in
 esac
 )sh";
 
+// A Gazebo Classic with one model, whose clock runs 530 ms further each time it is read unless the
+// world is paused.
 constexpr const char* kFakeClassic = R"sh(#!/bin/sh
 here=$(dirname "$0")
-case "$1" in
-  stats)
-    echo '# real-time factor (percent), simtime (sec), realtime (sec), paused (T or F)'
-    echo "1.00, $(awk '{ print $1 / 1000 }' "$here/iterations"), 5.0, T" ;;
-  *)
-    echo "$*" >> "$here/log.txt"
-    case "$*" in world*" -m "*)
-      steps=${*##*-m }
-      echo $(($(cat "$here/iterations") + steps)) > "$here/iterations" ;;
-    esac ;;
+echo "$*" >> "$here/log.txt"
+case "$*" in
+  "topic -e"*)
+    now=$(cat "$here/now_ms")
+    printf 'sim_time { sec: %s nsec: %s000000 } pause_time { sec: 7 nsec: 0 } paused: true\n' \
+      $((now / 1000)) $((now % 1000))
+    [ -e "$here/paused" ] || echo $((now + 530)) > "$here/now_ms" ;;
+  "topic -p"*)
+    while [ $# -gt 1 ]; do shift; done
+    cp "$1" "$here/factory.txt"
+    touch "$here/stands" ;;
+  "world "*" -p 1") touch "$here/paused" ;;
+  "world "*" -m "*) echo $(($(cat "$here/now_ms") + ${*##*-m })) > "$here/now_ms" ;;
+  "world "*" -p 0") [ -e "$here/stuck" ] || rm "$here/paused" ;;
+  "model "*" -d") [ -e "$here/stays" ] || rm "$here/stands" ;;
+  "model "*" -i")
+    if [ -e "$here/stands" ]; then echo 'name: "drone"'; else echo 'Unable to get info'; fi ;;
 esac
 )sh";
+
+// Quotes and backslashes are what its way to Gazebo could break.
+constexpr const char* kDroneText =
+    "<?xml version=\"1.0\"?>\n<sdf version=\"1.6\">\n  <model name=\"drone\">\n"
+    "    <static>false</static>\n    <link name=\"base_link\">\n"
+    "      <sensor name=\"vlp16\" type=\"gpu_ray\"/>\n"
+    "      <plugin name='it&apos;s' filename=\"a\\b.so\"/>\n    </link>\n  </model>\n</sdf>\n";
 
 class FlyScript : public ::testing::Test {
  protected:
@@ -70,6 +87,9 @@ class FlyScript : public ::testing::Test {
     trajectory_ = std::make_unique<scan::Trajectory>(poses);
     scan::write_trajectory(folder_.path() / "trajectory.csv", *trajectory_);
     folder_.write("bin/iterations", "7\n");
+    folder_.write("bin/now_ms", "4000\n");
+    folder_.write("bin/stands", "");
+    folder_.write("models/drone/model.sdf", kDroneText);
   }
 
   void install(const std::string& program, const char* fake) const {
@@ -148,24 +168,126 @@ TEST_F(FlyScript, FortressIsCalledByItsOwnNames) {
   EXPECT_THAT(lines[2], HasSubstr("multi_step: 20"));
 }
 
-TEST_F(FlyScript, GazeboClassicIsSentThePosesOfTheTrajectory) {
-  install("gz", kFakeClassic);
-  ASSERT_EQ(run(Gazebo::classic, "-s 0.05 trajectory.csv"), 0) << error();
-  const std::vector<std::string> lines = log();
-  EXPECT_EQ(lines.front(), "world -w some.farm-1 -p 1");
-  int pose = 0;
-  for (std::size_t i = 1; i + 1 < lines.size(); i += 2, ++pose) {
-    const auto v = numbers(lines[i], "model -w some.farm-1 -m drone -x " + kNumber + " -y " +
-                                         kNumber + " -z " + kNumber + " -R " + kNumber + " -P " +
-                                         kNumber + " -Y " + kNumber);
-    ASSERT_EQ(v.size(), 6u);
-    const Eigen::Quaterniond attitude(Eigen::AngleAxisd(v[5], Eigen::Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(v[4], Eigen::Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(v[3], Eigen::Vector3d::UnitX()));
-    expect_pose(trajectory_->start_s() + 0.05 * pose, {v[0], v[1], v[2]}, attitude);
-    EXPECT_EQ(lines[i + 1], "world -w some.farm-1 -m 50");
+struct Waypoint {
+  double time_s;
+  Eigen::Vector3d position;
+  Eigen::Quaterniond attitude;
+};
+
+Waypoint waypoint_of(const tinyxml2::XMLElement& element) {
+  std::istringstream text(element.FirstChildElement("pose")->GetText());
+  double x = 0, y = 0, z = 0, roll = 0, pitch = 0, yaw = 0;
+  text >> x >> y >> z >> roll >> pitch >> yaw;
+  EXPECT_TRUE(text);
+  return {.time_s = std::stod(element.FirstChildElement("time")->GetText()),
+          .position = {x, y, z},
+          .attitude = Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+                                         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+                                         Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))};
+}
+
+// The string of the message's one field, read as protobuf's text format has it: quoted parts side
+// by side are one string, a backslash stands before a quote or a backslash.
+std::string string_of_factory(const std::string& message) {
+  EXPECT_EQ(message.substr(0, 4), "sdf:");
+  std::string text;
+  bool inside = false;
+  for (std::size_t i = 4; i < message.size(); ++i) {
+    if (inside && message[i] == '\\') {
+      text += message.at(++i);
+    } else if (message[i] == '\'') {
+      inside = !inside;
+    } else if (inside) {
+      EXPECT_NE(message[i], '\n') << "a string ends in its line";
+      text += message[i];
+    }
   }
-  EXPECT_GT(pose, 10);
+  EXPECT_FALSE(inside);
+  return text;
+}
+
+TEST_F(FlyScript, GazeboClassicGetsTheDroneBackAsAnActorThatHoldsEachPose) {
+  install("gz", kFakeClassic);
+  ASSERT_EQ(run(Gazebo::classic, "-s 0.2 trajectory.csv"), 0) << error();
+  tinyxml2::XMLDocument document;
+  const std::string sdf = string_of_factory(read_text(folder_.path() / "bin/factory.txt"));
+  ASSERT_EQ(document.Parse(sdf.c_str()), tinyxml2::XML_SUCCESS) << sdf;
+  const tinyxml2::XMLElement* actor = document.RootElement()->FirstChildElement("actor");
+  ASSERT_NE(actor, nullptr);
+  EXPECT_STREQ(actor->Attribute("name"), "drone");
+  EXPECT_EQ(actor->FirstChildElement("static"), nullptr);
+  const tinyxml2::XMLElement* link = actor->FirstChildElement("link");
+  ASSERT_NE(link, nullptr);
+  EXPECT_STREQ(link->FirstChildElement("sensor")->Attribute("type"), "gpu_ray");
+  EXPECT_STREQ(link->FirstChildElement("plugin")->Attribute("name"), "it's");
+  EXPECT_STREQ(link->FirstChildElement("plugin")->Attribute("filename"), "a\\b.so");
+
+  const tinyxml2::XMLElement* script = actor->FirstChildElement("script");
+  ASSERT_NE(script, nullptr);
+  EXPECT_STREQ(script->FirstChildElement("loop")->GetText(), "false");
+  std::vector<Waypoint> waypoints;
+  for (auto* each = script->FirstChildElement("trajectory")->FirstChildElement("waypoint");
+       each != nullptr; each = each->NextSiblingElement("waypoint")) {
+    waypoints.push_back(waypoint_of(*each));
+    if (waypoints.size() > 1) {
+      EXPECT_GT(waypoints.back().time_s, waypoints[waypoints.size() - 2].time_s);
+    }
+  }
+  const std::size_t poses =
+      1 + static_cast<std::size_t>((trajectory_->end_s() - trajectory_->start_s()) / 0.2 + 1e-9);
+  ASSERT_EQ(waypoints.size(), 4 * poses);
+  for (std::size_t i = 0; i < poses; ++i) {
+    const double step = 0.2 * static_cast<double>(i);
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+      expect_pose(trajectory_->start_s() + step, waypoints[k].position, waypoints[k].attitude);
+    // The lidar measures at 1 + step; the spline is flat between the inner waypoints.
+    EXPECT_LT(waypoints[4 * i + 1].time_s, 1 + step - 0.2 * 0.39);
+    EXPECT_GT(waypoints[4 * i + 2].time_s, 1 + step + 0.2 * 0.58);
+  }
+}
+
+TEST_F(FlyScript, GazeboClassicIsPausedWhileTheDroneIsReplaced) {
+  install("gz", kFakeClassic);
+  ASSERT_EQ(run(Gazebo::classic, "trajectory.csv"), 0) << error();
+  std::vector<std::string> acts;
+  for (const std::string& line : log()) {
+    if (line.find(" -e ") == std::string::npos && line.find(" -i") == std::string::npos)
+      acts.push_back(line.substr(0, line.find(" -f ")));
+  }
+  EXPECT_THAT(acts, ::testing::ElementsAre(
+                        "world -w some.farm-1 -p 1", "world -w some.farm-1 -m 70",
+                        "model -w some.farm-1 -m drone -d", "topic -p /gazebo/some.farm-1/factory",
+                        "world -w some.farm-1 -p 0"));
+  // Read at 4.0 s before the pause and at 4.53 s in it; the drone stands for a second.
+  EXPECT_EQ(read_text(folder_.path() / "out.txt"),
+            "8 poses, from 5.600 s to 6.300 s of simulated time\n");
+  EXPECT_GE(std::stoi(read_text(folder_.path() / "bin/now_ms")), 6300) << "waits for the end";
+}
+
+TEST_F(FlyScript, GazeboClassicWithoutADroneGetsOne) {
+  install("gz", kFakeClassic);
+  fs::remove(folder_.path() / "bin/stands");
+  ASSERT_EQ(run(Gazebo::classic, "trajectory.csv"), 0) << error();
+  EXPECT_TRUE(fs::exists(folder_.path() / "bin/factory.txt"));
+}
+
+TEST_F(FlyScript, SaysWhatGazeboClassicDoesNotDo) {
+  install("gz", kFakeClassic);
+  folder_.write("bin/stays", "");
+  EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
+  EXPECT_THAT(error(), HasSubstr("the drone cannot be taken out of the world"));
+  fs::remove(folder_.path() / "bin/stays");
+  folder_.write("bin/stuck", "");
+  EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
+  EXPECT_THAT(error(), HasSubstr("Gazebo stands still at 4.600000000 s; is it paused?"));
+  install("gz", "#!/bin/sh\necho 'An instance of Gazebo is not running.'\n");
+  EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
+  EXPECT_THAT(error(), HasSubstr("the world some.farm-1 does not answer; is it open?"));
+  EXPECT_EQ(run(Gazebo::classic, "-s 0.05 trajectory.csv"), 2);
+  EXPECT_THAT(error(), HasSubstr("-s 0.05: at least 0.1 s is expected"));
+  fs::remove(folder_.path() / "models/drone/model.sdf");
+  EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 2);
+  EXPECT_THAT(error(), HasSubstr("models/drone/model.sdf: cannot be read"));
 }
 
 TEST_F(FlyScript, RefusesWhatIsNoTrajectory) {

@@ -6,6 +6,9 @@ export LC_ALL=C
 world='demo'
 drone='drone'
 physics_step_s=0.001
+turn_s=0.1
+lead_s=1
+least_step_s=$turn_s
 
 usage() {
   cat <<END
@@ -44,8 +47,8 @@ if [ $# -ne 1 ]; then
 fi
 trajectory=$1
 [ -r "$trajectory" ] || fail "$trajectory: cannot be read" 2
-steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
-[ "$steps" -ge 1 ] || fail "-s $step_s: at least $physics_step_s s is expected" 2
+awk "BEGIN { exit !($step_s >= $least_step_s) }" ||
+  fail "-s $step_s: at least $least_step_s s is expected" 2
 
 poses() {
   awk -F, -v step="$step_s" -v begin="$begin_s" -v end="$end_s" -v file="$trajectory" '
@@ -112,42 +115,105 @@ if [ -n "$print_only" ]; then
 fi
 
 command -v gz >/dev/null 2>&1 || fail "gz is not installed"
+model=$(dirname "$0")/models/$drone/model.sdf
+[ -r "$model" ] || fail "$model: cannot be read" 2
 
-# The line of `gz stats`: factor, simulated seconds, real seconds, paused.
+# Prints the simulated time, or nothing: a busy Gazebo does not always answer within the second.
+stats_s() {
+  gz topic -e "/gazebo/$world/world_stats" -u -d 1 2>/dev/null | awk '
+    match($0, /sim_time *[{] *sec: *[0-9]+ *nsec: *[0-9]+/) {
+      split(substr($0, RSTART, RLENGTH), word, /[^0-9]+/)
+      t = sprintf("%d.%09d", word[2], word[3])
+    }
+    END { if (t != "") print t }'
+}
+
 simulated_s() {
-  gz stats -w "$world" -p -d 0.5 2>/dev/null |
-    awk -F, 'NF >= 4 && $1 !~ /#/ { t = $2 } END { print t + 0 }'
+  for _ in 1 2 3 4 5; do
+    seconds=$(stats_s)
+    [ -z "$seconds" ] || break
+  done
+  [ -n "$seconds" ] || fail "the world $world does not answer; is it open?"
+  echo "$seconds"
 }
 
-move_to() {
-  gz model -w "$world" -m "$drone" -x "$2" -y "$3" -z "$4" -R "$9" -P "${10}" -Y "${11}" ||
-    fail "the world $world does not answer; is it open?"
+# The drone's model as an actor: the lidar measures at whole turns after the actor has been placed,
+# at most 20 ms late; a pose holds from 0.4 -s before to 0.6 -s behind. Four waypoints a pose, since
+# Gazebo draws a spline through them: it is flat only between two with the same pose on either side.
+actor() {
+  sed -n -e 's/<model /<actor /' -e '/<actor /,/<\/model>/p' "$model" |
+    sed -e '/<static>/d' -e '/<\/model>/d'
+  printf '%s\n' "$list" | awk -v step="$step_s" -v lead="$lead_s" '
+    function waypoint(t) { printf "<waypoint><time>%.6f</time><pose>%s</pose></waypoint>\n", t, pose }
+    {
+      pose = $2 " " $3 " " $4 " " $9 " " $10 " " $11
+      if (NR == 1) {
+        print "<pose>" pose "</pose><script><loop>false</loop><delay_start>0</delay_start>"
+        print "<auto_start>true</auto_start><trajectory id=\"0\" type=\"flight\">"
+      }
+      first = NR == 1 ? 0 : lead + (NR - 1.4) * step
+      last = lead + (NR - 0.4) * step
+      waypoint(first)
+      waypoint(first + 0.001)
+      waypoint(last - 0.002)
+      waypoint(last - 0.001)
+    }
+    END { print "</trajectory></script></actor>" }'
 }
 
-run_steps() {
-  gz world -w "$world" -m "$steps" || fail "the world $world does not answer; is it open?"
-  goal=$(awk "BEGIN { print $goal + $steps * $physics_step_s }")
+# The text of a gazebo.msgs.Factory: strings side by side are one.
+message() {
+  echo sdf:
+  { echo "<sdf version='1.6'>"; actor; echo '</sdf>'; } |
+    sed -e 's/\\/\\\\/g' -e "s/'/\\\\'/g" -e "s/^/'/" -e "s/\$/ '/"
 }
 
-has_run() { awk "BEGIN { exit !($(simulated_s) >= $goal - $physics_step_s / 2) }"; }
+stands() { gz model -w "$world" -m "$drone" -i 2>/dev/null | grep -q '^ *name:'; }
 
-gz world -w "$world" -p 1 || fail "the world $world does not answer; is it open?"
-goal=$(simulated_s)
+# wait_until WHAT COMMAND...
+wait_until() {
+  what=$1
+  shift
+  tries=0
+  until "$@"; do
+    tries=$((tries + 1))
+    [ $tries -lt 20 ] || fail "$what"
+  done
+}
+gone() { ! stands; }
+
+now=$(simulated_s)
+file=$(mktemp)
+trap 'rm -f "$file"' EXIT
+message > "$file"
+
+# Paused, the actor's clock begins at the very time that is read below. The turns of its lidar begin
+# there too, but with gzserver --lockstep at whole tenths of a second: so it begins at one.
+gz world -w "$world" -p 1
+now=$(simulated_s)
+steps=$(awk "BEGIN { n = int($now / $turn_s + 1 - 1e-6); print int((n * $turn_s - $now) / $physics_step_s + 0.5) }")
+[ "$steps" -eq 0 ] || gz world -w "$world" -m "$steps"
+if stands; then
+  gz model -w "$world" -m "$drone" -d
+  wait_until "the drone cannot be taken out of the world" gone
+fi
+gz topic -p "/gazebo/$world/factory" -f "$file"
+wait_until "the drone does not appear in the world" stands
 
 count=$(printf '%s\n' "$list" | wc -l)
-done=0
-while read -r pose; do
-  # shellcheck disable=SC2086
-  move_to $pose
-  run_steps
-  tries=0
-  until has_run; do
-    tries=$((tries + 1))
-    [ $tries -lt 600 ] || fail "Gazebo has not run $steps steps; is it stuck?"
-  done
-  done=$((done + 1))
-  [ ! -t 2 ] || printf '\r%d of %d poses' "$done" "$count" >&2
-done <<END
-$list
-END
+now=$(simulated_s)
+begin=$(awk "BEGIN { printf \"%.3f\", $now + $lead_s }")
+end=$(awk "BEGIN { printf \"%.3f\", $begin + ($count - 1) * $step_s }")
+echo "$((count)) poses, from $begin s to $end s of simulated time"
+gz world -w "$world" -p 0
+
+now=
+while
+  before=$now
+  now=$(simulated_s)
+  awk "BEGIN { exit !($now < $end + $step_s) }"
+do
+  [ "$now" != "$before" ] || fail "Gazebo stands still at $now s; is it paused?"
+  [ ! -t 2 ] || printf '\rat %s of %s s' "$now" "$end" >&2
+done
 [ ! -t 2 ] || echo >&2

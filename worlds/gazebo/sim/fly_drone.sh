@@ -6,6 +6,7 @@ export LC_ALL=C
 world='demo'
 drone='drone'
 physics_step_s=0.001
+least_step_s=$physics_step_s
 
 usage() {
   cat <<END
@@ -44,8 +45,8 @@ if [ $# -ne 1 ]; then
 fi
 trajectory=$1
 [ -r "$trajectory" ] || fail "$trajectory: cannot be read" 2
-steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
-[ "$steps" -ge 1 ] || fail "-s $step_s: at least $physics_step_s s is expected" 2
+awk "BEGIN { exit !($step_s >= $least_step_s) }" ||
+  fail "-s $step_s: at least $least_step_s s is expected" 2
 
 poses() {
   awk -F, -v step="$step_s" -v begin="$begin_s" -v end="$end_s" -v file="$trajectory" '
@@ -149,6 +150,7 @@ run_steps() {
 
 has_run() { [ "$(iterations)" -ge "$goal" ]; }
 
+steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
 call control WorldControl "pause: true"
 goal=$(iterations)
 
