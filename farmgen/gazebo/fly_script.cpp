@@ -196,13 +196,15 @@ END
 // measure: sensors run beside the physics, and where the pose changed as they measured, the pose
 // that Gazebo publishes with a scan would not be that of its ranges.
 constexpr const char* kClassic = R"sh(
-command -v gz >/dev/null 2>&1 || fail "gz is not installed"
+for program in gz timeout; do
+  command -v $program >/dev/null 2>&1 || fail "$program is not installed"
+done
 model=$(dirname "$0")/models/$drone/model.sdf
 [ -r "$model" ] || fail "$model: cannot be read" 2
 
 # Prints the simulated time, or nothing: a busy Gazebo does not always answer within the second.
 stats_s() {
-  gz topic -e "/gazebo/$world/world_stats" -u -d 1 2>/dev/null | awk '
+  timeout 10 gz topic -e "/gazebo/$world/world_stats" -u -d 1 2>/dev/null | awk '
     match($0, /sim_time *[{] *sec: *[0-9]+ *nsec: *[0-9]+/) {
       split(substr($0, RSTART, RLENGTH), word, /[^0-9]+/)
       t = sprintf("%d.%09d", word[2], word[3])
@@ -250,7 +252,20 @@ message() {
     sed -e 's/\\/\\\\/g' -e "s/'/\\\\'/g" -e "s/^/'/" -e "s/\$/ '/"
 }
 
-stands() { gz model -w "$world" -m "$drone" -i 2>/dev/null | grep -q '^ *name:'; }
+# A gz that misses its answer waits for ever, and some crash when they are done: what may be said
+# twice is.
+ask() { timeout 10 gz "$@" || timeout 10 gz "$@" || fail "gz $* fails"; }
+
+stands() {
+  for _ in 1 2 3 4 5; do
+    answer=$(timeout 5 gz model -w "$world" -m "$drone" -i 2>&1) || true
+    case $answer in
+      *'name: "'*) return 0 ;;
+      *Unable*) return 1 ;;
+    esac
+  done
+  fail "the world $world does not tell whether the drone is in it"
+}
 
 # wait_until WHAT COMMAND...
 wait_until() {
@@ -271,15 +286,15 @@ message > "$file"
 
 # Paused, the actor's clock begins at the very time that is read below. The turns of its lidar begin
 # there too, but with gzserver --lockstep at whole tenths of a second: so it begins at one.
-gz world -w "$world" -p 1
+ask world -w "$world" -p 1
 now=$(simulated_s)
 steps=$(awk "BEGIN { n = int($now / $turn_s + 1 - 1e-6); print int((n * $turn_s - $now) / $physics_step_s + 0.5) }")
-[ "$steps" -eq 0 ] || gz world -w "$world" -m "$steps"
+[ "$steps" -eq 0 ] || timeout 10 gz world -w "$world" -m "$steps" || true
 if stands; then
-  gz model -w "$world" -m "$drone" -d
+  ask model -w "$world" -m "$drone" -d
   wait_until "the drone cannot be taken out of the world" gone
 fi
-gz topic -p "/gazebo/$world/factory" -f "$file"
+timeout 20 gz topic -p "/gazebo/$world/factory" -f "$file" || true
 wait_until "the drone does not appear in the world" stands
 
 count=$(printf '%s\n' "$list" | wc -l)
@@ -287,7 +302,7 @@ now=$(simulated_s)
 begin=$(awk "BEGIN { printf \"%.3f\", $now + $lead_s }")
 end=$(awk "BEGIN { printf \"%.3f\", $begin + ($count - 1) * $step_s }")
 echo "$((count)) poses, from $begin s to $end s of simulated time"
-gz world -w "$world" -p 0
+ask world -w "$world" -p 0
 
 now=
 while

@@ -59,6 +59,7 @@ case "$*" in
   "world "*" -p 0") [ -e "$here/stuck" ] || rm "$here/paused" ;;
   "model "*" -d") [ -e "$here/stays" ] || rm "$here/stands" ;;
   "model "*" -i")
+    [ ! -e "$here/mute" ] || exit 0
     if [ -e "$here/stands" ]; then echo 'name: "drone"'; else echo 'Unable to get info'; fi ;;
 esac
 )sh";
@@ -280,6 +281,11 @@ TEST_F(FlyScript, SaysWhatGazeboClassicDoesNotDo) {
   folder_.write("bin/stuck", "");
   EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
   EXPECT_THAT(error(), HasSubstr("Gazebo stands still at 4.600000000 s; is it paused?"));
+  fs::remove(folder_.path() / "bin/stuck");
+  fs::remove(folder_.path() / "bin/paused");
+  folder_.write("bin/mute", "");
+  EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
+  EXPECT_THAT(error(), HasSubstr("does not tell whether the drone is in it"));
   install("gz", "#!/bin/sh\necho 'An instance of Gazebo is not running.'\n");
   EXPECT_EQ(run(Gazebo::classic, "trajectory.csv"), 1);
   EXPECT_THAT(error(), HasSubstr("the world some.farm-1 does not answer; is it open?"));
