@@ -257,8 +257,8 @@ message() {
 ask() { timeout 10 gz "$@" || timeout 10 gz "$@" || fail "gz $* fails"; }
 
 stands() {
-  for _ in 1 2 3 4 5; do
-    answer=$(timeout 5 gz model -w "$world" -m "$drone" -i 2>&1) || true
+  for _ in 1 2 3 4 5 6; do
+    answer=$(timeout 10 gz model -w "$world" -m "$drone" -i 2>&1) || true
     case $answer in
       *'name: "'*) return 0 ;;
       *Unable*) return 1 ;;
