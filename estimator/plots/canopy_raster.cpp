@@ -2,7 +2,6 @@
 #include "plots/canopy_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -17,20 +16,20 @@ namespace {
 
 constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the table
 constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
-constexpr std::uint64_t kCanopyReturn = std::uint64_t{1} << 32;
-constexpr double kMostCells = 1e8;  // 10 m of oblique rows or an outlier must not eat memory
-
-bool finite(const Eigen::Vector3f& point) { return point.allFinite(); }
+constexpr int kCoverBits = 32;         // above which a cell's sum of covers lies, below its count
+constexpr double kBlock_m = 1;         // in which density and the canopy's top are taken
+constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
+constexpr double kMostCells = 1e8;     // 10 m of oblique rows or an outlier must not eat memory
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
 };
 
-Bounds bounds_of(std::span<const Eigen::Vector3f> points, const Eigen::Matrix2d& ab_from_world) {
+Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
   Bounds bounds;
-  for (const Eigen::Vector3f& point : points) {
-    if (!finite(point)) continue;
+  for (const Eigen::Vector3f& point : field.points()) {
+    if (field.leaves_out(point)) continue;
     const Eigen::Vector2d ab = ab_from_world * point.head<2>().cast<double>();
     bounds.low = bounds.low.cwiseMin(ab);
     bounds.high = bounds.high.cwiseMax(ab);
@@ -38,28 +37,12 @@ Bounds bounds_of(std::span<const Eigen::Vector3f> points, const Eigen::Matrix2d&
   return bounds;
 }
 
-// Greatest or least value of the square window about each cell, one axis after the other.
-std::vector<std::uint32_t> extreme_of_window(const std::vector<std::uint32_t>& values, int a_cells,
-                                             int b_cells, int reach, bool greatest) {
-  const auto extreme_along = [&](const std::vector<std::uint32_t>& from, bool along_a) {
-    std::vector<std::uint32_t> to(from.size());
-    for (int a = 0; a < a_cells; ++a) {
-      for (int b = 0; b < b_cells; ++b) {
-        const int here = along_a ? a : b;
-        const int last = std::min(here + reach, (along_a ? a_cells : b_cells) - 1);
-        std::uint32_t best = from[static_cast<std::size_t>(a) * b_cells + b];
-        for (int at = std::max(0, here - reach); at <= last; ++at) {
-          const std::uint32_t value =
-              from[static_cast<std::size_t>(along_a ? at : a) * b_cells + (along_a ? b : at)];
-          best = greatest ? std::max(best, value) : std::min(best, value);
-        }
-        to[static_cast<std::size_t>(a) * b_cells + b] = best;
-      }
-    }
-    return to;
-  };
-  return extreme_along(extreme_along(values, true), false);
+std::uint64_t share_of(double z_m, const CanopyScale& scale) {
+  const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
+  return static_cast<std::uint64_t>(std::lround(std::clamp(share, 0.0, 1.0) * kFullCover));
 }
+
+std::uint64_t count_of(std::uint64_t cell) { return cell & ((std::uint64_t{1} << kCoverBits) - 1); }
 
 }  // namespace
 
@@ -80,8 +63,8 @@ CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b
     : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
   std::vector<std::uint32_t> cover(returns.size());
   std::ranges::transform(returns, cover.begin(), [](std::uint64_t cell) {
-    const std::uint64_t all = cell % kCanopyReturn;
-    return all > 0 ? static_cast<std::uint32_t>(cell / kCanopyReturn * kFullCover / all) : kUnseen;
+    const std::uint64_t all = count_of(cell);
+    return all > 0 ? static_cast<std::uint32_t>((cell >> kCoverBits) / all) : kUnseen;
   });
   sum_up(cover);
 }
@@ -101,28 +84,6 @@ void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
       covered_[at] = covered_[at - stride] + covered;
     }
   }
-}
-
-CanopyRaster CanopyRaster::closed(double width_m) const {
-  const int reach = std::max(1, static_cast<int>(std::lround(width_m / cell_m_ / 2)));
-  const auto cells = static_cast<std::size_t>(a_cells_) * static_cast<std::size_t>(b_cells_);
-  std::vector<std::uint32_t> cover(cells);
-  std::vector<bool> unseen(cells);
-  for (std::size_t i = 0; i < cells; ++i) {
-    const int a = static_cast<int>(i) / b_cells_;
-    const int b = static_cast<int>(i) % b_cells_;
-    unseen[i] = sum(seen_, a, a + 1, b, b + 1) == 0;
-    cover[i] = static_cast<std::uint32_t>(sum(covered_, a, a + 1, b, b + 1));
-  }
-  for (const bool widest : {true, false}) {
-    cover = extreme_of_window(cover, a_cells_, b_cells_, reach, widest);
-  }
-  for (std::size_t i = 0; i < cells; ++i) {
-    if (unseen[i]) cover[i] = kUnseen;
-  }
-  CanopyRaster closed = *this;
-  closed.sum_up(cover);
-  return closed;
 }
 
 std::uint64_t CanopyRaster::sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0,
@@ -149,10 +110,11 @@ double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
   return static_cast<double>(sum(covered_, a0, a1, b0, b1)) / (seen * kFullCover);
 }
 
-CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axes, double cell_m,
-                       double threshold_m, int threads) {
+CanopyRaster rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                       const CanopyScale& scale, int threads) {
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
-  const Bounds bounds = bounds_of(points, ab_from_world);
+  const std::span<const Eigen::Vector3f> points = field.points();
+  const Bounds bounds = bounds_of(field, ab_from_world);
   if (!(bounds.low.x() <= bounds.high.x())) return CanopyRaster(axes, cell_m, 0, 0, {});
   const Eigen::Vector2d extent = bounds.high - bounds.low;
   while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
@@ -165,7 +127,7 @@ CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axe
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, points.size(), 1 << 16), [&](const auto& r) {
           for (std::size_t i = r.begin(); i != r.end(); ++i) {
-            if (!finite(points[i])) continue;
+            if (field.leaves_out(points[i])) continue;
             const Eigen::Vector2d ab =
                 (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
             const auto a =
@@ -173,7 +135,7 @@ CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axe
             const auto b =
                 static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
             std::atomic_ref<std::uint64_t> cell(returns[a * static_cast<std::size_t>(b_cells) + b]);
-            cell.fetch_add(1 + (points[i].z() > threshold_m ? kCanopyReturn : 0),
+            cell.fetch_add(1 + (share_of(points[i].z(), scale) << kCoverBits),
                            std::memory_order_relaxed);
           }
         });
@@ -181,24 +143,6 @@ CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axe
   Frame frame = axes;
   frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;
   return CanopyRaster(frame, cell_m, a_cells, b_cells, returns);
-}
-
-double canopy_threshold(std::span<const Eigen::Vector3f> points, double noise_m) {
-  constexpr double kStep_m = 0.01;
-  constexpr std::size_t kSteps = 600;
-  std::array<std::size_t, kSteps> counts{};
-  const double lowest_m = std::max(0.12, 4 * noise_m);
-  std::size_t above = 0;
-  for (const Eigen::Vector3f& point : points) {
-    if (!finite(point) || point.z() <= lowest_m) continue;
-    const auto step = static_cast<std::size_t>(std::min(point.z() / kStep_m, kSteps - 1.0));
-    ++counts[step];
-    ++above;
-  }
-  std::size_t left = above / 20;  // the canopy's top: the highest 5 % of its returns lie above
-  std::size_t top = kSteps;
-  while (top > 0 && left >= counts[top - 1]) left -= counts[--top];
-  return std::max(lowest_m, 0.25 * static_cast<double>(top) * kStep_m);
 }
 
 }  // namespace plotscan::plots

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "plots/field_canopy.h"
+
 namespace plotscan::plots {
 
 // Oblique coordinates (a, b), metres: place = origin + a * a_axis + b * b_axis, with unit axes.
@@ -22,7 +24,7 @@ struct Frame {
   Eigen::Vector2d to_world(const Eigen::Vector2d& ab) const;
 };
 
-// Share of the returns that lie above a height, in square cells along a frame's axes. Cell (i, j)
+// Mean share of full canopy over the returns of square cells along a frame's axes. Cell (i, j)
 // spans [i, i + 1) x [j, j + 1) times cell_m along a and b. Sums over rectangles take constant
 // time (summed-area table: Crow, SIGGRAPH 1984).
 class CanopyRaster {
@@ -41,10 +43,6 @@ class CanopyRaster {
   // Mean cover in [0, 1] of the seen ones; 0 where none is.
   double cover(int a0, int a1, int b0, int b1) const;
 
-  // With gaps in the cover up to width_m closed along both axes, greyscale closing by a square
-  // (Serra, Image Analysis and Mathematical Morphology, 1982, from memory): outer edges stay.
-  CanopyRaster closed(double width_m) const;
-
  private:
   void sum_up(std::span<const std::uint32_t> cover);  // 0 to 200 by cell, 255 where unseen
   std::uint64_t sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0, int b1) const;
@@ -55,12 +53,8 @@ class CanopyRaster {
   std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
 };
 
-// The points above threshold_m against all, over all points, in the directions of `axes`, whose
-// origin is moved to the lowest a and b. Points that are not finite are passed over.
-CanopyRaster rasterise(std::span<const Eigen::Vector3f> points, const Frame& axes, double cell_m,
-                       double threshold_m, int threads);
-
-// Height that separates canopy from ground and low weeds: see docs/plot-finding.md.
-double canopy_threshold(std::span<const Eigen::Vector3f> points, double noise_m);
+// The field's canopy in the directions of `axes`, whose origin is moved to the lowest a and b.
+CanopyRaster rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                       const CanopyScale& scale, int threads);
 
 }  // namespace plotscan::plots

@@ -3,35 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
+
+#include <tbb/task_arena.h>
 
 #include "plots/canopy_raster.h"
+#include "plots/field_signs.h"
 #include "plots/heading.h"
 #include "plots/lattice.h"
 #include "plots/layout.h"
 #include "plots/outline.h"
-#include "plots/search.h"
 
 namespace plotscan::plots {
 namespace {
 
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
-constexpr double kLeastContrast = 0.03;  // of the plots' sides: noise over bare ground shows less
-constexpr double kLeastQuality = 0.3;    // of a layout's edges: random bushes reach less
+constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
+constexpr double kStep_m = 1e-3;         // from no leaves to leaves
 constexpr std::size_t kLeastPlots = 4;   // fewer lie at equal steps by chance
-constexpr double kLeastFilled = 0.4;     // of the lattice's places: random bushes fill fewer
 constexpr int kRounds = 2;               // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
 
 PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
-
-double filled_share(const Lattice& lattice) {
-  return static_cast<double>(lattice.places.size()) /
-         std::max(1.0, static_cast<double>(lattice.rows) * lattice.columns);
-}
 
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
@@ -49,7 +47,8 @@ bool is_cut_off(const Lattice& lattice, const Place& place) {
          share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
 }
 
-FoundPlot found_plot(const Lattice& lattice, const Place& place, double r_heading_rad) {
+FoundPlot found_plot(const Lattice& lattice, const Place& place, double r_heading_rad,
+                     double field_confidence) {
   FoundPlot plot{.row = place.row + 1, .column = place.column + 1};
   plot.box.center = lattice.view.to_world(place.r_m, place.c_m);
   plot.box.length_m = lattice.r_size_m;
@@ -62,7 +61,7 @@ FoundPlot found_plot(const Lattice& lattice, const Place& place, double r_headin
   }
   plot.box.heading_rad = wrap_heading(plot.box.heading_rad);
   plot.cut_off = is_cut_off(lattice, place);
-  plot.confidence = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
+  plot.confidence = field_confidence * std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
   return plot;
 }
 
@@ -70,7 +69,7 @@ double box_heading(const Lattice& lattice) {
   return angle_of(lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis());
 }
 
-nlohmann::json fit_of(const Lattice& lattice, const Layout& layout, const PlotField& field) {
+nlohmann::json fit_of(const Lattice& lattice, const PlotField& field) {
   const bool turned = lattice.c_size_m > lattice.r_size_m;  // the length lies along c
   const auto pick = [&](double along_length, double along_width) {
     return turned ? along_width : along_length;
@@ -94,52 +93,87 @@ nlohmann::json fit_of(const Lattice& lattice, const Layout& layout, const PlotFi
           {"rms_along_length_m", pick(lattice.r_rms_m, lattice.c_rms_m)},
           {"rms_along_width_m", pick(lattice.c_rms_m, lattice.r_rms_m)},
           {"leaf_spread_m", std::max(lattice.r_blur_m, lattice.c_blur_m)},
-          {"side_contrast", lattice.contrast},
-          {"lattice_quality", layout.quality},
-          {"least_quality", kLeastQuality}};
+          {"side_contrast", lattice.contrast}};
+}
+
+Frame frame_of(const FieldAxes& axes) {
+  return {.a_axis = {std::cos(axes.first_rad), std::sin(axes.first_rad)},
+          .b_axis = {std::cos(axes.second_rad), std::sin(axes.second_rad)}};
+}
+
+// Sizes that the user gave are the sizes; the length is the longer one.
+void take_given_sides(Lattice& lattice, const Hints& hints) {
+  const bool along_r = lattice.r_size_m >= lattice.c_size_m;
+  double& length_m = along_r ? lattice.r_size_m : lattice.c_size_m;
+  double& width_m = along_r ? lattice.c_size_m : lattice.r_size_m;
+  length_m = hints.length_m.value_or(length_m);
+  width_m = hints.width_m.value_or(width_m);
+}
+
+// Sizes and places in turn.
+void refine(Lattice& lattice, const Layout& layout, const Hints& hints) {
+  for (int round = 0; round < kRounds; ++round) {
+    fit_edges(lattice);
+    straighten(lattice);
+  }
+  fit_edges(lattice);
+  // Leaves say little of the sown width of few drill rows: rows times spacing does.
+  if (layout.r_drilled) lattice.r_size_m = lattice.r_band_m;
+  if (layout.c_drilled) lattice.c_size_m = lattice.c_band_m;
+  take_given_sides(lattice, hints);
+}
+
+PlotField plots_on(const Lattice& lattice, double confidence) {
+  PlotField field;
+  const double heading_rad = box_heading(lattice);
+  for (const Place& place : lattice.places)
+    field.plots.push_back(found_plot(lattice, place, heading_rad, confidence));
+  return field;
+}
+
+nlohmann::json json_of(const FieldSigns& signs) {
+  return {{"held_share", signs.held_share},
+          {"filled_share", signs.filled_share},
+          {"surface_share", signs.surface_share},
+          {"squareness", signs.squareness},
+          {"aspect", signs.aspect},
+          {"evidence_per_plot", signs.evidence}};
 }
 
 }  // namespace
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads) {
-  const double threshold_m = canopy_threshold(points, noise_m);
-  const CanopyRaster coarse = rasterise(points, {}, kAxisCell_m, threshold_m, threads);
-  const FieldAxes axes = find_axes(coarse, hints.heading_rad, threads);
-  const Sighting sighting =
-      find_layout(points, axes, threshold_m, kCell_m, {hints.width_m, hints.length_m}, threads);
-  const Layout& layout = sighting.layout;
+  const FieldCanopy field(points, noise_m);
+  const CanopyScale& scale = field.scale();
+  const CanopyRaster coarse = rasterise(field, {}, kAxisCell_m, scale, threads);
+  const std::optional<FieldAxes> axes = find_axes(coarse, hints.heading_rad, threads);
+  if (!axes) return nothing("no canopy stands out from the ground here");
+  const Frame frame = frame_of(*axes);
+  const CanopyRaster canopy = rasterise(field, frame, kCell_m, scale, threads);
+  tbb::task_arena arena(threads);
+  Layout layout;
+  arena.execute([&] { layout = best_layout(canopy, {hints.width_m, hints.length_m}); });
   if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
-  if (layout.quality < kLeastQuality) {
-    return nothing("canopy lies here, but not in plots of one size at equal steps");
-  }
+
+  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * scale.high_m});
+  const CanopyRaster cover =
+      rasterise(field, frame, kCell_m, {leaves_m, leaves_m + kStep_m}, threads);
+  layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout);
-  if (lattice.places.size() < 2)
-    return nothing("a single plot, or one field closed by canopy, is no lattice");
-  if (lattice.contrast < kLeastContrast)
-    return nothing("no canopy stands out from the ground here");
   if (lattice.places.size() < kLeastPlots) {
     return nothing(
         "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured");
   }
-  if (filled_share(lattice) < kLeastFilled) {
-    return nothing("canopy lies here, but on too few places of any lattice");
-  }
-  for (int round = 0; round < kRounds; ++round) {
-    fit_edges(lattice);
-    straighten(lattice);
-  }
-  fit_edges(lattice);
-  if (sighting.sown_width_m > 0) lattice.c_size_m = sighting.sown_width_m;
-  PlotField field;
-  const double heading_rad = box_heading(lattice);
-  for (const Place& place : lattice.places) {
-    field.plots.push_back(found_plot(lattice, place, heading_rad));
-  }
-  field.fit = fit_of(lattice, layout, field);
-  field.fit["canopy_threshold_m"] = threshold_m;
-  field.fit["axes_sharpness"] = axes.sharpness;
-  return field;
+  refine(lattice, layout, hints);
+  lattice.view.raster = &canopy;
+  const FieldSigns signs = signs_of(lattice, field, layout.evidence);
+  lattice.view.raster = &cover;
+  const std::string because = no_plots_because(signs);
+  PlotField found = because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because);
+  found.fit = because.empty() ? fit_of(lattice, found) : nlohmann::json::object();
+  found.fit["signs"] = json_of(signs);
+  return found;
 }
 
 }  // namespace plotscan::plots

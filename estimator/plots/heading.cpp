@@ -3,30 +3,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "plots/statistics.h"
+
 namespace plotscan::plots {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
+constexpr int kAngles = 180;
+constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
+constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
+constexpr int kMostSkew_deg = 15;      // of the axes, off the right angle
+constexpr double kSkewDoubt = 0.25;
+constexpr double kHintReach_rad = 5 * kDegree;
+constexpr double kLeastCover = 0.1;  // of a block with canopy
+constexpr double kAround_m = 2;      // of bare ground about the canopy
 
 struct Cell {
   float x, y, cover;
 };
 
+// The cells about the canopy: bare ground has no lines.
 std::vector<Cell> cells_of(const CanopyRaster& raster) {
-  std::vector<Cell> cells;
   const double step = raster.cell_m();
-  for (int i = 0; i < raster.a_cells(); ++i) {
-    for (int j = 0; j < raster.b_cells(); ++j) {
-      if (raster.seen_cells(i, i + 1, j, j + 1) == 0) continue;
-      cells.push_back({static_cast<float>((i + 0.5) * step), static_cast<float>((j + 0.5) * step),
-                       static_cast<float>(raster.cover(i, i + 1, j, j + 1))});
+  const int around = static_cast<int>(kAround_m / step), block = around / 2;
+  int a0 = raster.a_cells(), a1 = 0, b0 = raster.b_cells(), b1 = 0;
+  for (int a = 0; a < raster.a_cells(); a += block) {
+    for (int b = 0; b < raster.b_cells(); b += block) {
+      if (raster.cover(a, a + block, b, b + block) < kLeastCover) continue;
+      a0 = std::min(a0, a - around);
+      a1 = std::max(a1, a + block + around);
+      b0 = std::min(b0, b - around);
+      b1 = std::max(b1, b + block + around);
+    }
+  }
+  std::vector<Cell> cells;
+  for (int a = std::max(0, a0); a < std::min(raster.a_cells(), a1); ++a) {
+    for (int b = std::max(0, b0); b < std::min(raster.b_cells(), b1); ++b) {
+      if (raster.seen_cells(a, a + 1, b, b + 1) == 0) continue;
+      cells.push_back({static_cast<float>((a + 0.5) * step), static_cast<float>((b + 0.5) * step),
+                       static_cast<float>(raster.cover(a, a + 1, b, b + 1))});
     }
   }
   return cells;
@@ -59,7 +82,8 @@ double sharpness(const std::vector<Cell>& cells, double angle_rad, double bin_m,
     at[2] += share * cell.cover;
     at[3] += share;
   }
-  const double least = 0.25 * block_m / bin_m;
+  const double least =
+      0.25 * std::min(block_m, static_cast<double>(high_along - low_along)) / bin_m;
   double total = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t bin = 3; bin < bins; ++bin) {
@@ -100,44 +124,59 @@ double refined(const std::vector<Cell>& cells, double guess_rad, double reach_ra
   return angles[best] + (bend < 0 ? 0.5 * (left - right) / bend * step_rad : 0);
 }
 
-}  // namespace
+// Directions of two families of lines, whole degrees.
+struct Pair {
+  int first = 0, second = 90;
+  double worth = 0;  // product of their sharpnesses: a field has both families
+};
 
-FieldAxes find_axes(const CanopyRaster& raster, std::optional<double> hint_rad, int threads) {
-  constexpr double kBlock_m = 6, kLongBlock_m = 24;
-  constexpr int kAngles = 180;
-  const std::vector<Cell> cells = cells_of(raster);
-  if (cells.empty()) return {};
-  const double bin_m = raster.cell_m();
-  std::vector<double> angles;
-  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
-  const std::vector<double> values = sharpnesses(cells, angles, bin_m, kBlock_m, threads);
-  FieldAxes axes;
-  int best_first = 0, best_second = 90;
-  double best = -1;
-  for (int i = 0; i < kAngles; ++i) {
-    if (hint_rad && std::abs(std::remainder(i * kDegree - *hint_rad, kPi)) > 5 * kDegree) continue;
-    for (int d = 60; d <= 120; ++d) {
-      // A skewed lattice is rarer than rows with offsets of their own, which look like one.
-      const double doubt = 1 - 0.03 * std::clamp(std::abs(d - 90) - 1, 0, 6);
-      const double sum = doubt * (values[static_cast<std::size_t>(i)] +
-                                  values[static_cast<std::size_t>((i + d) % kAngles)]);
-      if (sum > best) {
-        best = sum;
-        best_first = i;
-        best_second = i + d;
-      }
+// The best perpendicular pair; a skewed one only where it is far better, as rows with offsets of
+// their own look like one.
+Pair best_pair(const std::vector<double>& values, const std::optional<double>& hint_rad) {
+  Pair best;
+  for (int first = 0; first < kAngles; ++first) {
+    if (hint_rad && std::abs(std::remainder(first * kDegree - *hint_rad, kPi)) > kHintReach_rad)
+      continue;
+    for (int skew = -kMostSkew_deg; skew <= kMostSkew_deg; ++skew) {
+      const int second = first + 90 + skew;
+      const double doubt = std::abs(skew) <= 1 ? 1 : kSkewDoubt;
+      const double worth = doubt * values[static_cast<std::size_t>(first)] *
+                           values[static_cast<std::size_t>(second % kAngles)];
+      if (worth > best.worth) best = {first, second, worth};
     }
   }
-  std::vector<double> sorted = values;
-  std::ranges::nth_element(sorted, sorted.begin() + kAngles / 2);
-  axes.sharpness = best / std::max(1e-9, 2 * sorted[kAngles / 2]);
+  return best;
+}
+
+}  // namespace
+
+std::optional<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
+                                   int threads) {
+  const std::vector<Cell> cells = cells_of(raster);
+  if (cells.empty()) return std::nullopt;
+  const double bin_m = raster.cell_m();
+  std::vector<double> angles, values;
+  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
+  for (const double block_m : {kLongBlock_m, kShortBlock_m}) {
+    std::vector<double> sharp = sharpnesses(cells, angles, bin_m, block_m, threads);
+    const double usual = median(sharp);
+    values.resize(sharp.size());
+    for (std::size_t i = 0; i < sharp.size(); ++i)
+      values[i] = std::max(values[i], sharp[i] / std::max(1e-9, usual));
+  }
   const auto fine = [&](double guess_rad) {
     const double closer =
-        refined(cells, guess_rad, 1.2 * kDegree, 0.2 * kDegree, bin_m, kBlock_m, threads);
+        refined(cells, guess_rad, 1.2 * kDegree, 0.2 * kDegree, bin_m, kLongBlock_m, threads);
     return refined(cells, closer, 0.3 * kDegree, 0.05 * kDegree, bin_m, kLongBlock_m, threads);
   };
-  axes.first_rad = fine(best_first * kDegree);
-  axes.second_rad = fine(best_second * kDegree);
+  const Pair pair = best_pair(values, hint_rad);
+  FieldAxes axes{fine(pair.first * kDegree), fine(pair.second * kDegree)};
+  if (std::abs(pair.second - pair.first - 90) > 1) return axes;
+  // One rigid pair: the sharper family says where.
+  const double of_first = sharpness(cells, axes.first_rad, bin_m, kLongBlock_m);
+  const double of_second = sharpness(cells, axes.second_rad, bin_m, kLongBlock_m);
+  if (of_first >= of_second) axes.second_rad = axes.first_rad + kPi / 2;
+  if (of_first < of_second) axes.first_rad = axes.second_rad - kPi / 2;
   return axes;
 }
 

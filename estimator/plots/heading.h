@@ -12,12 +12,13 @@ namespace plotscan::plots {
 struct FieldAxes {
   double first_rad = 0;   // direction of one family of lines
   double second_rad = 0;  // of the other, 60 to 120 degrees further
-  double sharpness = 0;   // of both families' edges, over what a random direction shows
 };
 
-// The directions along which the cover's lines are sharpest: means of cover along lines in blocks
-// of some metres, whose steps across the lines are squared and summed. Blocks, so that rows of
-// other offsets do not blur each other. With a hint, the first direction is sought near it.
-FieldAxes find_axes(const CanopyRaster& raster, std::optional<double> hint_rad, int threads);
+// The pair of directions along which the canopy's lines are sharpest: means along lines, over the
+// whole field and in blocks of some metres, whose steps across the lines are squared and summed.
+// Long lines show weak alleys, short ones those of rows with offsets of their own. With a hint, the
+// first direction is sought near it. Nothing without canopy.
+std::optional<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
+                                   int threads);
 
 }  // namespace plotscan::plots

@@ -2,6 +2,7 @@
 #include "plots/lattice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -32,10 +33,18 @@ double inner_cover(const Lattice& lattice, const Place& place) {
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
+// Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
-  const Cells box = cells_of(lattice, place.r_m, place.c_m, 0);
+  const auto [r0, r1, c0, c1] = cells_of(lattice, place.r_m, place.c_m, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
-  return side_contrast(lattice.view, box.r0, box.r1, box.c0, box.c1, reach).mean();
+  const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
+  const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
+  const RowView& view = lattice.view;
+  return (view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb) +
+          view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb) +
+          view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0) +
+          view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)) /
+         4;
 }
 
 // The columns that run through all rows: positions that lie together; none where they do not.
@@ -72,7 +81,8 @@ void number(Lattice& lattice, const Layout& layout) {
   lattice.r_pitch_m = usual_step(row_steps);
   lattice.c_pitch_m = usual_step(steps);
   const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
-  std::vector<double> columns = columns_of(positions, pitch_m);
+  const std::vector<double> columns =
+      layout.aligned ? columns_of(positions, pitch_m) : std::vector<double>{};
   lattice.aligned = !columns.empty();
   lattice.rows = static_cast<int>(layout.rows.size());
   if (lattice.aligned) {
@@ -186,10 +196,10 @@ void renumber(Lattice& lattice) {
 
 Lattice fit_lattice(const Layout& layout) {
   Lattice lattice{.view = layout.view,
-                  .r_size_m = layout.r_size * layout.view.cell_m(),
-                  .c_size_m = layout.c_size * layout.view.cell_m(),
-                  .r_band_m = layout.r_size * layout.view.cell_m(),
-                  .c_band_m = layout.c_size * layout.view.cell_m()};
+                  .r_size_m = layout.r_shape.size * layout.view.cell_m(),
+                  .c_size_m = layout.c_shape.size * layout.view.cell_m(),
+                  .r_band_m = layout.r_shape.size * layout.view.cell_m(),
+                  .c_band_m = layout.c_shape.size * layout.view.cell_m()};
   number(lattice, layout);
   straighten(lattice);
   add_places(lattice);

@@ -3,371 +3,421 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <limits>
 
+#include <tbb/parallel_for.h>
+
+#include "plots/drill_rows.h"
 #include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeastSide_m = 0.35, kMostSide_m = 25;
-constexpr double kReach_m = 0.2;        // of the strips on either side of an edge
-constexpr double kPenaltyShare = 0.15;  // of the strongest edge: less is no band
-constexpr double kPiece_m = 0.3;        // of an edge, judged by itself
-constexpr double kCanopyBlock_m = 0.6;  // whose mean cover evens out gaps between plants
-constexpr double kLeastCover = 0.35;    // of the usual plot's: less is a missing one
-constexpr std::size_t kSizes = 4;       // sizes along each axis that are tried with each other
+constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;           // of a plot
+constexpr double kLeastSpacing_m = 0.15, kMostSpacing_m = 1.05;  // of drill rows
+constexpr int kMostDrillRows = 8;
+constexpr double kLeastGap_m = 0.15;        // between plots
+constexpr double kLeastPlot_m = 0.3;        // narrower are drill rows
+constexpr double kMostIrregular = 0.34;     // of the steps from plot to plot
+constexpr double kLeastGapOfSpacing = 0.2;  // and this more than between drill rows
+constexpr double kSizeStep = 1.05;          // from one size that is tried to the next
+constexpr std::size_t kRefined = 4;         // best shapes of which others like them are tried
+constexpr std::size_t kRowsTried = 3;       // in each of which all shapes are tried
+constexpr double kLeafClump_m = 0.3;        // cells so near see the same leaves
+constexpr double kMostGap_m = 1.5;          // that leaves may close
+constexpr double kPiece_m = 1;              // in which a canopy is even
+constexpr double kOwnDoubt = 0.05;   // rows with offsets of their own must explain so much more
+constexpr double kLeastShare = 0.3;  // of the usual plot's canopy: less is a missing one
+
+// How well bands of one shape explain what is seen along an axis.
+struct AxisFit {
+  BandShape shape;
+  std::vector<std::vector<int>> begins = {};  // by profile; one list where they share it
+  double misfit = std::numeric_limits<double>::infinity();
+  double parameters = 0;
+  bool drilled = false;       // put together from drill rows,
+  BandShape seen_shape = {};  // which are these bands
+  std::vector<std::vector<int>> seen = {};
+
+  double cost(double price) const { return misfit + price * parameters; }
+};
+
+// A line's profiles, and what a parameter is to gain: Schwarz's criterion.
+struct Line {
+  double cell_m = 0;
+  std::vector<ProfileSums> profiles = {};
+  double price = 0;
+  double independent = 0;
+};
+
+Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips) {
+  Line line{.cell_m = view.cell_m()};
+  for (const std::vector<Band>& across : strips) {
+    const CanopyProfile profile = profile_along_r(view, across);
+    line.profiles.emplace_back(profile);
+    line.independent += profile.independent;
+  }
+  line.price = std::log(std::max(2.0, line.independent));
+  return line;
+}
 
 int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
 }
 
-struct SizeScore {
-  int size = 0;
-  double score = 0;
+// Steps that are no whole number of the usual one: each is a parameter, and so is its place.
+double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
+  if (steps.size() < 2) return 0;
+  const double usual = usual_step(steps);
+  const double tolerance = std::max(0.05 / cell_m + 1, 0.05 * shape.size);
+  return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
+    return std::abs(step - usual * std::max(1.0, std::round(step / usual))) > tolerance;
+  }));
+}
+
+// The same bands on all profiles, or on each its own.
+AxisFit fit_shape(const Line& line, const BandShape& shape, bool shared) {
+  const int gap = cells(kLeastGap_m, line.cell_m);
+  AxisFit fit{.shape = shape};
+  const auto add = [&](std::span<const ProfileSums> profiles) {
+    Segmentation found = best_bands(profiles, shape, gap, line.price);
+    if (found.begins.empty()) return false;
+    fit.misfit += found.misfit;
+    fit.parameters += found.parameters + 2 * irregular_steps(found.begins, shape, line.cell_m);
+    fit.begins.push_back(std::move(found.begins));
+    return true;
+  };
+  fit.misfit = 0;
+  bool found = true;
+  if (shared) {
+    found = add(line.profiles);
+  } else {
+    for (const ProfileSums& profile : line.profiles) found = found && add({&profile, 1});
+  }
+  if (!found) fit.misfit = std::numeric_limits<double>::infinity();
+  return fit;
+}
+
+bool may_be(int size, double cell_m, const KnownSides& known) {
+  const auto is = [&](const std::optional<double>& side_m) {
+    return side_m && std::abs(size * cell_m - *side_m) <= 0.5 * cell_m + 0.01 * *side_m;
+  };
+  if (known.width_m && known.length_m) return is(known.width_m) || is(known.length_m);
+  return true;
+}
+
+std::vector<BandShape> coarse_shapes(const Line& line, const KnownSides& known) {
+  std::vector<BandShape> shapes;
+  const double most =
+      std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
+  std::vector<int> sizes;
+  for (double size = kLeastSide_m / line.cell_m; size <= most;
+       size = std::max(size + 1, size * kSizeStep))
+    sizes.push_back(static_cast<int>(size));
+  for (const auto& side_m : {known.width_m, known.length_m})
+    if (side_m) sizes.push_back(cells(*side_m, line.cell_m));
+  for (const int size : sizes)
+    if (may_be(size, line.cell_m, known)) shapes.push_back({.size = size});
+  return shapes;
+}
+
+std::vector<BandShape> shapes_like(const BandShape& shape) {
+  std::vector<BandShape> shapes;
+  for (const double wider : {0.98, 1.0, 1.02}) {
+    for (const int blur : {1, 2, 4}) {
+      const int size = static_cast<int>(std::lround(shape.size * wider));
+      shapes.push_back({.size = std::max(3, size), .blur = blur});
+    }
+  }
+  return shapes;
+}
+
+// The same where its bands are drill rows: of whole plots.
+AxisFit put_together(const Line& line, AxisFit fit) {
+  fit.seen_shape = fit.shape;
+  fit.seen = fit.begins;
+  std::vector<std::vector<double>> middles;
+  for (std::size_t i = 0; i < fit.begins.size(); ++i) {
+    middles.emplace_back();
+    for (const int begin : fit.begins[i])
+      middles.back().push_back(line.profiles[i].centroid(begin, begin + fit.shape.size));
+  }
+  const double cell_m = line.cell_m;
+  const auto plots = drilled_plots(middles, kMostSpacing_m / cell_m, kLeastGap_m / cell_m);
+  if (!plots) return fit;
+  fit.drilled = true;
+  fit.shape.size = static_cast<int>(std::lround(plots->width()));
+  fit.begins.clear();
+  for (const std::vector<double>& begins : plots->begins) {
+    fit.begins.emplace_back();
+    for (const double begin : begins)
+      fit.begins.back().push_back(static_cast<int>(std::lround(begin)));
+  }
+  return fit;
+}
+
+// Whether most steps are one pitch: bands that a canopy's texture suggests lie anywhere.
+bool is_regular(const Line& line, const AxisFit& fit) {
+  double irregular = 0, steps = 0;
+  for (const std::vector<int>& begins : fit.begins) {
+    irregular += irregular_steps(begins, fit.shape, line.cell_m);
+    steps += static_cast<double>(begins.size()) - 1;
+  }
+  return irregular <= kMostIrregular * steps;
+}
+
+// The best of those that are plots, or drill rows of plots.
+AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
+  std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
+  for (const AxisFit& fit : fits) {
+    if (!std::isfinite(fit.misfit)) break;
+    const AxisFit plots = put_together(line, fit);
+    if (plots.drilled || (is_regular(line, fit) && fit.shape.size * line.cell_m >= kLeastPlot_m))
+      return fit;
+  }
+  return fits.front();
+}
+
+std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,
+                                bool shared) {
+  std::vector<AxisFit> fits(shapes.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(),
+                    [&](std::size_t i) { fits[i] = fit_shape(line, shapes[i], shared); });
+  return fits;
+}
+
+AxisFit fit_axis(const Line& line, bool shared, const KnownSides& known) {
+  Line tried = line;
+  if (!shared && tried.profiles.size() > kRowsTried)
+    tried.profiles.erase(tried.profiles.begin() + kRowsTried, tried.profiles.end());
+  std::vector<AxisFit> fits = fit_shapes(tried, coarse_shapes(line, known), shared);
+  if (fits.empty()) return {};
+  std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
+  std::vector<BandShape> shapes;
+  for (std::size_t i = 0; i < std::min(fits.size(), kRefined); ++i) {
+    for (const BandShape& shape : shapes_like(fits[i].shape))
+      if (may_be(shape.size, line.cell_m, known)) shapes.push_back(shape);
+  }
+  if (!shared) fits.clear();  // of fewer profiles
+  for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));
+  return best_of(line, std::move(fits));
+}
+
+std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile) {
+  std::vector<Band> bands;
+  for (const int begin : fit.begins[std::min(profile, fit.begins.size() - 1)])
+    bands.push_back({begin, begin + fit.shape.size});
+  return bands;
+}
+
+std::vector<Band> whole(int cells) { return {{0, cells}}; }
+
+std::vector<std::vector<Band>> each_alone(const std::vector<Band>& bands) {
+  std::vector<std::vector<Band>> lists;
+  for (const Band& band : bands) lists.push_back({band});
+  return lists;
+}
+
+// The same bands on other profiles.
+double bands_cost(const Line& line, const Segmentation& bands) {
+  const Segmentation again = bands_at(line.profiles, bands.shape, bands.begins);
+  return again.misfit + line.price * (again.parameters +
+                                      2 * irregular_steps(bands.begins, bands.shape, line.cell_m));
+}
+
+struct Sums {
+  double cells = 0, canopy = 0, squares = 0;
+
+  Sums& operator-=(const Sums& other) {
+    cells -= other.cells;
+    canopy -= other.canopy;
+    squares -= other.squares;
+    return *this;
+  }
+  // Squares about the mean.
+  double left() const { return squares - canopy * canopy / std::max(1.0, cells); }
 };
 
-// Local maxima of a score over sizes, the best ones first.
-std::vector<SizeScore> best_peaks(const std::vector<SizeScore>& scores) {
-  std::vector<SizeScore> found;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    const double left = i > 0 ? scores[i - 1].score : 0;
-    const double right = i + 1 < scores.size() ? scores[i + 1].score : 0;
-    if (scores[i].score > 0 && scores[i].score >= left && scores[i].score > right) {
-      found.push_back(scores[i]);
+Sums sums_over(const RowView& view, const Band& r, const Band& c) {
+  Sums sums;
+  for (int i = std::max(0, r.begin); i < std::min(r.end, view.r_cells()); ++i) {
+    for (int k = std::max(0, c.begin); k < std::min(c.end, view.c_cells()); ++k) {
+      if (view.seen_cells(i, i + 1, k, k + 1) == 0) continue;
+      const double canopy = view.cover(i, i + 1, k, k + 1);
+      ++sums.cells;
+      sums.canopy += canopy;
+      sums.squares += canopy * canopy;
     }
   }
-  std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.score > b.score; });
-  found.resize(std::min(found.size(), kSizes));
-  return found;
+  return sums;
 }
 
-std::vector<double> profile_over_rows(const RowView& view) {
-  std::vector<double> profile;
-  double most = 0;
-  for (int r = 0; r < view.r_cells(); ++r) {
-    most = std::max(most, view.seen_cells(r, r + 1, 0, view.c_cells()));
-  }
-  for (int r = 0; r < view.r_cells(); ++r) {
-    // A few cells at the survey's edge, seen by a few returns, are no evidence.
-    const double seen = view.seen_cells(r, r + 1, 0, view.c_cells());
-    profile.push_back(view.cover(r, r + 1, 0, view.c_cells()) * std::min(1.0, 4 * seen / most));
-  }
-  return profile;
-}
+double square(double value) { return value * value; }
 
-std::vector<double> profile_in_row(const RowView& view, const Band& band) {
-  const int inset = (band.end - band.begin) / 8;
-  std::vector<double> profile;
-  for (int c = 0; c < view.c_cells(); ++c) {
-    profile.push_back(view.cover(band.begin + inset, band.end - inset, c, c + 1));
-  }
-  return profile;
-}
-
-BandSearch search_for(double strongest, double cell_m) {
-  return {.least_gap = cells(0.15, cell_m), .penalty = kPenaltyShare * strongest};
-}
-
-// Edges of single plots are rough: a band may be a little wider or narrower than all.
-Bands bands_of(const std::vector<double>& steps, int size, BandSearch search) {
-  search.tolerance = std::max(1, size / 30);
-  return best_bands(steps, size, search);
-}
-
-int median_size(const std::vector<Band>& bands) {
-  std::vector<double> widths;
-  for (const Band& band : bands) widths.push_back(band.end - band.begin);
-  return static_cast<int>(median(widths));
-}
-
-double strongest(const std::vector<double>& steps) {
-  double most = 0;
-  for (const double step : steps) most = std::max(most, std::abs(step));
-  return most;
-}
-
-bool agrees(const Layout& layout, const KnownSides& known) {
-  const double r_m = layout.r_size * layout.view.cell_m();
-  const double c_m = layout.c_size * layout.view.cell_m();
-  if (known.width_m && known.length_m) {
-    return (is_side(r_m, known.width_m) && is_side(c_m, known.length_m)) ||
-           (is_side(c_m, known.width_m) && is_side(r_m, known.length_m));
-  }
-  const std::optional<double>& one = known.width_m ? known.width_m : known.length_m;
-  return !one || is_side(r_m, one) || is_side(c_m, one);
-}
-
-std::vector<int> sizes(int most_cells, double cell_m, const KnownSides& known) {
-  const bool both = known.width_m && known.length_m;
-  std::vector<int> list;
-  const int last = std::min(most_cells, cells(kMostSide_m, cell_m));
-  for (int size = cells(kLeastSide_m, cell_m); size <= last; size += std::max(1, size / 60)) {
-    const double side_m = size * cell_m;
-    if (!both || is_side(side_m, known.width_m) || is_side(side_m, known.length_m))
-      list.push_back(size);
-  }
-  return list;
-}
-
-// Share of the neighbours' steps that are a whole number of the usual step.
-double regularity(const Layout& layout) {
-  std::vector<double> steps;
-  for (const Row& row : layout.rows) {
-    for (std::size_t i = 1; i < row.plots.size(); ++i) {
-      steps.push_back(
-          (row.plots[i].begin + row.plots[i].end - row.plots[i - 1].begin - row.plots[i - 1].end) *
-          layout.view.cell_m() / 2);
-    }
-  }
-  if (steps.size() < 2) return 1;
-  const double usual_m = usual_step(steps);
-  const auto regular = std::ranges::count_if(steps, [&](double step) {
-    const double off_m = std::abs(step - usual_m * std::max(1.0, std::round(step / usual_m)));
-    return off_m < std::clamp(0.08 * usual_m, 0.06, 0.15);
-  });
-  return static_cast<double>(regular) / static_cast<double>(steps.size());
-}
-
-double regular_share(const Layout& layout) {
-  return std::clamp((regularity(layout) - 0.3) / 0.5, 0.0, 1.0);
-}
-
-// An edge is an edge: one between canopies that touch counts hardly less than one to bare ground.
-// What the best of many places shows by chance counts nothing, and a step inwards against it.
-double edge_value(double contrast) {
-  constexpr double kChance = 0.08, kClear = 0.35;
-  return std::clamp((contrast - kChance) / (kClear - kChance), -1.0, 1.0);
-}
-
-// Cover of canopy: mean of the cells' cover, weighted with itself.
-double full_cover(const RowView& view) {
-  double cover = 0;
-  double square = 0;
-  const int block = cells(kCanopyBlock_m, view.cell_m());
-  for (int r = 0; r + block <= view.r_cells(); r += block) {
-    for (int c = 0; c + block <= view.c_cells(); c += block) {
-      const double seen = view.seen_cells(r, r + block, c, c + block);
-      const double here = view.cover(r, r + block, c, c + block);
-      cover += seen * here;
-      square += seen * here * here;
-    }
-  }
-  return cover > 0 ? square / cover : 0;
-}
-
-// Cells of canopy that the plots hold beyond bare ones: an alley in a plot, or canopy in an alley,
-// counts against a layout.
-double held_canopy(const Layout& layout, double full) {
-  double held = 0;
-  for (const Row& row : layout.rows) {
-    for (const Band& plot : row.plots) {
-      const int r0 = row.band.begin;
-      const int r1 = row.band.end;
-      held += (layout.view.cover(r0, r1, plot.begin, plot.end) - full / 2) *
-              layout.view.seen_cells(r0, r1, plot.begin, plot.end);
-    }
-  }
-  return std::max(0.0, held);
-}
-
-// Scores the layouts beside each other.
-void weigh_with_canopy(std::vector<Layout>& layouts) {
-  if (layouts.empty()) return;
-  const double full = full_cover(layouts.front().view);
-  std::vector<double> held;
-  for (const Layout& layout : layouts) held.push_back(held_canopy(layout, full));
-  const double most = std::max(1e-9, *std::ranges::max_element(held));
-  for (std::size_t i = 0; i < layouts.size(); ++i) {
-    layouts[i].score *= (held[i] / most) * (held[i] / most);
-  }
-}
-
-// Cells of edges that a box explains, in pieces: one across a gap in the canopy shows none there.
-double edges_of(const RowView& view, const Band& r, const Band& c, double full) {
-  const int reach = cells(kReach_m, view.cell_m()), piece = cells(kPiece_m, view.cell_m());
-  double explained = 0;
-  for (int from = c.begin; from < c.end; from += piece) {
-    const int to = std::min(c.end, from + piece);
-    const auto cover = [&](int low) { return view.cover(low, low + reach, from, to); };
-    explained += (to - from) * edge_value((cover(r.begin) - cover(r.begin - reach)) / full);
-    explained += (to - from) * edge_value((cover(r.end - reach) - cover(r.end)) / full);
-  }
-  for (int from = r.begin; from < r.end; from += piece) {
-    const int to = std::min(r.end, from + piece);
-    const auto cover = [&](int low) { return view.cover(from, to, low, low + reach); };
-    explained += (to - from) * edge_value((cover(c.begin) - cover(c.begin - reach)) / full);
-    explained += (to - from) * edge_value((cover(c.end - reach) - cover(c.end)) / full);
-  }
-  return explained;
-}
-
-// Metres of edges that a layout explains. Bands that the texture of a canopy suggests do not lie at
-// equal steps.
-double score_of(const Layout& layout) {
+// Of a row's plots those that are there.
+void leave_out_missing(Layout& layout) {
   std::vector<double> covers;
-  for (const Row& row : layout.rows) {
-    for (const Band& plot : row.plots) {
-      covers.push_back(layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end));
-    }
-  }
-  const double full = std::max(1e-6, median(covers));
-  double score = 0;
-  for (const Row& row : layout.rows) {
-    for (const Band& plot : row.plots) {
-      score += edges_of(layout.view, row.band, plot, full);
-    }
-  }
-  return score * layout.view.cell_m() * regular_share(layout);
+  const auto cover = [&](const Row& row, const Band& plot) {
+    return layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
+  };
+  for (const Row& row : layout.rows)
+    for (const Band& plot : row.plots) covers.push_back(cover(row, plot));
+  const double least = kLeastShare * median(covers);
+  for (Row& row : layout.rows)
+    std::erase_if(row.plots, [&](const Band& plot) { return cover(row, plot) < least; });
+  std::erase_if(layout.rows, [](const Row& row) { return row.plots.empty(); });
 }
 
-// Contrast of the plots' sides as a share of their cover, of the weaker pair of sides: means over
-// all plots, in which the gaps between plants even out.
-void measure_clarity(Layout& layout) {
-  const int reach = cells(kReach_m, layout.view.cell_m());
-  double across_r = 0;
-  double across_c = 0;
-  double plots = 0;
+Layout layout_of(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
+  Layout layout{.view = view, .r_shape = r_fit.shape, .c_shape = c_fit.shape};
+  layout.r_drilled = r_fit.drilled;
+  layout.c_drilled = c_fit.drilled;
+  layout.aligned = c_fit.begins.size() == 1;
+  layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
+  layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
+  const std::vector<Band> rows = bands_of(r_fit, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    layout.rows.push_back({rows[i], bands_of(c_fit, i)});
+  leave_out_missing(layout);
+  return layout;
+}
+
+// Equal parts of a band, about as long as a piece.
+std::vector<Band> pieces_of(const Band& band, double cell_m) {
+  const int parts = std::max(1, static_cast<int>(std::lround(band.size() * cell_m / kPiece_m)));
+  std::vector<Band> pieces;
+  for (int i = 0; i < parts; ++i)
+    pieces.push_back(
+        {band.begin + band.size() * i / parts, band.begin + band.size() * (i + 1) / parts});
+  return pieces;
+}
+
+double number_of_lines(const Layout& layout) {
+  double plots = 0, most = 0;
   for (const Row& row : layout.rows) {
-    for (const Band& plot : row.plots) {
-      const SideContrast side =
-          side_contrast(layout.view, row.band.begin, row.band.end, plot.begin, plot.end, reach);
-      across_r += (side.across_r[0] + side.across_r[1]) / 2;
-      across_c += (side.across_c[0] + side.across_c[1]) / 2;
-      layout.cover += layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
-      ++plots;
-    }
+    plots += static_cast<double>(row.plots.size());
+    most = std::max(most, static_cast<double>(row.plots.size()));
   }
-  layout.clarity =
-      std::min(across_r, across_c) / std::max(1e-9, layout.cover) * regular_share(layout);
-  layout.cover /= plots;
+  return static_cast<double>(layout.rows.size()) + (layout.aligned ? most : plots);
 }
 
-void add(std::vector<Layout>& layouts, Layout layout, const KnownSides& known) {
-  std::vector<Band> rows, plots;
-  for (const Row& row : layout.rows) {
-    rows.push_back(row.band);
-    plots.insert(plots.end(), row.plots.begin(), row.plots.end());
-  }
-  if (plots.empty()) return;
-  layout.r_size = median_size(rows);
-  layout.c_size = median_size(plots);
-  if (!agrees(layout, known)) return;
-  layout.score = score_of(layout);
-  measure_clarity(layout);
-  layout.quality = layout.score / (2 * (layout.r_size + layout.c_size) * layout.view.cell_m() *
-                                   static_cast<double>(plots.size()));
-  layouts.push_back(std::move(layout));
+// A stretch between two bands that leaves may close; empty where it is wider.
+Band gap_between(const Band& one, const Band& next, double cell_m) {
+  if ((next.begin - one.end) * cell_m > kMostGap_m) return {};
+  return {one.end, std::max(one.end, next.begin)};
 }
 
-// Layouts with plots of the best sizes along these rows, every row by itself: rows may start at
-// different offsets.
-void add_with_plots(std::vector<Layout>& layouts, const RowView& view,
-                    const std::vector<Band>& bands, const KnownSides& known) {
-  std::vector<std::vector<double>> steps;
-  double most = 0;
-  for (const Band& band : bands) {
-    steps.push_back(steps_of(profile_in_row(view, band), cells(kReach_m, view.cell_m())));
-    most = std::max(most, strongest(steps.back()));
-  }
-  const BandSearch search = search_for(most, view.cell_m());
-  std::vector<SizeScore> scores;
-  for (const int size : sizes(view.c_cells(), view.cell_m(), known)) {
-    double score = 0;
-    for (const auto& row : steps) score += bands_of(row, size, search).score;
-    scores.push_back({size, score});
-  }
-  for (const SizeScore& tried : best_peaks(scores)) {
-    Layout layout{.view = view};
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-      Row row{bands[i], bands_of(steps[i], tried.size, search).bands};
-      if (!row.plots.empty()) layout.rows.push_back(std::move(row));
-    }
-    add(layouts, std::move(layout), known);
-  }
-}
-
-// The same with columns that run through all rows, which shows weaker edges than one row does.
-void add_with_columns(std::vector<Layout>& layouts, const RowView& view,
-                      const std::vector<Band>& bands, const KnownSides& known) {
-  std::vector<double> profile(static_cast<std::size_t>(view.c_cells()));
-  for (const Band& band : bands) {
-    const std::vector<double> row = profile_in_row(view, band);
-    for (std::size_t i = 0; i < profile.size(); ++i) profile[i] += row[i];
-  }
-  const std::vector<double> steps = steps_of(profile, cells(kReach_m, view.cell_m()));
-  const BandSearch search = search_for(strongest(steps), view.cell_m());
-  std::vector<SizeScore> scores;
-  for (const int size : sizes(view.c_cells(), view.cell_m(), known)) {
-    scores.push_back({size, bands_of(steps, size, search).score});
-  }
-  for (const SizeScore& tried : best_peaks(scores)) {
-    const std::vector<Band> columns = bands_of(steps, tried.size, search).bands;
-    std::vector<double> covers;
-    for (const Band& row : bands) {
-      for (const Band& column : columns) {
-        covers.push_back(view.cover(row.begin, row.end, column.begin, column.end));
+// What is left of the canopy's variation when every piece of the plots and of the gaps between them
+// has a level, and all else one.
+double variation_left(const Layout& layout) {
+  const RowView& view = layout.view;
+  Sums beyond = sums_over(view, {0, view.r_cells()}, {0, view.c_cells()});
+  double left = 0;
+  const auto take = [&](const Band& r_band, const Band& c_band) {
+    if (r_band.size() <= 0 || c_band.size() <= 0) return;
+    for (const Band& r : pieces_of(r_band, view.cell_m())) {
+      for (const Band& c : pieces_of(c_band, view.cell_m())) {
+        const Sums sums = sums_over(view, r, c);
+        left += sums.left();
+        beyond -= sums;
       }
     }
-    const double least = kLeastCover * median(covers);
-    Layout layout{.view = view};
-    for (const Band& band : bands) {
-      Row row{.band = band};
-      for (const Band& column : columns) {
-        if (view.cover(band.begin, band.end, column.begin, column.end) < least) continue;
-        row.plots.push_back(column);
-      }
-      if (!row.plots.empty()) layout.rows.push_back(std::move(row));
+  };
+  for (std::size_t i = 0; i < layout.rows.size(); ++i) {
+    const Row& row = layout.rows[i];
+    const bool last_row = i + 1 == layout.rows.size();
+    const Band gap =
+        last_row ? Band{} : gap_between(row.band, layout.rows[i + 1].band, view.cell_m());
+    for (std::size_t k = 0; k < row.plots.size(); ++k) {
+      take(row.band, row.plots[k]);
+      take(gap, row.plots[k]);
+      if (k > 0) take(row.band, gap_between(row.plots[k - 1], row.plots[k], view.cell_m()));
     }
-    add(layouts, std::move(layout), known);
   }
+  return left + beyond.left();
 }
 
-std::vector<Layout> layouts_of(const RowView& view, const KnownSides& known) {
-  const std::vector<double> steps =
-      steps_of(profile_over_rows(view), cells(kReach_m, view.cell_m()));
-  const BandSearch search = search_for(strongest(steps), view.cell_m());
-  std::vector<SizeScore> scores;
-  for (const int size : sizes(view.r_cells(), view.cell_m(), known)) {
-    scores.push_back({size, bands_of(steps, size, search).score});
-  }
+// Schwarz's criterion of the layout: its likelihood, and the lines on which plots begin. Levels are
+// no parameters: whatever the layout, every piece of canopy has its own, so that none fits an
+// uneven canopy better for having more plots.
+double criterion(const Layout& layout) {
+  const RowView& view = layout.view;
+  const double seen = view.seen_cells(0, view.r_cells(), 0, view.c_cells());
+  const double independent = seen * square(view.cell_m() / kLeafClump_m);
+  return independent * std::log(std::max(1e-12, variation_left(layout))) +
+         std::log(std::max(2.0, independent)) * number_of_lines(layout);
+}
+
+// Rows over the whole field, then what lies along them: the same columns in all, or each row's own.
+std::vector<Layout> layouts_with_rows(const RowView& view, const KnownSides& known) {
+  const RowView along = view.turned();
+  Line r_line = line_of(view, {whole(view.c_cells())});
+  AxisFit r_fit = fit_axis(r_line, true, known);
+  if (!std::isfinite(r_fit.misfit)) return {};
+  std::vector<Band> rows = bands_of(put_together(r_line, r_fit), 0);
+  Line c_line = line_of(along, {rows});
+  AxisFit columns = fit_axis(c_line, true, known);
   std::vector<Layout> layouts;
-  for (const SizeScore& tried : best_peaks(scores)) {
-    const std::vector<Band> rows = bands_of(steps, tried.size, search).bands;
-    add_with_plots(layouts, view, rows, known);
-    add_with_columns(layouts, view, rows, known);
-  }
+  const Line each = line_of(along, each_alone(rows));
+  const AxisFit own = fit_axis(each, false, known);
+  if (std::isfinite(own.misfit))
+    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(each, own)));
+  if (!std::isfinite(columns.misfit)) return layouts;
+  // Without the alleys between the columns the rows show more clearly, and the columns then.
+  r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)});
+  r_fit = fit_axis(r_line, true, known);
+  if (!std::isfinite(r_fit.misfit)) return layouts;
+  rows = bands_of(put_together(r_line, r_fit), 0);
+  c_line = line_of(along, {rows});
+  columns = fit_axis(c_line, true, known);
+  if (std::isfinite(columns.misfit))
+    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(c_line, columns)));
   return layouts;
+}
+
+// Of the layouts with columns through all rows the one that explains the whole field best, along
+// both axes, where all plots' edges add up, and cell by cell.
+void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
+  const Line a = line_of(view, {whole(view.c_cells())});
+  const Line b = line_of(view.turned(), {whole(view.r_cells())});
+  const auto cost = [&](const Layout& layout) {
+    const bool turned = layout.view.swapped;
+    return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
+           criterion(layout);
+  };
+  const Layout* best = nullptr;
+  for (const Layout& layout : layouts)
+    if (layout.aligned && (best == nullptr || cost(layout) < cost(*best))) best = &layout;
+  if (best == nullptr) return;
+  std::vector<Layout> left = {*best};
+  std::ranges::copy_if(layouts, std::back_inserter(left),
+                       [](const Layout& layout) { return !layout.aligned; });
+  layouts = std::move(left);
 }
 
 }  // namespace
 
-bool is_side(double side_m, const std::optional<double>& known_m) {
-  return known_m && std::abs(side_m - *known_m) <= 0.15 + 0.05 * *known_m;
-}
-
-double SideContrast::mean() const {
-  return (across_r[0] + across_r[1] + across_c[0] + across_c[1]) / 4;
-}
-
-SideContrast side_contrast(const RowView& view, int r0, int r1, int c0, int c1, int reach) {
-  const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
-  const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
-  return {.across_r = {view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb),
-                       view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb)},
-          .across_c = {view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0),
-                       view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)}};
-}
-
 Layout best_layout(const CanopyRaster& raster, const KnownSides& known) {
-  std::vector<Layout> layouts = layouts_of({.raster = &raster, .swapped = false}, known);
-  for (Layout& layout : layouts_of({.raster = &raster, .swapped = true}, known)) {
+  const RowView view{.raster = &raster};
+  if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
+  std::vector<Layout> layouts = layouts_with_rows(view, known);
+  for (Layout& layout : layouts_with_rows(view.turned(), known))
     layouts.push_back(std::move(layout));
+  leave_best_aligned(view, layouts);
+  const double without = criterion({.view = view});
+  Layout best{.view = view};
+  double most = 0;
+  for (Layout& layout : layouts) {
+    layout.evidence = 0.5 * (without - criterion(layout));
+    const double doubted = layout.aligned ? layout.evidence : (1 - kOwnDoubt) * layout.evidence;
+    if (doubted <= most) continue;
+    most = doubted;
+    best = std::move(layout);
   }
-  if (layouts.empty()) return {};
-  weigh_with_canopy(layouts);
-  std::ranges::stable_sort(layouts, std::greater<>{}, &Layout::score);
-  return layouts.front();
+  return best;
 }
 
 }  // namespace plotscan::plots

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/field_canopy.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "plots/statistics.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeast_m = 0.05;      // lower is no canopy, however little the noise
+constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
+constexpr double kLeastShare = 0.1;    // of a block's returns, where there is canopy
+constexpr double kTop = 0.9;           // quantile of a block's canopy returns: its top
+constexpr std::size_t kMostBlocks = 1 << 18;
+constexpr int kPatches = 3;           // of a block's side
+constexpr float kLeastReturns = 4;    // of a patch that is judged
+constexpr double kSurfaceSigmas = 2;  // of the noise: what scatters less is a surface
+
+// Heights told apart by 10 %.
+class HeightCounts {
+ public:
+  explicit HeightCounts(double least_m) : least_m_(least_m) {}
+  void add(double height_m) {
+    const double step = std::log(height_m / least_m_) * kPerLog;
+    ++counts_[std::min(counts_.size() - 1, static_cast<std::size_t>(std::max(0.0, step)))];
+  }
+  double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
+  double quantile(double share) const {
+    const double wanted = share * count();
+    double below = 0;
+    std::size_t step = 0;
+    while (step + 1 < counts_.size() && below + counts_[step] < wanted) below += counts_[step++];
+    return least_m_ * std::exp((static_cast<double>(step) + 0.5) / kPerLog);
+  }
+
+ private:
+  static constexpr double kPerLog = 10.5;  // steps a factor e
+  double least_m_;
+  std::array<std::uint32_t, 64> counts_{};
+};
+
+// Returns of a patch as if they lay on a plane; metres.
+class Patch {
+ public:
+  void add(const Eigen::Vector3f& point) {
+    ++count_;
+    sum_ += point;
+    products_ += point * point.transpose();
+  }
+  float count() const { return count_; }
+  float mean_height() const { return sum_.z() / std::max(1.0F, count_); }
+  // Of the returns about the plane through them, whatever way it stands.
+  double sd_about_plane() const {
+    const Eigen::Matrix3d covariance =
+        (products_ - sum_ * sum_.transpose() / count_).cast<double>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, axes.eigenvalues()(0)) / std::max(1.0, count_ - 3.0));
+  }
+
+ private:
+  float count_ = 0;
+  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
+};
+
+struct Block {
+  explicit Block(double canopy_m) : heights(canopy_m) {}
+  std::uint32_t count = 0;
+  HeightCounts heights;
+  std::array<Patch, kPatches * kPatches> patches{};
+
+  bool has_canopy() const { return heights.count() >= kLeastShare * count; }
+  // Most of the patches that stand above the ground scatter no more than noise does.
+  bool is_surface(double canopy_m, double noise_m) const {
+    int high = 0, smooth = 0;
+    for (const Patch& patch : patches) {
+      if (patch.count() < kLeastReturns || patch.mean_height() < canopy_m) continue;
+      ++high;
+      smooth += patch.sd_about_plane() < kSurfaceSigmas * noise_m ? 1 : 0;
+    }
+    return 2 * smooth > high;
+  }
+};
+
+}  // namespace
+
+std::size_t FieldCanopy::block_of(const Eigen::Vector3f& point) const {
+  const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) / block_m_;
+  return static_cast<std::size_t>(at.x()) * blocks_along_y_ + static_cast<std::size_t>(at.y());
+}
+
+// With their neighbours: a surface's edge fills its blocks in part.
+void FieldCanopy::leave_out_surfaces() {
+  const auto along = static_cast<std::ptrdiff_t>(blocks_along_y_);
+  const auto count = static_cast<std::ptrdiff_t>(surface_.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    if (surface_[static_cast<std::size_t>(i)] == 0) continue;
+    for (std::ptrdiff_t row = i - along; row <= i + along; row += along) {
+      for (std::ptrdiff_t k = row - 1; k <= row + 1; ++k)
+        if (k >= 0 && k < count) left_out_[static_cast<std::size_t>(k)] = 1;
+    }
+  }
+}
+
+bool FieldCanopy::leaves_out(const Eigen::Vector3f& point) const {
+  return !point.allFinite() || left_out_[block_of(point)] != 0;
+}
+
+double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const {
+  double all = 0, surfaces = 0;
+  for (std::size_t i = 0; i < stands_out_.size(); ++i) {
+    if (stands_out_[i] == 0) continue;
+    const Eigen::Vector2d middle =
+        low_ + block_m_ * Eigen::Vector2d(static_cast<double>(i / blocks_along_y_) + 0.5,
+                                          static_cast<double>(i % blocks_along_y_) + 0.5);
+    const bool near = std::ranges::any_of(places, [&](const Eigen::Vector2d& place) {
+      return (place - middle).squaredNorm() < reach_m * reach_m;
+    });
+    all += near ? 1 : 0;
+    surfaces += near && surface_[i] != 0 ? 1 : 0;
+  }
+  return surfaces / std::max(1.0, all);
+}
+
+FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m)
+    : points_(points) {
+  const double low_m = std::max(kLeast_m, 2 * noise_m), canopy_m = 1.5 * low_m;
+  scale_ = {low_m, 2 * low_m};
+  low_.setConstant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low_;
+  for (const Eigen::Vector3f& point : points) {
+    if (!point.allFinite()) continue;
+    low_ = low_.cwiseMin(point.head<2>().cast<double>());
+    high = high.cwiseMax(point.head<2>().cast<double>());
+  }
+  if (!(low_.x() <= high.x())) return;
+  const auto blocks = [&](double extent_m) {
+    return static_cast<std::size_t>(extent_m / block_m_) + 1;
+  };
+  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
+  blocks_along_y_ = blocks(high.y() - low_.y());
+  const auto patch_m = static_cast<float>(block_m_ / kPatches);
+  std::vector<Block> field(blocks(high.x() - low_.x()) * blocks_along_y_, Block(canopy_m));
+  for (const Eigen::Vector3f& point : points) {
+    if (!point.allFinite()) continue;
+    Block& block = field[block_of(point)];
+    ++block.count;
+    if (point.z() > canopy_m) block.heights.add(point.z());
+    const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * kPatches / block_m_;
+    const Eigen::Vector2d corner(std::floor(at.x()), std::floor(at.y()));
+    const Eigen::Vector2f within = (at - corner).cast<float>();
+    block
+        .patches[static_cast<std::size_t>(at.x()) % kPatches * kPatches +
+                 static_cast<std::size_t>(at.y()) % kPatches]
+        .add({within.x() * patch_m, within.y() * patch_m, point.z()});
+  }
+  std::vector<double> scanned, tops;
+  for (const Block& block : field)
+    if (block.count > 0) scanned.push_back(block.count);
+  const double least = kLeastDensity * median(std::move(scanned));
+  for (const Block& block : field) {
+    const bool canopy = block.count >= least && block.has_canopy();
+    stands_out_.push_back(canopy);
+    surface_.push_back(canopy && block.is_surface(canopy_m, noise_m));
+    left_out_.push_back(block.count < least);
+    if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kTop));
+  }
+  leave_out_surfaces();
+  scale_.high_m = std::max(median(std::move(tops)), 2 * low_m);
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: which of a field's points may be canopy.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plotscan::plots {
+
+// Heights above the ground that count as no canopy and as full canopy; in between the share is
+// linear.
+struct CanopyScale {
+  double low_m = 0;
+  double high_m = 0;
+};
+
+// A field's points as (x, y, height above the ground), metres. Left out are points that are not
+// finite, blocks of a survey's margin with less than a tenth of the field's density, and blocks
+// that a surface fills: canopy scatters heights by more than the sensor's noise, what does not is a
+// wall, a car's roof, a sheet, or ground that the ground's model missed.
+class FieldCanopy {
+ public:
+  // Keeps a reference to the points. noise_m is the sigma of their heights.
+  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m);
+
+  std::span<const Eigen::Vector3f> points() const { return points_; }
+  bool leaves_out(const Eigen::Vector3f& point) const;
+  // From the noise to the usual height of the canopy's top, over the places that have one.
+  const CanopyScale& scale() const { return scale_; }
+  // Share of the blocks that stand out from the ground, within reach of the places, that a surface
+  // fills.
+  double surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const;
+
+ private:
+  std::size_t block_of(const Eigen::Vector3f& point) const;
+  void leave_out_surfaces();
+
+  std::span<const Eigen::Vector3f> points_;
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
+  double block_m_ = 1;
+  std::size_t blocks_along_y_ = 0;
+  std::vector<std::uint8_t> left_out_, surface_, stands_out_;  // by block
+  CanopyScale scale_;
+};
+
+}  // namespace plotscan::plots
