@@ -170,7 +170,7 @@ void sensors(const Field& field) {
   lidar::FlyOptions& flight = field.plan.flight;
   flight.sensor = names[static_cast<std::size_t>(field.plan.index) % names.size()];
   flight.altitude_m = field.random.uniform(6, 20);
-  flight.speed_m_s = field.random.uniform(4, 8);
+  flight.speed_m_s = field.random.uniform(3.5, 6);
 }
 
 // The paper's farms are flown as in its suite: only the seed is drawn. This one is the last case of

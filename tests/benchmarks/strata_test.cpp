@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "farm/description.h"
 #include "farm/generate.h"
+#include "lidar/fly_settings.h"
 #include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
 #include "strata/field_plan.h"
@@ -50,6 +51,7 @@ TEST_P(EveryStratum, HasFarmsThatCanBeMade) {
   for (int index = 0; index < 20; ++index) {
     const FieldPlan plan = plan_field("test", GetParam(), index, kSources);
     const farm::FarmDescription description = farm::load_description(plan.farm, plan.overrides);
+    EXPECT_NO_THROW(lidar::require_valid(plan.flight)) << index;
     std::size_t places = 0;
     for (const farm::PlotRowDescription& row : description.plots->rows) places += row.plots;
     EXPECT_GE(places, 12U) << index;
@@ -82,7 +84,7 @@ TEST(PlanField, StrataAreWhatTheirNamesSay) {
     EXPECT_GE(rows, 2U);
     EXPECT_LE(rows, 5U);
     EXPECT_LE(sown.plots->width_m / rows, 0.76 + 1e-9);
-    EXPECT_GE(sown.plots->width_m / rows, 0.12);
+    EXPECT_GE(sown.plots->width_m / rows, 0.19 - 1e-9);
   }
 }
 
