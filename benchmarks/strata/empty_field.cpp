@@ -50,13 +50,13 @@ Scene orchard(RandomStream& random) {
   const double heading = any_heading(random);
   const double width_m = random.uniform(1.5, 3.5);
   const double height_m = random.uniform(1.8, 4.5);
-  const Eigen::Vector2d pitch_m(width_m + random.uniform(0.3, 2.5), width_m + random.uniform(1, 3));
-  const Eigen::Vector2i count(draw_count(random, 4, 8), draw_count(random, 4, 8));
+  const Eigen::Vector2d pitch_m{width_m + random.uniform(0.3, 2.5), width_m + random.uniform(1, 3)};
+  const Eigen::Vector2i count{draw_count(random, 4, 8), draw_count(random, 4, 8)};
   Scene scene;
   for (int i = 0; i < count.x(); ++i) {
     for (int j = 0; j < count.y(); ++j) {
       if (chance(random, 0.05)) continue;
-      const Eigen::Vector2d wander = 0.15 * Eigen::Vector2d(random.normal(), random.normal());
+      const Eigen::Vector2d wander = 0.15 * Eigen::Vector2d{random.normal(), random.normal()};
       const Eigen::Vector2d local((i - (count.x() - 1) / 2.0) * pitch_m.x(),
                                   (j - (count.y() - 1) / 2.0) * pitch_m.y());
       scene.things.push_back(crown(turned(local + wander, heading), width_m, height_m, random));
@@ -107,8 +107,8 @@ Scene cars(RandomStream& random) {
   for (int row = 0; row < rows; ++row) {
     for (int bay = 0; bay < bays; ++bay) {
       if (!chance(random, filled)) continue;
-      const Eigen::Vector2d local((bay - (bays - 1) / 2.0) * bay_m + 0.1 * random.normal(),
-                                  (row - (rows - 1) / 2.0) * lane_m + 0.15 * random.normal());
+      const Eigen::Vector2d local{(bay - (bays - 1) / 2.0) * bay_m + 0.1 * random.normal(),
+                                  (row - (rows - 1) / 2.0) * lane_m + 0.15 * random.normal()};
       const double turn = (chance(random, 0.5) ? 0.5 : -0.5) * std::numbers::pi;
       scene.things.push_back({.shape = Shape::car,
                               .outline = {.center = turned(local, heading),
@@ -136,7 +136,7 @@ Thing wall(const Eigen::Vector2d& local, double length_m, double heading, double
 Scene room(RandomStream& random) {
   constexpr double kAcross = std::numbers::pi / 2;
   const double heading = any_heading(random);
-  const Eigen::Vector2d size_m(random.uniform(8, 20), random.uniform(6, 14));
+  const Eigen::Vector2d size_m{random.uniform(8, 20), random.uniform(6, 14)};
   const double height_m = random.uniform(2.4, 4);
   const PlotBox outline{
       .center = {0, 0}, .width_m = size_m.y(), .length_m = size_m.x(), .heading_rad = heading};
@@ -151,8 +151,8 @@ Scene room(RandomStream& random) {
   }
   const double table_m = random.uniform(1.2, 2);
   const double deep_m = random.uniform(0.6, 0.9);
-  const Eigen::Vector2d pitch_m(table_m + random.uniform(0.5, 1.2),
-                                deep_m + random.uniform(0.8, 1.6));
+  const Eigen::Vector2d pitch_m{table_m + random.uniform(0.5, 1.2),
+                                deep_m + random.uniform(0.8, 1.6)};
   for (double x = -size_m.x() / 2 + pitch_m.x(); x < size_m.x() / 2 - 1; x += pitch_m.x()) {
     for (double y = -size_m.y() / 2 + pitch_m.y(); y < size_m.y() / 2 - 1; y += pitch_m.y()) {
       if (chance(random, 0.25)) continue;
@@ -183,7 +183,7 @@ Scene building(RandomStream& random) {
   Scene scene;
   const int parts = draw_count(random, 1, 3);
   for (int part = 0; part < parts; ++part) {
-    const Eigen::Vector2d local(random.uniform(-6, 6), random.uniform(-6, 6));
+    const Eigen::Vector2d local{random.uniform(-6, 6), random.uniform(-6, 6)};
     scene.things.push_back({.shape = chance(random, 0.5) ? Shape::roof : Shape::block,
                             .outline = {.center = turned(local, heading),
                                         .width_m = random.uniform(5, 10),
@@ -198,8 +198,10 @@ Scene bushes(RandomStream& random) {
   const int count = draw_count(random, 15, 90);
   Scene scene;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector2d place(random.uniform(-13, 13), random.uniform(-13, 13));
-    scene.things.push_back(crown(place, random.uniform(0.6, 2.4), random.uniform(0.4, 2), random));
+    const Eigen::Vector2d place{random.uniform(-13, 13), random.uniform(-13, 13)};
+    const double width_m = random.uniform(0.6, 2.4);
+    const double height_m = random.uniform(0.4, 2);
+    scene.things.push_back(crown(place, width_m, height_m, random));
   }
   return scene;
 }

@@ -67,9 +67,10 @@ std::string drawn_models(const std::string& crop, const std::string& stage,
     const double value = draw(random, bounds);
     values += (values.empty() ? "" : ", ") + key + "=" + text(value);
   }
-  return "[{crop: " + crop + ", stage: " + stage +
-         ", seed: " + std::to_string(random.below(kSeeds)) +
-         ", variants: " + std::to_string(draw_count(random, 3, 8)) + ", set: [" + values + "]}]";
+  const int variants = draw_count(random, 3, 8);
+  const std::uint64_t seed = random.below(kSeeds);
+  return "[{crop: " + crop + ", stage: " + stage + ", seed: " + std::to_string(seed) +
+         ", variants: " + std::to_string(variants) + ", set: [" + values + "]}]";
 }
 
 Overrides draw_plants(const std::string& crop, const CropRanges& ranges, const Sowing& sowing,

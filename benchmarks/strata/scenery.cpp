@@ -133,12 +133,12 @@ std::vector<Eigen::Vector3f> scan(const std::vector<Thing>& things, const Ground
   std::vector<Eigen::Vector3f> points;
   const auto add = [&](const Eigen::Vector2d& place, double height_m) {
     const Eigen::Vector3d point(place.x(), place.y(), ground.height(place) + height_m);
-    const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
+    const Eigen::Vector3d noise{random.normal(), random.normal(), random.normal()};
     points.push_back((point + options.noise_m * noise).cast<float>());
   };
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector2d place =
-        options.side_m * Eigen::Vector2d(random.uniform() - 0.5, random.uniform() - 0.5);
+        options.side_m * Eigen::Vector2d{random.uniform() - 0.5, random.uniform() - 0.5};
     double highest_m = 0;
     const Thing* hit = nullptr;
     for (const Thing& thing : things) {
@@ -148,7 +148,8 @@ std::vector<Eigen::Vector3f> scan(const std::vector<Thing>& things, const Ground
       hit = &thing;
     }
     if (hit != nullptr && has_walls(hit->shape) && random.uniform() < options.wall_share) {
-      add(on_a_side(hit->outline, random), hit->height_m * random.uniform() * 2 / 3);
+      const double height_m = hit->height_m * random.uniform() * 2 / 3;
+      add(on_a_side(hit->outline, random), height_m);
     } else {
       add(place, highest_m);
     }
