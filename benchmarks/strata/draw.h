@@ -21,7 +21,8 @@ inline double draw(RandomStream& random, const Bounds& range) {
 
 // A whole number in [low, high].
 inline int draw_count(RandomStream& random, int low, int high) {
-  return low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  const auto count = static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low) + 1;
+  return low + static_cast<int>(random.below(count));
 }
 
 template <class Value, std::size_t Count>

@@ -153,11 +153,14 @@ Scene room(RandomStream& random) {
   const double deep_m = random.uniform(0.6, 0.9);
   const Eigen::Vector2d pitch_m{table_m + random.uniform(0.5, 1.2),
                                 deep_m + random.uniform(0.8, 1.6)};
-  for (double x = -size_m.x() / 2 + pitch_m.x(); x < size_m.x() / 2 - 1; x += pitch_m.x()) {
-    for (double y = -size_m.y() / 2 + pitch_m.y(); y < size_m.y() / 2 - 1; y += pitch_m.y()) {
+  // From one pitch off two walls to a metre off the others.
+  const Eigen::Vector2i count = ((size_m.array() - 1) / pitch_m.array()).cast<int>();
+  for (int i = 1; i <= count.x(); ++i) {
+    for (int j = 1; j <= count.y(); ++j) {
+      const Eigen::Vector2d local = -size_m / 2 + Eigen::Vector2d(i, j).cwiseProduct(pitch_m);
       if (chance(random, 0.25)) continue;
       scene.things.push_back({.shape = Shape::block,
-                              .outline = {.center = turned({x, y}, heading),
+                              .outline = {.center = turned(local, heading),
                                           .width_m = deep_m,
                                           .length_m = table_m,
                                           .heading_rad = heading + 0.03 * random.normal()},

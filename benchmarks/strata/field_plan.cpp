@@ -8,7 +8,6 @@
 #include "lidar/fly_settings.h"
 
 namespace plotscan::strata {
-namespace fs = std::filesystem;
 namespace {
 
 // 64-bit FNV-1a.

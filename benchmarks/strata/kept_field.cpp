@@ -81,7 +81,7 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
 }  // namespace
 
 KeptField keep_farm(const FieldPlan& plan, const fs::path& folder, int threads) {
-  const KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = folder / "farm"};
+  KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = folder / "farm"};
   if (holds(folder, to_json(plan))) return field;
   fs::create_directories(field.cloud.parent_path());
   make_farm(plan, field, threads);
@@ -91,7 +91,7 @@ KeptField keep_farm(const FieldPlan& plan, const fs::path& folder, int threads) 
 
 KeptField keep_empty_field(const std::string& word, const std::string& kind, int index,
                            const fs::path& folder) {
-  const KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = {}};
+  KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = {}};
   RandomStream random = field_stream(word, kind, index);
   const json plan = {
       {"kind", kind}, {"index", index}, {"seed", field_stream(word, kind, index).next_u32()}};

@@ -70,7 +70,8 @@ double confidence_auc(std::span<const MeasuredField> fields) {
   std::ranges::sort(falses);
   double above = 0;
   for (const double confidence : truths) {
-    const auto [low, high] = std::ranges::equal_range(falses, confidence);
+    const auto low = std::ranges::lower_bound(falses, confidence);
+    const auto high = std::ranges::upper_bound(falses, confidence);
     above += static_cast<double>(low - falses.begin()) + static_cast<double>(high - low) / 2;
   }
   return ratio(above, static_cast<double>(truths.size()) * static_cast<double>(falses.size()));

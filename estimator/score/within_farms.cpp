@@ -35,6 +35,7 @@ std::vector<double> less_mean(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   const double middle = low == high ? low : mean(values);
   std::vector<double> less;
+  less.reserve(values.size());
   for (const double value : values) less.push_back(value - middle);
   return less;
 }
@@ -66,6 +67,7 @@ std::vector<double> ranks(const std::vector<double>& values) {
 
 std::vector<double> errors_of(const HeightPairs& pairs) {
   std::vector<double> errors_m;
+  errors_m.reserve(pairs.truths_m.size());
   for (std::size_t i = 0; i < pairs.truths_m.size(); ++i)
     errors_m.push_back(pairs.estimates_m[i] - pairs.truths_m[i]);
   return errors_m;
