@@ -53,10 +53,20 @@ double mound_height(const Thing& thing, const Eigen::Vector2d& at, RandomStream&
   return std::max(0.0, dome + kRough_m * random.normal());
 }
 
+// Waves of many lengths in many directions: nowhere the same again, as no lattice is.
 double canopy_height(const Thing& thing, const Eigen::Vector2d& place, RandomStream& random) {
-  constexpr double kWavelength_m = 0.7;
-  const double k = 2 * std::numbers::pi / kWavelength_m;
-  const double uneven = 0.05 * (std::sin(k * place.x()) + std::sin(k * 1.31 * place.y() + 1));
+  constexpr int kWaves = 6;
+  constexpr double kShortest_m = 0.4;
+  constexpr double kLonger = 1.5;       // than the wave before
+  constexpr double kGoldenAngle = 2.4;  // radians from one direction to the next
+  constexpr double kAmplitude = 0.1 / kWaves;
+  double uneven = 0;
+  for (int i = 0; i < kWaves; ++i) {
+    const double per_m = 2 * std::numbers::pi / (kShortest_m * std::pow(kLonger, i));
+    const double along_m =
+        place.x() * std::cos(kGoldenAngle * i) + place.y() * std::sin(kGoldenAngle * i);
+    uneven += kAmplitude * std::sin(per_m * along_m + i);
+  }
   return thing.height_m * (0.9 + uneven) * within(0.7, 1, random);
 }
 
