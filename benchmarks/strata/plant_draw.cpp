@@ -27,8 +27,8 @@ void draw_cultivars(double spread, RandomStream& random, Overrides& set) {
   set.push_back("plants.design=random");
 }
 
-void draw_scales(RandomStream& random, Overrides& set) {
-  const double spread = random.uniform(0, 0.25);
+void draw_scales(const Bounds& spreads, RandomStream& random, Overrides& set) {
+  const double spread = draw(random, spreads);
   set.push_back("plants.scale=[" + text(1 - spread) + ", " + text(1 + spread) + "]");
   draw_cultivars(spread, random, set);
 }
@@ -49,7 +49,8 @@ PlantRanges read_plant_ranges(const std::filesystem::path& file) {
   PlantRanges ranges;
   for (const std::string& crop : document.keys()) {
     const YamlSection section = document.section(crop);
-    section.allow_only({"parameters", "stages"});
+    section.allow_only({"spread", "parameters", "stages"});
+    ranges[crop].spread = section.pair("spread", {0, 0.5});
     const YamlSection parameters = section.section("parameters");
     for (const std::string& key : parameters.keys())
       ranges[crop].parameters[key] = parameters.pair(key, kAny);
@@ -79,7 +80,7 @@ Overrides draw_plants(const std::string& crop, const CropRanges& ranges, const S
   Overrides set;
   const std::string fixed = tufts ? "tuft_m=" + text(kTuft_m) : "";
   set.push_back("plants.models=" + drawn_models(crop, stage, ranges, fixed, random));
-  draw_scales(random, set);
+  draw_scales(ranges.spread, random, set);
   if (chance(random, 0.2)) {
     set.push_back("plants.lodging.plots_rate=" + text(random.uniform(0.03, 0.12)));
     set.push_back("plants.lodging.angle_deg=[15, 50]");

@@ -13,6 +13,7 @@ namespace plotscan::strata {
 
 // Between which bounds a crop's plants are drawn.
 struct CropRanges {
+  Bounds spread;  // of a field's plants: their scales lie in [1 - spread, 1 + spread]
   std::map<std::string, Bounds> parameters;            // of the crop, as `farmgen plant` knows them
   std::vector<std::pair<std::string, Bounds>> stages;  // and plants a square metre at each
 };
