@@ -36,7 +36,8 @@ std::string table_row(const SuiteResult& result, const TableRow& row, bool first
          cell(with_interval(row.rmse_change_m, row.rmse_change_low_m, row.rmse_change_high_m)) +
          cell(published_cm(result, row)) + cell(number("%+.2f", 100 * row.bias_m)) +
          cell(number("%.2f", 100 * row.mae_m)) + cell(number("%.3f", row.r2)) +
-         cell(number("%.2f", row.seconds)) + "</tr>\n";
+         cell(centimetres(row.within.within_m)) + cell(number("%.2f", row.within.r2)) +
+         cell(number("%.2f", row.within.rho)) + cell(number("%.2f", row.seconds)) + "</tr>\n";
 }
 
 std::string table_of(const SuiteResult& result, const std::vector<TableRow>& rows) {
@@ -44,7 +45,8 @@ std::string table_of(const SuiteResult& result, const std::vector<TableRow>& row
       "<table><tr><th>method</th><th>case</th><th>found</th><th>extra</th><th>IoU median</th>"
       "<th>IoU least</th><th>RMSE [95&nbsp;%], cm</th><th>change, "
       "cm</th><th>published</th><th>bias, cm</th>"
-      "<th>MAE, cm</th><th>R&sup2;</th><th>s</th></tr>\n";
+      "<th>MAE, cm</th><th>R&sup2;</th><th>within farms, cm</th><th>R&sup2; within</th>"
+      "<th>&rho; within</th><th>s</th></tr>\n";
   std::string method;
   for (const TableRow& row : rows) {
     text += table_row(result, row, row.method != method);
@@ -82,13 +84,16 @@ std::string own_truths(const std::vector<TableRow>& rows) {
   if (rows.empty()) return "";
   std::string text =
       "<h2>Each height against the truth it is named after</h2>\n<table>" +
-      html_row({"method", "case", "truth", "RMSE [95&nbsp;%], cm", "bias, cm",
+      html_row({"method", "case", "truth", "RMSE [95&nbsp;%], cm", "bias, cm", "bias a farm, cm",
+                "within farms, cm", "R&sup2; within", "&rho; within",
                 "truths in its 95&nbsp;% intervals", "flagged plots", "over 5 cm without a flag"},
                "th");
   for (const TableRow& row : rows) {
     text += html_row({escaped(row.method), escaped(row.case_name), escaped(row.truth),
                       with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                      number("%+.2f", 100 * row.bias_m), percent(row.coverage95),
+                      number("%+.2f", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
+                      centimetres(row.within.within_m), number("%.2f", row.within.r2),
+                      number("%.2f", row.within.rho), percent(row.coverage95),
                       std::to_string(row.flagged), unflagged(row)},
                      "td");
   }
@@ -102,12 +107,15 @@ std::string scan_note(const SuiteResult& result) {
     shots += static_cast<double>(farm.shots);
     points += static_cast<double>(farm.points);
   }
-  std::string text = "<p class=\"note\">" +
-                     formatted("%zu farms, %.0f million shots, %.0f million points. ",
-                               result.farms.size(), shots / 1e6, points / 1e6) +
-                     "Heights are scored over the plots found (boxes that overlap a true one by an "
-                     "intersection over union of at least 0.5, one to one). Intervals are 95 % "
-                     "percentile bootstrap over farms.";
+  std::string text =
+      "<p class=\"note\">" +
+      formatted("%zu farms, %.0f million shots, %.0f million points. ", result.farms.size(),
+                shots / 1e6, points / 1e6) +
+      "Heights are scored over the plots found (boxes that overlap a true one by an "
+      "intersection over union of at least 0.5, one to one). Intervals are 95 % "
+      "percentile bootstrap over farms. Bias a farm: root mean square of the farms' own "
+      "biases; within farms: root mean square of the errors less their farm's bias, "
+      "and how well the order of a farm's plots is kept.";
   if (result.published) {
     text += " Published: RMSE in " + escaped(result.published->source) + ", cm.";
   }

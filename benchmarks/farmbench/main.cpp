@@ -37,6 +37,10 @@ nlohmann::json json_of(const farmbench::TableRow& row) {
           {"bias_m", row.bias_m},
           {"mae_m", row.mae_m},
           {"r2", row.r2},
+          {"farm_bias_m", row.within.farm_bias_m},
+          {"within_m", row.within.within_m},
+          {"r2_within", row.within.r2},
+          {"rho_within", row.within.rho},
           {"coverage95", row.coverage95},
           {"flagged", row.flagged},
           {"over_5cm_unflagged", row.large_unflagged},
@@ -87,6 +91,10 @@ void declare_run(Program& program, farmbench::RunOptions& options) {
       ->required();
   run.add_option("--jobs", options.jobs, "farms at a time; 0 is one for each thread (-j)")
       ->check(CLI::Range(0, 1024));
+  run.add_option("--seeds", options.seeds,
+                 "so many seeds of each case, from the suite's first one, not the suite's");
+  run.add_option("--methods", options.methods, "these methods (a,b) in place of the suite's")
+      ->delimiter(',');
   run.add_flag("--keep-clouds", options.keep_clouds,
                "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
   run.add_flag("--force", options.force, "run every farm again");

@@ -2,10 +2,14 @@
 #include "farmbench/methods.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.h"
+#include "core/statistics.h"
+#include "core/text.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
+#include "score/height_score.h"
 #include "score/oracle_ground.h"
 
 namespace plotscan::farmbench {
@@ -49,6 +53,30 @@ estimate::Estimate oracle_ground(const Field& field) {
   return score::oracle_ground(field.map, field.plots, field.terrain);
 }
 
+// What heights are named after in the truth and in the lattice method's rows.
+const std::vector<std::string>& height_names() {
+  static const std::vector<std::string> names = {"max", "mean", "p50",        "p90",
+                                                 "p95", "p99",  "canopy_p95", "canopy_p99"};
+  return names;
+}
+
+// One number for the whole field, and the best that there is: the mean of its plots' true heights.
+estimate::Estimate one_number(const Field& field) {
+  std::map<std::string, double> means_m;
+  for (const std::string& name : height_names()) {
+    std::vector<double> truths_m;
+    for (const score::TruePlot& plot : field.plots) {
+      const auto truth = plot.heights_m.find(score::named_truth(name));
+      if (truth != plot.heights_m.end()) truths_m.push_back(truth->second);
+    }
+    if (!truths_m.empty()) means_m[name] = mean(truths_m);
+  }
+  estimate::Estimate estimate{.method = "one-number"};
+  for (const score::TruePlot& plot : field.plots)
+    estimate.plots.push_back({.id = plot.id, .box = plot.box, .heights_m = means_m});
+  return estimate;
+}
+
 // "lattice/max true-boxes": of a method's name, what comes after its first word follows the height.
 std::string row_name(const std::string& method, const std::string& height) {
   const std::size_t space = method.find(' ');
@@ -56,12 +84,10 @@ std::string row_name(const std::string& method, const std::string& height) {
   return method.substr(0, space) + "/" + height + method.substr(space);
 }
 
-// The heights of the lattice method, in rows named after the method.
-std::vector<MethodHeight> lattice_heights(const std::string& method) {
+// The heights that have a truth of their name, in rows named after the method.
+std::vector<MethodHeight> named_heights(const std::string& method) {
   std::vector<MethodHeight> heights;
-  for (const char* name : {"max", "mean", "p50", "p90", "p95", "p99", "canopy_p95", "canopy_p99"}) {
-    heights.push_back({name, row_name(method, name)});
-  }
+  for (const std::string& name : height_names()) heights.push_back({name, row_name(method, name)});
   return heights;
 }
 
@@ -69,12 +95,12 @@ std::vector<MethodHeight> lattice_heights(const std::string& method) {
 
 const std::vector<Method>& known_methods() {
   static const std::vector<Method> methods = {
-      {.name = "lattice", .heights = lattice_heights("lattice"), .estimate = lattice},
+      {.name = "lattice", .heights = named_heights("lattice"), .estimate = lattice},
       {.name = "lattice uncalibrated",
-       .heights = lattice_heights("lattice uncalibrated"),
+       .heights = named_heights("lattice uncalibrated"),
        .estimate = lattice_uncalibrated},
       {.name = "lattice true-boxes",
-       .heights = lattice_heights("lattice true-boxes"),
+       .heights = named_heights("lattice true-boxes"),
        .estimate = lattice_true_boxes},
       {.name = "dhami2020",
        .heights = {{"voxel-max", "dhami2020/voxel-max"},
@@ -86,7 +112,8 @@ const std::vector<Method>& known_methods() {
                    {"raw-max", "dhami2020/raw-max true-boxes"},
                    {"raw-p99", "dhami2020/raw-p99 true-boxes"}},
        .estimate = dhami2020_true_boxes},
-      {.name = "oracle-ground", .heights = {{"p99", "oracle-ground"}}, .estimate = oracle_ground}};
+      {.name = "oracle-ground", .heights = {{"p99", "oracle-ground"}}, .estimate = oracle_ground},
+      {.name = "one-number", .heights = named_heights("one-number"), .estimate = one_number}};
   return methods;
 }
 
@@ -95,6 +122,17 @@ const Method& method_named(const std::string& name) {
   const auto found = std::ranges::find(methods, name, &Method::name);
   check(found != methods.end(), "no method " + name);
   return *found;
+}
+
+void require_known_methods(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Method& method : known_methods()) known.push_back(method.name);
+  for (const std::string& name : names) {
+    if (std::ranges::count(known, name) == 0)
+      throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
+    if (std::ranges::count(names, name) > 1)
+      throw InputError("the method \"" + name + "\" is named twice");
+  }
 }
 
 std::set<std::string> heights_of(const Method& method) {

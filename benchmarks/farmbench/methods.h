@@ -44,6 +44,9 @@ const std::vector<Method>& known_methods();
 // The method of this name, which must be known.
 const Method& method_named(const std::string& name);
 
+// Throws InputError on a name that is not one of them, or stands there twice.
+void require_known_methods(const std::vector<std::string>& names);
+
 // The names of its heights.
 std::set<std::string> heights_of(const Method& method);
 

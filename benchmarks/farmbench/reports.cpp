@@ -19,8 +19,9 @@ std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::s
        {std::to_string(rank), row.method,
         with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m), published,
         number("%+.2f", 100 * row.bias_m), centimetres(row.mae_m), number("%.3f", row.r2),
-        formatted("%zu of %zu", row.found, row.plots), std::to_string(row.extra),
-        number("%.3f", row.iou_median), number("%.2f", row.seconds)}) {
+        centimetres(row.within.within_m), number("%.2f", row.within.r2),
+        number("%.2f", row.within.rho), formatted("%zu of %zu", row.found, row.plots),
+        std::to_string(row.extra), number("%.3f", row.iou_median), number("%.2f", row.seconds)}) {
     line += "| " + cell + " ";
   }
   return line + "|";
@@ -78,12 +79,15 @@ std::string own_truths(const std::vector<TableRow>& rows) {
   if (rows.empty()) return "";
   std::string text =
       "\n## Each height against the truth it is named after\n\n| method | truth | case | RMSE "
-      "[95 %] | bias | truths in its 95 % intervals | flagged plots | over 5 cm without a flag |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+      "[95 %] | bias | bias a farm | within farms | R2 within | rho within | truths in its 95 % "
+      "intervals | flagged plots | over 5 cm without a flag |\n| --- | --- | --- | --- | --- | --- "
+      "| --- | --- | --- | --- | --- | --- |\n";
   for (const TableRow& row : rows) {
     text += markdown_row({row.method, row.truth, row.case_name,
                           with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                          number("%+.2f", 100 * row.bias_m), percent(row.coverage95),
+                          number("%+.2f", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
+                          centimetres(row.within.within_m), number("%.2f", row.within.r2),
+                          number("%.2f", row.within.rho), percent(row.coverage95),
                           std::to_string(row.flagged), unflagged(row)});
   }
   return text;
@@ -93,7 +97,8 @@ std::string own_truths(const std::vector<TableRow>& rows) {
 std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::string text = "# Suite " + result.suite +
                      "\n\nRMSE, bias and MAE in cm over the plots found; 95 % bootstrap intervals "
-                     "over farms. All columns and truths are in table.csv.\n" +
+                     "over farms. Bias a farm: rms of the farms' own biases; within farms: rms of "
+                     "the errors less their farm's. All columns and truths are in table.csv.\n" +
                      plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
   for (const std::string& truth : shown_truths(result, table)) {
     if (!result.baseline) break;
@@ -106,14 +111,17 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
       std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
         return row.truth == truth && row.case_name == info.name && row.shown;
       });
+      if (rows.empty()) continue;
       // NaN, a method without any height, comes last.
       std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
         return a.rmse_m < b.rmse_m || (std::isnan(b.rmse_m) && !std::isnan(a.rmse_m));
       });
-      text += "\n## " + info.name + ", truth " + truth +
-              "\n\n| | method | RMSE [95 %] | published | bias | MAE | R2 | found | extra | IoU "
-              "median | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | "
-              "--- |\n";
+      text +=
+          "\n## " + info.name + ", truth " + truth +
+          "\n\n| | method | RMSE [95 %] | published | bias | MAE | R2 | within farms | R2 within | "
+          "rho within | found | "
+          "extra | IoU median | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- "
+          "| --- | --- | --- | --- | --- |\n";
       for (std::size_t i = 0; i < rows.size(); ++i)
         text += leaderboard_line(i + 1, rows[i], published_cm(result, rows[i])) + "\n";
     }
@@ -141,6 +149,26 @@ std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
         row.extra, number("%.4f", row.recall).c_str(), number("%.4f", row.precision).c_str(),
         number("%.3f", row.iou_mean).c_str(), centimetres(row.center_rmse_m).c_str(),
         number("%.3f", degrees(row.heading_rmse_rad)).c_str()));
+    method = row.method;
+  }
+  return lines;
+}
+
+// What is left of the errors when every farm's bias is taken away, and whether the order is right.
+std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
+  if (rows.empty()) return {};
+  std::vector<std::string> lines = {
+      "",
+      "Against the truth each height is named after: the farms' own biases, and the rest (cm rms)",
+      formatted("%-32s %-14s %7s %11s %11s %9s %10s", "method", "case", "RMSE", "bias a farm",
+                "within farm", "R2 within", "rho within")};
+  std::string method;
+  for (const TableRow& row : rows) {
+    lines.push_back(formatted(
+        "%-32s %-14s %7s %11s %11s %9s %10s", row.method != method ? row.method.c_str() : "",
+        row.case_name.c_str(), centimetres(row.rmse_m).c_str(),
+        centimetres(row.within.farm_bias_m).c_str(), centimetres(row.within.within_m).c_str(),
+        number("%.2f", row.within.r2).c_str(), number("%.2f", row.within.rho).c_str()));
     method = row.method;
   }
   return lines;
@@ -237,8 +265,8 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
       method = row.method;
     }
   }
-  const std::vector<std::string> trust = trust_lines(named_rows(table));
-  lines.insert(lines.end(), trust.begin(), trust.end());
+  for (const auto& more : {within_lines(named_rows(table)), trust_lines(named_rows(table))})
+    lines.insert(lines.end(), more.begin(), more.end());
   if (result.published) {
     lines.emplace_back("");
     lines.push_back("publ.: RMSE of the method in " + result.published->source);

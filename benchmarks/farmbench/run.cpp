@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "farmbench/farm_queue.h"
+#include "farmbench/methods.h"
 #include "farmbench/reports.h"
 #include "farmbench/run_farm.h"
 #include "farmbench/text_file.h"
@@ -25,6 +27,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kCommand = "farmbench run";
+constexpr int kMostSeeds = 10'000;
 
 // One farm of the suite and where its result lies.
 struct Task {
@@ -38,7 +41,24 @@ struct Task {
 void require_sound(const RunOptions& options) {
   if (options.jobs < 1 || options.jobs > 1024)
     throw InputError("the number of jobs is " + std::to_string(options.jobs) + "; it is 1 to 1024");
+  if (options.seeds && (*options.seeds < 1 || *options.seeds > kMostSeeds))
+    throw InputError("the number of seeds is " + std::to_string(*options.seeds) +
+                     "; it is 1 to 10000");
   require_own_folder(options.output, kCommand);
+}
+
+// The suite with the seeds and methods that the options put in place of its own.
+Suite chosen_suite(const RunOptions& options) {
+  Suite suite = load_suite(options.suite);
+  if (options.seeds) {
+    const std::uint64_t first = suite.seeds.front();
+    suite.seeds.resize(static_cast<std::size_t>(*options.seeds));
+    std::iota(suite.seeds.begin(), suite.seeds.end(), first);
+  }
+  if (options.methods.empty()) return suite;
+  require_known_methods(options.methods);
+  suite.methods = options.methods;
+  return suite;
 }
 
 fs::path result_file(const RunOptions& options, const Task& task) {
@@ -140,7 +160,7 @@ void write_run_manifest(const RunOptions& options, const std::vector<Task>& task
 RunSummary run(const RunOptions& options, const ProgressReport& progress,
                const FarmReport& finished) {
   require_sound(options);
-  const Suite suite = load_suite(options.suite);
+  const Suite suite = chosen_suite(options);
   std::vector<Task> tasks = plan(suite, options);
   const auto resumed =
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,14 @@
 namespace plotscan::farmbench {
 
 struct RunOptions {
-  std::filesystem::path suite;   // the YAML file
-  std::filesystem::path output;  // results folder
-  int jobs = 1;                  // farms at a time
-  int threads = 1;               // of all jobs together
-  bool keep_clouds = false;      // keep each farm and its scan in output/clouds
-  bool force = false;            // run again what has been run
+  std::filesystem::path suite;              // the YAML file
+  std::filesystem::path output;             // results folder
+  int jobs = 1;                             // farms at a time
+  int threads = 1;                          // of all jobs together
+  bool keep_clouds = false;                 // keep each farm and its scan in output/clouds
+  bool force = false;                       // run again what has been run
+  std::optional<int> seeds = std::nullopt;  // so many from the suite's first one, not the suite's
+  std::vector<std::string> methods = {};    // these in place of the suite's
   std::string build;       // identifies the program, so that no other program's farms are kept
   std::uint64_t seed = 1;  // of the bootstrap
 };

@@ -116,6 +116,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
                    {"crop_margin_m", suite.crop_margin_m},
                    {"methods", suite.methods}};
   if (suite_case.survey) document["survey_m"] = *suite_case.survey;
+  if (suite_case.without_plots) document["without_plots"] = true;
   return document;
 }
 
@@ -130,6 +131,10 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
   std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
   const estimate::CloudMap map =
       estimate::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
+  if (suite_case.without_plots) {
+    truth.clear();
+    plots.clear();
+  }
   report(progress, kRead);
   FarmResult result{.case_name = suite_case.name,
                     .seed = seed,

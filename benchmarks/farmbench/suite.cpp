@@ -91,7 +91,8 @@ estimate::Area read_survey(const YamlSection& section) {
 }
 
 SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight) {
-  section.allow_only({"name", "farm", "set", "flight", "survey_m", "published_rmse_cm"});
+  section.allow_only(
+      {"name", "farm", "set", "flight", "survey_m", "without_plots", "published_rmse_cm"});
   SuiteCase suite_case{.name = read_name(section),
                        .farm = section.file().parent_path() / section.text("farm"),
                        .flight = read_flight(section, flight)};
@@ -104,6 +105,9 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
   if (section.has("published_rmse_cm"))
     suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
   if (section.has("survey_m")) suite_case.survey = read_survey(section);
+  suite_case.without_plots = section.choice("without_plots", {"false", "true"}, 0) == 1;
+  if (suite_case.without_plots && suite_case.survey)
+    section.fail("survey_m", "is of plots, and the case is without_plots");
   require_farm(section, suite_case);
   return suite_case;
 }

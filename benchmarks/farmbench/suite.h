@@ -22,6 +22,8 @@ struct SuiteCase {
   std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
   // What is surveyed, where it is not the whole field: flown over, and all that the cloud keeps.
   std::optional<estimate::Area> survey = std::nullopt;
+  // What stands in the farm's boxes are no plots but trees, say: every plot found is one too many.
+  bool without_plots = false;
 };
 
 // What somebody published, to stand beside what is measured.

@@ -115,9 +115,12 @@ void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod&
 
 void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string& height,
                  std::uint64_t seed) {
+  std::vector<score::HeightPairs> by_farm;
   score::HeightPairs pooled;
-  for (const score::FieldScore& field : collected.fields)
-    score::append(pooled, score::height_pairs(field, height, row.truth));
+  for (const score::FieldScore& field : collected.fields) {
+    by_farm.push_back(score::height_pairs(field, height, row.truth));
+    score::append(pooled, by_farm.back());
+  }
   const score::HeightScore score = score::score_height(height, row.truth, pooled);
   const Interval interval = bootstrap_rmse(errors_by_farm(collected, height, row.truth), seed);
   row.without = score.without;
@@ -127,10 +130,23 @@ void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string
   row.bias_m = score.bias_m;
   row.mae_m = score.mae_m;
   row.r2 = score.r2;
+  row.within = score::score_within(by_farm);
   row.coverage95 = score.coverage95;
   row.flagged = score.flagged;
   row.large_unflagged = score.large_unflagged;
   row.large_unflagged_share = score.large_unflagged_share;
+}
+
+// What was found where there is no plot.
+TableRow row_without_plots(const std::string& suite, const std::string& case_name,
+                           const CaseOfMethod& collected) {
+  TableRow row{.suite = suite,
+               .case_name = case_name,
+               .method = collected.method.heights.front().row,
+               .truth = {}};
+  set_boxes(row, collected);
+  set_heights(row, collected, collected.method.heights.front().height, 1);
+  return row;
 }
 
 }  // namespace
@@ -143,8 +159,11 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
       std::optional<CaseOfMethod> baseline;
       if (result.baseline) baseline.emplace(collect(result, *result.baseline, method));
       const std::set<std::string> heights = heights_of(collected.method);
+      const std::set<std::string> truths = truths_of(collected.fields);
+      if (truths.empty() && !collected.fields.empty())
+        table.push_back(row_without_plots(result.suite, info.name, collected));
       for (const MethodHeight& height : collected.method.heights) {
-        for (const std::string& truth : truths_of(collected.fields)) {
+        for (const std::string& truth : truths) {
           TableRow row{.suite = result.suite,
                        .case_name = info.name,
                        .method = height.row,
@@ -174,16 +193,33 @@ std::string table_csv(const std::vector<TableRow>& table) {
   std::string text =
       "suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,"
       "iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,"
-      "rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,coverage95,flagged,"
-      "over_5cm_unflagged,over_5cm_unflagged_share,seconds\n";
+      "rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,"
+      "r2_within,rho_within,coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share,"
+      "seconds\n";
   for (const TableRow& row : table) {
     text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
     append_counts(text, {row.farms, row.plots, row.found, row.missed, row.extra});
-    append_values(text, {row.recall, row.precision, row.iou_mean, row.iou_median, row.iou_min,
-                         100 * row.center_rmse_m, degrees(row.heading_rmse_rad), 100 * row.rmse_m,
-                         100 * row.rmse_low_m, 100 * row.rmse_high_m, 100 * row.rmse_change_m,
-                         100 * row.rmse_change_low_m, 100 * row.rmse_change_high_m,
-                         100 * row.bias_m, 100 * row.mae_m, row.r2, row.coverage95});
+    append_values(text, {row.recall,
+                         row.precision,
+                         row.iou_mean,
+                         row.iou_median,
+                         row.iou_min,
+                         100 * row.center_rmse_m,
+                         degrees(row.heading_rmse_rad),
+                         100 * row.rmse_m,
+                         100 * row.rmse_low_m,
+                         100 * row.rmse_high_m,
+                         100 * row.rmse_change_m,
+                         100 * row.rmse_change_low_m,
+                         100 * row.rmse_change_high_m,
+                         100 * row.bias_m,
+                         100 * row.mae_m,
+                         row.r2,
+                         100 * row.within.farm_bias_m,
+                         100 * row.within.within_m,
+                         row.within.r2,
+                         row.within.rho,
+                         row.coverage95});
     append_counts(text, {row.flagged, row.large_unflagged});
     append_values(text, {row.large_unflagged_share, row.seconds});
     text += "\n";

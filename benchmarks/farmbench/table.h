@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "farmbench/suite_result.h"
+#include "score/within_farms.h"
 
 namespace plotscan::farmbench {
 
@@ -18,7 +19,7 @@ struct TableRow {
   std::string suite;
   std::string case_name;
   std::string method;  // MethodHeight::row
-  std::string truth;   // "height_max_m"
+  std::string truth;   // "height_max_m"; "" where there are no plots, and no heights then
   bool named = false;  // the height is named after the truth (score::named_truth)
   bool shown = true;   // the height stands beside the truth in reports (score::heights_beside)
   std::size_t farms = 0;
@@ -45,6 +46,7 @@ struct TableRow {
   double bias_m = 0;
   double mae_m = 0;
   double r2 = 0;
+  score::WithinFarms within = {};  // the error a farm and within it; NaN where nothing was found
   // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals, and
   // where the height is not named after the truth.
   double coverage95 = std::numeric_limits<double>::quiet_NaN();
@@ -54,7 +56,8 @@ struct TableRow {
   double seconds = 0;  // of the method, median over farms
 };
 
-// All rows: by case, by method, by truth. `seed` draws the bootstrap's resamples.
+// All rows: by case, by method, by truth; of a case without plots, one row a method. `seed` draws
+// the bootstrap's resamples.
 std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 
 // The rows' methods, each once, in their order.
@@ -62,8 +65,9 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
 // iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,
-// rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,coverage95,flagged,over_5cm_unflagged,
-// over_5cm_unflagged_share,seconds; a field that is NaN is empty.
+// rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,r2_within,rho_within,
+// coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share,seconds; a field that is NaN is
+// empty.
 std::string table_csv(const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "farmbench/farm_queue.h"
 #include "scan/cloud_reader.h"
 
@@ -66,7 +67,7 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
       });
   EXPECT_THAT(finished, ::testing::ElementsAre("flat", "half", "one"));
   EXPECT_EQ(summary.result.farms.size(), 3U);
-  EXPECT_EQ(summary.table.size(), 3U * 15 * 9);  // cases, rows of the methods, truths
+  EXPECT_EQ(summary.table.size(), 3U * 23 * 9);  // cases, rows of the methods, truths
   const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
   const TableRow& given = row_of(summary.table, "flat", "dhami2020/raw-p99 true-boxes");
   const TableRow& oracle = row_of(summary.table, "flat", "oracle-ground");
@@ -78,6 +79,16 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   EXPECT_EQ(alone.found, alone.plots);
   EXPECT_EQ(alone.extra, 0U);
   EXPECT_LT(alone.rmse_m, 0.05);
+  const TableRow& one_number = row_of(summary.table, "flat", "one-number/max");
+  std::vector<double> truths_m;
+  for (const score::PlotScore& plot : summary.result.farms[0].methods.back().score.plots)
+    truths_m.push_back(plot.truth.heights_m.at("height_max_m"));
+  ASSERT_EQ(truths_m.size(), 4U);
+  double squared = 0;
+  for (const double truth_m : truths_m) squared += std::pow(truth_m - mean(truths_m), 2);
+  EXPECT_NEAR(one_number.rmse_m, std::sqrt(squared / 4), 1e-12);
+  EXPECT_NEAR(one_number.bias_m, 0, 1e-12);
+  EXPECT_TRUE(std::isnan(one_number.within.r2));  // it says nothing of one plot against another
   // On flat ground a plane is as good as the truth.
   EXPECT_NEAR(given.bias_m, oracle.bias_m, 0.01);
   for (const char* terrain : {"flat", "half", "one"}) {
@@ -173,6 +184,40 @@ TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
   std::ofstream(kept / "notes.txt") << "precious";
   EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("notes.txt"));
   EXPECT_TRUE(fs::exists(kept / "notes.txt"));
+}
+
+// The same field, but what stands in its boxes are no plots: whatever is found is one too many.
+TEST(RunSuite, WithoutPlotsWhateverIsFoundIsInvented) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "name: none\ncases:\n  - name: none\n    farm: " + std::string(PLOTSCAN_SOURCE_DIR) +
+      "/worlds/paper_flat.yaml\n    without_plots: true\n    set: "
+      "{terrain.side_m: 30, plants.count: 30, plots.rows: '[{plots: 4}]'}\n"
+      "seeds: [1]\nflight: {altitude_m: 6, speed_m_s: 3}\n";
+  RunOptions options{.suite = folder.write("none.yaml", text + "methods: [lattice]\n"),
+                     .output = folder.path() / "none",
+                     .build = "test"};
+  const RunSummary summary = run(options);
+  ASSERT_EQ(summary.table.size(), 1U);
+  EXPECT_EQ(summary.table[0].plots, 0U);
+  EXPECT_EQ(summary.table[0].extra, 4U);
+}
+
+TEST(RunSuite, OptionsChooseSeedsAndMethods) {
+  const TemporaryFolder folder;
+  RunOptions options = smoke_options(folder.path() / "smoke");
+  options.seeds = 2;
+  options.methods = {"one-number"};
+  const RunSummary summary = run(options);
+  ASSERT_EQ(summary.result.farms.size(), 6U);
+  EXPECT_EQ(summary.result.farms[1].seed, 2U);
+  EXPECT_THAT(summary.result.methods, ::testing::ElementsAre("one-number"));
+  options.methods = {"magic"};
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("no method \"magic\""));
+  options.methods = {"one-number", "one-number"};
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("named twice"));
+  options.seeds = 0;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("it is 1 to 10000"));
 }
 
 // The survey holds the first two of four plots and half of the third.

@@ -46,7 +46,7 @@ TEST(LoadSuite, ThePapersProtocol) {
   EXPECT_THAT(suite.seeds, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
   ASSERT_EQ(suite.cases.size(), 3U);
   EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice uncalibrated", "dhami2020",
-                                         "dhami2020 true-boxes", "oracle-ground"));
+                                         "dhami2020 true-boxes", "oracle-ground", "one-number"));
   const double relief_m[] = {0, 0.5, 1};
   const double published_cm[] = {4.8, 6.1, 16.0};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -81,12 +81,17 @@ TEST_P(ShippedSuite, IsSound) {
     if (suite_case.overrides.empty()) continue;  // a shipped world, which has tests of its own
     const farm::Farm farm = farm::generate(
         farm::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
-    EXPECT_FALSE(farm.plots.empty() || farm.plants.empty()) << suite_case.name;
+    EXPECT_FALSE(farm.plots.empty()) << suite_case.name;
+    EXPECT_TRUE(suite_case.without_plots || !farm.plants.empty()) << suite_case.name;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedSuite, ::testing::ValuesIn(shipped_suites()),
-                         [](const auto& suite) { return suite.param; });
+                         [](const auto& suite) {
+                           std::string name = suite.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 // Every case is as hard as its name says.
 TEST(LoadSuite, HardFieldsAreHard) {
@@ -183,6 +188,10 @@ INSTANTIATE_TEST_SUITE_P(
                  ":3: cases.0.flight.pose_error \"laser\" is not one of"},
         BadSuite{with(".yaml}", ".yaml, survey_m: [1, 2, 0, 3]}"),
                  ":3: cases.0.survey_m does not hold: "},
+        BadSuite{with(".yaml}", ".yaml, without_plots: yes}"),
+                 ":3: cases.0.without_plots \"yes\" is not one of false, true"},
+        BadSuite{with(".yaml}", ".yaml, without_plots: true, survey_m: [0, 0, 1, 1]}"),
+                 ":3: cases.0.survey_m is of plots, and the case is without_plots"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace

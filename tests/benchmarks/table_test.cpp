@@ -125,6 +125,32 @@ TEST(SummaryLines, SayHowFarAMethodIsToBeTrusted) {
   EXPECT_EQ(to_json(suite_result_from_json(document)), document);
 }
 
+// Errors 3 and -1, 2 and 4, and 5 cm: the farms' biases are 1, 3 and 5.
+TEST(MakeTable, TakesTheFarmsBiasesFromTheRest) {
+  const TableRow row = make_table(small_result(), 1)[0];
+  EXPECT_EQ(row.within.farms, 3U);
+  EXPECT_NEAR(row.within.farm_bias_m, std::sqrt((1 + 9 + 25) * 1e-4 / 3), 1e-12);
+  EXPECT_NEAR(row.within.within_m, std::sqrt((4 + 4 + 1 + 1) * 1e-4 / 5), 1e-12);
+  EXPECT_NEAR(row.within.rho, 1, 1e-12);
+  const std::vector<std::string> lines =
+      summary_lines(result_with_intervals(), make_table(result_with_intervals(), 1));
+  EXPECT_THAT(lines, ::testing::Contains(
+                         ::testing::AllOf(HasSubstr("bias a farm"), HasSubstr("rho within"))));
+}
+
+// A case without plots has no truth, and still says how many plots were invented.
+TEST(MakeTable, ACaseWithoutPlotsCountsWhatWasInvented) {
+  SuiteResult result = small_result();
+  result.farms = {farm("a", 1, 1, {}), farm("a", 2, 1, {})};
+  const std::vector<TableRow> table = make_table(result, 1);
+  ASSERT_EQ(table.size(), 1U);
+  EXPECT_EQ(table[0].truth, "");
+  EXPECT_EQ(table[0].plots, 0U);
+  EXPECT_EQ(table[0].extra, 2U);
+  EXPECT_EQ(plot_rows(result, table).front().extra, 2U);
+  EXPECT_THAT(html_report(result, table), Not(HasSubstr("nan")));
+}
+
 TEST(MakeTable, NothingFoundIsARowOfItsOwn) {
   const TableRow row = make_table(small_result(), 1)[1];
   EXPECT_EQ(row.case_name, "b");
@@ -172,6 +198,10 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
                                             "bias_cm",
                                             "mae_cm",
                                             "r2",
+                                            "farm_bias_cm",
+                                            "within_cm",
+                                            "r2_within",
+                                            "rho_within",
                                             "coverage95",
                                             "flagged",
                                             "over_5cm_unflagged",
@@ -185,7 +215,7 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   std::vector<std::string> rmses;
   read_csv(file, columns, {}, [&](const CsvRow& row) {
     rmses.emplace_back(row.text(16));
-    EXPECT_EQ(row.text(25), "");  // this method gives no intervals
+    EXPECT_EQ(row.text(29), "");  // this method gives no intervals
   });
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }

@@ -151,8 +151,8 @@ TEST_F(Chain, NeverReplacesWhatItDidNotWrite) {
 TEST_F(Chain, EveryCommandExplainsItself) {
   for (const std::string command :
        {"farmgen generate", "farmgen info", "farmgen check", "farmgen plant", "lidarsim fly",
-        "estimator run", "estimator score", "farmbench run", "plotview picture", "plotview field",
-        "plotview plot"}) {
+        "estimator run", "estimator score", "farmbench run", "measure_plots run",
+        "plotview picture", "plotview field", "plotview plot"}) {
     const std::string help = succeed(command + " --help").output;
     for (const char* option :
          {"--help", "--version", "--seed", "--threads", "--verbose", "--quiet", "--json"}) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "lidar/fly.h"
+#include "strata/plant_draw.h"
+
+namespace plotscan::strata {
+
+// Where fields are drawn from.
+struct Sources {
+  std::filesystem::path strata;  // field.yaml, plants.yaml: benchmarks/strata
+  std::filesystem::path worlds;  // paper_half.yaml, kentland.yaml, ...
+  std::filesystem::path meshes;  // plants that others modelled: bean/, maize/; may be absent
+};
+
+// One farm and its flight.
+struct FieldPlan {
+  std::string stratum;
+  int index = 0;  // from 0, in the stratum
+  std::uint64_t seed = 0;
+  std::filesystem::path farm;  // description, of which `overrides` replace keys
+  Overrides overrides = {};
+  lidar::FlyOptions flight = {};
+  // Of a cloud with more, so many points are kept, drawn: as of a lidar that fires less often.
+  std::optional<std::size_t> most_points = std::nullopt;
+};
+
+// What makes the field: two plans with equal documents make the same one.
+nlohmann::json to_json(const FieldPlan& plan);
+
+// The strata whose fields are farms with plots, in the table's order (docs/benchmark.md).
+const std::vector<std::string>& farm_strata();
+
+// A random stream of a field's own: the same word, stratum and index draw the same field, any
+// other another one.
+RandomStream field_stream(const std::string& word, const std::string& stratum, int index);
+
+// The index-th farm that the word draws in a stratum. Throws InputError on a file of `sources` that
+// is missing or broken.
+FieldPlan plan_field(const std::string& word, const std::string& stratum, int index,
+                     const Sources& sources);
+
+}  // namespace plotscan::strata

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strata/kept_field.h"
+
+#include <fstream>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/temporary_path.h"
+#include "core/text_file.h"
+#include "farm/description.h"
+#include "farm/generate.h"
+#include "farm/write_farm.h"
+#include "lidar/canopy_height.h"
+#include "lidar/fly.h"
+#include "scan/cloud_reader.h"
+#include "strata/empty_field.h"
+#include "strata/position_file.h"
+
+namespace plotscan::strata {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+// Written last: a folder that has it is whole.
+constexpr const char* kPlan = "plan.json";
+
+// Whether the folder holds the field of that plan already.
+bool holds(const fs::path& folder, const json& plan) {
+  std::ifstream in(folder / kPlan);
+  if (!in) return false;
+  if (json::parse(in, nullptr, false) == plan) return true;
+  throw InputError(folder,
+                   "holds a field of another word or version; keep fields in another folder");
+}
+
+void write_plan(const fs::path& folder, const json& plan) {
+  TextFile file(folder / kPlan);
+  file << plan.dump(1) << "\n";
+  file.close();
+}
+
+std::vector<Eigen::Vector3f> positions_of(const fs::path& cloud) {
+  std::vector<Eigen::Vector3f> points;
+  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
+  });
+  return points;
+}
+
+// So many of the points, drawn, in their order.
+void thin(std::vector<Eigen::Vector3f>& points, std::size_t most, std::uint64_t seed) {
+  if (points.size() <= most) return;
+  RandomStream random(seed, random_purpose("strata/thin"), 0);
+  std::size_t left = points.size();
+  std::size_t wanted = most;
+  std::erase_if(points, [&](const Eigen::Vector3f&) {
+    const bool kept = random.below(left--) < wanted;
+    wanted -= kept;
+    return !kept;
+  });
+}
+
+void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
+  const farm::FarmDescription description = farm::load_description(plan.farm, plan.overrides);
+  farm::Farm farm = farm::generate(description, plan.seed);
+  lidar::measure_canopies(farm, threads);
+  farm::write_farm(farm, field.farm, true,
+                   {.command = "measure_plots run",
+                    .options = {{"set", plan.overrides}},
+                    .inputs = farm::input_files(description)});
+  lidar::FlyOptions flight = plan.flight;
+  flight.threads = threads;
+  const TemporaryPath scan(field.cloud.parent_path() / ".scan");
+  lidar::fly(farm, scan.path(), flight, true);
+  std::vector<Eigen::Vector3f> points = positions_of(scan.path() / "cloud.pcd");
+  if (plan.most_points) thin(points, *plan.most_points, plan.seed);
+  write_positions(field.cloud, points);
+}
+
+}  // namespace
+
+KeptField keep_farm(const FieldPlan& plan, const fs::path& folder, int threads) {
+  KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = folder / "farm"};
+  if (holds(folder, to_json(plan))) return field;
+  fs::create_directories(field.cloud.parent_path());
+  make_farm(plan, field, threads);
+  write_plan(folder, to_json(plan));
+  return field;
+}
+
+KeptField keep_empty_field(const std::string& word, const std::string& kind, int index,
+                           const fs::path& folder) {
+  KeptField field{.cloud = folder / "scan" / "cloud.pcd", .farm = {}};
+  RandomStream random = field_stream(word, kind, index);
+  const json plan = {
+      {"kind", kind}, {"index", index}, {"seed", field_stream(word, kind, index).next_u32()}};
+  if (holds(folder, plan)) return field;
+  fs::create_directories(field.cloud.parent_path());
+  write_positions(field.cloud, draw_empty_field(kind, random));
+  write_plan(folder, plan);
+  return field;
+}
+
+}  // namespace plotscan::strata

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/program.h"
+#include "core/temporary_path.h"
+#include "core/text.h"
+#include "strata/empty_field.h"
+#include "strata/field_plan.h"
+#include "strata/kept_field.h"
+#include "strata/measured_field.h"
+#include "strata/table.h"
+
+namespace {
+
+using namespace plotscan;
+namespace fs = std::filesystem;
+
+// A farm of kentland has as many plots as three or four others.
+constexpr const char* kLargeStratum = "kentland";
+constexpr int kFarmsALargeOne = 3;
+
+struct Arguments {
+  std::string secret;
+  int farms = 10;
+  std::vector<std::string> strata;  // none: all
+  std::optional<fs::path> keep;
+  fs::path source = ".";
+};
+
+// One field to measure: a farm, or a field without plots.
+struct Task {
+  std::string stratum;
+  int index = 0;
+  bool empty = false;
+};
+
+std::vector<std::string> all_strata() {
+  std::vector<std::string> names = strata::farm_strata();
+  names.insert(names.end(), strata::empty_kinds().begin(), strata::empty_kinds().end());
+  return names;
+}
+
+void require_known(const std::vector<std::string>& chosen) {
+  const std::vector<std::string> known = all_strata();
+  for (const std::string& name : chosen) {
+    if (std::ranges::find(known, name) == known.end())
+      throw InputError("there is no stratum \"" + name + "\"; there are " + joined(known, ", "));
+  }
+}
+
+strata::Sources sources_of(const Arguments& arguments) {
+  return {.strata = arguments.source / "benchmarks" / "strata",
+          .worlds = arguments.source / "worlds",
+          .meshes = arguments.source / ".." / "shared" / "data" / "plants" / "cropcraft"};
+}
+
+std::vector<Task> plan(const Program& program, const Arguments& arguments) {
+  std::vector<Task> tasks;
+  for (const std::string& name : all_strata()) {
+    if (!arguments.strata.empty() && std::ranges::count(arguments.strata, name) == 0) continue;
+    const bool empty = std::ranges::count(strata::empty_kinds(), name) > 0;
+    if (name == "others" && !fs::exists(sources_of(arguments).meshes)) {
+      program.say("others: left out, as " + sources_of(arguments).meshes.string() + " is absent");
+      continue;
+    }
+    const int fields =
+        name == kLargeStratum ? std::max(1, arguments.farms / kFarmsALargeOne) : arguments.farms;
+    for (int index = 0; index < fields; ++index) tasks.push_back({name, index, empty});
+  }
+  return tasks;
+}
+
+strata::MeasuredField measure(const Task& task, const Arguments& arguments, const fs::path& folder,
+                              int threads) {
+  const strata::KeptField field =
+      task.empty ? strata::keep_empty_field(arguments.secret, task.stratum, task.index, folder)
+                 : strata::keep_farm(strata::plan_field(arguments.secret, task.stratum, task.index,
+                                                        sources_of(arguments)),
+                                     folder, threads);
+  return strata::measure_field(task.stratum, task.index, field, threads);
+}
+
+strata::MeasuredField measure_kept_or_not(const Task& task, const Arguments& arguments,
+                                          int threads) {
+  const std::string name = task.stratum + "-" + std::to_string(task.index);
+  if (arguments.keep) return measure(task, arguments, *arguments.keep / name, threads);
+  const TemporaryPath work(partial_path(fs::temp_directory_path() / name));
+  return measure(task, arguments, work.path(), threads);
+}
+
+void run(const Program& program, const Arguments& arguments) {
+  require_known(arguments.strata);
+  const std::vector<Task> tasks = plan(program, arguments);
+  const auto progress = program.progress("measure");
+  strata::Measurement measurement;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    auto& fields = tasks[i].empty ? measurement.empty_fields : measurement.farms;
+    fields.push_back(measure_kept_or_not(tasks[i], arguments, program.common().threads));
+    if (program.common().verbosity > 0) program.say(strata::field_line(fields.back()));
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(tasks.size()));
+  }
+  for (const std::string& line : strata::table_lines(measurement)) program.say(line);
+  program.result(strata::to_json(measurement));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Program program("measure_plots", "Measure the estimator on fresh farms of every kind of field.");
+  Arguments arguments;
+  CLI::App& command = program.command(
+      "run", "Draw fields from a word, fly, estimate and score (docs/benchmark.md).",
+      [&] { run(program, arguments); });
+  command
+      .add_option("--secret", arguments.secret,
+                  "word that fields are drawn from: another word, other fields")
+      ->required();
+  command
+      .add_option("--farms", arguments.farms,
+                  "fields of each stratum (of kentland a third as many)")
+      ->check(CLI::Range(1, 10'000));
+  command
+      .add_option("--strata", arguments.strata,
+                  "only these strata (a,b,c); " + joined(all_strata(), ", "))
+      ->delimiter(',');
+  command.add_option("--keep", arguments.keep,
+                     "folder of fields, STRATUM-INDEX/{farm,scan}: those there are not made again");
+  command.add_option("--source", arguments.source, "Plotscan's sources: benchmarks, worlds");
+  return program.run(argc, argv);
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strata/position_file.h"
+
+#include <bit>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace plotscan::strata {
+
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(Eigen::Vector3f) == 12);
+
+void write_positions(const std::filesystem::path& file,
+                     const std::vector<Eigen::Vector3f>& points) {
+  const std::string count = std::to_string(points.size());
+  std::ofstream out(file, std::ios::binary);
+  out << "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\n"
+         "TYPE F F F\nCOUNT 1 1 1\nWIDTH "
+      << count << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << count << "\nDATA binary\n";
+  out.write(reinterpret_cast<const char*>(points.data()),
+            static_cast<std::streamsize>(points.size() * sizeof(Eigen::Vector3f)));
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + " cannot be written");
+}
+
+}  // namespace plotscan::strata

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strata/table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "score/score_files.h"
+
+namespace plotscan::strata {
+namespace {
+
+using nlohmann::json;
+
+std::string number(const char* format, double value) {
+  return std::isnan(value) ? "-" : formatted(format, value);
+}
+
+// RMSE, bias (the worst farm's) in centimetres, r2 within farms.
+std::string height_cell(const StratumTally& tally, const char* height) {
+  const auto found = tally.heights.find(height);
+  if (found == tally.heights.end()) return "-";
+  const HeightTally& one = found->second;
+  return number("%.1f", 100 * one.score.rmse_m) + " " + number("%+.1f", 100 * one.score.bias_m) +
+         " (" + number("%+.1f", 100 * one.within.worst_bias_m) + ") " +
+         number("%.2f", one.within.r2);
+}
+
+std::string stratum_line(const StratumTally& tally) {
+  std::string line = formatted(
+      "%-10s %5zu %5zu %6s %6s %5s %5s", tally.stratum.c_str(), tally.farms, tally.boxes.plots,
+      number("%.4f", tally.boxes.recall).c_str(), number("%.4f", tally.boxes.precision).c_str(),
+      number("%.3f", tally.boxes.iou_mean).c_str(),
+      number("%.1f", 100 * tally.boxes.center_rmse_m).c_str());
+  for (const char* height : kShownHeights)
+    line += formatted("  %-21s", height_cell(tally, height).c_str());
+  const std::string unflagged =
+      number("%.1f", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
+  return line + formatted("  %-15s %6s %6s", unflagged.c_str(),
+                          number("%.1f", 100 * tally.coverage95).c_str(),
+                          number("%.2f", tally.seconds_per_million_points).c_str());
+}
+
+std::vector<std::string> farm_lines(std::span<const MeasuredField> farms) {
+  std::string heading = formatted("%-10s %5s %5s %6s %6s %5s %5s", "stratum", "farms", "plots",
+                                  "recall", "prec.", "IoU", "centre");
+  for (const char* height : kShownHeights) heading += formatted("  %-21s", height);
+  std::vector<std::string> lines = {
+      "Centre and heights in cm; of a height: RMSE bias (the worst farm's) r2 within farms. Over "
+      "5: "
+      "% of the plots with an error over 5 cm",
+      "and no flag, of the worst of all heights; in 95: % of truths in the 95 % intervals of all "
+      "heights; s/M: seconds per million points",
+      heading + formatted("  %-15s %6s %6s", "over 5", "in 95", "s/M")};
+  for (const StratumTally& one : tally_strata(farms)) lines.push_back(stratum_line(one));
+  return lines;
+}
+
+std::vector<std::string> empty_lines(std::span<const MeasuredField> fields) {
+  std::vector<std::string> lines = {"", formatted("%-10s %6s %15s %14s %6s", "no plots", "fields",
+                                                  "plots invented", "fields with", "s/M")};
+  for (const StratumTally& one : tally_strata(fields)) {
+    const auto some = std::ranges::count_if(fields, [&](const MeasuredField& field) {
+      return field.stratum == one.stratum && !field.score.extra.empty();
+    });
+    lines.push_back(formatted("%-10s %6zu %15zu %14td %6s", one.stratum.c_str(), one.farms,
+                              one.boxes.extra, some,
+                              number("%.2f", one.seconds_per_million_points).c_str()));
+  }
+  return lines;
+}
+
+std::vector<MeasuredField> all_fields(const Measurement& measurement) {
+  std::vector<MeasuredField> all = measurement.farms;
+  all.insert(all.end(), measurement.empty_fields.begin(), measurement.empty_fields.end());
+  return all;
+}
+
+json json_of(const HeightTally& tally) {
+  json document = score::to_json(tally.score);
+  document["farm_bias_m"] = tally.within.farm_bias_m;
+  document["worst_farm_bias_m"] = tally.within.worst_bias_m;
+  document["within_m"] = tally.within.within_m;
+  document["r2_within"] = tally.within.r2;
+  document["rho_within"] = tally.within.rho;
+  return document;
+}
+
+json json_of(const StratumTally& tally) {
+  json heights = json::object();
+  for (const auto& [name, height] : tally.heights) heights[name] = json_of(height);
+  return {{"stratum", tally.stratum},
+          {"farms", tally.farms},
+          {"failures", tally.failures},
+          {"boxes", score::to_json(tally.boxes)},
+          {"heights", heights},
+          {"worst_height", tally.worst_height},
+          {"over_5cm_unflagged_share", tally.worst_unflagged_share},
+          {"coverage95", tally.coverage95},
+          {"seconds_per_million_points", tally.seconds_per_million_points}};
+}
+
+json json_of(const MeasuredField& field) {
+  return {{"stratum", field.stratum},
+          {"index", field.index},
+          {"points", field.points},
+          {"seconds", field.seconds},
+          {"failure", field.failure},
+          {"true_confidences", field.true_confidences},
+          {"false_confidences", field.false_confidences},
+          {"score", score::to_json(field.score)}};
+}
+
+template <class Items>
+json json_list(const Items& items) {
+  json list = json::array();
+  for (const auto& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+}  // namespace
+
+std::vector<StratumTally> tally_strata(std::span<const MeasuredField> fields) {
+  std::vector<StratumTally> tallies;
+  for (std::size_t first = 0; first < fields.size();) {
+    std::size_t end = first;
+    while (end < fields.size() && fields[end].stratum == fields[first].stratum) ++end;
+    tallies.push_back(tally(fields[first].stratum, fields.subspan(first, end - first)));
+    first = end;
+  }
+  return tallies;
+}
+
+std::vector<std::string> table_lines(const Measurement& measurement) {
+  std::vector<std::string> lines;
+  if (!measurement.farms.empty()) lines = farm_lines(measurement.farms);
+  if (!measurement.empty_fields.empty()) {
+    const std::vector<std::string> more = empty_lines(measurement.empty_fields);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  const double auc = confidence_auc(all_fields(measurement));
+  lines.push_back("");
+  lines.push_back("AUC of confidence, false against true plots: " + number("%.3f", auc));
+  return lines;
+}
+
+std::string field_line(const MeasuredField& field) {
+  const score::BoxScore boxes = score::score_boxes({&field.score, 1});
+  std::string line = formatted("%s-%d: %zu plots, %zu found, %zu extra", field.stratum.c_str(),
+                               field.index, boxes.plots, boxes.found, boxes.extra);
+  if (boxes.found > 0) line += ", IoU " + number("%.3f", boxes.iou_mean);
+  for (const char* height : kShownHeights) {
+    const std::string truth = score::named_truth(height);
+    const score::HeightPairs pairs = score::height_pairs(field.score, height, truth);
+    if (pairs.truths_m.empty()) continue;
+    line +=
+        formatted(", %s %+.1f cm", height, 100 * score::score_height(height, truth, pairs).bias_m);
+  }
+  if (!field.failure.empty()) line += "; gave up: " + field.failure;
+  return line;
+}
+
+json to_json(const Measurement& measurement) {
+  return {{"strata", json_list(tally_strata(measurement.farms))},
+          {"fields_without_plots", json_list(tally_strata(measurement.empty_fields))},
+          {"confidence_auc", confidence_auc(all_fields(measurement))},
+          {"farms", json_list(measurement.farms)},
+          {"empty_fields", json_list(measurement.empty_fields)}};
+}
+
+}  // namespace plotscan::strata

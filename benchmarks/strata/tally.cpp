@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strata/tally.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace plotscan::strata {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
+
+std::vector<score::HeightPairs> pairs_by_farm(std::span<const MeasuredField> fields,
+                                              const std::string& height) {
+  std::vector<score::HeightPairs> farms;
+  for (const MeasuredField& field : fields)
+    farms.push_back(score::height_pairs(field.score, height, score::named_truth(height)));
+  return farms;
+}
+
+void set_heights(StratumTally& tally, std::span<const MeasuredField> fields) {
+  std::set<std::string> heights;
+  for (const MeasuredField& field : fields) heights.merge(score::estimated_heights(field.score));
+  tally.worst_unflagged_share = kNaN;
+  double intervals = 0, covered = 0;
+  for (const std::string& height : heights) {
+    const std::vector<score::HeightPairs> farms = pairs_by_farm(fields, height);
+    score::HeightPairs pooled;
+    for (const score::HeightPairs& farm : farms) score::append(pooled, farm);
+    const HeightTally one = {score::score_height(height, score::named_truth(height), pooled),
+                             score::score_within(farms)};
+    intervals += static_cast<double>(pooled.trust.intervals);
+    covered += static_cast<double>(pooled.trust.covered);
+    if (one.score.plots > 0 && !(one.score.large_unflagged_share <= tally.worst_unflagged_share)) {
+      tally.worst_unflagged_share = one.score.large_unflagged_share;
+      tally.worst_height = height;
+    }
+    tally.heights.emplace(height, one);
+  }
+  tally.coverage95 = ratio(covered, intervals);
+}
+
+}  // namespace
+
+StratumTally tally(const std::string& stratum, std::span<const MeasuredField> fields) {
+  StratumTally tally{.stratum = stratum, .farms = fields.size(), .boxes = {}};
+  std::vector<score::FieldScore> scores;
+  double seconds = 0, points = 0;
+  for (const MeasuredField& field : fields) {
+    scores.push_back(field.score);
+    tally.failures += !field.failure.empty();
+    if (!field.failure.empty()) continue;
+    seconds += field.seconds;
+    points += static_cast<double>(field.points);
+  }
+  tally.boxes = score::score_boxes(scores);
+  tally.seconds_per_million_points = ratio(1e6 * seconds, points);
+  set_heights(tally, fields);
+  return tally;
+}
+
+double confidence_auc(std::span<const MeasuredField> fields) {
+  std::vector<double> truths, falses;
+  for (const MeasuredField& field : fields) {
+    truths.insert(truths.end(), field.true_confidences.begin(), field.true_confidences.end());
+    falses.insert(falses.end(), field.false_confidences.begin(), field.false_confidences.end());
+  }
+  std::ranges::sort(falses);
+  double above = 0;
+  for (const double confidence : truths) {
+    const auto low = std::ranges::lower_bound(falses, confidence);
+    const auto high = std::ranges::upper_bound(falses, confidence);
+    above += static_cast<double>(low - falses.begin()) + static_cast<double>(high - low) / 2;
+  }
+  return ratio(above, static_cast<double>(truths.size()) * static_cast<double>(falses.size()));
+}
+
+}  // namespace plotscan::strata

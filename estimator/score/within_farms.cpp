@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score/within_farms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "core/statistics.h"
+
+namespace plotscan::score {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Sums over pairs (a, b), each less its mean.
+struct Moments {
+  double aa = 0;
+  double ab = 0;
+  double bb = 0;
+
+  Moments& operator+=(const Moments& more) {
+    aa += more.aa;
+    ab += more.ab;
+    bb += more.bb;
+    return *this;
+  }
+  bool vary() const { return aa > 0 && bb > 0; }
+  double correlation() const { return vary() ? ab / std::sqrt(aa * bb) : kNaN; }
+};
+
+// Values that are all equal have moments of exactly 0, whatever their mean rounds to.
+std::vector<double> less_mean(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  const double middle = low == high ? low : mean(values);
+  std::vector<double> less;
+  less.reserve(values.size());
+  for (const double value : values) less.push_back(value - middle);
+  return less;
+}
+
+Moments moments(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> less_a = less_mean(a);
+  const std::vector<double> less_b = less_mean(b);
+  Moments sums;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sums += {less_a[i] * less_a[i], less_a[i] * less_b[i], less_b[i] * less_b[i]};
+  return sums;
+}
+
+// Of each value, from 1; equal values share the mean of their ranks.
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t end = first;
+    while (end < order.size() && values[order[end]] == values[order[first]]) ++end;
+    for (std::size_t i = first; i < end; ++i)
+      ranks[order[i]] = (static_cast<double>(first + 1) + static_cast<double>(end)) / 2;
+    first = end;
+  }
+  return ranks;
+}
+
+std::vector<double> errors_of(const HeightPairs& pairs) {
+  std::vector<double> errors_m;
+  errors_m.reserve(pairs.truths_m.size());
+  for (std::size_t i = 0; i < pairs.truths_m.size(); ++i)
+    errors_m.push_back(pairs.estimates_m[i] - pairs.truths_m[i]);
+  return errors_m;
+}
+
+}  // namespace
+
+WithinFarms score_within(std::span<const HeightPairs> farms) {
+  WithinFarms score;
+  Moments within;
+  double plots = 0, ranked_plots = 0, squared_bias = 0, squared_rest = 0, rho = 0;
+  for (const HeightPairs& farm : farms) {
+    if (farm.truths_m.empty()) continue;
+    const auto count = static_cast<double>(farm.truths_m.size());
+    const std::vector<double> errors_m = errors_of(farm);
+    const double bias_m = mean(errors_m);
+    ++score.farms;
+    plots += count;
+    squared_bias += bias_m * bias_m;
+    squared_rest += moments(errors_m, errors_m).aa;
+    if (std::abs(bias_m) > std::abs(score.worst_bias_m)) score.worst_bias_m = bias_m;
+    within += moments(farm.estimates_m, farm.truths_m);
+    const Moments ranked = moments(ranks(farm.estimates_m), ranks(farm.truths_m));
+    if (!ranked.vary()) continue;
+    ranked_plots += count;
+    rho += count * ranked.correlation();
+  }
+  if (score.farms == 0) score.worst_bias_m = kNaN;
+  score.farm_bias_m =
+      score.farms > 0 ? std::sqrt(squared_bias / static_cast<double>(score.farms)) : kNaN;
+  score.within_m = plots > 0 ? std::sqrt(squared_rest / plots) : kNaN;
+  score.r2 = within.correlation() * within.correlation();
+  score.rho = ranked_plots > 0 ? rho / ranked_plots : kNaN;
+  return score;
+}
+
+}  // namespace plotscan::score

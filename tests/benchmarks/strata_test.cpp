@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "farm/description.h"
+#include "farm/generate.h"
+#include "lidar/fly_settings.h"
+#include "scan/cloud_reader.h"
+#include "strata/empty_field.h"
+#include "strata/field_plan.h"
+#include "strata/kept_field.h"
+#include "strata/position_file.h"
+#include "strata/scenery.h"
+#include "strata/table.h"
+#include "strata/tally.h"
+
+namespace plotscan::strata {
+namespace {
+
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+
+const std::filesystem::path kSource = PLOTSCAN_SOURCE_DIR;
+const Sources kSources = {
+    .strata = kSource / "benchmarks/strata",
+    .worlds = kSource / "worlds",
+    .meshes = std::filesystem::path(PLOTSCAN_SHARED_DATA_DIR) / "plants/cropcraft"};
+
+class EveryStratum : public ::testing::TestWithParam<std::string> {};
+
+// The word, the stratum and the index, and nothing else, make the field.
+TEST_P(EveryStratum, IsDrawnFromTheWord) {
+  const nlohmann::json plan = to_json(plan_field("word", GetParam(), 1, kSources));
+  EXPECT_EQ(to_json(plan_field("word", GetParam(), 1, kSources)), plan);
+  EXPECT_NE(to_json(plan_field("other", GetParam(), 1, kSources))["seed"], plan["seed"]);
+  EXPECT_NE(to_json(plan_field("word", GetParam(), 2, kSources))["seed"], plan["seed"]);
+}
+
+// The descriptions hold, and the farms are of the size that the table promises.
+TEST_P(EveryStratum, HasFarmsThatCanBeMade) {
+  if (GetParam() == "others" && !std::filesystem::exists(kSources.meshes))
+    GTEST_SKIP() << kSources.meshes << " is absent";
+  for (int index = 0; index < 20; ++index) {
+    const FieldPlan plan = plan_field("test", GetParam(), index, kSources);
+    const farm::FarmDescription description = farm::load_description(plan.farm, plan.overrides);
+    EXPECT_NO_THROW(lidar::require_valid(plan.flight)) << index;
+    std::size_t places = 0;
+    for (const farm::PlotRowDescription& row : description.plots->rows) places += row.plots;
+    EXPECT_GE(places, 12U) << index;
+    EXPECT_LE(places, GetParam() == "kentland" ? 112U : 45U) << index;
+  }
+  const FieldPlan plan = plan_field("test", GetParam(), 0, kSources);
+  const farm::Farm farm =
+      farm::generate(farm::load_description(plan.farm, plan.overrides), plan.seed);
+  EXPECT_FALSE(farm.plots.empty() || farm.plants.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryStratum, ::testing::ValuesIn(farm_strata()),
+                         [](const auto& stratum) { return stratum.param; });
+
+farm::PlotGridDescription grid_of(const std::string& stratum, int index) {
+  const FieldPlan plan = plan_field("test", stratum, index, kSources);
+  return *farm::load_description(plan.farm, plan.overrides).plots;
+}
+
+TEST(PlanField, StrataAreWhatTheirNamesSay) {
+  for (int index = 0; index < 20; ++index) {
+    const farm::PlotGridDescription touching = grid_of("touching", index);
+    EXPECT_EQ(std::min(touching.gap_width_m, touching.gap_length_m), 0.2);
+    const farm::PlotGridDescription maize = grid_of("maize", index);
+    EXPECT_GE(std::min(maize.gap_width_m, maize.gap_length_m), 0.5);
+    EXPECT_LE(std::max(maize.gap_width_m, maize.gap_length_m), 1.0);
+    const FieldPlan drilled = plan_field("test", "drilled", index, kSources);
+    const farm::FarmDescription sown = farm::load_description(drilled.farm, drilled.overrides);
+    const auto rows = sown.plants->cultivars.front().drill_rows;
+    EXPECT_GE(rows, 2U);
+    EXPECT_LE(rows, 5U);
+    EXPECT_LE(sown.plots->width_m / rows, 0.76 + 1e-9);
+    EXPECT_GE(sown.plots->width_m / rows, 0.19 - 1e-9);
+  }
+}
+
+class EveryEmptyKind : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryEmptyKind, IsDrawnFromTheWord) {
+  const auto draw = [&](const std::string& word) {
+    RandomStream random = field_stream(word, GetParam(), 0);
+    return draw_empty_field(GetParam(), random);
+  };
+  const std::vector<Eigen::Vector3f> points = draw("word");
+  EXPECT_EQ(draw("word"), points);
+  EXPECT_NE(draw("other"), points);
+  EXPECT_GT(points.size(), 10'000U);
+  EXPECT_LT(points.size(), 1'000'000U);
+  for (const Eigen::Vector3f& point : points) ASSERT_TRUE(point.allFinite());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryEmptyKind, ::testing::ValuesIn(empty_kinds()),
+                         [](const auto& kind) { return kind.param; });
+
+double highest(const Thing& thing, const Eigen::Vector2d& place) {
+  RandomStream random(1, random_purpose("test/scenery"), 0);
+  double highest_m = 0;
+  for (int i = 0; i < 2000; ++i)
+    highest_m = std::max(highest_m, return_height(thing, place, random));
+  return highest_m;
+}
+
+// Heights at places where the shapes' formulas are plain; 0 beside them.
+TEST(Scenery, ThingsHaveTheirHeights) {
+  const double turned = std::numbers::pi / 3;
+  const PlotBox outline{.center = {3, 2}, .width_m = 2, .length_m = 6, .heading_rad = turned};
+  const auto thing = [&](Shape shape) {
+    return Thing{.shape = shape, .outline = outline, .height_m = 4};
+  };
+  const Eigen::Vector2d eaves = outline.center + 0.999 * outline.width_axis();
+  EXPECT_DOUBLE_EQ(highest(thing(Shape::block), eaves), 4);
+  EXPECT_NEAR(highest(thing(Shape::roof), outline.center), 4, 1e-9);
+  EXPECT_NEAR(highest(thing(Shape::roof), eaves), 4 * 2.0 / 3, 0.01);
+  EXPECT_NEAR(highest(thing(Shape::crown), outline.center), 4, 0.01);
+  EXPECT_EQ(highest(thing(Shape::crown), outline.corners()[0]), 0);  // out of the ellipse
+  EXPECT_NEAR(highest(thing(Shape::hedge), outline.center), 4, 0.01);
+  EXPECT_NEAR(highest(thing(Shape::mound), outline.center), 4, 0.8);
+  EXPECT_LT(highest(thing(Shape::canopy), outline.center), 4.01);
+  EXPECT_DOUBLE_EQ(highest(thing(Shape::car), outline.center), 4);
+  EXPECT_DOUBLE_EQ(highest(thing(Shape::car), outline.center - 2.9 * outline.length_axis()), 2.4);
+  for (const Shape shape : {Shape::crown, Shape::hedge, Shape::car, Shape::block, Shape::roof,
+                            Shape::mound, Shape::canopy}) {
+    EXPECT_EQ(highest(thing(shape), outline.center + 1.01 * outline.width_axis()), 0);
+    EXPECT_EQ(highest(thing(shape), outline.center + 3.01 * outline.length_axis()), 0);
+  }
+}
+
+TEST(Scenery, CoverIsTheShareOfShotsThatStop) {
+  const Thing crown{.shape = Shape::crown,
+                    .outline = {.center = {0, 0}, .width_m = 2, .length_m = 2, .heading_rad = 0},
+                    .height_m = 3,
+                    .cover = 0.7};
+  RandomStream random(2, random_purpose("test/scenery"), 0);
+  int stopped = 0;
+  constexpr int kShots = 10'000;
+  for (int i = 0; i < kShots; ++i) stopped += return_height(crown, {0.1, 0.2}, random) > 0;
+  EXPECT_NEAR(static_cast<double>(stopped) / kShots, 0.7, 0.02);
+}
+
+TEST(WritePositions, ComesBack) {
+  const TemporaryFolder folder;
+  const std::vector<Eigen::Vector3f> points = {{1, 2, 3}, {-0.5F, 1e-3F, 80}};
+  write_positions(folder.path() / "cloud.pcd", points);
+  std::vector<Eigen::Vector3f> read;
+  scan::read_positions(folder.path() / "cloud.pcd", [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& point : piece) read.push_back(point.cast<float>());
+  });
+  EXPECT_EQ(read, points);
+}
+
+// A field that is there is left as it is; one of another word is not taken for it.
+TEST(KeepEmptyField, IsMadeOnce) {
+  const TemporaryFolder folder;
+  const KeptField field = keep_empty_field("word", "bare", 0, folder.path() / "bare-0");
+  const auto made = std::filesystem::last_write_time(field.cloud);
+  keep_empty_field("word", "bare", 0, folder.path() / "bare-0");
+  EXPECT_EQ(std::filesystem::last_write_time(field.cloud), made);
+  EXPECT_THAT(message_of<InputError>(
+                  [&] { keep_empty_field("other", "bare", 0, folder.path() / "bare-0"); }),
+              HasSubstr("holds a field of another word"));
+}
+
+// A farm of one kind of plots: as many found as there are errors, in centimetres.
+MeasuredField field(const std::vector<double>& errors_cm, const std::vector<double>& confidences,
+                    const std::vector<double>& false_confidences) {
+  MeasuredField field{.stratum = "s",
+                      .score = {},
+                      .true_confidences = confidences,
+                      .false_confidences = false_confidences,
+                      .points = 2'000'000,
+                      .seconds = 3,
+                      .failure = {}};
+  double truth_m = 0.5;
+  for (const double error_cm : errors_cm) {
+    truth_m += 0.1;
+    const double height_m = truth_m + error_cm / 100;
+    score::PlotScore plot;
+    plot.truth.heights_m["height_max_m"] = truth_m;
+    plot.found = score::FoundPlot{.iou = 0.9, .heights_m = {{"max", height_m}}};
+    plot.found->errors["max"] = {
+        .standard_error_m = 0.02, .low95_m = height_m - 0.04, .high95_m = height_m + 0.04};
+    field.score.plots.push_back(plot);
+  }
+  for (std::size_t i = 0; i < false_confidences.size(); ++i)
+    field.score.extra.push_back(static_cast<std::uint32_t>(100 + i));
+  return field;
+}
+
+TEST(Tally, PoolsTheFarmsOfAStratum) {
+  const std::vector<MeasuredField> fields = {field({1, 3}, {1, 1}, {}),
+                                             field({-6, 6}, {1, 1}, {0.5})};
+  const StratumTally all = tally("s", fields);
+  EXPECT_EQ(all.farms, 2U);
+  EXPECT_EQ(all.boxes.found, 4U);
+  EXPECT_DOUBLE_EQ(all.boxes.precision, 0.8);
+  EXPECT_NEAR(all.heights.at("max").score.rmse_m, std::sqrt((1 + 9 + 36 + 36) * 1e-4 / 4), 1e-12);
+  EXPECT_NEAR(all.heights.at("max").within.worst_bias_m, 0.02, 1e-12);
+  EXPECT_EQ(all.worst_height, "max");
+  EXPECT_DOUBLE_EQ(all.worst_unflagged_share, 0.5);
+  EXPECT_DOUBLE_EQ(all.coverage95, 0.5);
+  EXPECT_DOUBLE_EQ(all.seconds_per_million_points, 1.5);
+}
+
+TEST(ConfidenceAuc, CountsEveryPairOfATrueAndAFalsePlot) {
+  RandomStream random(5, random_purpose("test/auc"), 0);
+  std::vector<double> truths, falses;
+  for (int i = 0; i < 40; ++i) truths.push_back(std::round(10 * random.uniform(0.3, 1)) / 10);
+  for (int i = 0; i < 25; ++i) falses.push_back(std::round(10 * random.uniform(0, 0.8)) / 10);
+  double above = 0;
+  for (const double truth : truths)
+    for (const double wrong : falses) above += truth > wrong ? 1 : truth == wrong ? 0.5 : 0;
+  const std::vector<MeasuredField> fields = {field({}, truths, {}), field({}, {}, falses)};
+  EXPECT_NEAR(confidence_auc(fields), above / (40 * 25), 1e-12);
+  EXPECT_TRUE(std::isnan(confidence_auc({fields.data(), 1})));
+}
+
+TEST(TableLines, ShowStrataAndInventedPlots) {
+  Measurement measurement{.farms = {field({1, 3}, {1, 1}, {}), field({-2}, {1}, {})},
+                          .empty_fields = {field({}, {}, {0.2, 0.3}), field({}, {}, {})}};
+  for (MeasuredField& empty : measurement.empty_fields) empty.stratum = "orchard";
+  const std::vector<std::string> lines = table_lines(measurement);
+  EXPECT_THAT(lines, ::testing::Contains(::testing::MatchesRegex("s +2 +3 1\\.0000 1\\.0000 .*")));
+  EXPECT_THAT(lines, ::testing::Contains(::testing::MatchesRegex("orchard +2 +2 +1 .*")));
+  EXPECT_THAT(lines.back(), HasSubstr("1.000"));
+  const nlohmann::json document = to_json(measurement);
+  EXPECT_EQ(document["strata"].size(), 1U);
+  EXPECT_EQ(document["fields_without_plots"][0]["boxes"]["extra"], 2);
+}
+
+}  // namespace
+}  // namespace plotscan::strata
