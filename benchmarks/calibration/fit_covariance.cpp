@@ -68,10 +68,7 @@ Cost cost_of(const Parameters& parameters, const Farms& farms) {
                                                               misfits.cwiseInverse().asDiagonal() *
                                                               solved.transpose();
   const double linear = covariance.linear * covariance.linear;
-  const Eigen::MatrixXd near =
-      slope.cwiseProduct(heights::covariances_of(places, 0) -
-                         heights::covariances_of(Eigen::MatrixXd::Zero(places.rows(), 1), 0) +
-                         Eigen::MatrixXd::Ones(places.rows(), places.rows()));
+  const Eigen::MatrixXd near = slope.cwiseProduct(heights::likenesses_of(places));
   const Eigen::VectorXd by_weight =
       linear * sums_of_products(slope, places) - 0.5 * sums_of_distances(near, places);
   cost.gradient.head(count) = by_weight + logs;

@@ -15,16 +15,20 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear) {
-  const Eigen::MatrixXd products = places * places.transpose();
-  const Eigen::VectorXd squares = products.diagonal();
-  Eigen::MatrixXd result(products.rows(), products.cols());
+Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places) {
+  Eigen::MatrixXd result = places * places.transpose();
+  const Eigen::VectorXd squares = result.diagonal();
   for (Eigen::Index j = 0; j < result.cols(); ++j) {
-    const auto distances = squares.array() + squares(j) - 2 * products.col(j).array();
-    result.col(j) =
-        (-0.5 * distances.max(0)).exp() + square(linear) * products.col(j).array() + kLevelVariance;
+    const Eigen::ArrayXd distances =
+        (squares.array() + squares(j) - 2 * result.col(j).array()).max(0);
+    result.col(j) = (-0.5 * distances).exp();
   }
   return result;
+}
+
+Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear) {
+  return (likenesses_of(places) + square(linear) * places * places.transpose()).array() +
+         kLevelVariance;
 }
 
 double relative_noise(double top_m) {

@@ -59,7 +59,8 @@ class Kriging {
   Eigen::VectorXd scales_;  // what each value varies by
 };
 
-// The covariances of all pairs of places, a row each, without noise.
+// exp(-|a - b|^2 / 2) of all pairs of places, and their covariances without noise; a row a place.
+Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places);
 Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear);
 
 // How much noisier the ratios of a canopy this high are than a very high one's: errors are in
