@@ -29,61 +29,138 @@ double pick(RandomStream& random, const std::array<double, Count>& values) {
 
 std::string text(double value) { return format_number(value); }
 
-std::string models_of(const Library& library, std::uint64_t seed, RandomStream& random) {
+// A list of `variants` plants of their own seeds, with the crop's own parameters or drawn ones.
+std::string models_of(const Library& library, std::uint64_t first_seed, RandomStream& random) {
+  const bool usual = random.uniform() < 0.25;
   std::string values;
   for (const auto& [key, value] : library.set) values += key + "=" + value + ", ";
   for (const auto& [key, bounds] : library.vary) {
     const double value = draw(random, bounds);
-    if (!library.set.contains(key)) values += key + "=" + text(value) + ", ";
+    if (!usual && !library.set.contains(key)) values += key + "=" + text(value) + ", ";
   }
   return "[{crop: " + library.crop + ", stage: " + library.stage +
-         ", seed: " + std::to_string(kPlantSeeds * seed) +
-         ", variants: " + text(std::round(draw(random, library.variants))) + ", set: [" + values +
-         "]}]";
+         ", seed: " + std::to_string(first_seed) +
+         ", variants: " + text(std::round(draw(random, library.variants))) +
+         (values.empty() ? "" : ", set: [" + values + "]") + "}]";
 }
 
-void plan_plants(const Library& library, std::uint64_t seed, double width_m, double length_m,
-                 RandomStream& random, std::vector<std::string>& set) {
+// Heights of plants that are stretched along z only, as if others had modelled them.
+std::string heights_of(double mean_m, RandomStream& random) {
+  return "{mean: " + text(mean_m) + ", sd: " + text(mean_m * random.uniform(0.02, 0.1)) + "}";
+}
+
+// One kind of plants for all plots, or 2 to 4 cultivars: of plants of their own, or of the same
+// stretched to heights of their own.
+void plan_plants(const Library& library, std::uint64_t seed, RandomStream& random,
+                 std::vector<std::string>& set) {
+  constexpr std::uint64_t kSeedsOfCultivar = 20;
   const double spread = draw(random, library.spread);
   set.push_back("plants.scale=[" + text(1 - spread) + ", " + text(1 + spread) + "]");
-  set.push_back("plants.models=" + models_of(library, seed, random));
+  const bool stretched = random.uniform() < 0.35 && library.height_m;
+  const double height_m = library.height_m.value_or(0) * random.uniform(0.75, 1.35);
+  set.push_back("plants.models=" + models_of(library, kPlantSeeds * seed, random));
+  if (stretched) set.push_back("plants.height_m=" + heights_of(height_m, random));
   if (random.uniform() < 0.3) {
+    const auto count = 2 + random.below(3);
+    std::string cultivars;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      cultivars += "{name: C" + std::to_string(i) + ", ";
+      if (stretched) {
+        cultivars += "height_m: " + heights_of(height_m * random.uniform(0.85, 1.15), random);
+      } else if (i > 0) {
+        cultivars += "models: " +
+                     models_of(library, kPlantSeeds * seed + kSeedsOfCultivar * (i + 1), random);
+      }
+      cultivars += "}, ";
+    }
+    set.push_back("plants.cultivars=[" + cultivars + "]");
+    set.push_back("plants.design=random");
+  }
+  if (random.uniform() < 0.2) {
     set.push_back("plants.lodging.plots_rate=0.1");
     set.push_back("plants.lodging.angle_deg=[15, 50]");
   }
-  if (library.density_m2.second > 0) {
-    set.push_back("plants.density_m2=" + text(draw(random, library.density_m2)));
-    return;
-  }
-  const double rows = std::max(1.0, std::round(width_m / draw(random, library.row_m)));
-  set.push_back("plants.density_m2=" +
-                text(rows * std::round(length_m / library.spacing_m) / (width_m * length_m)));
+}
+
+// Rows along the plots' length, which their width is a multiple of.
+double plan_rows(const Library& library, double width_m, double length_m, RandomStream& random,
+                 std::vector<std::string>& set) {
+  constexpr double kLeastRows = 2;
+  const double row_m = draw(random, *library.row_m);
+  const double rows = std::max(kLeastRows, std::round(width_m / row_m));
+  const double seeds_of_row =
+      library.spacing_m ? std::round(length_m / draw(random, *library.spacing_m))
+                        : std::round(length_m * row_m * draw(random, *library.density_m2));
+  set.push_back("plants.count=" + text(rows * std::max(1.0, seeds_of_row)));
   set.push_back("plants.pattern=drilled");
   set.push_back("plants.drill_rows=" + text(rows));
-  set.push_back("plants.jitter_m=0.02");
+  set.push_back("plants.jitter_m=" + text(random.uniform(0, 0.03)));
   set.push_back("plants.missing.rate=" + text(random.uniform(0, 0.1)));
   if (library.set.contains("tuft_m")) set.push_back("plants.yaw=row");
+  return rows * row_m;
+}
+
+void plan_plots(const Library& library, RandomStream& random, std::vector<std::string>& set) {
+  const bool papers = random.uniform() < 0.5;
+  double width_m = papers ? 1.5 : random.uniform(1.0, 2.6);
+  const double length_m = papers ? 4.0 : random.uniform(2.5, 6);
+  const bool drilled = library.row_m && (!library.density_m2 || random.uniform() < 0.5);
+  if (drilled) {
+    width_m = plan_rows(library, width_m, length_m, random, set);
+  } else {
+    set.push_back("plants.count=" +
+                  text(std::round(width_m * length_m * draw(random, *library.density_m2))));
+  }
+  set.push_back("plots.width_m=" + text(width_m));
+  set.push_back("plots.length_m=" + text(length_m));
+  set.push_back("plots.heading_deg=" + text(random.uniform(0, 180)));
+  set.push_back("plots.gap_width_m=" + text(random.uniform(0.2, 1.2)));
+  set.push_back("plots.gap_length_m=" + text(random.uniform(0.5, 1.5)));
 }
 
 void plan_terrain(RandomStream& random, std::vector<std::string>& set) {
-  set.push_back("terrain.relief_m=" + text(pick(random, std::array{0.0, 0.25, 0.5, 1.0})));
+  set.push_back("terrain.relief_m=" +
+                text(pick(random, std::array{0.0, 0.0, 0.25, 0.5, 0.5, 1.0})));
   // As many vertices per area as the paper's 150 on a square of 80 m, or of 40 m.
-  set.push_back("terrain.vertices=" + text(pick(random, std::array{37.0, 37.0, 150.0})));
+  set.push_back("terrain.vertices=" + text(pick(random, std::array{37.0, 37.0, 37.0, 150.0})));
 }
 
-void plan_flight(RandomStream& random, lidar::FlyOptions& flight) {
-  flight.range_noise_m = pick(random, std::array{0.0, 0.01, 0.02, 0.03, 0.03, 0.03, 0.05});
-  flight.altitude_m = random.uniform(6.5, 13);
-  flight.speed_m_s = random.uniform(1.5, 4);
-  flight.spacing_m = random.uniform(3.5, 7);
+// A third of the flights are lidarsim's own, the others of any sensor, height, speed and spacing.
+void plan_path(RandomStream& random, lidar::FlyOptions& flight) {
+  if (random.uniform() < 0.35) return;
+  flight.altitude_m = random.uniform(6, 14);
+  flight.speed_m_s = random.uniform(2.5, 6);
+  flight.spacing_m = random.uniform(3.5, 8);
   flight.heading_deg = random.uniform(0, 180);
-  if (random.uniform() < 0.25) {
+  if (random.uniform() < 0.5) return;
+  const std::array<const char*, 5> sensors = {"hdl32e", "os1_64", "puck_hires", "vlp32c",
+                                              "livox_mid40"};
+  flight.sensor = sensors[random.below(sensors.size())];
+  flight.altitude_m = random.uniform(6, 20);
+}
+
+// What a real survey adds, to a quarter of the farms each, to a tenth of them all of it.
+void plan_errors(RandomStream& random, lidar::FlyOptions& flight) {
+  constexpr double kShare = 0.25;
+  const double all = random.uniform() < 0.1 ? 1 : 0;
+  const auto happens = [&] { return random.uniform() < std::max(kShare, all); };
+  flight.range_noise_m = pick(random, std::array{0.0, 0.01, 0.02, 0.03, 0.03, 0.03, 0.05});
+  if (happens()) {
     flight.sub_rays = 7;
-    flight.returns = random.uniform() < 0.5 ? "dual" : "strongest";
+    flight.speed_m_s = std::max(flight.speed_m_s, 4.0);  // a beam costs as much as 7 rays
+    const std::array<const char*, 4> returns = {"strongest", "last", "dual", "dual"};
+    flight.returns = returns[random.below(returns.size())];
   }
-  if (random.uniform() < 0.25) {
-    flight.wind.mean_m_s = random.uniform(1, 4);
+  if (happens()) {
+    flight.wind.mean_m_s = random.uniform(1, 5);
     flight.wind_acts_on = "plants";
+  }
+  if (happens()) {
+    constexpr double kMost_deg = 0.1;
+    flight.pose_error = random.uniform() < 0.7 ? "rtk" : "ppk";
+    for (double& angle : flight.pose_errors.boresight_rpy_deg)
+      angle = random.uniform(-kMost_deg, kMost_deg);
+    flight.pose_errors.clock_offset_s = random.uniform(0, 0.002);
   }
 }
 
@@ -96,19 +173,20 @@ std::vector<Library> read_libraries(const std::filesystem::path& file) {
   const YamlSection crops = document.section("crops");
   std::vector<Library> libraries;
   for (const YamlSection& entry : document.list("libraries", kMostLibraries)) {
-    entry.allow_only(
-        {"name", "crop", "stage", "set", "density_m2", "row_m", "spacing_m", "spread", "variants"});
+    entry.allow_only({"name", "crop", "stage", "height_m", "set", "density_m2", "row_m",
+                      "spacing_m", "spread", "variants"});
     Library library{
         .name = entry.text("name"), .crop = entry.text("crop"), .stage = entry.text("stage")};
+    if (entry.has("height_m")) library.height_m = entry.number("height_m", kPositive);
     if (entry.has("set")) library.set = entry.section("set").texts();
     const YamlSection vary = crops.section(library.crop);
     for (const std::string& key : vary.keys()) library.vary[key] = vary.pair(key, kAny);
-    if (entry.has("row_m")) {
-      library.row_m = entry.pair("row_m", kPositive);
-      library.spacing_m = entry.number("spacing_m", kPositive, library.spacing_m);
-    } else {
-      library.density_m2 = entry.pair("density_m2", kPositive);
-    }
+    const auto range = [&](const char* key) {
+      return entry.has(key) ? std::optional(entry.pair(key, kPositive)) : std::nullopt;
+    };
+    library.density_m2 = range("density_m2");
+    library.row_m = range("row_m");
+    library.spacing_m = range("spacing_m");
     library.spread = entry.pair("spread", {0, 0.5});
     library.variants = entry.pair("variants", {1, 100});
     libraries.push_back(std::move(library));
@@ -123,17 +201,13 @@ FarmPlan plan_farm(const Library& library, std::size_t library_number, int numbe
       .overrides = {},
       .flight = {}};
   RandomStream random(plan.seed, random_purpose("calibration/farm"), 0);
-  const bool papers = random.uniform() < 0.5;
-  const double width_m = papers ? 1.5 : random.uniform(1.0, 2.5);
-  const double length_m = papers ? 4.0 : random.uniform(2.5, 6);
-  plan.overrides = {"plots.width_m=" + text(width_m), "plots.length_m=" + text(length_m),
-                    "plots.heading_deg=" + text(random.uniform(0, 180)),
-                    "plots.gap_width_m=" + text(random.uniform(0.5, 1.2)),
-                    "plots.gap_length_m=" + text(random.uniform(0.8, 1.5))};
-  plan_plants(library, plan.seed, width_m, length_m, random, plan.overrides);
+  plan_plots(library, random, plan.overrides);
+  plan_plants(library, plan.seed, random, plan.overrides);
   plan_terrain(random, plan.overrides);
-  plan_flight(random, plan.flight);
+  plan_path(random, plan.flight);
+  plan_errors(random, plan.flight);
   plan.flight.seed = plan.seed;
+  plan.flight.wind.seed = plan.seed;
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,18 +15,20 @@ namespace plotscan::calibration {
 
 using Bounds = std::pair<double, double>;
 
-// Plants of one kind, and how they may stand.
+// Plants of one kind, and how they may stand: at random where only a density is stated, in drilled
+// rows where only a spacing is, either way where both are.
 struct Library {
   std::string name;
   std::string crop;
   std::string stage;
+  std::optional<double> height_m = {};          // of a usual plant, where plants may be stretched
   std::map<std::string, std::string> set = {};  // parameters of the crop
   std::map<std::string, Bounds> vary = {};      // others, drawn for each farm
-  Bounds density_m2 = {0, 0};  // plants a square metre where they stand at random, else 0
-  Bounds row_m = {0, 0};       // between drilled rows
-  double spacing_m = 0.25;     // from plant to plant in them
-  Bounds spread = {0, 0};      // scales are in [1 - spread, 1 + spread]
-  Bounds variants = {1, 1};    // different plants
+  std::optional<Bounds> density_m2 = {};        // plants a square metre
+  std::optional<Bounds> row_m = {};             // between drilled rows
+  std::optional<Bounds> spacing_m = {};         // from plant to plant in them
+  Bounds spread = {0, 0};                       // scales are in [1 - spread, 1 + spread]
+  Bounds variants = {1, 1};                     // different plants
 };
 
 // Reads libraries.yaml. Throws InputError on an unknown key or an impossible value.
@@ -39,8 +42,9 @@ struct FarmPlan {
   lidar::FlyOptions flight;
 };
 
-// The number-th farm of a library, drawn from both: its plants, their density and scales, plots,
-// terrain, height and speed of the flight, noise, beam and wind.
+// The number-th farm of a library, drawn from both: its plants, their sowing and scales, cultivars,
+// plots, terrain, sensor, height and speed of the flight, noise, beam, wind and errors of the
+// poses.
 FarmPlan plan_farm(const Library& library, std::size_t library_number, int number);
 
 }  // namespace plotscan::calibration

@@ -113,11 +113,12 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
   sample.surface = source == GroundSource::truth
                        ? true_surface(farm, bare_noise(farm, points))
                        : ground::fit_surface(points, {.threads = threads});
-  const std::vector<std::map<std::string, double>> canopies = canopy_truths(farm);
+  std::vector<CanopyTruth> canopies = canopy_truths(farm);
   for (std::size_t i = 0; i < farm.plots.size(); ++i) {
     PlotSample plot{.box = found_box(farm.plots[i].box, plan.seed, i),
                     .truth = truth_of(farm.plots[i])};
-    plot.truth.insert(canopies[i].begin(), canopies[i].end());
+    plot.truth.merge(canopies[i].heights_m);
+    plot.perfect = std::move(canopies[i].points);
     for (const Eigen::Vector3f& point : points) {
       const Eigen::Vector2d place = point.head<2>().cast<double>();
       if (!plot.box.contains(place)) continue;

@@ -17,7 +17,8 @@ namespace plotscan::calibration {
 struct PlotSample {
   PlotBox box;
   std::map<std::string, double> truth;
-  std::vector<Eigen::Vector3f> points = {};  // x, y, height above the ground
+  std::vector<Eigen::Vector3f> points = {};   // x, y, height above the ground
+  std::vector<Eigen::Vector3f> perfect = {};  // the same of rays straight down without any error
 };
 
 // A field that was flown over.

@@ -25,22 +25,31 @@ struct MeasuredField {
   std::vector<MeasuredPlot> plots;
 };
 
-MeasuredField measure(const FieldSample& sample);
+// What of a sample is measured.
+enum class Returns {
+  thinned,  // of half of the farms all returns, of the others down to a thirtieth of them
+  perfect,  // rays straight down without any error: the limit of what these features can tell
+};
 
-// Chooses the covariances that predict each library's farms best from the other libraries', and
-// the weights of a plot's own features.
+MeasuredField measure(const FieldSample& sample, Returns returns);
+
+// Chooses the covariance under which the farms' ratios are most likely, and the weights of a plot's
+// own features.
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
-// How well each height is predicted where a farm, or all farms of its library, are left out.
+// How well a height is predicted where a farm, or all farms of its library, are left out: what of
+// all farms of a kind.
 struct LeftOut {
-  std::string library;
+  std::string name;  // of the kind
   std::string height;
   std::size_t farms = 0;
-  double rmse = 0;    // of the ratio to the top
-  double bias = 0;    // the same
+  double rmse_m = 0;
+  double bias_m = 0;
   double inside = 0;  // share of the truths in the 95 % interval
 };
 
-std::vector<LeftOut> leave_library_out(const heights::Calibration& calibration);
+enum class Group { farm, library };
+
+std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group group);
 
 }  // namespace plotscan::calibration

@@ -8,6 +8,7 @@
 
 #include "calibration/field_sample.h"
 #include "calibration/fit.h"
+#include <tbb/parallel_for.h>
 
 #include "core/error.h"
 #include "core/program.h"
@@ -77,25 +78,65 @@ std::vector<fs::path> sample_files(const std::vector<fs::path>& folders) {
   return files;
 }
 
-void run_fit(const Program& program, const FitArguments& arguments) {
-  std::vector<calibration::MeasuredField> fields;
-  for (const fs::path& file : sample_files(arguments.samples)) {
-    calibration::MeasuredField field = calibration::measure(calibration::read_sample(file));
-    if (!field.plots.empty()) fields.push_back(std::move(field));
-  }
+std::vector<calibration::MeasuredField> measured_fields(const std::vector<fs::path>& files,
+                                                        calibration::Returns returns) {
+  std::vector<calibration::MeasuredField> fields(files.size());
+  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
+    fields[i] = calibration::measure(calibration::read_sample(files[i]), returns);
+  });
+  std::erase_if(fields, [](const auto& field) { return field.plots.empty(); });
   if (fields.empty()) throw InputError("there is no sample in the folders given");
-  const heights::Calibration fitted = calibration::fit(fields);
-  TextFile file(arguments.output);
-  file << rounded(heights::json_of(fitted)).dump(1) << "\n";
-  file.close();
-  for (const calibration::LeftOut& row : calibration::leave_library_out(fitted)) {
-    std::array<char, 200> line{};
+  return fields;
+}
+
+// A line a library, crop and height: with the farm left out, with its library, and with the library
+// where rays straight down without any error were measured.
+void print_left_out(const Program& program, const heights::Calibration& fitted,
+                    const heights::Calibration& perfect) {
+  using calibration::Group;
+  const std::vector<calibration::LeftOut> farms = calibration::leave_out(fitted, Group::farm);
+  const std::vector<calibration::LeftOut> libraries =
+      calibration::leave_out(fitted, Group::library);
+  const std::vector<calibration::LeftOut> limits = calibration::leave_out(perfect, Group::library);
+  for (std::size_t i = 0; i < libraries.size(); ++i) {
+    const calibration::LeftOut& row = libraries[i];
+    const auto limit = std::ranges::find_if(limits, [&](const calibration::LeftOut& other) {
+      return other.name == row.name && other.height == row.height;
+    });
+    std::array<char, 240> line{};
     std::snprintf(line.data(), line.size(),
-                  "%-20s %-11s %4zu farms  rmse %5.2f %%  bias %+5.2f %%  inside %5.1f %%",
-                  row.library.c_str(), row.height.c_str(), row.farms, 100 * row.rmse,
-                  100 * row.bias, 100 * row.inside);
+                  "%-20s %-11s %4zu farms  farm out: rmse %5.2f cm inside %5.1f %%  library out: "
+                  "rmse %5.2f cm bias %+5.2f cm inside %5.1f %%  perfect rays: %5.2f cm",
+                  row.name.c_str(), row.height.c_str(), row.farms, 100 * farms[i].rmse_m,
+                  100 * farms[i].inside, 100 * row.rmse_m, 100 * row.bias_m, 100 * row.inside,
+                  limit == limits.end() ? NAN : 100 * limit->rmse_m);
     program.say(line.data());
   }
+}
+
+// Compact: a line for each of the document's members, and for each farm.
+void write_calibration(const fs::path& output, const heights::Calibration& fitted) {
+  TextFile file(output);
+  const nlohmann::json document = rounded(heights::json_of(fitted));
+  file << "{\n";
+  for (const auto& [key, value] : document.items())
+    if (key != "farms") file << "\"" << key << "\": " << value.dump() << ",\n";
+  file << "\"farms\": [\n";
+  const nlohmann::json& farms = document["farms"];
+  for (std::size_t i = 0; i < farms.size(); ++i)
+    file << farms[i].dump() << (i + 1 < farms.size() ? ",\n" : "\n");
+  file << "]}\n";
+  file.close();
+}
+
+void run_fit(const Program& program, const FitArguments& arguments) {
+  const std::vector<fs::path> files = sample_files(arguments.samples);
+  const auto fitted_to = [&](calibration::Returns returns) {
+    return calibration::fit(measured_fields(files, returns));
+  };
+  const heights::Calibration fitted = fitted_to(calibration::Returns::thinned);
+  write_calibration(arguments.output, fitted);
+  print_left_out(program, fitted, fitted_to(calibration::Returns::perfect));
 }
 
 }  // namespace

@@ -63,7 +63,10 @@ void write_sample(const std::filesystem::path& file, const FieldSample& sample) 
   write_array(out, sample.surface.z_m);
   write_array(out, sample.surface.sd_m);
   write_array(out, sample.surface.seen);
-  for (const PlotSample& plot : sample.plots) write_array(out, plot.points);
+  for (const PlotSample& plot : sample.plots) {
+    write_array(out, plot.points);
+    write_array(out, plot.perfect);
+  }
   if (!out.flush()) throw InputError(file.string() + ": cannot be written");
 }
 
@@ -89,6 +92,7 @@ FieldSample read_sample(const std::filesystem::path& file) {
                             .heading_rad = entry["heading"]},
                     .truth = entry["truth"]};
     plot.points = read_array<Eigen::Vector3f>(in);
+    plot.perfect = read_array<Eigen::Vector3f>(in);
     sample.plots.push_back(std::move(plot));
   }
   if (!in) throw InputError(file.string() + ": ends too early");

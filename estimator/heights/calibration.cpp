@@ -20,23 +20,29 @@ json numbers_of(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-Eigen::MatrixXd Calibration::scaled_farms() const {
+Eigen::VectorXd Calibration::scaled(const Eigen::VectorXd& values) const {
+  constexpr double kFarthest = 4;
+  return (values - center).cwiseQuotient(scale).cwiseMax(-kFarthest).cwiseMin(kFarthest);
+}
+
+Eigen::MatrixXd Calibration::places() const {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()), center.size());
   for (std::size_t i = 0; i < farms.size(); ++i)
-    rows.row(static_cast<Eigen::Index>(i)) = scaled(farms[i].features);
+    rows.row(static_cast<Eigen::Index>(i)) = place(scaled(farms[i].features));
   return rows;
 }
 
-Eigen::VectorXd Calibration::ratios_of(const std::string& height) const {
-  Eigen::VectorXd ratios(static_cast<Eigen::Index>(farms.size()));
+Eigen::MatrixXd Calibration::ratios() const {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()),
+                       static_cast<Eigen::Index>(heights.size()));
   for (std::size_t i = 0; i < farms.size(); ++i)
-    ratios(static_cast<Eigen::Index>(i)) = farms[i].ratios.at(height);
-  return ratios;
+    rows.row(static_cast<Eigen::Index>(i)) = farms[i].ratios;
+  return rows;
 }
 
-std::vector<double> Calibration::noise_of(const std::string& height) const {
+std::vector<double> Calibration::noise() const {
   std::vector<double> noise;
-  for (const CalibrationFarm& farm : farms) noise.push_back(farm.noise.at(height));
+  for (const CalibrationFarm& farm : farms) noise.push_back(relative_noise(farm.top_m));
   return noise;
 }
 
@@ -44,41 +50,43 @@ json json_of(const Calibration& calibration) {
   json farms = json::array();
   for (const CalibrationFarm& farm : calibration.farms) {
     farms.push_back({{"library", farm.library},
+                     {"top_m", farm.top_m},
                      {"features", numbers_of(farm.features)},
-                     {"ratios", farm.ratios},
-                     {"noise", farm.noise},
-                     {"within", farm.within}});
+                     {"ratios", numbers_of(farm.ratios)},
+                     {"within", numbers_of(farm.within)}});
   }
-  json models = json::object();
-  for (const auto& [height, model] : calibration.models) {
-    models[height] = {{"signal", model.covariance.signal},
-                      {"length", model.covariance.length},
-                      {"linear", model.covariance.linear},
-                      {"within", numbers_of(model.within)}};
-  }
+  json within = json::array();
+  for (const auto& row : calibration.within.rowwise()) within.push_back(numbers_of(row));
   return {{"features", calibration.features},
+          {"heights", calibration.heights},
           {"center", numbers_of(calibration.center)},
           {"scale", numbers_of(calibration.scale)},
-          {"heights", models},
+          {"weights", numbers_of(calibration.weights)},
+          {"linear", calibration.covariance.linear},
+          {"noise", calibration.covariance.noise},
+          {"within", within},
           {"farms", farms}};
 }
 
 Calibration calibration_of(const json& document) {
-  Calibration calibration{.features = document.at("features"),
-                          .center = vector_of(document.at("center")),
-                          .scale = vector_of(document.at("scale"))};
+  Calibration calibration{
+      .features = document.at("features"),
+      .heights = document.at("heights"),
+      .center = vector_of(document.at("center")),
+      .scale = vector_of(document.at("scale")),
+      .weights = vector_of(document.at("weights")),
+      .covariance = {.linear = document.at("linear"), .noise = document.at("noise")},
+      .within = {}};
+  calibration.within.resize(static_cast<Eigen::Index>(calibration.heights.size()),
+                            calibration.center.size());
+  for (Eigen::Index row = 0; row < calibration.within.rows(); ++row)
+    calibration.within.row(row) = vector_of(document.at("within").at(row));
   for (const json& farm : document.at("farms")) {
     calibration.farms.push_back({.library = farm.at("library"),
+                                 .top_m = farm.at("top_m"),
                                  .features = vector_of(farm.at("features")),
-                                 .ratios = farm.at("ratios"),
-                                 .noise = farm.at("noise"),
-                                 .within = farm.at("within")});
-  }
-  for (const auto& [height, model] : document.at("heights").items()) {
-    calibration.models[height] = {.covariance = {.signal = model.at("signal"),
-                                                 .length = model.at("length"),
-                                                 .linear = model.at("linear")},
-                                  .within = vector_of(model.at("within"))};
+                                 .ratios = vector_of(farm.at("ratios")),
+                                 .within = vector_of(farm.at("within"))});
   }
   return calibration;
 }

@@ -13,37 +13,38 @@
 
 namespace plotscan::heights {
 
-// A farm that the calibration was fitted on.
+// A farm that the calibration was fitted on. Vectors of heights are in the calibration's order.
 struct CalibrationFarm {
-  std::string library;                        // of its plants
-  Eigen::VectorXd features;                   // median over its plots
-  std::map<std::string, double> ratios = {};  // true height over the canopy's top, the same
-  std::map<std::string, double> noise = {};   // sd of such ratios that features do not explain
-  std::map<std::string, double> within = {};  // sd of its plots' ratios about what is predicted
+  std::string library;  // of its plants
+  double top_m = 0;     // median over its plots
+  Eigen::VectorXd features;
+  Eigen::VectorXd ratios;  // true heights over the canopy's top, the same
+  Eigen::VectorXd within;  // sd of its plots' ratios about what is predicted
 };
 
-// How one height follows from a canopy's features: its ratio to the canopy's top is kriged from the
-// field's features and corrected by what the plot's differ from the field's.
-struct HeightModel {
-  Covariance covariance;
-  Eigen::VectorXd within;  // weights of the scaled differences
-};
-
-// The file that benchmarks/calibration writes (heights/calibration.json).
+// The file that benchmarks/calibration writes (heights/calibration.json). A height's ratio to the
+// canopy's top is kriged from the field's features and corrected by what the plot's differ from the
+// field's.
 struct Calibration {
   std::vector<std::string> features = {};
+  std::vector<std::string> heights = {};
   Eigen::VectorXd center;  // features are shifted and divided by these
   Eigen::VectorXd scale;
+  Eigen::VectorXd weights;  // of each feature in a farm's place: near farms have like ratios
+  Covariance covariance;
+  Eigen::MatrixXd within;  // a row a height: weights of the scaled differences
   std::vector<CalibrationFarm> farms = {};
-  std::map<std::string, HeightModel> models = {};
 
-  Eigen::VectorXd scaled(const Eigen::VectorXd& values) const {
-    return (values - center).cwiseQuotient(scale);
+  // Features scaled to a spread of 1, no farther than 4 from the middle.
+  Eigen::VectorXd scaled(const Eigen::VectorXd& values) const;
+  // Where the regression has a field or plot of these scaled features.
+  Eigen::VectorXd place(const Eigen::VectorXd& scaled) const {
+    return scaled.cwiseProduct(weights);
   }
-  // A row a farm.
-  Eigen::MatrixXd scaled_farms() const;
-  Eigen::VectorXd ratios_of(const std::string& height) const;
-  std::vector<double> noise_of(const std::string& height) const;
+  // A row a farm: their places, and their ratios.
+  Eigen::MatrixXd places() const;
+  Eigen::MatrixXd ratios() const;
+  std::vector<double> noise() const;
 };
 
 nlohmann::json json_of(const Calibration& calibration);

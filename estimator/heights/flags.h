@@ -18,17 +18,18 @@ struct PlotEvidence {
   double top_m = 0;
   double noise_m = 0;
   PlotGround ground;
+  double unlike = 0;  // over 1: the canopy is unlike all that the calibration knows
 };
 
 struct FlagOptions {
-  double least_returns_m2 = 60;      // fewer and the plot's top is chance
-  std::size_t least_returns = 100;   // in a plot
-  double least_scanned_share = 0.9;  // less and the survey's edge cuts the plot
-  double least_ground_share = 0.95;  // less of the plot has a ground
-  double largest_ground_error_m = 0.025;
-  double least_top_m = 0.05;       // lower and there is no crop to measure
-  double least_top_sigmas = 3;     // of the heights' noise
-  double largest_error_m = 0.035;  // standard error of the mean: +-7 cm at 95 %
+  double least_returns_m2 = 60;           // fewer and the plot's top is chance
+  std::size_t least_returns = 100;        // in a plot
+  double least_scanned_share = 0.9;       // less and the survey's edge cuts the plot
+  double least_ground_share = 0.95;       // less of the plot has a ground
+  double largest_ground_error_m = 0.025;  // standard error of any place in the plot
+  double least_top_m = 0.05;              // lower and there is no crop to measure
+  double least_top_sigmas = 3;            // of the heights' noise
+  double largest_error_m = 0.025;         // standard error of any plants' height: +-5 cm at 95 %
 };
 
 // Why the plot's heights should not be trusted; empty when they may be.

@@ -5,83 +5,109 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 namespace plotscan::heights {
 namespace {
 
-// Prior standard deviation of the values' common level: wide against any ratio of heights.
-constexpr double kLevel = 1;
-
-// Known places whose errors say how wide errors are at another: enough for a root mean square to be
-// within 15 %.
-constexpr std::size_t kNeighbours = 25;
+// Prior variance of the values' common level: wide against what values vary by.
+constexpr double kLevelVariance = 10;
 
 double square(double value) { return value * value; }
 
 }  // namespace
 
-Kriging::Kriging(Eigen::MatrixXd places, Eigen::VectorXd values, std::vector<double> noise,
+Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places) {
+  Eigen::MatrixXd result = places * places.transpose();
+  const Eigen::VectorXd squares = result.diagonal();
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const Eigen::ArrayXd distances =
+        (squares.array() + squares(j) - 2 * result.col(j).array()).max(0);
+    result.col(j) = (-0.5 * distances).exp();
+  }
+  return result;
+}
+
+Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear) {
+  return (likenesses_of(places) + square(linear) * places * places.transpose()).array() +
+         kLevelVariance;
+}
+
+double relative_noise(double top_m) {
+  constexpr double kHalfway_m = 0.5;
+  return std::hypot(1, kHalfway_m / top_m);
+}
+
+Kriging::Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vector<double> noise,
                  const Covariance& covariance)
     : places_(std::move(places)),
-      values_(std::move(values)),
+      values_(values),
       noise_(std::move(noise)),
       covariance_(covariance),
-      center_(values_.mean()) {
-  const Eigen::Index count = places_.rows();
-  Eigen::MatrixXd matrix(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j <= i; ++j) matrix(i, j) = between(places_.row(i), places_.row(j));
-    matrix(i, i) += square(noise_[static_cast<std::size_t>(i)]);
-  }
-  inverse_ =
-      matrix.selfadjointView<Eigen::Lower>().llt().solve(Eigen::MatrixXd::Identity(count, count));
-  weights_ = inverse_ * (values_.array() - center_).matrix();
+      center_(values.colwise().mean()) {
+  Eigen::MatrixXd matrix = covariances_of(places_, covariance_.linear);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    matrix(i, i) += noise_variance(noise_[static_cast<std::size_t>(i)]);
+  factor_.compute(matrix);
+  const Eigen::MatrixXd centred = values_.rowwise() - center_;
+  weights_ = factor_.solve(centred);
+  scales_ = (centred.cwiseProduct(weights_).colwise().sum() / static_cast<double>(centred.rows()))
+                .cwiseSqrt();
 }
 
-double Kriging::between(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-  const auto numbers = static_cast<double>(a.size());
-  return square(kLevel) + square(covariance_.linear) * a.dot(b) / numbers +
-         square(covariance_.signal) *
-             std::exp(-0.5 * (a - b).squaredNorm() / (numbers * square(covariance_.length)));
+double Kriging::noise_variance(double noise) const { return square(noise * covariance_.noise); }
+
+Eigen::VectorXd Kriging::covariances(const Eigen::VectorXd& place) const {
+  const Eigen::VectorXd distances = (places_.rowwise() - place.transpose()).rowwise().squaredNorm();
+  return ((-0.5 * distances.array()).exp() +
+          square(covariance_.linear) * (places_ * place).array() + kLevelVariance)
+      .matrix();
 }
 
-Prediction Kriging::at(const Eigen::VectorXd& place) const {
-  Eigen::VectorXd covariances(places_.rows());
-  for (Eigen::Index i = 0; i < places_.rows(); ++i) covariances(i) = between(places_.row(i), place);
-  const double variance = between(place, place) - covariances.dot(inverse_ * covariances);
-  return {.value = center_ + covariances.dot(weights_),
-          .sd = std::sqrt(std::max(0.0, variance) + square(local_spread(place, noise_)))};
+double Kriging::unlike(const Eigen::VectorXd& place) const {
+  const Eigen::VectorXd known = factor_.matrixL().solve(covariances(place));
+  const double own = 1 + square(covariance_.linear) * place.squaredNorm() + kLevelVariance;
+  return std::sqrt(std::max(0.0, own - known.squaredNorm()));
 }
 
-double Kriging::local_spread(const Eigen::VectorXd& place, std::span<const double> numbers) const {
-  std::vector<std::pair<double, std::size_t>> nearest;
+Prediction Kriging::at(const Eigen::VectorXd& place, double noise) const {
+  Prediction prediction{.values = center_.transpose() + weights_.transpose() * covariances(place),
+                        .sds = {},
+                        .unlike = unlike(place)};
+  prediction.sds = scales_ * std::sqrt(square(prediction.unlike) + noise_variance(noise));
+  return prediction;
+}
+
+std::vector<std::size_t> Kriging::nearest(const Eigen::VectorXd& place, std::size_t count) const {
+  std::vector<std::pair<double, std::size_t>> order;
   for (Eigen::Index i = 0; i < places_.rows(); ++i)
-    nearest.emplace_back((places_.row(i).transpose() - place).squaredNorm(),
-                         static_cast<std::size_t>(i));
-  std::ranges::sort(nearest);
-  nearest.resize(std::min(nearest.size(), kNeighbours));
-  double sum = 0;
-  for (const auto& [distance, i] : nearest) sum += square(numbers[i]);
-  return std::sqrt(sum / static_cast<double>(nearest.size()));
+    order.emplace_back((places_.row(i).transpose() - place).squaredNorm(),
+                       static_cast<std::size_t>(i));
+  std::ranges::sort(order);
+  std::vector<std::size_t> nearest;
+  for (std::size_t k = 0; k < std::min(order.size(), count); ++k)
+    nearest.push_back(order[k].second);
+  return nearest;
 }
 
 std::vector<Prediction> Kriging::without_own_group(std::span<const int> groups) const {
+  const Eigen::MatrixXd inverse =
+      factor_.solve(Eigen::MatrixXd::Identity(places_.rows(), places_.rows()));
   std::vector<Prediction> predictions(groups.size());
   for (std::size_t first = 0; first < groups.size(); ++first) {
     std::vector<Eigen::Index> group;
     for (std::size_t i = 0; i < groups.size(); ++i)
       if (groups[i] == groups[first]) group.push_back(static_cast<Eigen::Index>(i));
     if (group.front() != static_cast<Eigen::Index>(first)) continue;
-    const Eigen::MatrixXd own = inverse_(group, group);
+    const Eigen::MatrixXd own = inverse(group, group);
     const Eigen::MatrixXd covariance =
         own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
-    const Eigen::VectorXd shift = covariance * weights_(group);
+    const Eigen::MatrixXd shift = covariance * weights_(group, Eigen::all);
     for (std::size_t k = 0; k < group.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      predictions[static_cast<std::size_t>(group[k])] = {
-          .value = values_(group[k]) - shift(row),
-          .sd = std::sqrt(std::max(0.0, covariance(row, row)))};
+      const auto i = static_cast<std::size_t>(group[k]);
+      const double variance = std::max(0.0, covariance(row, row));
+      predictions[i] = {.values = (values_.row(group[k]) - shift.row(row)).transpose(),
+                        .sds = scales_ * std::sqrt(variance),
+                        .unlike = std::sqrt(std::max(0.0, variance - noise_variance(noise_[i])))};
     }
   }
   return predictions;

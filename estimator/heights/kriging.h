@@ -4,52 +4,68 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace plotscan::heights {
 
-// A value and its standard deviation.
-struct Prediction {
-  double value = 0;
-  double sd = 0;
-};
-
-// Covariance of two places a and b of d numbers each:
-//   level^2 + linear^2 a.b / d + signal^2 exp(-|a - b|^2 / (2 d length^2))
+// Covariance of two places a and b, as a share of what a value varies by:
+//   exp(-|a - b|^2 / 2) + linear^2 a.b + level^2
+// and `noise`, the standard deviation of a known value's own noise, in the same share.
 struct Covariance {
-  double signal = 0.1;
-  double length = 1;
-  double linear = 0.02;
+  double linear = 0.7;
+  double noise = 0.3;
 };
 
-// Gaussian process regression (Rasmussen and Williams 2006, section 2.2): a value from places where
-// it is known. Far from all of them the standard deviation grows, which is why it was chosen.
+// Several values of one place, and by how much what varies about them does so: a value's standard
+// deviation is its spread times its own scale. `unlike` is the part of it that is not noise: 0 in
+// the middle of what is known, 1 and more where nothing is.
+struct Prediction {
+  Eigen::VectorXd values;
+  Eigen::VectorXd sds;
+  double unlike = 0;
+};
+
+// Gaussian process regression (Rasmussen and Williams 2006, section 2.2) of several values that
+// share one covariance up to a scale, so that one factorisation serves all of them. Far from all
+// known places the standard deviation grows, which is why it was chosen.
 class Kriging {
  public:
-  // A row a place; its value, and the standard deviation of that value's own noise.
-  Kriging(Eigen::MatrixXd places, Eigen::VectorXd values, std::vector<double> noise,
+  // A row a place; a row of its values; how much noisier than usual its values are.
+  Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vector<double> noise,
           const Covariance& covariance);
 
-  // Of a new value there, its own noise included: as at the nearest known places.
-  Prediction at(const Eigen::VectorXd& place) const;
-  // Root mean square of numbers of the known places over those nearest to this one. With errors
-  // over their standard deviations it says how much wider than these errors are there, as in
-  // locally weighted conformal prediction (Lei et al. 2018, section 5.2).
-  double local_spread(const Eigen::VectorXd& place, std::span<const double> numbers) const;
-  // Each value from those of other groups alone (Rasmussen and Williams, equation 5.12, for
-  // groups).
+  // Of new values there, their own noise, so much more than usual, included.
+  Prediction at(const Eigen::VectorXd& place, double noise) const;
+  // Of the noiseless value alone: Prediction::unlike.
+  double unlike(const Eigen::VectorXd& place) const;
+  // The known places nearest to this one, at most `count`.
+  std::vector<std::size_t> nearest(const Eigen::VectorXd& place, std::size_t count) const;
+  // Each place's values from those of other groups alone (Rasmussen and Williams, equation 5.12,
+  // for groups).
   std::vector<Prediction> without_own_group(std::span<const int> groups) const;
 
  private:
-  double between(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  Eigen::VectorXd covariances(const Eigen::VectorXd& place) const;
+  double noise_variance(double noise) const;
 
   Eigen::MatrixXd places_;
-  Eigen::VectorXd values_;
+  Eigen::MatrixXd values_;
   std::vector<double> noise_;
   Covariance covariance_;
-  double center_ = 0;
-  Eigen::MatrixXd inverse_;
-  Eigen::VectorXd weights_;
+  Eigen::RowVectorXd center_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd weights_;
+  Eigen::VectorXd scales_;  // what each value varies by
 };
+
+// exp(-|a - b|^2 / 2) of all pairs of places, and their covariances without noise; a row a place.
+Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places);
+Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear);
+
+// How much noisier the ratios of a canopy this high are than a very high one's: errors are in
+// proportion to the canopy above this height, and the same in metres below it. Half a metre did
+// best of 0, 0.25 and 0.5 m on farms left out (docs/plot-heights.md).
+double relative_noise(double top_m);
 
 }  // namespace plotscan::heights

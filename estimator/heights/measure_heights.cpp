@@ -68,7 +68,7 @@ std::vector<SeenPlot> see_all(std::span<const PlotPoints> plots, const ground::S
 std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
                                          const ground::Surface& surface,
                                          const HeightOptions& options) {
-  const std::vector<SeenPlot> seen = see_all(plots, surface, options.threads);
+  std::vector<SeenPlot> seen = see_all(plots, surface, options.threads);
   std::vector<std::size_t> measured;
   std::vector<PlotCanopy> field;
   for (std::size_t i = 0; i < plots.size(); ++i) {
@@ -76,11 +76,14 @@ std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
     measured.push_back(i);
     field.push_back(seen[i].canopy);
   }
-  const std::vector<std::map<std::string, Height>> heights =
-      options.calibrated ? calibrated_heights(field, shipped_calibration(), options.threads)
-                         : quantile_heights(field);
+  const std::vector<PlantHeights> heights = options.calibrated
+                                                ? calibrated_heights(field, shipped_calibration())
+                                                : quantile_heights(field);
   std::vector<PlotHeights> results(plots.size());
-  for (std::size_t k = 0; k < measured.size(); ++k) results[measured[k]].heights = heights[k];
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    results[measured[k]].heights = heights[k].heights;
+    seen[measured[k]].evidence.unlike = heights[k].unlike;
+  }
   for (std::size_t i = 0; i < plots.size(); ++i) {
     results[i].points = plots[i].points.size();
     results[i].flags = flags_of(seen[i].evidence, results[i].heights);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/plant_heights.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "core/statistics.h"
 #include "heights/ratio_model.h"
 
 namespace plotscan::heights {
@@ -21,20 +21,46 @@ Height height_of(double value_m, double sd_m) {
           .high95_m = value_m + kQuantile95 * sd_m};
 }
 
-std::map<std::string, FieldRatio> field_ratios(const Calibration& calibration,
-                                               const Eigen::VectorXd& place, int threads) {
-  std::vector<std::string> names;
-  for (const auto& [name, model] : calibration.models) names.push_back(name);
-  std::vector<FieldRatio> ratios(names.size());
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, names.size(), [&](std::size_t i) {
-      ratios[i] = RatioModel(calibration, names[i]).at(place);
-    });
-  });
-  std::map<std::string, FieldRatio> by_name;
-  for (std::size_t i = 0; i < names.size(); ++i) by_name[names[i]] = ratios[i];
-  return by_name;
+// Neighbours in the wrong order get their mean, until all are in order (pool adjacent violators,
+// Ayer et al. 1955): the nearest ordered values in the sense of least squares.
+void put_in_order(std::span<Height* const> heights) {
+  struct Pool {
+    double sum;
+    std::size_t count;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Pool> pools;
+  for (const Height* height : heights) {
+    pools.push_back({.sum = height->value_m, .count = 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
+      pools[pools.size() - 2].sum += pools.back().sum;
+      pools[pools.size() - 2].count += pools.back().count;
+      pools.pop_back();
+    }
+  }
+  std::size_t next = 0;
+  for (const Pool& pool : pools) {
+    for (std::size_t i = 0; i < pool.count; ++i, ++next)
+      *heights[next] = height_of(pool.mean(), heights[next]->standard_error_m);
+  }
+}
+
+// What the heights are by definition: no percentile over a higher one or over the tallest plant,
+// nor the mean over the tallest.
+void put_in_order(std::map<std::string, Height>& heights) {
+  const std::array plants = {&heights.at("p50"), &heights.at("p90"), &heights.at("p95"),
+                             &heights.at("p99"), &heights.at("max")};
+  put_in_order(plants);
+  const std::array canopy = {&heights.at("canopy_p95"), &heights.at("canopy_p99")};
+  put_in_order(canopy);
+  Height& mean = heights.at("mean");
+  mean = height_of(std::min(mean.value_m, heights.at("max").value_m), mean.standard_error_m);
+}
+
+double middle_top_m(std::span<const PlotCanopy> field) {
+  std::vector<double> tops;
+  for (const PlotCanopy& plot : field) tops.push_back(plot.top_m);
+  return quantile(tops, 0.5);
 }
 
 }  // namespace
@@ -52,11 +78,11 @@ const std::map<std::string, CanopyQuantile>& canopy_quantiles() {
   return quantiles;
 }
 
-std::vector<std::map<std::string, Height>> quantile_heights(std::span<const PlotCanopy> field) {
-  std::vector<std::map<std::string, Height>> heights(field.size());
+std::vector<PlantHeights> quantile_heights(std::span<const PlotCanopy> field) {
+  std::vector<PlantHeights> heights(field.size());
   for (std::size_t i = 0; i < field.size(); ++i) {
     for (const auto& [name, quantile] : canopy_quantiles()) {
-      heights[i][name] =
+      heights[i].heights[name] =
           height_of(field[i].quantiles_m.at(name),
                     std::hypot(quantile.relative_sd * field[i].top_m, field[i].ground_error_m));
     }
@@ -64,22 +90,31 @@ std::vector<std::map<std::string, Height>> quantile_heights(std::span<const Plot
   return heights;
 }
 
-std::vector<std::map<std::string, Height>> calibrated_heights(std::span<const PlotCanopy> field,
-                                                              const Calibration& calibration,
-                                                              int threads) {
-  std::vector<std::map<std::string, Height>> heights(field.size());
+std::vector<PlantHeights> calibrated_heights(std::span<const PlotCanopy> field,
+                                             const Calibration& calibration) {
+  std::vector<PlantHeights> heights(field.size());
   if (field.empty()) return heights;
   std::vector<Eigen::VectorXd> features;
   for (const PlotCanopy& plot : field) features.push_back(plot.features);
-  const Eigen::VectorXd place = calibration.scaled(field_features(features));
-  for (const auto& [name, ratio] : field_ratios(calibration, place, threads)) {
-    const Eigen::VectorXd& within = calibration.models.at(name).within;
-    for (std::size_t i = 0; i < field.size(); ++i) {
-      const double own = within.dot(calibration.scaled(field[i].features) - place);
-      const double sd_m = std::hypot(ratio.field_sd, ratio.within_sd) * field[i].top_m;
-      heights[i][name] = height_of((ratio.value + own) * field[i].top_m,
-                                   std::hypot(sd_m, field[i].ground_error_m));
+  const Eigen::VectorXd middle = calibration.scaled(field_features(features));
+  const RatioModel model(calibration);
+  const FieldRatios ratios = model.at(calibration.place(middle), middle_top_m(field));
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
+    const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
+    Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
+    heights[i].unlike = model.unlike(calibration.place(scaled));
+    if (heights[i].unlike > 1) {
+      const FieldRatios own = model.at(calibration.place(scaled), field[i].top_m);
+      sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
     }
+    for (std::size_t k = 0; k < calibration.heights.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      heights[i].heights[calibration.heights[k]] =
+          height_of(values(row) * field[i].top_m,
+                    std::hypot(std::sqrt(sds(row)) * field[i].top_m, field[i].ground_error_m));
+    }
+    put_in_order(heights[i].heights);
   }
   return heights;
 }

@@ -26,12 +26,18 @@ struct CanopyQuantile {
 };
 const std::map<std::string, CanopyQuantile>& canopy_quantiles();
 
-// The heights of a field's plots by its canopies' own quantiles, whatever the crop.
-std::vector<std::map<std::string, Height>> quantile_heights(std::span<const PlotCanopy> field);
+// A plot's heights by name.
+struct PlantHeights {
+  std::map<std::string, Height> heights = {};
+  double unlike = 0;  // over 1: the canopy is unlike all that the calibration knows
+};
 
-// The same by what the calibration's farms teach of canopies like the field's.
-std::vector<std::map<std::string, Height>> calibrated_heights(std::span<const PlotCanopy> field,
-                                                              const Calibration& calibration,
-                                                              int threads);
+// The heights of a field's plots by its canopies' own quantiles, whatever the crop.
+std::vector<PlantHeights> quantile_heights(std::span<const PlotCanopy> field);
+
+// The same by what the calibration's farms teach of canopies like the field's, in their order: no
+// percentile over a higher one, none over the tallest.
+std::vector<PlantHeights> calibrated_heights(std::span<const PlotCanopy> field,
+                                             const Calibration& calibration);
 
 }  // namespace plotscan::heights

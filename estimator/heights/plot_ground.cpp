@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/plot_ground.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plotscan::heights {
@@ -34,6 +35,7 @@ PlotGround ground_under(const PlotBox& box, const ground::Surface& surface) {
       if (std::isnan(error_m) || slope.hasNaN()) continue;
       ++reached;
       ground.standard_error_m += error_m;
+      ground.worst_error_m = std::max(ground.worst_error_m, error_m);
       gradient += slope;
     }
   }

@@ -55,6 +55,29 @@ TEST(MeasureHeights, NamesAllHeightsInTheirOrder) {
   }
 }
 
+// Whatever the canopy and however few the returns: no percentile over a higher one.
+TEST(MeasureHeights, KeepsTheHeightsInTheirOrder) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    RandomStream random(seed, random_purpose("test/order"), 0);
+    Field field = domes(3, random.uniform(0.1, 3), 100 + static_cast<int>(random.below(3000)));
+    for (std::vector<Eigen::Vector3f>& returns : field.returns) {
+      const auto power = static_cast<float>(random.uniform(0.2, 3));
+      for (Eigen::Vector3f& point : returns)
+        point.z() =
+            std::pow(std::max(0.0F, point.z()), power) + 0.3F * static_cast<float>(random.below(2));
+    }
+    for (const PlotHeights& plot : field.measured()) {
+      const auto value = [&](const char* name) { return plot.heights.at(name).value_m; };
+      EXPECT_LE(value("p50"), value("p90")) << seed;
+      EXPECT_LE(value("p90"), value("p95")) << seed;
+      EXPECT_LE(value("p95"), value("p99")) << seed;
+      EXPECT_LE(value("p99"), value("max")) << seed;
+      EXPECT_LE(value("mean"), value("max")) << seed;
+      EXPECT_LE(value("canopy_p95"), value("canopy_p99")) << seed;
+    }
+  }
+}
+
 TEST(MeasureHeights, IsTheSameForAnyNumberOfThreads) {
   const Field field = domes(6);
   const std::vector<PlotHeights> one = field.measured(true, 1);
@@ -102,6 +125,33 @@ TEST(MeasureHeights, FlagsGroundThatIsUnsureOrAbsent) {
   std::ranges::fill(field.surface.sd_m, NAN);
   for (const PlotHeights& plot : field.measured())
     EXPECT_THAT(plot.flags, Contains("no ground within reach"));
+}
+
+// A crease under one corner of one plot.
+TEST(MeasureHeights, FlagsTheWorstGroundInAPlot) {
+  Field field = domes(3);
+  const Eigen::Vector2d corner = field.boxes[1].corners()[0];
+  const Eigen::Vector2d node =
+      (0.8 * corner + 0.2 * field.boxes[1].center - field.surface.origin) / field.surface.cell_m;
+  const int at = std::lround(node.y()) * field.surface.columns + std::lround(node.x());
+  for (const int near :
+       {at, at + 1, at - 1, at + field.surface.columns, at - field.surface.columns})
+    field.surface.sd_m[static_cast<std::size_t>(near)] = 0.06F;
+  const std::vector<PlotHeights> plots = field.measured();
+  EXPECT_THAT(plots[0].flags, Not(Contains("ground is unsure by centimetres")));
+  EXPECT_THAT(plots[1].flags, Contains("ground is unsure by centimetres"));
+}
+
+// A third of the plot stands on a table: no crop is like that.
+TEST(MeasureHeights, FlagsPlantsUnlikeThoseKnown) {
+  Field field = domes(4);
+  const double usual = field.measured()[1].heights.at("p95").standard_error_m;
+  for (Eigen::Vector3f& point : field.returns[1])
+    if (field.boxes[1].box_from_world(point.head<2>().cast<double>()).x() > 0.7) point.z() += 4;
+  const std::vector<PlotHeights> plots = field.measured();
+  EXPECT_THAT(plots[0].flags, Not(Contains("plants unlike those the calibration knows")));
+  EXPECT_THAT(plots[1].flags, Contains("plants unlike those the calibration knows"));
+  EXPECT_GT(plots[1].heights.at("p95").standard_error_m, 1.5 * usual);
 }
 
 TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {
