@@ -8,15 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "plots/statistics.h"
+
 namespace plotscan::plots {
 namespace {
 
 // Of a plot, that takes part in its outline: half the gap to the next one.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
+constexpr double kPiece_m = 1;            // of a plot, in which canopy is taken
 constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looked for
 constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
+constexpr double kMostUneven = 0.7;       // plots reach 0.3, single bushes 1.1 and more
 constexpr double kLeastHeld = 0.6;        // of the canopy; the rest may be weeds, or another trial
 constexpr double kLeastFilled = 0.6;      // of the places
 constexpr double kLeastEvidence = 30;     // nats a plot: a scanned room's furniture reaches 27
@@ -121,6 +125,33 @@ double filled_share(const Lattice& lattice) {
   return static_cast<double>(lattice.places.size()) / std::max(1.0, places);
 }
 
+// Median over the plots of the spread over the mean of their pieces' canopy.
+double unevenness_of(const Lattice& lattice) {
+  std::vector<double> spreads;
+  for (const Place& place : lattice.places) {
+    const Cells box = cells_about(lattice, place, 0);
+    const auto parts = [](double size_m) {
+      return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
+    };
+    const int r_parts = parts(lattice.r_size_m), c_parts = parts(lattice.c_size_m);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < r_parts; ++i) {
+      for (int k = 0; k < c_parts; ++k) {
+        const double canopy = lattice.view.cover(box.r0 + (box.r1 - box.r0) * i / r_parts,
+                                                 box.r0 + (box.r1 - box.r0) * (i + 1) / r_parts,
+                                                 box.c0 + (box.c1 - box.c0) * k / c_parts,
+                                                 box.c0 + (box.c1 - box.c0) * (k + 1) / c_parts);
+        sum += canopy;
+        squares += canopy * canopy;
+      }
+    }
+    const double pieces = r_parts * c_parts, mean = sum / pieces;
+    spreads.push_back(std::sqrt(std::max(0.0, squares / pieces - mean * mean)) /
+                      std::max(1e-9, mean));
+  }
+  return median(std::move(spreads));
+}
+
 std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
   std::vector<Eigen::Vector2d> centres;
   for (const Place& place : lattice.places)
@@ -136,6 +167,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evi
   FieldSigns signs{.filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
                    .squareness = squareness_of(lattice),
+                   .unevenness = unevenness_of(lattice),
                    .aspect = std::max(lattice.r_size_m, lattice.c_size_m) /
                              std::min(lattice.r_size_m, lattice.c_size_m),
                    .evidence = evidence / static_cast<double>(lattice.places.size())};
@@ -151,6 +183,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.aspect > kMostAspect) return "rows of a crop or a vineyard lie here, not plots";
   if (signs.squareness < kLeastSquareness)
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
+  if (signs.unevenness > kMostUneven)
+    return "single bushes or trees stand here, not plots that are covered by a crop";
   if (signs.held_share < kLeastHeld || signs.filled_share < kLeastFilled ||
       signs.evidence < kLeastEvidence)
     return "canopy lies here, but not in plots of one size at equal steps";

@@ -137,6 +137,7 @@ nlohmann::json json_of(const FieldSigns& signs) {
           {"surface_share", signs.surface_share},
           {"squareness", signs.squareness},
           {"aspect", signs.aspect},
+          {"unevenness", signs.unevenness},
           {"evidence_per_plot", signs.evidence}};
 }
 

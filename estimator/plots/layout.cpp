@@ -46,13 +46,15 @@ struct AxisFit {
 // A line's profiles, and what a parameter is to gain: Schwarz's criterion.
 struct Line {
   double cell_m = 0;
+  KnownSides known = {};
   std::vector<ProfileSums> profiles = {};
   double price = 0;
   double independent = 0;
 };
 
-Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips) {
-  Line line{.cell_m = view.cell_m()};
+Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
+             const KnownSides& known) {
+  Line line{.cell_m = view.cell_m(), .known = known};
   for (const std::vector<Band>& across : strips) {
     const CanopyProfile profile = profile_along_r(view, across);
     line.profiles.emplace_back(profile);
@@ -109,7 +111,8 @@ bool may_be(int size, double cell_m, const KnownSides& known) {
   return true;
 }
 
-std::vector<BandShape> coarse_shapes(const Line& line, const KnownSides& known) {
+std::vector<BandShape> coarse_shapes(const Line& line) {
+  const KnownSides& known = line.known;
   std::vector<BandShape> shapes;
   const double most =
       std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
@@ -139,6 +142,7 @@ std::vector<BandShape> shapes_like(const BandShape& shape) {
 AxisFit put_together(const Line& line, AxisFit fit) {
   fit.seen_shape = fit.shape;
   fit.seen = fit.begins;
+  if (line.known.width_m && line.known.length_m) return fit;  // the bands are the plots
   std::vector<std::vector<double>> middles;
   for (std::size_t i = 0; i < fit.begins.size(); ++i) {
     middles.emplace_back();
@@ -189,17 +193,17 @@ std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& 
   return fits;
 }
 
-AxisFit fit_axis(const Line& line, bool shared, const KnownSides& known) {
+AxisFit fit_axis(const Line& line, bool shared) {
   Line tried = line;
   if (!shared && tried.profiles.size() > kRowsTried)
     tried.profiles.erase(tried.profiles.begin() + kRowsTried, tried.profiles.end());
-  std::vector<AxisFit> fits = fit_shapes(tried, coarse_shapes(line, known), shared);
+  std::vector<AxisFit> fits = fit_shapes(tried, coarse_shapes(line), shared);
   if (fits.empty()) return {};
   std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
   std::vector<BandShape> shapes;
   for (std::size_t i = 0; i < std::min(fits.size(), kRefined); ++i) {
     for (const BandShape& shape : shapes_like(fits[i].shape))
-      if (may_be(shape.size, line.cell_m, known)) shapes.push_back(shape);
+      if (may_be(shape.size, line.cell_m, line.known)) shapes.push_back(shape);
   }
   if (!shared) fits.clear();  // of fewer profiles
   for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));
@@ -354,25 +358,25 @@ double criterion(const Layout& layout) {
 // Rows over the whole field, then what lies along them: the same columns in all, or each row's own.
 std::vector<Layout> layouts_with_rows(const RowView& view, const KnownSides& known) {
   const RowView along = view.turned();
-  Line r_line = line_of(view, {whole(view.c_cells())});
-  AxisFit r_fit = fit_axis(r_line, true, known);
+  Line r_line = line_of(view, {whole(view.c_cells())}, known);
+  AxisFit r_fit = fit_axis(r_line, true);
   if (!std::isfinite(r_fit.misfit)) return {};
   std::vector<Band> rows = bands_of(put_together(r_line, r_fit), 0);
-  Line c_line = line_of(along, {rows});
-  AxisFit columns = fit_axis(c_line, true, known);
+  Line c_line = line_of(along, {rows}, known);
+  AxisFit columns = fit_axis(c_line, true);
   std::vector<Layout> layouts;
-  const Line each = line_of(along, each_alone(rows));
-  const AxisFit own = fit_axis(each, false, known);
+  const Line each = line_of(along, each_alone(rows), known);
+  const AxisFit own = fit_axis(each, false);
   if (std::isfinite(own.misfit))
     layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(each, own)));
   if (!std::isfinite(columns.misfit)) return layouts;
   // Without the alleys between the columns the rows show more clearly, and the columns then.
-  r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)});
-  r_fit = fit_axis(r_line, true, known);
+  r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)}, known);
+  r_fit = fit_axis(r_line, true);
   if (!std::isfinite(r_fit.misfit)) return layouts;
   rows = bands_of(put_together(r_line, r_fit), 0);
-  c_line = line_of(along, {rows});
-  columns = fit_axis(c_line, true, known);
+  c_line = line_of(along, {rows}, known);
+  columns = fit_axis(c_line, true);
   if (std::isfinite(columns.misfit))
     layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(c_line, columns)));
   return layouts;
@@ -380,9 +384,10 @@ std::vector<Layout> layouts_with_rows(const RowView& view, const KnownSides& kno
 
 // Of the layouts with columns through all rows the one that explains the whole field best, along
 // both axes, where all plots' edges add up, and cell by cell.
-void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
-  const Line a = line_of(view, {whole(view.c_cells())});
-  const Line b = line_of(view.turned(), {whole(view.r_cells())});
+void leave_best_aligned(const RowView& view, const KnownSides& known,
+                        std::vector<Layout>& layouts) {
+  const Line a = line_of(view, {whole(view.c_cells())}, known);
+  const Line b = line_of(view.turned(), {whole(view.r_cells())}, known);
   const auto cost = [&](const Layout& layout) {
     const bool turned = layout.view.swapped;
     return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
@@ -406,7 +411,7 @@ Layout best_layout(const CanopyRaster& raster, const KnownSides& known) {
   std::vector<Layout> layouts = layouts_with_rows(view, known);
   for (Layout& layout : layouts_with_rows(view.turned(), known))
     layouts.push_back(std::move(layout));
-  leave_best_aligned(view, layouts);
+  leave_best_aligned(view, known, layouts);
   const double without = criterion({.view = view});
   Layout best{.view = view};
   double most = 0;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/drill_rows.h"
+
+#include <gtest/gtest.h>
+
+namespace plotscan::plots {
+namespace {
+
+// Middles of plots' rows: `rows` at `spacing`, `gap` between the sown widths; the first sown width
+// begins at 10.
+std::vector<double> rows_of(int plots, int rows, double spacing, double gap) {
+  std::vector<double> middles;
+  for (int plot = 0; plot < plots; ++plot) {
+    for (int row = 0; row < rows; ++row)
+      middles.push_back(10 + plot * (rows * spacing + gap) + (row + 0.5) * spacing);
+  }
+  return middles;
+}
+
+TEST(DrilledPlots, AreAsWideAsTheirRowsTimesTheSpacing) {
+  for (const int rows : {2, 3, 5, 7}) {
+    for (const double gap : {4.0, 10.0, 30.0}) {
+      const auto plots = drilled_plots({rows_of(6, rows, 8, gap)}, 22, 3);
+      ASSERT_TRUE(plots) << rows << ' ' << gap;
+      EXPECT_EQ(plots->rows, rows);
+      EXPECT_NEAR(plots->spacing, 8, 1e-9);
+      ASSERT_EQ(plots->begins.front().size(), 6U);
+      for (int plot = 0; plot < 6; ++plot) {
+        EXPECT_NEAR(plots->begins.front()[static_cast<std::size_t>(plot)],
+                    10 + plot * (rows * 8 + gap), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(DrilledPlots, StandWhereARowWasNotSeen) {
+  std::vector<double> middles = rows_of(6, 4, 8, 10);
+  middles.erase(middles.begin() + 9);  // an inner row of the third plot
+  const auto plots = drilled_plots({middles}, 22, 3);
+  ASSERT_TRUE(plots);
+  EXPECT_EQ(plots->rows, 4);
+  ASSERT_EQ(plots->begins.front().size(), 6U);
+  EXPECT_NEAR(plots->begins.front()[2], 10 + 2 * 42, 1e-9);
+}
+
+TEST(DrilledPlots, AreFilledInWhereTwoRowsWereNotSeen) {
+  std::vector<double> middles = rows_of(6, 3, 8, 10);
+  middles.erase(middles.begin() + 7, middles.begin() + 9);
+  const auto plots = drilled_plots({middles}, 22, 3);
+  ASSERT_TRUE(plots);
+  ASSERT_EQ(plots->begins.front().size(), 6U);
+  EXPECT_NEAR(plots->begins.front()[2], 10 + 2 * 34, 1e-9);
+}
+
+TEST(DrilledPlots, AreNoneOfPlotsOrOfRowsWithoutAlleys) {
+  EXPECT_FALSE(drilled_plots({rows_of(8, 1, 30, 20)}, 22, 3)) << "wide plots";
+  EXPECT_FALSE(drilled_plots({rows_of(1, 20, 8, 0)}, 22, 3)) << "rows of one field";
+  EXPECT_FALSE(drilled_plots({{}}, 22, 3));
+  EXPECT_FALSE(drilled_plots({{5, 9, 30, 33, 60, 64, 68, 72, 90}}, 22, 3)) << "rows anywhere";
+}
+
+}  // namespace
+}  // namespace plotscan::plots

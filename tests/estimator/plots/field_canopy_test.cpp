@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/field_canopy.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kNoise_m = 0.02;
+
+// 200 returns a square metre over 20 x 20 m of ground; `height` gives what stands there, or NaN.
+template <class Height>
+std::vector<Eigen::Vector3f> points_over(const Height& height) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 80000; ++i) {
+    RandomStream random(5, random_purpose("test/canopy"), i);
+    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
+    const double standing = height(x, y, random);
+    const double z = std::isnan(standing) ? 0 : standing;
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(z + kNoise_m * random.normal()));
+  }
+  return points;
+}
+
+bool in_middle(double x, double y) { return x > 6 && x < 14 && y > 6 && y < 14; }
+
+TEST(FieldCanopy, LeavesOutRoofsAndWallsButNoCanopy) {
+  const Eigen::Vector3f middle(10, 10, 1);
+  const std::vector<Eigen::Vector2d> places = {{10, 10}};
+  const auto canopy = points_over([](double x, double y, RandomStream& random) {
+    return in_middle(x, y) ? random.uniform(0, 0.8) : NAN;
+  });
+  const auto roof = points_over([](double x, double y, RandomStream&) {
+    return in_middle(x, y) ? 1 + 0.4 * (x - 10) / 4 : NAN;
+  });
+  EXPECT_FALSE(FieldCanopy(canopy, kNoise_m).leaves_out(middle));
+  EXPECT_LT(FieldCanopy(canopy, kNoise_m).surface_share(places, 5), 0.02);
+  EXPECT_TRUE(FieldCanopy(roof, kNoise_m).leaves_out(middle));
+  EXPECT_GT(FieldCanopy(roof, kNoise_m).surface_share(places, 5), 0.9);
+}
+
+TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {
+  for (const double top_m : {0.3, 0.8, 2.5}) {
+    const auto points = points_over([&](double x, double y, RandomStream& random) {
+      return in_middle(x, y) ? random.uniform(0, top_m) : NAN;
+    });
+    const CanopyScale scale = FieldCanopy(points, kNoise_m).scale();
+    EXPECT_NEAR(scale.low_m, 0.05, 1e-9);
+    EXPECT_NEAR(scale.high_m / top_m, 0.9, 0.1);
+  }
+}
+
+TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {
+  auto points = points_over([](double, double, RandomStream&) { return NAN; });
+  for (int i = 0; i < 50; ++i) points.emplace_back(40.0F + 0.2F * static_cast<float>(i), 5, 0.5F);
+  points.emplace_back(5, NAN, 0);
+  const FieldCanopy field(points, kNoise_m);
+  EXPECT_TRUE(field.leaves_out({45, 5, 0.5}));
+  EXPECT_TRUE(field.leaves_out({5, NAN, 0}));
+  EXPECT_FALSE(field.leaves_out({5, 5, 0}));
+}
+
+TEST(FieldCanopy, OfNoPointsHasNoneToLeaveOut) {
+  EXPECT_TRUE(FieldCanopy({}, kNoise_m).points().empty());
+}
+
+}  // namespace
+}  // namespace plotscan::plots
