@@ -22,6 +22,7 @@ constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
 constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
 constexpr int kMostSkew_deg = 15;      // of the axes, off the right angle
 constexpr double kSkewDoubt = 0.25;
+constexpr double kTilt_rad = 0.5 * kDegree;  // between what the families say: one is tilted
 constexpr double kHintReach_rad = 5 * kDegree;
 constexpr double kLeastCover = 0.1;  // of a block with canopy
 constexpr double kAround_m = 2;      // of bare ground about the canopy
@@ -150,10 +151,10 @@ Pair best_pair(const std::vector<double>& values, const std::optional<double>& h
 
 }  // namespace
 
-std::optional<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
-                                   int threads) {
+std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
+                                 int threads) {
   const std::vector<Cell> cells = cells_of(raster);
-  if (cells.empty()) return std::nullopt;
+  if (cells.empty()) return {};
   const double bin_m = raster.cell_m();
   std::vector<double> angles, values;
   for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
@@ -166,18 +167,19 @@ std::optional<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<dou
   }
   const auto fine = [&](double guess_rad) {
     const double closer =
-        refined(cells, guess_rad, 1.2 * kDegree, 0.2 * kDegree, bin_m, kLongBlock_m, threads);
+        refined(cells, guess_rad, 2 * kDegree, 0.2 * kDegree, bin_m, kLongBlock_m, threads);
     return refined(cells, closer, 0.3 * kDegree, 0.05 * kDegree, bin_m, kLongBlock_m, threads);
   };
   const Pair pair = best_pair(values, hint_rad);
   FieldAxes axes{fine(pair.first * kDegree), fine(pair.second * kDegree)};
-  if (std::abs(pair.second - pair.first - 90) > 1) return axes;
-  // One rigid pair: the sharper family says where.
-  const double of_first = sharpness(cells, axes.first_rad, bin_m, kLongBlock_m);
-  const double of_second = sharpness(cells, axes.second_rad, bin_m, kLongBlock_m);
-  if (of_first >= of_second) axes.second_rad = axes.first_rad + kPi / 2;
-  if (of_first < of_second) axes.first_rad = axes.second_rad - kPi / 2;
-  return axes;
+  if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
+  // One rigid pair, as either family has it: offsets of rows can tilt the lines of one.
+  const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
+  const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
+  const double sharp_first = sharpness(cells, axes.first_rad, bin_m, kLongBlock_m);
+  const double sharp_second = sharpness(cells, axes.second_rad, bin_m, kLongBlock_m);
+  if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};
+  return {sharp_first >= sharp_second ? of_first : of_second};
 }
 
 }  // namespace plotscan::plots

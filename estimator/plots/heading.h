@@ -4,6 +4,7 @@
 // Private to the library: the two directions along which a field's alleys run.
 
 #include <optional>
+#include <vector>
 
 #include "plots/canopy_raster.h"
 
@@ -16,9 +17,10 @@ struct FieldAxes {
 
 // The pair of directions along which the canopy's lines are sharpest: means along lines, over the
 // whole field and in blocks of some metres, whose steps across the lines are squared and summed.
-// Long lines show weak alleys, short ones those of rows with offsets of their own. With a hint, the
-// first direction is sought near it. Nothing without canopy.
-std::optional<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
-                                   int threads);
+// Long lines show weak alleys, short ones those of rows with offsets of their own. Two pairs where
+// the families disagree, and none without canopy. With a hint, the first direction is sought near
+// it.
+std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
+                                 int threads);
 
 }  // namespace plotscan::plots
