@@ -101,27 +101,6 @@ Frame frame_of(const FieldAxes& axes) {
           .b_axis = {std::cos(axes.second_rad), std::sin(axes.second_rad)}};
 }
 
-// The canopy along a pair of axes, and the best layout there, whose view points to it.
-struct Sighting {
-  std::unique_ptr<const CanopyRaster> canopy;
-  Layout layout;
-};
-
-Sighting best_sighting(const FieldCanopy& field, const std::vector<FieldAxes>& pairs,
-                       const KnownSides& known, int threads) {
-  tbb::task_arena arena(threads);
-  Sighting best;
-  for (const FieldAxes& axes : pairs) {
-    auto canopy = std::make_unique<const CanopyRaster>(
-        rasterise(field, frame_of(axes), kCell_m, field.scale(), threads));
-    Layout layout;
-    arena.execute([&] { layout = best_layout(*canopy, known); });
-    if (best.canopy && layout.evidence <= best.layout.evidence) continue;
-    best = {std::move(canopy), std::move(layout)};
-  }
-  return best;
-}
-
 // Sizes that the user gave are the sizes; the length is the longer one.
 void take_given_sides(Lattice& lattice, const Hints& hints) {
   const bool along_r = lattice.r_size_m >= lattice.c_size_m;
@@ -162,37 +141,58 @@ nlohmann::json json_of(const FieldSigns& signs) {
           {"evidence_per_plot", signs.evidence}};
 }
 
+// What a pair of axes shows.
+struct Look {
+  PlotField field;
+  double evidence = 0;  // of its plots; 0 where there are none
+};
+
+Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
+                int threads) {
+  const Frame frame = frame_of(axes);
+  const CanopyRaster canopy = rasterise(field, frame, kCell_m, field.scale(), threads);
+  tbb::task_arena arena(threads);
+  Layout layout;
+  arena.execute([&] { layout = best_layout(canopy, {hints.width_m, hints.length_m}); });
+  if (layout.rows.empty()) return {nothing("no plots of one size lie in rows here")};
+
+  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
+  const CanopyRaster cover =
+      rasterise(field, frame, kCell_m, {leaves_m, leaves_m + kStep_m}, threads);
+  layout.view.raster = &cover;
+  Lattice lattice = fit_lattice(layout);
+  if (lattice.places.size() < kLeastPlots) {
+    return {nothing(
+        "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured")};
+  }
+  refine(lattice, layout, hints);
+  lattice.view.raster = &canopy;
+  const FieldSigns signs = signs_of(lattice, field, layout.evidence);
+  lattice.view.raster = &cover;
+  const std::string because = no_plots_because(signs);
+  Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};
+  if (because.empty()) {
+    look.evidence = layout.evidence;
+    look.field.fit = fit_of(lattice, look.field);
+  }
+  look.field.fit["signs"] = json_of(signs);
+  return look;
+}
+
 }  // namespace
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads) {
   const FieldCanopy field(points, noise_m);
-  const CanopyScale& scale = field.scale();
-  const CanopyRaster coarse = rasterise(field, {}, kAxisCell_m, scale, threads);
-  const std::vector<FieldAxes> axes = find_axes(coarse, hints.heading_rad, threads);
-  if (axes.empty()) return nothing("no canopy stands out from the ground here");
-  const Sighting seen = best_sighting(field, axes, {hints.width_m, hints.length_m}, threads);
-  Layout layout = seen.layout;
-  if (layout.rows.empty()) return nothing("no plots of one size lie in rows here");
-
-  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * scale.high_m});
-  const CanopyRaster cover =
-      rasterise(field, seen.canopy->frame(), kCell_m, {leaves_m, leaves_m + kStep_m}, threads);
-  layout.view.raster = &cover;
-  Lattice lattice = fit_lattice(layout);
-  if (lattice.places.size() < kLeastPlots) {
-    return nothing(
-        "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured");
+  const CanopyRaster coarse = rasterise(field, {}, kAxisCell_m, field.scale(), threads);
+  Look best{nothing("no canopy stands out from the ground here")};
+  bool first = true;
+  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
+    Look look = look_along(axes, field, noise_m, hints, threads);
+    if (first || look.evidence > best.evidence) best = std::move(look);
+    first = false;
   }
-  refine(lattice, layout, hints);
-  lattice.view.raster = seen.canopy.get();
-  const FieldSigns signs = signs_of(lattice, field, layout.evidence);
-  lattice.view.raster = &cover;
-  const std::string because = no_plots_because(signs);
-  PlotField found = because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because);
-  found.fit = because.empty() ? fit_of(lattice, found) : nlohmann::json::object();
-  found.fit["signs"] = json_of(signs);
-  return found;
+  return std::move(best.field);
 }
 
 }  // namespace plotscan::plots
