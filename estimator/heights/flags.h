@@ -29,7 +29,7 @@ struct FlagOptions {
   double largest_ground_error_m = 0.025;  // standard error of any place in the plot
   double least_top_m = 0.05;              // lower and there is no crop to measure
   double least_top_sigmas = 3;            // of the heights' noise
-  double largest_error_m = 0.04;  // standard error of the mean: intervals are wider than errors
+  double largest_error_m = 0.025;         // standard error of the mean: +-5 cm at 95 %
 };
 
 // Why the plot's heights should not be trusted; empty when they may be.
