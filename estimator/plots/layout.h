@@ -3,11 +3,9 @@
 
 // Private to the library: rows of plots on a canopy raster.
 
-#include <optional>
 #include <vector>
 
-#include "plots/row_view.h"
-#include "plots/segments.h"
+#include "plots/axis_fit.h"
 
 namespace plotscan::plots {
 
@@ -25,12 +23,6 @@ struct Layout {
   std::vector<Row> rows = {};
   bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy
-};
-
-// Sides of the plots that the user knows, metres; either may lie along either axis.
-struct KnownSides {
-  std::optional<double> width_m = std::nullopt;
-  std::optional<double> length_m = std::nullopt;
 };
 
 // The layout that explains the canopy along both axes best, for its number of parameters: bands

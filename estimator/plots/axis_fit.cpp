@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/axis_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "plots/drill_rows.h"
+#include "plots/statistics.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot, or of a drill row's leaves
+constexpr double kMostSpacing_m = 1.05;                 // of drill rows
+constexpr double kLeastGap_m = 0.15;                    // between plots
+constexpr double kMostIrregular = 0.34;                 // of the steps from plot to plot
+constexpr double kSizeStep = 1.05;                      // from one size that is tried to the next
+constexpr std::size_t kRefined = 4;    // best shapes of which others like them are tried
+constexpr std::size_t kRowsTried = 3;  // in each of which all shapes are tried
+
+int cells(double length_m, double cell_m) {
+  return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
+}
+
+// Steps that are no whole number of the usual one: each is a parameter, and so is its place.
+double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
+  if (steps.size() < 2) return 0;
+  const double usual = usual_step(steps);
+  const double tolerance = std::max(0.05 / cell_m + 1, 0.05 * shape.size);
+  return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
+    return std::abs(step - usual * std::max(1.0, std::round(step / usual))) > tolerance;
+  }));
+}
+
+// The same bands on all profiles, or on each its own.
+AxisFit fit_shape(const Line& line, const BandShape& shape, bool shared) {
+  const int gap = cells(kLeastGap_m, line.cell_m);
+  AxisFit fit{.shape = shape};
+  const auto add = [&](std::span<const ProfileSums> profiles) {
+    Segmentation found = best_bands(profiles, shape, gap, line.price);
+    if (found.begins.empty()) return false;
+    fit.misfit += found.misfit;
+    fit.parameters += found.parameters + 2 * irregular_steps(found.begins, shape, line.cell_m);
+    fit.begins.push_back(std::move(found.begins));
+    return true;
+  };
+  fit.misfit = 0;
+  bool found = true;
+  if (shared) {
+    found = add(line.profiles);
+  } else {
+    for (const ProfileSums& profile : line.profiles) found = found && add({&profile, 1});
+  }
+  if (!found) fit.misfit = std::numeric_limits<double>::infinity();
+  return fit;
+}
+
+bool may_be(int size, double cell_m, const KnownSides& known) {
+  const auto is = [&](const std::optional<double>& side_m) {
+    return side_m && std::abs(size * cell_m - *side_m) <= 0.5 * cell_m + 0.01 * *side_m;
+  };
+  if (known.width_m && known.length_m) return is(known.width_m) || is(known.length_m);
+  return true;
+}
+
+std::vector<BandShape> coarse_shapes(const Line& line) {
+  const KnownSides& known = line.known;
+  std::vector<BandShape> shapes;
+  const double most =
+      std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
+  std::vector<int> sizes;
+  for (double size = kLeastSide_m / line.cell_m; size <= most;
+       size = std::max(size + 1, size * kSizeStep))
+    sizes.push_back(static_cast<int>(size));
+  for (const auto& side_m : {known.width_m, known.length_m})
+    if (side_m) sizes.push_back(cells(*side_m, line.cell_m));
+  for (const int size : sizes)
+    if (may_be(size, line.cell_m, known)) shapes.push_back({.size = size});
+  return shapes;
+}
+
+std::vector<BandShape> shapes_like(const BandShape& shape) {
+  std::vector<BandShape> shapes;
+  for (const double wider : {0.98, 1.0, 1.02}) {
+    for (const int blur : {1, 2, 4}) {
+      const int size = static_cast<int>(std::lround(shape.size * wider));
+      shapes.push_back({.size = std::max(3, size), .blur = blur});
+    }
+  }
+  return shapes;
+}
+
+// Whether most steps are one pitch: bands that a canopy's texture suggests lie anywhere.
+bool is_regular(const Line& line, const AxisFit& fit) {
+  double irregular = 0, steps = 0;
+  for (const std::vector<int>& begins : fit.begins) {
+    irregular += irregular_steps(begins, fit.shape, line.cell_m);
+    steps += static_cast<double>(begins.size()) - 1;
+  }
+  return irregular <= kMostIrregular * steps;
+}
+
+// The best of those that are plots, or drill rows of plots.
+AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
+  std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
+  for (const AxisFit& fit : fits) {
+    if (!std::isfinite(fit.misfit)) break;
+    const AxisFit plots = put_together(line, fit);
+    if (plots.drilled || is_regular(line, fit)) return fit;
+  }
+  return fits.front();
+}
+
+std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,
+                                bool shared) {
+  std::vector<AxisFit> fits(shapes.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(),
+                    [&](std::size_t i) { fits[i] = fit_shape(line, shapes[i], shared); });
+  return fits;
+}
+
+}  // namespace
+
+Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
+             const KnownSides& known) {
+  Line line{.cell_m = view.cell_m(), .known = known};
+  for (const std::vector<Band>& across : strips) {
+    const CanopyProfile profile = profile_along_r(view, across);
+    line.profiles.emplace_back(profile);
+    line.independent += profile.independent;
+  }
+  line.price = std::log(std::max(2.0, line.independent));
+  return line;
+}
+
+AxisFit put_together(const Line& line, AxisFit fit) {
+  fit.seen_shape = fit.shape;
+  fit.seen = fit.begins;
+  if (line.known.width_m && line.known.length_m) return fit;  // the bands are the plots
+  std::vector<std::vector<double>> middles;
+  for (std::size_t i = 0; i < fit.begins.size(); ++i) {
+    middles.emplace_back();
+    for (const int begin : fit.begins[i])
+      middles.back().push_back(line.profiles[i].centroid(begin, begin + fit.shape.size));
+  }
+  const double cell_m = line.cell_m;
+  const auto plots = drilled_plots(middles, kMostSpacing_m / cell_m, kLeastGap_m / cell_m);
+  if (!plots) return fit;
+  fit.drilled = true;
+  fit.shape.size = static_cast<int>(std::lround(plots->width()));
+  fit.begins.clear();
+  for (const std::vector<double>& begins : plots->begins) {
+    fit.begins.emplace_back();
+    for (const double begin : begins)
+      fit.begins.back().push_back(static_cast<int>(std::lround(begin)));
+  }
+  return fit;
+}
+
+AxisFit fit_axis(const Line& line, bool shared) {
+  Line tried = line;
+  if (!shared && tried.profiles.size() > kRowsTried)
+    tried.profiles.erase(tried.profiles.begin() + kRowsTried, tried.profiles.end());
+  std::vector<AxisFit> fits = fit_shapes(tried, coarse_shapes(line), shared);
+  if (fits.empty()) return {};
+  std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
+  std::vector<BandShape> shapes;
+  for (std::size_t i = 0; i < std::min(fits.size(), kRefined); ++i) {
+    for (const BandShape& shape : shapes_like(fits[i].shape))
+      if (may_be(shape.size, line.cell_m, line.known)) shapes.push_back(shape);
+  }
+  if (!shared) fits.clear();  // of fewer profiles
+  for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));
+  return best_of(line, std::move(fits));
+}
+
+std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile) {
+  std::vector<Band> bands;
+  for (const int begin : fit.begins[std::min(profile, fit.begins.size() - 1)])
+    bands.push_back({begin, begin + fit.shape.size});
+  return bands;
+}
+
+double bands_cost(const Line& line, const Segmentation& bands) {
+  const Segmentation again = bands_at(line.profiles, bands.shape, bands.begins);
+  return again.misfit + line.price * (again.parameters +
+                                      2 * irregular_steps(bands.begins, bands.shape, line.cell_m));
+}
+
+}  // namespace plotscan::plots
