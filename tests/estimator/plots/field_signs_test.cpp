@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "plots/find_plots.h"
+
+namespace plotscan::plots {
+namespace {
+
+// Height of what stands at a place from the middle of its lattice cell; 0 for ground.
+using Standing = std::function<double(double x, double y, RandomStream& random)>;
+
+// The same thing on every place of a lattice of 5 x 5 m steps, turned by 20 degrees, on 30 x 30 m.
+std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
+  constexpr double kTurn_rad = 0.35, kHalf_m = 15, kNoise_m = 0.02;
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 300000; ++i) {
+    RandomStream random(3, random_purpose("test/signs"), i);
+    const double x = random.uniform(-kHalf_m, kHalf_m), y = random.uniform(-kHalf_m, kHalf_m);
+    const double a = std::cos(kTurn_rad) * x + std::sin(kTurn_rad) * y;
+    const double b = -std::sin(kTurn_rad) * x + std::cos(kTurn_rad) * y;
+    const bool in_field = std::abs(a) < 11 && std::abs(b) < 11;
+    const double height =
+        in_field ? standing(std::remainder(a, step_x_m), std::remainder(b, step_y_m), random) : 0;
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(height + kNoise_m * random.normal()));
+  }
+  return find_plots(points, kNoise_m, {}, 2).nothing;
+}
+
+bool in_box(double x, double y, double width_m, double length_m) {
+  return std::abs(x) < width_m / 2 && std::abs(y) < length_m / 2;
+}
+
+// What the others are held against: the same lattice, with canopy in boxes.
+TEST(FieldSigns, LetPlotsBePlots) {
+  EXPECT_EQ(why_none_of([](double x, double y, RandomStream& random) {
+              return in_box(x, y, 2, 4) ? random.uniform(0, 1) : 0;
+            }),
+            "");
+}
+
+TEST(FieldSigns, TellCrowns) {
+  EXPECT_THAT(why_none_of([](double x, double y, RandomStream& random) {
+                return std::hypot(x, y) < 1.6 ? random.uniform(0, 3) : 0;
+              }),
+              ::testing::HasSubstr("round crowns"));
+}
+
+TEST(FieldSigns, TellRoofs) {
+  EXPECT_NE(
+      why_none_of([](double x, double y, RandomStream&) { return in_box(x, y, 2, 4) ? 1.4 : 0; }),
+      "");
+}
+
+TEST(FieldSigns, TellLongRows) {
+  EXPECT_NE(why_none_of(
+                [](double x, double, RandomStream& random) {
+                  return std::abs(x) < 0.3 ? random.uniform(0, 1.8) : 0;
+                },
+                2.5, 1000),
+            "");
+}
+
+}  // namespace
+}  // namespace plotscan::plots
