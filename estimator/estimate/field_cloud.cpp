@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "core/stage.h"
 #include "core/statistics.h"
 #include "estimate/field_hull.h"
 #include "estimate/outliers.h"
@@ -55,6 +56,7 @@ void crop(FieldCloud& field) {
 }  // namespace
 
 FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::string& name) {
+  Stage stage("field");
   FieldCloud field;
   std::optional<FieldHull> hull;
   if (!options.area) hull = find_field(store.tile_counts());
@@ -77,15 +79,25 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
     throw InputError(name, "none of its " + std::to_string(counts.added) +
                                " points lies in the crop box " + text_of(field.area));
   }
+  stage.found(std::to_string(field.points.size()) + " points");
   return field;
 }
+
+namespace {
+
+scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& cloud) {
+  const Stage stage("reading");
+  return scan::read_positions(
+      cloud, [&](auto points) { store.add(points); }, {.leave_out_marked = true});
+}
+
+}  // namespace
 
 FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
-  const scan::CloudSummary summary = scan::read_positions(
-      cloud, [&](auto points) { store.add(points); }, {.leave_out_marked = true});
+  const scan::CloudSummary summary = read_into(store, cloud);
   if (summary.in_degrees)
     throw InputError(cloud, "is in degrees; project it to metres first, such as those of UTM");
   if (progress) progress(0.2);

@@ -9,6 +9,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/stage.h"
 #include "estimate/given_boxes.h"
 #include "estimate/points_in_boxes.h"
 #include "ground/surface.h"
@@ -27,8 +28,14 @@ void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
 
+ground::Surface ground_of(const Points& points, const LatticeOptions& options) {
+  const Stage stage("ground");
+  return ground::fit_surface(points, {.noise_m = options.noise_m, .threads = options.threads});
+}
+
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
 Points above_ground(const Points& points, const ground::Surface& surface, int threads) {
+  const Stage stage("heights above the ground");
   constexpr std::size_t kChunk = 1 << 16;
   std::vector<Points> chunks(points.size() / kChunk + 1);
   tbb::task_arena arena(threads);
@@ -54,8 +61,10 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
+  Stage stage("plots");
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, options.hints, options.threads);
+  stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics["field"] = field.fit;
   if (!field.nothing.empty()) diagnostics["nothing"] = field.nothing;
   std::vector<PlotEstimate> found;
@@ -81,6 +90,7 @@ void take(const heights::PlotHeights& measured, PlotEstimate& plot) {
 
 void measure(std::vector<PlotEstimate>& plots, const Points& heights,
              const ground::Surface& surface, const LatticeOptions& options) {
+  const Stage stage("plots' heights");
   std::vector<PlotBox> boxes;
   for (const PlotEstimate& plot : plots) boxes.push_back(plot.box);
   const std::vector<Points> inside = points_in_boxes(heights, boxes);
@@ -153,8 +163,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
   estimate.crs = cloud.crs;
-  const ground::Surface surface =
-      ground::fit_surface(cloud.points, {.noise_m = options.noise_m, .threads = options.threads});
+  const ground::Surface surface = ground_of(cloud.points, options);
   report(progress, 0.6);
   const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty()) throw InputError("the cloud shows no ground");
