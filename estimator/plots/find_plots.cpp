@@ -2,6 +2,7 @@
 #include "plots/find_plots.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -149,15 +150,15 @@ struct Look {
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
                 int threads) {
   const Frame frame = frame_of(axes);
-  const CanopyRaster canopy = rasterise(field, frame, kCell_m, field.scale(), threads);
+  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
+  const std::array scales = {field.scale(), CanopyScale{leaves_m, leaves_m + kStep_m}};
+  const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
+  const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
   Layout layout;
   arena.execute([&] { layout = best_layout(canopy, {hints.width_m, hints.length_m}); });
   if (layout.rows.empty()) return {nothing("no plots of one size lie in rows here")};
 
-  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
-  const CanopyRaster cover =
-      rasterise(field, frame, kCell_m, {leaves_m, leaves_m + kStep_m}, threads);
   layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout);
   if (lattice.places.size() < kLeastPlots) {
@@ -182,8 +183,9 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads) {
-  const FieldCanopy field(points, noise_m);
-  const CanopyRaster coarse = rasterise(field, {}, kAxisCell_m, field.scale(), threads);
+  const FieldCanopy field(points, noise_m, threads);
+  const CanopyRaster coarse =
+      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
   Look best{nothing("no canopy stands out from the ground here")};
   bool first = true;
   for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
