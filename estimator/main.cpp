@@ -11,6 +11,7 @@
 #include "core/program.h"
 #include "core/text.h"
 #include "estimate/run.h"
+#include "heights/measure_heights.h"
 #include "score/run.h"
 
 namespace plotscan {
@@ -27,6 +28,7 @@ struct RunArguments {
   std::vector<double> learn_box;
   std::string boxes;
   std::optional<double> heading_deg;
+  std::optional<int> plots;
   bool no_calibration = false;
   bool no_level = false;
 };
@@ -67,6 +69,16 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
 }
 
+void say_crop(const Program& program, const nlohmann::json& crops) {
+  std::vector<std::string> likely;
+  for (const auto& [crop, probability] : crops.items()) {
+    constexpr double kLeast = 0.005;
+    if (probability.get<double>() >= kLeast)
+      likely.push_back(formatted("%s %.0f %%", crop.c_str(), 100 * probability.get<double>()));
+  }
+  program.say("crop       " + joined(likely, ", "));
+}
+
 void say_how(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
@@ -82,6 +94,7 @@ void say_how(const Program& program, const nlohmann::json& diagnostics) {
   }
   if (diagnostics.contains("votes")) say_votes(program, diagnostics);
   if (diagnostics.contains("field")) say_field(program, diagnostics);
+  if (diagnostics.contains("crops")) say_crop(program, diagnostics["crops"]);
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {
@@ -123,11 +136,13 @@ void run_estimate(const Program& program, RunArguments arguments) {
   options.dhami2020.learn_box = area_of(arguments.learn_box);
   options.dhami2020.level = !arguments.no_level;
   options.lattice.calibrated = !arguments.no_calibration;
+  options.lattice.hints.plots = arguments.plots;
+  options.dhami2020.plots = arguments.plots.value_or(0);
   if (arguments.heading_deg) {
     options.lattice.hints.heading_rad = *arguments.heading_deg * std::numbers::pi / 180;
   }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
-  if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
+  if (options.method == "dhami2020" && arguments.boxes.empty() && !arguments.plots) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
   const auto start = std::chrono::steady_clock::now();
@@ -155,6 +170,14 @@ void declare_lattice(CLI::App& run, RunArguments& arguments) {
       ->group(group);
   run.add_option("--plot-width", method.hints.width_m, "of every plot (metres)")->group(group);
   run.add_option("--plot-length", method.hints.length_m, "of every plot (metres)")->group(group);
+  run.add_option("--rows", method.hints.rows,
+                 "rows of plots; they follow each other along the length")
+      ->group(group);
+  run.add_option("--columns", method.hints.columns, "columns of plots; along the width")
+      ->group(group);
+  run.add_option("--crop", method.crop, "soybean, wheat or maize (default: told from the canopy)")
+      ->check(CLI::IsMember(heights::crop_names()))
+      ->group(group);
   run.add_option("--noise", method.noise_m,
                  "sigma of the points' heights (metres; default: estimated from bare ground)")
       ->group(group);
@@ -166,10 +189,7 @@ void declare_lattice(CLI::App& run, RunArguments& arguments) {
 void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
   const std::string group = kDhamiGroup;
   auto& method = arguments.options.dhami2020;
-  run.add_option("--plots", method.plots,
-                 "how many plots lie in the field, or in --learn-box (1 to 100000)")
-      ->excludes("--boxes")
-      ->group(group);
+
   run.add_option("--learn-box", arguments.learn_box,
                  "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
                  "the grid over the whole field, metres")
@@ -215,6 +235,10 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->expected(4);
   run.add_option("--boxes", arguments.boxes,
                  "plots.geojson with the plots' boxes: measure heights in them, search none");
+  run.add_option("--plots", arguments.plots,
+                 "how many plots lie in the field, or in --learn-box (1 to 100000; dhami2020 needs "
+                 "it)")
+      ->excludes("--boxes");
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);

@@ -26,8 +26,8 @@ fs::path cloud_file(const fs::path& cloud) {
   return file;
 }
 
-template <class Number>
-json to_json(const std::optional<Number>& value) {
+template <class Value>
+json to_json(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
@@ -36,6 +36,10 @@ json options_json(const LatticeOptions& options) {
   return {{"heading_deg", heading ? json(*heading / kDegrees) : json(nullptr)},
           {"plot_width_m", to_json(options.hints.width_m)},
           {"plot_length_m", to_json(options.hints.length_m)},
+          {"rows", to_json(options.hints.rows)},
+          {"columns", to_json(options.hints.columns)},
+          {"plots", to_json(options.hints.plots)},
+          {"crop", to_json(options.crop)},
           {"noise_m", to_json(options.noise_m)},
           {"calibrated", options.calibrated}};
 }

@@ -156,12 +156,15 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
   Layout layout;
-  arena.execute([&] { layout = best_layout(canopy, {hints.width_m, hints.length_m}); });
-  if (layout.rows.empty()) return {nothing("no plots of one size lie in rows here")};
+  arena.execute([&] { layout = best_layout(canopy, hints); });
+  if (layout.rows.empty()) {
+    return {nothing(hints.tell_layout() ? "no plots as told lie in rows here"
+                                        : "no plots of one size lie in rows here")};
+  }
 
   layout.view.raster = &cover;
-  Lattice lattice = fit_lattice(layout);
-  if (lattice.places.size() < kLeastPlots) {
+  Lattice lattice = fit_lattice(layout, hints);
+  if (lattice.places.size() < kLeastPlots && !hints.tell_layout()) {
     return {nothing(
         "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured")};
   }
@@ -169,7 +172,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, layout.evidence);
   lattice.view.raster = &cover;
-  const std::string because = no_plots_because(signs);
+  const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
   Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};
   if (because.empty()) {
     look.evidence = layout.evidence;

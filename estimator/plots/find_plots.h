@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,15 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/plot_box.h"
+#include "plots/hints.h"
 
 namespace plotscan::plots {
-
-// What the user knows of the field; each narrows the search.
-struct Hints {
-  std::optional<double> heading_rad = std::nullopt;  // of the plots' length axis
-  std::optional<double> width_m = std::nullopt;      // of a plot
-  std::optional<double> length_m = std::nullopt;     // of a plot
-};
 
 struct FoundPlot {
   int row = 0;            // from 1: rows follow each other along the plots' length

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 #include "plots/statistics.h"
@@ -112,8 +113,9 @@ void number(Lattice& lattice, const Layout& layout) {
   }
 }
 
-// Places between a row's plots, beyond its ends, and in columns that other rows have.
-void add_places(Lattice& lattice) {
+// Places between a row's plots, in columns that other rows have and, unless their number was told,
+// beyond its ends.
+void add_places(Lattice& lattice, bool beyond_ends) {
   const double pitch_m = lattice.c_pitch_m;
   if (pitch_m <= 0) return;
   std::vector<Place> added;
@@ -148,6 +150,7 @@ void add_places(Lattice& lattice) {
     if (lattice.aligned) {
       for (const Place& other : lattice.places) add(other.c_m, other.column);
     }
+    if (!beyond_ends) continue;
     add(present.front().c_m - pitch_m, present.front().column - 1);
     add(present.back().c_m + pitch_m, present.back().column + 1);
   }
@@ -174,6 +177,13 @@ void test_places(Lattice& lattice) {
   }
 }
 
+void take_fullest(Lattice& lattice, std::size_t plots) {
+  std::vector<Place*> places;
+  for (Place& place : lattice.places) places.push_back(&place);
+  std::ranges::stable_sort(places, std::greater(), &Place::share);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
+}
+
 // Lowest column and row become 0, columns without a plot are none.
 void renumber(Lattice& lattice) {
   std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
@@ -194,7 +204,7 @@ void renumber(Lattice& lattice) {
 
 }  // namespace
 
-Lattice fit_lattice(const Layout& layout) {
+Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   Lattice lattice{.view = layout.view,
                   .r_size_m = layout.r_shape.size * layout.view.cell_m(),
                   .c_size_m = layout.c_shape.size * layout.view.cell_m(),
@@ -202,8 +212,9 @@ Lattice fit_lattice(const Layout& layout) {
                   .c_band_m = layout.c_shape.size * layout.view.cell_m()};
   number(lattice, layout);
   straighten(lattice);
-  add_places(lattice);
+  add_places(lattice, !hints.rows && !hints.columns);
   test_places(lattice);
+  if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   renumber(lattice);
   straighten(lattice);
   straighten(lattice);

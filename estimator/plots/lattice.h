@@ -36,8 +36,9 @@ struct Lattice {
 };
 
 // The lattice through a layout's plots: places between them and beyond their ends are tested for
-// canopy, and so are the layout's plots.
-Lattice fit_lattice(const Layout& layout);
+// canopy, and so are the layout's plots. Where their number was told, the places with the most
+// canopy are plots.
+Lattice fit_lattice(const Layout& layout, const Hints& hints);
 
 // Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
 // too where they are aligned, and steps are equal but for alleys that clearly differ; else every
