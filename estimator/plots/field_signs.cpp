@@ -20,10 +20,13 @@ constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looke
 constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
-constexpr double kMostUneven = 0.45;      // plots reach 0.3; trees two by two 0.7, bushes 1.1
-constexpr double kLeastHeld = 0.6;        // of the canopy; the rest may be weeds, or another trial
-constexpr double kLeastFilled = 0.6;      // of the places
-constexpr double kLeastEvidence = 30;     // nats a plot: a scanned room's furniture reaches 27
+// So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
+constexpr std::size_t kFewPlots = 4;
+constexpr double kLeastSquarenessOfFew = 1;
+constexpr double kMostUneven = 0.45;   // plots reach 0.3; trees two by two 0.7, bushes 1.1
+constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
+constexpr double kLeastFilled = 0.6;   // of the places
+constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
 
 struct Cells {
   int r0, r1, c0, c1;
@@ -164,7 +167,8 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
 FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evidence) {
   const RowView& view = lattice.view;
   const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
-  FieldSigns signs{.filled_share = filled_share(lattice),
+  FieldSigns signs{.plots = lattice.places.size(),
+                   .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
                    .squareness = squareness_of(lattice),
                    .unevenness = unevenness_of(lattice),
@@ -181,7 +185,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
   if (signs.aspect > kMostAspect) return "rows of a crop or a vineyard lie here, not plots";
-  if (signs.squareness < kLeastSquareness)
+  const bool few = signs.plots < kFewPlots;
+  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
   if (signs.unevenness > kMostUneven)
     return "single bushes or trees stand here, not plots that are covered by a crop";

@@ -3,6 +3,7 @@
 
 // Private to the library: whether what lies on a lattice is a field of plots.
 
+#include <cstddef>
 #include <string>
 
 #include "plots/lattice.h"
@@ -11,6 +12,7 @@ namespace plotscan::plots {
 
 // What tells a field of plots from an orchard, parked cars, bushes, a room.
 struct FieldSigns {
+  std::size_t plots = 0;
   double held_share = 0;     // of the canopy, in the plots
   double filled_share = 0;   // of the rows' places from their first plot to their last
   double surface_share = 0;  // of what stands on the field, that is smooth as walls and roofs are

@@ -23,8 +23,8 @@ constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is so
 constexpr double kCell_m = 0.05;
 constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
 constexpr double kStep_m = 1e-3;         // from no leaves to leaves
-constexpr std::size_t kLeastPlots = 4;   // fewer lie at equal steps by chance
-constexpr int kRounds = 2;               // of size and centres in turn
+
+constexpr int kRounds = 2;  // of size and centres in turn
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
@@ -164,10 +164,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
 
   layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout, hints);
-  if (lattice.places.size() < kLeastPlots && !hints.tell_layout()) {
-    return {nothing(
-        "fewer than 4 plots, or pieces of one, are no lattice; given boxes can be measured")};
-  }
+  if (lattice.places.empty()) return {nothing("no plots of one size lie in rows here")};
   refine(lattice, layout, hints);
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, layout.evidence);

@@ -151,9 +151,15 @@ TEST(FindPlots, SaysThatBareGroundHasNone) {
   EXPECT_NE(field.nothing, "");
 }
 
-TEST(FindPlots, SaysThatASinglePlotIsNoLattice) {
-  const std::vector<PlotBox> one = {Trial{}.boxes().front()};
-  EXPECT_NE(find_plots(points_over(one), 0.02, {}, 2).nothing, "");
+TEST(FindPlots, FindsOneToThreePlots) {
+  for (const std::size_t count : {1U, 2U, 3U}) {
+    std::vector<PlotBox> few = Trial{}.boxes();
+    few.resize(count);
+    const PlotField field = find_plots(points_over(few), 0.02, {}, 2);
+    ASSERT_EQ(field.plots.size(), count) << field.nothing;
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_GT(intersection_over_union(few[i], field.plots[i].box), 0.9);
+  }
 }
 
 TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
