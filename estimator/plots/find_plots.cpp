@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <tbb/task_arena.h>
@@ -25,9 +24,6 @@ constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
 constexpr double kStep_m = 1e-3;         // from no leaves to leaves
 
 constexpr int kRounds = 2;  // of size and centres in turn
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
 
 PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
 
@@ -47,53 +43,14 @@ bool is_cut_off(const Lattice& lattice, const Place& place) {
          share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
 }
 
-FoundPlot found_plot(const Lattice& lattice, const Place& place, double r_heading_rad,
-                     double field_confidence) {
-  FoundPlot plot{.row = place.row + 1, .column = place.column + 1};
-  plot.box.center = lattice.view.to_world(place.r_m, place.c_m);
-  plot.box.length_m = lattice.r_size_m;
-  plot.box.width_m = lattice.c_size_m;
-  plot.box.heading_rad = r_heading_rad;
-  if (lattice.c_size_m > lattice.r_size_m) {
-    std::swap(plot.row, plot.column);
-    std::swap(plot.box.width_m, plot.box.length_m);
-    plot.box.heading_rad += std::numbers::pi / 2;
-  }
-  plot.box.heading_rad = wrap_heading(plot.box.heading_rad);
-  plot.cut_off = is_cut_off(lattice, place);
-  plot.confidence = field_confidence * std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
-  return plot;
-}
-
-double box_heading(const Lattice& lattice) {
-  return angle_of(lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis());
-}
-
-nlohmann::json fit_of(const Lattice& lattice, const PlotField& field) {
-  const bool turned = lattice.c_size_m > lattice.r_size_m;  // the length lies along c
-  const auto pick = [&](double along_length, double along_width) {
-    return turned ? along_width : along_length;
-  };
-  const Eigen::Vector2d row_axis = lattice.view.c_axis() + lattice.r_per_c * lattice.view.r_axis();
-  const Eigen::Vector2d column_axis =
-      lattice.view.r_axis() + lattice.c_per_r * lattice.view.c_axis();
-  const PlotBox& box = field.plots.front().box;
-  const double skew_rad = std::remainder(
-      angle_of(row_axis) - angle_of(column_axis) - std::numbers::pi / 2, std::numbers::pi);
-  return {{"heading_deg", box.heading_rad * kDegrees},
-          {"second_axis_deg", wrap_heading(angle_of(turned ? column_axis : row_axis)) * kDegrees},
-          {"skew_deg", skew_rad * kDegrees},
-          {"width_m", box.width_m},
-          {"length_m", box.length_m},
-          {"rows", turned ? lattice.columns : lattice.rows},
-          {"columns", turned ? lattice.rows : lattice.columns},
-          {"row_pitch_m", pick(lattice.r_pitch_m, lattice.c_pitch_m)},
-          {"column_pitch_m", pick(lattice.c_pitch_m, lattice.r_pitch_m)},
-          {"columns_aligned", lattice.aligned},
-          {"rms_along_length_m", pick(lattice.r_rms_m, lattice.c_rms_m)},
-          {"rms_along_width_m", pick(lattice.c_rms_m, lattice.r_rms_m)},
-          {"leaf_spread_m", std::max(lattice.r_blur_m, lattice.c_blur_m)},
-          {"side_contrast", lattice.contrast}};
+FieldFit fit_of(const Lattice& lattice) {
+  const bool by_c = lattice.c_size_m > lattice.r_size_m;
+  return {.layout = layout_of(lattice),
+          .columns_aligned = lattice.aligned,
+          .rms_along_length_m = by_c ? lattice.c_rms_m : lattice.r_rms_m,
+          .rms_along_width_m = by_c ? lattice.r_rms_m : lattice.c_rms_m,
+          .leaf_spread_m = std::max(lattice.r_blur_m, lattice.c_blur_m),
+          .side_contrast = lattice.contrast};
 }
 
 Frame frame_of(const FieldAxes& axes) {
@@ -123,22 +80,19 @@ void refine(Lattice& lattice, const Layout& layout, const Hints& hints) {
   take_given_sides(lattice, hints);
 }
 
-PlotField plots_on(const Lattice& lattice, double confidence) {
-  PlotField field;
-  const double heading_rad = box_heading(lattice);
-  for (const Place& place : lattice.places)
-    field.plots.push_back(found_plot(lattice, place, heading_rad, confidence));
+PlotField plots_on(const Lattice& lattice, double field_confidence) {
+  PlotField field{.fit = fit_of(lattice)};
+  const TrialLayout& layout = field.fit->layout;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& place = lattice.places[i];
+    const double clearness = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
+    field.plots.push_back({.row = layout.places[i].row,
+                           .column = layout.places[i].column,
+                           .box = layout.box(layout.places[i]),
+                           .confidence = field_confidence * clearness,
+                           .cut_off = is_cut_off(lattice, place)});
+  }
   return field;
-}
-
-nlohmann::json json_of(const FieldSigns& signs) {
-  return {{"held_share", signs.held_share},
-          {"filled_share", signs.filled_share},
-          {"surface_share", signs.surface_share},
-          {"squareness", signs.squareness},
-          {"aspect", signs.aspect},
-          {"unevenness", signs.unevenness},
-          {"evidence_per_plot", signs.evidence}};
 }
 
 // What a pair of axes shows.
@@ -171,11 +125,8 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   lattice.view.raster = &cover;
   const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
   Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};
-  if (because.empty()) {
-    look.evidence = layout.evidence;
-    look.field.fit = fit_of(lattice, look.field);
-  }
-  look.field.fit["signs"] = json_of(signs);
+  if (because.empty()) look.evidence = layout.evidence;
+  look.field.signs = signs;
   return look;
 }
 

@@ -7,6 +7,8 @@
 #include <functional>
 #include <tuple>
 
+#include <Eigen/LU>
+
 #include "plots/statistics.h"
 
 namespace plotscan::plots {
@@ -219,6 +221,30 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   straighten(lattice);
   straighten(lattice);
   return lattice;
+}
+
+TrialLayout layout_of(const Lattice& lattice) {
+  const RowView& view = lattice.view;
+  const Eigen::Vector2d along_r = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized();
+  const Eigen::Vector2d along_c = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized();
+  const bool by_c = lattice.c_size_m > lattice.r_size_m;  // the plots' length lies along c
+  TrialLayout layout{.origin = view.to_world(0, 0),
+                     .row_axis = by_c ? along_r : along_c,
+                     .column_axis = by_c ? along_c : along_r,
+                     .width_m = std::min(lattice.r_size_m, lattice.c_size_m),
+                     .length_m = std::max(lattice.r_size_m, lattice.c_size_m),
+                     .column_pitch_m = by_c ? lattice.r_pitch_m : lattice.c_pitch_m,
+                     .row_pitch_m = by_c ? lattice.c_pitch_m : lattice.r_pitch_m};
+  Eigen::Matrix2d axes;
+  axes << layout.row_axis, layout.column_axis;
+  const Eigen::Matrix2d layout_from_world = axes.inverse();
+  for (const Place& place : lattice.places) {
+    layout.places.push_back(
+        {.row = (by_c ? place.column : place.row) + 1,
+         .column = (by_c ? place.row : place.column) + 1,
+         .position_m = layout_from_world * (view.to_world(place.r_m, place.c_m) - layout.origin)});
+  }
+  return layout;
 }
 
 }  // namespace plotscan::plots

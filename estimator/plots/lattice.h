@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/trial_layout.h"
 #include "plots/layout.h"
 
 namespace plotscan::plots {
@@ -39,6 +40,9 @@ struct Lattice {
 // canopy, and so are the layout's plots. Where their number was told, the places with the most
 // canopy are plots.
 Lattice fit_lattice(const Layout& layout, const Hints& hints);
+
+// The same as a layout of plots, their length the longer side.
+TrialLayout layout_of(const Lattice& lattice);
 
 // Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
 // too where they are aligned, and steps are equal but for alleys that clearly differ; else every

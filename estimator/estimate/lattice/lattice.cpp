@@ -13,6 +13,7 @@
 #include "core/stage.h"
 #include "core/text.h"
 #include "estimate/given_boxes.h"
+#include "estimate/lattice/field_report.h"
 #include "estimate/points_in_boxes.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
@@ -68,7 +69,7 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, options.hints, options.threads);
   stage.found(std::to_string(field.plots.size()) + " plots");
-  diagnostics["field"] = field.fit;
+  diagnostics["field"] = json_of(field);
   if (!field.nothing.empty()) diagnostics["nothing"] = field.nothing;
   std::vector<PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
