@@ -28,21 +28,11 @@ constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, 
 constexpr double kLeastFilled = 0.6;   // of the places
 constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
 
-struct Cells {
-  int r0, r1, c0, c1;
-};
-
-Cells cells_about(const Lattice& lattice, const Place& place, double around_m) {
-  const auto at = [&](double m) {
-    return static_cast<int>(std::lround(m / lattice.view.cell_m()));
-  };
-  return {at(place.r_m - lattice.r_size_m / 2 - around_m),
-          at(place.r_m + lattice.r_size_m / 2 + around_m),
-          at(place.c_m - lattice.c_size_m / 2 - around_m),
-          at(place.c_m + lattice.c_size_m / 2 + around_m)};
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
+  return cells_about(lattice, place.r_m, place.c_m, around_m);
 }
 
-double canopy_in(const RowView& view, const Cells& box) {
+double canopy_in(const RowView& view, const CellBox& box) {
   return view.cover(box.r0, box.r1, box.c0, box.c1) *
          view.seen_cells(box.r0, box.r1, box.c0, box.c1);
 }
@@ -61,7 +51,7 @@ Patch pooled(const Lattice& lattice, double around_m) {
       static_cast<std::size_t>(patch.r_cells) * static_cast<std::size_t>(patch.c_cells), 0);
   patch.seen = patch.canopy;
   for (const Place& place : lattice.places) {
-    const Cells box = cells_about(lattice, place, around_m);
+    const CellBox box = cells_about(lattice, place, around_m);
     std::size_t at = 0;
     for (int r = box.r0; r < box.r0 + patch.r_cells; ++r) {
       for (int c = box.c0; c < box.c0 + patch.c_cells; ++c, ++at) {
@@ -132,7 +122,7 @@ double filled_share(const Lattice& lattice) {
 double unevenness_of(const Lattice& lattice) {
   std::vector<double> spreads;
   for (const Place& place : lattice.places) {
-    const Cells box = cells_about(lattice, place, 0);
+    const CellBox box = cells_about(lattice, place, 0);
     const auto parts = [](double size_m) {
       return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
     };

@@ -30,11 +30,8 @@ PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
   constexpr double kBeyond_m = 0.3, kLeastShare = 0.25;
-  const double cell_m = lattice.view.cell_m();
-  const auto at = [&](double m) { return static_cast<int>(std::lround(m / cell_m)); };
-  const int r0 = at(place.r_m - lattice.r_size_m / 2), r1 = at(place.r_m + lattice.r_size_m / 2);
-  const int c0 = at(place.c_m - lattice.c_size_m / 2), c1 = at(place.c_m + lattice.c_size_m / 2);
-  const int beyond = at(kBeyond_m);
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
+  const int beyond = static_cast<int>(std::lround(kBeyond_m / lattice.view.cell_m()));
   const auto share = [&](int ra, int rb, int ca, int cb) {
     return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
   };

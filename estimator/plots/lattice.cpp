@@ -19,26 +19,15 @@ constexpr double kLeastShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
 
-struct Cells {
-  int r0, r1, c0, c1;
-};
-
-Cells cells_of(const Lattice& lattice, double r_m, double c_m, double margin_m) {
-  const double cell_m = lattice.view.cell_m();
-  const auto at = [&](double m) { return static_cast<int>(std::lround(m / cell_m)); };
-  const double r_half = lattice.r_size_m / 2 - margin_m, c_half = lattice.c_size_m / 2 - margin_m;
-  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
-}
-
 double inner_cover(const Lattice& lattice, const Place& place) {
   const double margin_m = 0.1 * std::min(lattice.r_size_m, lattice.c_size_m);
-  const Cells box = cells_of(lattice, place.r_m, place.c_m, margin_m);
+  const CellBox box = cells_about(lattice, place.r_m, place.c_m, -margin_m);
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
 // Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
-  const auto [r0, r1, c0, c1] = cells_of(lattice, place.r_m, place.c_m, 0);
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
   const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
   const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
@@ -205,6 +194,14 @@ void renumber(Lattice& lattice) {
 }
 
 }  // namespace
+
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m) {
+  const auto at = [&](double m) {
+    return static_cast<int>(std::lround(m / lattice.view.cell_m()));
+  };
+  const double r_half = lattice.r_size_m / 2 + around_m, c_half = lattice.c_size_m / 2 + around_m;
+  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
+}
 
 Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   Lattice lattice{.view = layout.view,

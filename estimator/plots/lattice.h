@@ -36,6 +36,14 @@ struct Lattice {
   std::vector<Place> places = {};
 };
 
+// Cells [r0, r1) x [c0, c1) of the lattice's raster.
+struct CellBox {
+  int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
+};
+
+// Those of a plot about (r_m, c_m), and so much around it.
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m);
+
 // The lattice through a layout's plots: places between them and beyond their ends are tested for
 // canopy, and so are the layout's plots. Where their number was told, the places with the most
 // canopy are plots.
