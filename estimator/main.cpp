@@ -26,6 +26,7 @@ struct RunArguments {
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
+  std::string id;
   std::optional<double> heading_deg;
   bool no_calibration = false;
   bool no_level = false;
@@ -67,6 +68,13 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
 }
 
+void say_given(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("boxes")) return;
+  program.say(formatted("boxes      %zu plots given, %s %s to %s", estimate.plots.size(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+}
+
 void say_how(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
@@ -85,13 +93,15 @@ void say_how(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {
-  std::map<std::string, std::size_t> plots_by_flag;
+  constexpr std::size_t kNamed = 5;
+  std::map<std::string, std::vector<std::string>> ids_by_flag;
   for (const estimate::PlotEstimate& plot : estimate.plots) {
-    for (const std::string& flag : plot.flags) ++plots_by_flag[flag];
+    for (const std::string& flag : plot.flags) ids_by_flag[flag].push_back(plot.id.text());
   }
-  for (const auto& [flag, plots] : plots_by_flag) {
-    program.say(
-        formatted("flagged    %zu of %zu plots: %s", plots, estimate.plots.size(), flag.c_str()));
+  for (const auto& [flag, ids] : ids_by_flag) {
+    const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
+    program.say(formatted("flagged    %zu of %zu plots: %s%s", ids.size(), estimate.plots.size(),
+                          flag.c_str(), named.c_str()));
   }
 }
 
@@ -127,6 +137,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
     options.lattice.hints.heading_rad = *arguments.heading_deg * std::numbers::pi / 180;
   }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
+  if (!arguments.id.empty()) options.id = arguments.id;
   if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
@@ -136,6 +147,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = estimate::height_summary(estimate);
   say_how(program, estimate.diagnostics);
+  say_given(program, estimate);
   say_heights(program, summary);
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
@@ -213,8 +225,13 @@ void declare_run(Program& program, RunArguments& arguments) {
                  "field)")
       ->delimiter(',')
       ->expected(4);
-  run.add_option("--boxes", arguments.boxes,
-                 "plots.geojson with the plots' boxes: measure heights in them, search none");
+  auto* boxes = run.add_option("--boxes", arguments.boxes,
+                               "map of the plots (GeoJSON): measure heights in its boxes, keep its "
+                               "ids and attributes, search none");
+  run.add_option("--id", arguments.id,
+                 "property of the map that is the plots' id (default: the first there is of "
+                 "plot_number, plot_id, plot_name, observationUnitName, name, id)")
+      ->needs(boxes);
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);

@@ -11,6 +11,7 @@
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "estimate/plot_map.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -59,17 +60,8 @@ json options_json(const RunOptions& options) {
   document["method"] = options.method;
   document["crop_box_m"] = to_json(options.crop_box);
   document["given_boxes"] = options.boxes.has_value();
+  document["id"] = to_json(options.id);
   return document;
-}
-
-// A plot measured in a given box keeps the number, row and column that the file gives it.
-void take_names(const std::vector<PlotFeature>& features, std::vector<PlotEstimate>& plots) {
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const PlotEstimate named = plot_of(features[i], i + 1);
-    plots[i].id = named.id;
-    plots[i].row = named.row;
-    plots[i].column = named.column;
-  }
 }
 
 // What every method is told, beside what is its own.
@@ -88,12 +80,6 @@ Estimate run_method(const fs::path& cloud, const RunOptions& run,
   Dhami2020Options options = completed(run.dhami2020, run, boxes);
   options.seed = run.seed;
   return dhami2020(cloud, options, progress);
-}
-
-std::vector<PlotFeature> read_boxes(const fs::path& file) {
-  std::vector<PlotFeature> features = read_plot_features(file);
-  if (features.empty()) throw InputError(file, "has no plots");
-  return features;
 }
 
 }  // namespace
@@ -116,13 +102,13 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
                     .seed = options.seed,
                     .options = options_json(options),
                     .inputs = {cloud}};
-  std::vector<PlotFeature> boxes;
+  PlotMap map;
   if (options.boxes) {
-    boxes = read_boxes(*options.boxes);
+    map = read_plot_map(*options.boxes, options.id);
     manifest.inputs.push_back(*options.boxes);
   }
-  Estimate estimate = run_method(cloud, options, boxes, progress);
-  take_names(boxes, estimate.plots);
+  Estimate estimate = run_method(cloud, options, map.plots, progress);
+  if (options.boxes) take_names(map, estimate);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},

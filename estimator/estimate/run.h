@@ -19,7 +19,8 @@ struct RunOptions {
   std::filesystem::path cloud;  // PCD, PLY or LAS, or a scan folder with its cloud.pcd
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
-  std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
+  std::optional<std::string> id = {};               // the map's property that is the plots' id
   bool replace = false;                             // an estimate folder that exists
   std::optional<Area> crop_box = {};                // use only the points in here
   LatticeOptions lattice = {};                      // crop box, boxes, threads are taken from here
@@ -32,8 +33,8 @@ struct RunOptions {
 const std::vector<std::string>& method_names();
 
 // Runs the method and writes the estimate folder (docs/estimate-format.md). With given boxes, plots
-// keep the file's numbers, rows and columns. Throws InputError on bad input; nothing is left behind
-// then.
+// keep the map's ids and attributes (plot_map.h). Throws InputError on bad input; nothing is left
+// behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
 
 // How many plots have each height, and its median, least and greatest value, metres.

@@ -63,6 +63,13 @@ std::string format_number(double value) {
   return {buffer.data(), end};
 }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
+}
+
 void CsvRow::fail(std::size_t column, const std::string& what) const {
   throw InputError(file_, line_,
                    columns_[column] + " \"" + std::string(fields_[column]) + "\" " + what);

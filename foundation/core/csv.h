@@ -12,6 +12,9 @@ namespace plotscan {
 // The shortest text that reads back as the same number ("0.1", "1e-07"); "nan" for NaN.
 std::string format_number(double value);
 
+// A text as a field of a CSV line (RFC 4180): in quotes where it holds commas, quotes or line ends.
+std::string csv_field(const std::string& text);
+
 // One line of a table while it is read: its fields by column, each error naming file, line and
 // column.
 class CsvRow {

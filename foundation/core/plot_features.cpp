@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plot_features.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -40,10 +42,13 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
   properties["width_m"] = plot.box.width_m;
   properties["length_m"] = plot.box.length_m;
   properties["heading_deg"] = plot.box.heading_rad / kDegrees;
-  return {{"type", "Feature"},
-          {"geometry",
-           {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
-          {"properties", properties}};
+  json feature = {
+      {"type", "Feature"},
+      {"geometry",
+       {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
+      {"properties", properties}};
+  if (plot.id) feature["id"] = plot.id->json();
+  return feature;
 }
 
 // As GeoJSON 2008 names systems; well-known text that names no code stands there as it is.
@@ -68,11 +73,13 @@ void write_collection(const std::filesystem::path& path, const std::vector<PlotF
   if (!out.flush()) throw InputError(path, "cannot be written");
 }
 
+constexpr std::array<const char*, 5> kBoxProperties = {"center_x_m", "center_y_m", "width_m",
+                                                       "length_m", "heading_deg"};
+
 bool has_exact_box(const json& properties) {
-  for (const char* name : {"center_x_m", "center_y_m", "width_m", "length_m", "heading_deg"}) {
-    if (!properties.contains(name) || !properties[name].is_number()) return false;
-  }
-  return true;
+  return std::ranges::all_of(kBoxProperties, [&](const char* name) {
+    return properties.contains(name) && properties[name].is_number();
+  });
 }
 
 PlotBox exact_box(const json& properties) {
@@ -149,6 +156,7 @@ PlotFeature read_feature(const json& feature, const std::string& which) {
   PlotFeature plot;
   if (feature.contains("properties") && feature["properties"].is_object())
     plot.properties = feature["properties"];
+  if (feature.contains("id")) plot.id = PlotId::from(feature["id"]);
   const PlotBox polygon = rectangle_of(polygon_ring(feature, which), which);
   plot.box = has_exact_box(plot.properties) ? exact_box(plot.properties) : polygon;
   require_sound(plot.box, which);
@@ -157,6 +165,10 @@ PlotFeature read_feature(const json& feature, const std::string& which) {
 }
 
 }  // namespace
+
+bool is_box_property(const std::string& name) {
+  return std::ranges::find(kBoxProperties, name) != kBoxProperties.end();
+}
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
                          const std::string& crs) {

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "core/plot_box.h"
+#include "core/plot_id.h"
 
 namespace plotscan {
 
@@ -18,6 +20,7 @@ namespace plotscan {
 struct PlotFeature {
   PlotBox box;
   nlohmann::json properties = nlohmann::json::object();
+  std::optional<PlotId> id = std::nullopt;  // the feature's member "id" (RFC 7946, section 3.2)
 };
 
 // GeoJSON (RFC 7946 layout) FeatureCollection, one Polygon a plot, in local metres: the file says
@@ -34,6 +37,9 @@ void write_plot_features(const std::filesystem::path& path, const std::vector<Pl
 void write_plot_features_wgs84(
     const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
     const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& lonlat_deg_from_world);
+
+// Whether write_plot_features gives every feature a property of that name, one of its box.
+bool is_box_property(const std::string& name);
 
 // Reads what write_plot_features writes, and any FeatureCollection of four-cornered polygons (from
 // QGIS, say): there the box is the rectangle with the polygon's centroid and mean side lengths,

@@ -81,23 +81,99 @@ TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
   EXPECT_EQ(read_text(options.output / "manifest.json"), first);
 }
 
-TEST(Run, KeepsTheNamesOfGivenPlots) {
-  const TemporaryFolder folder;
+// A breeder's map of two plots of the farm, and what the method makes of it.
+RunOptions run_in_boxes(const TemporaryFolder& folder, const nlohmann::json& of_first,
+                        const nlohmann::json& of_second) {
   RunOptions options = small_run(folder, kFarm);
   options.dhami2020.plots = 0;
-  options.boxes = folder.path() / "plots.geojson";
-  write_plot_features(
-      *options.boxes,
-      {{kFarm.box(1, 2), {{"plot_number", 42}, {"row_number", 2}, {"col_number", 3}}},
-       {kFarm.box(0, 0), nlohmann::json::object()}});
+  options.boxes = folder.path() / "map.geojson";
+  write_plot_features(*options.boxes, {{.box = kFarm.box(1, 2), .properties = of_first},
+                                       {.box = kFarm.box(0, 0), .properties = of_second}});
+  return options;
+}
+
+nlohmann::json properties_of(const RunOptions& options, std::size_t feature) {
+  const auto written = nlohmann::json::parse(read_text(options.output / "plots.geojson"));
+  return written["features"][feature]["properties"];
+}
+
+TEST(Run, KeepsTheNamesOfGivenPlots) {
+  const TemporaryFolder folder;
+  const RunOptions options =
+      run_in_boxes(folder, {{"plot_number", 42}, {"row_number", 2}, {"col_number", 3}},
+                   {{"plot_number", 8000000000123}});
   const Estimate estimate = run(options);
   ASSERT_EQ(estimate.plots.size(), 2u);
   EXPECT_EQ(estimate.plots[0].id, 42u);
   EXPECT_EQ(estimate.plots[0].row, 2);
   EXPECT_EQ(estimate.plots[0].column, 3);
-  EXPECT_EQ(estimate.plots[1].id, 2u);
+  EXPECT_EQ(estimate.plots[1].id, 8000000000123u);
   EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-4);
   EXPECT_NEAR(estimate.plots[1].heights_m.at("raw-max"), kFarm.height_m(0, 0), 1e-4);
+  EXPECT_EQ(properties_of(options, 1)["plot_number"], 8000000000123);
+  EXPECT_EQ(read_estimate(options.output).plots[1].id, 8000000000123u);
+}
+
+TEST(Run, GivesTheMapBackWithHeightsAdded) {
+  const TemporaryFolder folder;
+  const nlohmann::json first = {{"plot_id", "A-12"},   {"cultivar", "Rock, \"early\""},
+                                {"sown", nullptr},     {"checks", {1, 2}},
+                                {"row_number", "R02"}, {"density", 30.5}};
+  const RunOptions options = run_in_boxes(folder, first, {{"plot_id", "0101"}});
+  run(options);
+  const nlohmann::json properties = properties_of(options, 0);
+  for (const auto& [name, value] : first.items()) EXPECT_EQ(properties[name], value) << name;
+  EXPECT_NEAR(properties["height_raw-max_m"].get<double>(), kFarm.height_m(1, 2), 1e-4);
+  EXPECT_FALSE(properties.contains("plot_number"));
+  EXPECT_EQ(properties_of(options, 1)["plot_id"], "0101");
+  const Estimate read = read_estimate(options.output);
+  EXPECT_EQ(read.plots[0].id, PlotId("A-12"));
+  EXPECT_EQ(read.plots[1].id, PlotId("0101"));
+  const std::string table = read_text(options.output / "heights.csv");
+  EXPECT_THAT(table, ::testing::StartsWith("plot_id,row_number,col_number,center_x_m"));
+  EXPECT_THAT(table, HasSubstr(",checks,cultivar,density,sown\n"));
+  EXPECT_THAT(table, HasSubstr("\nA-12,R02,0,"));
+  EXPECT_THAT(table, HasSubstr(R"(,"[1,2]","Rock, ""early""",30.5,)"));
+  EXPECT_THAT(table, HasSubstr("\n0101,0,0,"));
+}
+
+// A map with heights, such as a farm's truth: they must not pass for measured ones.
+TEST(Run, CallsGivenHeightsGiven) {
+  const TemporaryFolder folder;
+  const RunOptions options =
+      run_in_boxes(folder, {{"height_hand3_m", 9.5}, {"height_raw-max_m", 9.5}, {"points", 7}}, {});
+  run(options);
+  const nlohmann::json properties = properties_of(options, 0);
+  EXPECT_EQ(properties["given_height_hand3_m"], 9.5);
+  EXPECT_EQ(properties["given_height_raw-max_m"], 9.5);
+  EXPECT_EQ(properties["given_points"], 7);
+  EXPECT_EQ(properties["plot_number"], 1);
+  const Estimate read = read_estimate(options.output);
+  EXPECT_FALSE(read.plots[0].heights_m.contains("hand3"));
+  EXPECT_NEAR(read.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-4);
+}
+
+TEST(Run, TakesTheIdFromTheNamedProperty) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_number", 1}, {"barcode", "x7"}},
+                                    {{"plot_number", 1}, {"barcode", "x8"}});
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  EXPECT_THAT(message(), HasSubstr("features 1 and 2 have the same plot_number \"1\""));
+  EXPECT_THAT(message(), HasSubstr("--id"));
+  options.id = "Barcode";
+  EXPECT_THAT(message(), HasSubstr("barcode"));
+  EXPECT_FALSE(fs::exists(options.output));
+  options.id = "barcode";
+  EXPECT_EQ(run(options).plots[1].id, PlotId("x8"));
+  EXPECT_EQ(properties_of(options, 1)["plot_number"], 1);
+  EXPECT_EQ(read_estimate(options.output).plots[1].id, PlotId("x8"));
+}
+
+TEST(Run, RefusesAMapInWhichSomePlotsHaveNoId) {
+  const TemporaryFolder folder;
+  const RunOptions options = run_in_boxes(folder, {{"name", "north"}}, {{"name", " "}});
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+              HasSubstr("feature 2 has no id in its property \"name\""));
 }
 
 TEST(Run, LeavesNothingBehindOnBadInput) {
