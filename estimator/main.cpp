@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "estimate/run.h"
@@ -68,11 +69,24 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
 }
 
+// "EPSG:25832 (UTM 32N; ETRS89 is taken for WGS 84, within 2 m)", of a system that is UTM's.
+std::string described(const std::string& crs) {
+  const UtmSystem system = utm_system(crs).value();
+  std::string text =
+      crs + formatted(" (UTM %d%c", system.zone.number, system.zone.north ? 'N' : 'S');
+  if (system.datum != "WGS 84") text += "; " + system.datum + " is taken for WGS 84, within 2 m";
+  return text + ")";
+}
+
 void say_given(const Program& program, const estimate::Estimate& estimate) {
   if (!estimate.diagnostics.contains("boxes")) return;
   program.say(formatted("boxes      %zu plots given, %s %s to %s", estimate.plots.size(),
                         estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
                         estimate.plots.back().id.text().c_str()));
+  if (estimate.diagnostics["boxes"]["from_degrees"].get<bool>()) {
+    program.say("           longitude and latitude of the map converted to " +
+                described(estimate.crs));
+  }
 }
 
 void say_how(const Program& program, const nlohmann::json& diagnostics) {

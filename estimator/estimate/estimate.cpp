@@ -11,6 +11,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/text.h"
@@ -260,6 +261,14 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   for (const PlotEstimate& plot : estimate.plots)
     features.push_back(feature_of(plot, estimate.id_property));
   write_plot_features(folder / "plots.geojson", features, estimate.crs);
+  if (const std::optional<UtmSystem> utm = utm_system(estimate.crs)) {
+    write_plot_features_wgs84(
+        folder / "plots.wgs84.geojson", features,
+        [&](const Eigen::Vector2d& corner) -> Eigen::Vector2d {
+          const GeodeticPoint point = geodetic_from_utm(utm->zone, {corner.x(), corner.y(), 0});
+          return {point.longitude_deg, point.latitude_deg};
+        });
+  }
   write_heights(folder / "heights.csv", estimate);
   if (estimate.ground) write_ground(folder, *estimate.ground);
 }

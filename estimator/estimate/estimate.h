@@ -49,7 +49,8 @@ struct Estimate {
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };
 
-// Writes plots.geojson, heights.csv and, where the method models it, the ground's grids
+// Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system),
+// heights.csv and, where the method models it, the ground's grids
 // (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 

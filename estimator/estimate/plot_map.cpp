@@ -2,7 +2,6 @@
 #include "estimate/plot_map.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 
@@ -12,17 +11,6 @@
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
 namespace {
-
-// Names that field books, Breedbase and BrAPI give a plot's id, the likeliest first.
-constexpr std::array<const char*, 6> kIdProperties = {"plot_number",         "plot_id", "plot_name",
-                                                      "observationUnitName", "name",    "id"};
-
-// "id" may be the feature's own member as well as a property.
-std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property) {
-  const auto found = plot.properties.find(property);
-  if (found != plot.properties.end()) return PlotId::from(*found);
-  return property == "id" ? plot.id : std::nullopt;
-}
 
 std::string properties_of(const std::vector<PlotFeature>& plots) {
   std::set<std::string> names;
@@ -45,8 +33,8 @@ std::optional<std::string> id_property_of(const fs::path& file,
     throw InputError(file, "no plot has an id in a property \"" + *wanted +
                                "\"; the plots' properties are: " + properties_of(plots));
   }
-  const auto found = std::ranges::find_if(kIdProperties, names_a_plot);
-  if (found == kIdProperties.end()) return std::nullopt;
+  const auto found = std::ranges::find_if(plot_id_properties(), names_a_plot);
+  if (found == plot_id_properties().end()) return std::nullopt;
   return *found;
 }
 
@@ -75,8 +63,10 @@ std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>&
 
 }  // namespace
 
-PlotMap read_plot_map(const fs::path& file, const std::optional<std::string>& id_property) {
-  PlotMap map{.plots = read_plot_features(file)};
+PlotMap read_plot_map(const fs::path& file, const std::string& crs,
+                      const std::optional<std::string>& id_property) {
+  PlacedPlots placed = read_plot_features(file, crs);
+  PlotMap map{.plots = std::move(placed.plots), .from_degrees = placed.from_degrees};
   if (map.plots.empty()) throw InputError(file, "has no plots");
   if (const auto property = id_property_of(file, map.plots, id_property)) {
     map.id_property = *property;
@@ -97,7 +87,8 @@ void take_names(const PlotMap& map, Estimate& estimate) {
     estimate.plots[i].column = named.column;
     estimate.plots[i].attributes = given_attributes(map.plots[i]);
   }
-  estimate.diagnostics["boxes"] = {{"plots", map.plots.size()}, {"id", map.id_property}};
+  estimate.diagnostics["boxes"] = {
+      {"plots", map.plots.size()}, {"id", map.id_property}, {"from_degrees", map.from_degrees}};
 }
 
 }  // namespace plotscan::estimate

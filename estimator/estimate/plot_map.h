@@ -17,14 +17,16 @@ struct PlotMap {
   std::vector<PlotId> ids = {};  // of the plots, all different
   // The property that holds the ids; "plot_number" where none does, and plots are numbered from 1.
   std::string id_property = "plot_number";
+  bool from_degrees = false;  // the file has longitude and latitude, which were converted
 };
 
-// Reads a map of plots (GeoJSON). The ids are those of the property `id_property`; without it of
-// the first of plot_number, plot_id, plot_name, observationUnitName, name and id that the plots
-// have; "id" may be a member of the feature as well. Throws InputError as read_plot_features does,
-// on a file without plots, where some plots have an id and others none, and where two have the
-// same: the message names them.
-PlotMap read_plot_map(const std::filesystem::path& file,
+// Reads a map of plots (GeoJSON) in metres of the coordinate system `crs`, or in longitude and
+// latitude where that is UTM's (read_plot_features). The ids are those of the property
+// `id_property`; without it of the first of plot_number, plot_id, plot_name, observationUnitName,
+// name and id that the plots have; "id" may be a member of the feature as well. Throws InputError
+// as read_plot_features does, on a file without plots, where some plots have an id and others none,
+// and where two have the same: the message names them.
+PlotMap read_plot_map(const std::filesystem::path& file, const std::string& crs,
                       const std::optional<std::string>& id_property = std::nullopt);
 
 // Gives an estimate that was measured in the map's boxes, in their order, the map's ids, rows,

@@ -12,6 +12,7 @@
 #include "core/statistics.h"
 #include "core/text.h"
 #include "estimate/plot_map.h"
+#include "scan/cloud_reader.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -102,12 +103,14 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
                     .seed = options.seed,
                     .options = options_json(options),
                     .inputs = {cloud}};
+  const std::string crs = scan::cloud_crs(cloud);
   PlotMap map;
   if (options.boxes) {
-    map = read_plot_map(*options.boxes, options.id);
+    map = read_plot_map(*options.boxes, crs, options.id);
     manifest.inputs.push_back(*options.boxes);
   }
   Estimate estimate = run_method(cloud, options, map.plots, progress);
+  estimate.crs = crs;
   if (options.boxes) take_names(map, estimate);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},

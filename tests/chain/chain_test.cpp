@@ -88,6 +88,37 @@ TEST_F(Chain, EstimatesFromLasAsFromPcd) {
   }
 }
 
+// The farm's own map in degrees, made through the Earth's centre, over the cloud in UTM: the same
+// heights as in local metres, under the same numbers, and every attribute of the map.
+TEST_F(Chain, MeasuresInAMapOfLongitudeAndLatitude) {
+  succeed("farmgen generate " + kFarm +
+          " -o farm --seed 101 --set anchor.latitude_deg=37.2 --set anchor.longitude_deg=-80.5" +
+          " --set plots.first_number=301");
+  succeed("lidarsim fly farm -o scan");
+  succeed("lidarsim convert scan utm.las --crs utm");
+  succeed("estimator run scan -o local --boxes farm/truth/plots.geojson");
+  const Finished said =
+      succeed("estimator run utm.las -o utm --boxes farm/truth/plots_wgs84.geojson");
+  EXPECT_NE(said.output.find("converted to EPSG:32617 (UTM 17N)"), std::string::npos)
+      << said.output;
+  EXPECT_TRUE(exists("utm/plots.wgs84.geojson"));
+  const auto features = [&](const std::string& name) {
+    return nlohmann::json::parse(read_text(folder_.path() / name))["features"];
+  };
+  const auto local = features("local/plots.geojson");
+  const auto utm = features("utm/plots.geojson");
+  ASSERT_EQ(utm.size(), 9u);
+  for (std::size_t i = 0; i < utm.size(); ++i) {
+    const auto& plot = utm[i]["properties"];
+    EXPECT_EQ(plot["plot_number"], 301 + i);
+    EXPECT_EQ(plot["accession_name"], local[i]["properties"]["accession_name"]);
+    for (const char* height : {"canopy_p95_m", "canopy_p99_m"}) {
+      EXPECT_NEAR(plot[height].get<double>(), local[i]["properties"][height].get<double>(), 0.01)
+          << height;
+    }
+  }
+}
+
 TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "7"}) {
     succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);
