@@ -28,6 +28,9 @@ struct RunArguments {
   std::vector<double> learn_box;
   std::string boxes;
   std::string id;
+  std::string plot_names;
+  std::string numbering;
+  std::string first_corner;
   std::optional<double> heading_deg;
   bool no_calibration = false;
   bool no_level = false;
@@ -89,6 +92,21 @@ void say_given(const Program& program, const estimate::Estimate& estimate) {
   }
 }
 
+// Whose names were given by row and column, and found no plot.
+void say_named(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("names")) return;
+  const auto& names = estimate.diagnostics["names"];
+  const auto& not_found = names["not_found"];
+  program.say(formatted("names      %zu of %zu named plots found, %s %s to %s",
+                        estimate.plots.size(), names["plots"].get<std::size_t>(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (not_found.empty()) return;
+  std::vector<std::string> ids;
+  for (const auto& id : not_found) ids.push_back(id.get<std::string>());
+  program.say("           not found: " + joined(ids, ", "));
+}
+
 void say_how(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
@@ -138,6 +156,20 @@ void require_own_options(const CLI::App& command, const std::string& method) {
   }
 }
 
+estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
+  using estimate::Corner;
+  static const std::map<std::string, Corner> corners = {
+      {"sw", Corner::sw}, {"se", Corner::se}, {"nw", Corner::nw}, {"ne", Corner::ne}};
+  estimate::NumberingOptions numbering = arguments.options.numbering;
+  if (!arguments.numbering.empty()) {
+    numbering.numbering =
+        arguments.numbering == "serpentine" ? PlotNumbering::serpentine : PlotNumbering::rows;
+  }
+  if (!arguments.first_corner.empty()) numbering.first_corner = corners.at(arguments.first_corner);
+  if (!arguments.plot_names.empty()) numbering.names = arguments.plot_names;
+  return numbering;
+}
+
 void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
@@ -152,6 +184,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
   if (!arguments.id.empty()) options.id = arguments.id;
+  options.numbering = numbering_of(arguments);
   if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
@@ -162,6 +195,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   const nlohmann::json summary = estimate::height_summary(estimate);
   say_how(program, estimate.diagnostics);
   say_given(program, estimate);
+  say_named(program, estimate);
   say_heights(program, summary);
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
@@ -220,6 +254,32 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
       ->group(group);
 }
 
+// What the plots are called.
+void declare_names(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--id", arguments.id,
+                 "property of --boxes, or column of --plot-names, that is the plots' id (default: "
+                 "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
+                 "name, id)");
+  run.add_option("--first-number", arguments.options.numbering.first_number,
+                 "number of the first plot that is found; the others follow along the rows")
+      ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1000000000}))
+      ->excludes("--boxes");
+  run.add_option("--numbering", arguments.numbering,
+                 "zigzag: every row from its first column (default); serpentine: every other row "
+                 "from its last")
+      ->check(CLI::IsMember({"zigzag", "serpentine"}))
+      ->excludes("--boxes");
+  run.add_option("--first-corner", arguments.first_corner,
+                 "sw, se, nw or ne: where row 1 and column 1 are, once plots are numbered or named "
+                 "(default: sw)")
+      ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
+      ->excludes("--boxes");
+  run.add_option("--plot-names", arguments.plot_names,
+                 "table (CSV) with columns row, column, an id and others: the plots that are found "
+                 "are called so, and keep the other columns")
+      ->excludes("--boxes", "--first-number", "--numbering");
+}
+
 void declare_run(Program& program, RunArguments& arguments) {
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
@@ -239,13 +299,10 @@ void declare_run(Program& program, RunArguments& arguments) {
                  "field)")
       ->delimiter(',')
       ->expected(4);
-  auto* boxes = run.add_option("--boxes", arguments.boxes,
-                               "map of the plots (GeoJSON): measure heights in its boxes, keep its "
-                               "ids and attributes, search none");
-  run.add_option("--id", arguments.id,
-                 "property of the map that is the plots' id (default: the first there is of "
-                 "plot_number, plot_id, plot_name, observationUnitName, name, id)")
-      ->needs(boxes);
+  run.add_option("--boxes", arguments.boxes,
+                 "map of the plots (GeoJSON): measure heights in its boxes, keep its ids and "
+                 "attributes, search none");
+  declare_names(run, arguments);
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -38,22 +39,29 @@ std::optional<std::string> id_property_of(const fs::path& file,
   return *found;
 }
 
+// "feature 3".
+std::vector<std::string> feature_places(std::size_t plots) {
+  std::vector<std::string> places;
+  for (std::size_t i = 1; i <= plots; ++i) places.push_back("feature " + std::to_string(i));
+  return places;
+}
+
+// `where` says of each plot where it stands in the file.
 std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>& plots,
-                           const std::string& property) {
+                           const std::vector<std::string>& where, const std::string& property) {
   std::vector<PlotId> ids;
-  std::map<PlotId, std::size_t> places;
+  std::map<PlotId, std::string> places;
   for (const PlotFeature& plot : plots) {
-    const std::size_t place = ids.size() + 1;
+    const std::string& place = where[ids.size()];
     const std::optional<PlotId> id = id_in(plot, property);
     if (!id) {
-      throw InputError(file, "feature " + std::to_string(place) + " has no id in its property \"" +
-                                 property + "\", and others have; --id names another property");
+      throw InputError(file, place + " has no id in its property \"" + property +
+                                 "\", and others have; --id names another property");
     }
     const auto [earlier, is_new] = places.emplace(*id, place);
     if (!is_new) {
-      throw InputError(file, "features " + std::to_string(earlier->second) + " and " +
-                                 std::to_string(place) + " have the same " + property + " \"" +
-                                 id->text() +
+      throw InputError(file, earlier->second + " and " + place + " have the same " + property +
+                                 " \"" + id->text() +
                                  "\"; --id names a property that differs from plot to plot");
     }
     ids.push_back(*id);
@@ -61,7 +69,57 @@ std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>&
   return ids;
 }
 
+constexpr long long kMostPlaces = 1000000;  // rows, or columns, of a field
+
+// The place of the first of the names among a table's columns, which it must have.
+std::size_t column_of(const fs::path& file, const CsvTable& table,
+                      const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(table.columns, name);
+    if (found != table.columns.end())
+      return static_cast<std::size_t>(found - table.columns.begin());
+  }
+  throw InputError(file, "has no column " + joined(names, " or ") + "; its columns are " +
+                             joined(table.columns, ", "));
+}
+
+int place_of(const fs::path& file, const CsvTable& table, const CsvTable::Line& line,
+             std::size_t column) {
+  const std::vector<std::string_view> fields(line.fields.begin(), line.fields.end());
+  return static_cast<int>(
+      CsvRow(file, line.line, table.columns, fields).integer(column, 1, kMostPlaces));
+}
+
 }  // namespace
+
+NamedPlaces read_named_places(const fs::path& file, const std::optional<std::string>& id_property) {
+  const CsvTable table = read_csv_table(file);
+  const std::size_t row = column_of(file, table, {"row", "row_number"});
+  const std::size_t column = column_of(file, table, {"column", "col", "col_number"});
+  std::vector<PlotFeature> plots;
+  std::vector<std::string> where;
+  for (const CsvTable::Line& line : table.lines) {
+    plots.emplace_back();
+    where.push_back("line " + std::to_string(line.line));
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      if (i != row && i != column) plots.back().properties[table.columns[i]] = line.fields[i];
+    }
+  }
+  const auto property = id_property_of(file, plots, id_property);
+  if (!property)
+    throw InputError(file, "has no id of a plot; --id names the column, such as plot_id");
+  const std::vector<PlotId> ids = ids_of(file, plots, where, *property);
+  NamedPlaces named{.id_property = *property};
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const std::pair place{place_of(file, table, table.lines[i], row),
+                          place_of(file, table, table.lines[i], column)};
+    const bool is_new =
+        named.plots.emplace(place, NamedPlot{ids[i], given_attributes(plots[i])}).second;
+    if (!is_new)
+      throw InputError(file, table.lines[i].line, "names a row and column that has a plot already");
+  }
+  return named;
+}
 
 PlotMap read_plot_map(const fs::path& file, const std::string& crs,
                       const std::optional<std::string>& id_property) {
@@ -70,7 +128,7 @@ PlotMap read_plot_map(const fs::path& file, const std::string& crs,
   if (map.plots.empty()) throw InputError(file, "has no plots");
   if (const auto property = id_property_of(file, map.plots, id_property)) {
     map.id_property = *property;
-    map.ids = ids_of(file, map.plots, *property);
+    map.ids = ids_of(file, map.plots, feature_places(map.plots.size()), *property);
   } else {
     for (std::size_t i = 0; i < map.plots.size(); ++i) map.ids.emplace_back(i + 1);
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/plot_features.h"
@@ -28,6 +30,24 @@ struct PlotMap {
 // and where two have the same: the message names them.
 PlotMap read_plot_map(const std::filesystem::path& file, const std::string& crs,
                       const std::optional<std::string>& id_property = std::nullopt);
+
+struct NamedPlot {
+  PlotId id;
+  nlohmann::json attributes = nlohmann::json::object();
+};
+
+// What a field book says of the plots by their places in the field.
+struct NamedPlaces {
+  std::map<std::pair<int, int>, NamedPlot> plots = {};  // by row and column, from 1
+  std::string id_property = {};                         // the column that holds the ids
+};
+
+// Reads a table of plots (read_csv_table) with columns row (or row_number), column (or col,
+// col_number), the plots' id as in read_plot_map, and any others, which become attributes. All are
+// texts and stay so. Throws InputError as these do, where a column is missing, and where two plots
+// have one place.
+NamedPlaces read_named_places(const std::filesystem::path& file,
+                              const std::optional<std::string>& id_property = std::nullopt);
 
 // Gives an estimate that was measured in the map's boxes, in their order, the map's ids, rows,
 // columns and attributes.

@@ -2,6 +2,7 @@
 #include "estimate/run.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
@@ -55,6 +56,17 @@ json options_json(const Dhami2020Options& options) {
           {"plane_tolerance_m", options.plane_tolerance_m}};
 }
 
+json options_json(const NumberingOptions& options) {
+  constexpr std::array<const char*, 4> kCorners = {"sw", "se", "nw", "ne"};
+  const Corner corner = options.first_corner.value_or(Corner::sw);
+  json document = {{"first_corner", kCorners.at(static_cast<std::size_t>(corner))}};
+  document["plot_names"] = options.names.has_value();
+  if (options.names) return document;
+  document["first_number"] = options.first_number.value_or(1);
+  document["numbering"] = options.numbering == PlotNumbering::serpentine ? "serpentine" : "zigzag";
+  return document;
+}
+
 json options_json(const RunOptions& options) {
   json document =
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
@@ -62,6 +74,7 @@ json options_json(const RunOptions& options) {
   document["crop_box_m"] = to_json(options.crop_box);
   document["given_boxes"] = options.boxes.has_value();
   document["id"] = to_json(options.id);
+  if (options.numbering.any()) document["numbering"] = options_json(options.numbering);
   return document;
 }
 
@@ -83,6 +96,32 @@ Estimate run_method(const fs::path& cloud, const RunOptions& run,
   return dhami2020(cloud, options, progress);
 }
 
+void require_sound(const RunOptions& options) {
+  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
+    throw InputError("there is no method \"" + options.method + "\"; there is " +
+                     joined(method_names(), ", "));
+  }
+  const NumberingOptions& numbering = options.numbering;
+  if (options.boxes && numbering.any())
+    throw InputError("plots in given boxes keep their ids: they are neither numbered nor named");
+  if (numbering.names && (numbering.first_number || numbering.numbering))
+    throw InputError("plots are numbered or named by a table, not both");
+  if (options.id && !options.boxes && !numbering.names)
+    throw InputError("an id is a property of given boxes or a column of plot names; give either");
+}
+
+// The plots as the user wants them called.
+void name(const RunOptions& options, const PlotMap& map, const NamedPlaces& places,
+          Estimate& estimate) {
+  if (options.boxes) {
+    take_names(map, estimate);
+  } else if (options.numbering.names) {
+    name_plots(options.numbering, places, estimate);
+  } else if (options.numbering.any()) {
+    number_plots(options.numbering, estimate);
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string>& method_names() {
@@ -91,13 +130,11 @@ const std::vector<std::string>& method_names() {
 }
 
 Estimate run(const RunOptions& options, const ProgressReport& progress) {
-  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
-    throw InputError("there is no method \"" + options.method + "\"; there is " +
-                     joined(method_names(), ", "));
-  }
+  require_sound(options);
   const fs::path cloud = cloud_file(options.cloud);
   std::vector<fs::path> inputs = {options.cloud};
   if (options.boxes) inputs.push_back(*options.boxes);
+  if (options.numbering.names) inputs.push_back(*options.numbering.names);
   OutputFolder folder(options.output, options.replace, "estimator run", inputs);
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
@@ -109,9 +146,14 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
     map = read_plot_map(*options.boxes, crs, options.id);
     manifest.inputs.push_back(*options.boxes);
   }
+  NamedPlaces places;
+  if (options.numbering.names) {
+    places = read_named_places(*options.numbering.names, options.id);
+    manifest.inputs.push_back(*options.numbering.names);
+  }
   Estimate estimate = run_method(cloud, options, map.plots, progress);
   estimate.crs = crs;
-  if (options.boxes) take_names(map, estimate);
+  name(options, map, places, estimate);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},

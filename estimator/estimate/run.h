@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
+#include "estimate/plot_numbers.h"
 
 namespace plotscan::estimate {
 
@@ -20,11 +21,13 @@ struct RunOptions {
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
-  std::optional<std::string> id = {};               // the map's property that is the plots' id
-  bool replace = false;                             // an estimate folder that exists
-  std::optional<Area> crop_box = {};                // use only the points in here
-  LatticeOptions lattice = {};                      // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};                  // as above, and the seed
+  NumberingOptions numbering = {};                  // of the plots that are found, without boxes
+  std::optional<std::string> id =
+      {};                             // the property of the boxes, or column of the names, with ids
+  bool replace = false;               // an estimate folder that exists
+  std::optional<Area> crop_box = {};  // use only the points in here
+  LatticeOptions lattice = {};        // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};    // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };

@@ -119,6 +119,21 @@ TEST_F(Chain, MeasuresInAMapOfLongitudeAndLatitude) {
   }
 }
 
+// The farm is numbered as its description says, the plots that are found as the same words say.
+TEST_F(Chain, NumbersPlotsAsTheFieldBookDoes) {
+  succeed("farmgen generate " + kFarm +
+          " -o farm --seed 101 --set plots.numbering=serpentine --set plots.first_number=101");
+  succeed("lidarsim fly farm -o scan");
+  succeed("estimator run scan -o estimate --first-number 101 --numbering serpentine");
+  const auto scores =
+      nlohmann::json::parse(succeed("estimator score estimate --truth farm --json").output);
+  ASSERT_EQ(scores["boxes"]["found"], 9);
+  for (const auto& plot : scores["field"]["plots"]) {
+    EXPECT_EQ(plot["found"]["estimate"], plot["plot_number"]);
+    EXPECT_GT(plot["plot_number"], 100);
+  }
+}
+
 TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "7"}) {
     succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);

@@ -158,7 +158,7 @@ TEST(Run, TakesTheIdFromTheNamedProperty) {
   RunOptions options = run_in_boxes(folder, {{"plot_number", 1}, {"barcode", "x7"}},
                                     {{"plot_number", 1}, {"barcode", "x8"}});
   const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
-  EXPECT_THAT(message(), HasSubstr("features 1 and 2 have the same plot_number \"1\""));
+  EXPECT_THAT(message(), HasSubstr("feature 1 and feature 2 have the same plot_number \"1\""));
   EXPECT_THAT(message(), HasSubstr("--id"));
   options.id = "Barcode";
   EXPECT_THAT(message(), HasSubstr("barcode"));
@@ -174,6 +174,34 @@ TEST(Run, RefusesAMapInWhichSomePlotsHaveNoId) {
   const RunOptions options = run_in_boxes(folder, {{"name", "north"}}, {{"name", " "}});
   EXPECT_THAT(message_of<InputError>([&] { run(options); }),
               HasSubstr("feature 2 has no id in its property \"name\""));
+}
+
+TEST(Run, NumbersAndNamesThePlotsThatItFinds) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.numbering.first_number = 101;
+  run(options);
+  EXPECT_EQ(properties_of(options, 7)["plot_number"], 108);
+  EXPECT_THAT(read_text(options.output / "heights.csv"), HasSubstr("\n101,1,1,"));
+  std::string table = "row,column,plot,sown\n";
+  for (int row = 1; row <= 2; ++row) {
+    for (int column = 1; column <= 4; ++column) {
+      table += std::to_string(row) + "," + std::to_string(column) + ",p" + std::to_string(row) +
+               std::to_string(column) + ",May\n";
+    }
+  }
+  options.numbering = {.names = folder.write("book.csv", table)};
+  options.id = "plot";
+  options.replace = true;
+  run(options);
+  EXPECT_EQ(properties_of(options, 7)["plot"], "p24");
+  EXPECT_EQ(properties_of(options, 7)["sown"], "May");
+  EXPECT_EQ(properties_of(options, 7)["row_number"], 2);
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  options.numbering.first_number = 1;
+  EXPECT_THAT(message(), HasSubstr("not both"));
+  options.numbering = {};
+  EXPECT_THAT(message(), HasSubstr("give either"));
 }
 
 TEST(Run, LeavesNothingBehindOnBadInput) {
