@@ -31,6 +31,7 @@ struct RunArguments {
   std::string plot_names;
   std::string numbering;
   std::string first_corner;
+  std::string csv;
   std::optional<double> heading_deg;
   bool no_calibration = false;
   bool no_level = false;
@@ -185,6 +186,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
   if (!arguments.id.empty()) options.id = arguments.id;
   options.numbering = numbering_of(arguments);
+  if (!arguments.csv.empty()) options.csv = arguments.csv;
   if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
@@ -200,6 +202,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
                         options.output.c_str()));
+  if (options.csv) program.say("           and " + options.csv->string());
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},
                   {"heights", summary},
@@ -303,7 +306,10 @@ void declare_run(Program& program, RunArguments& arguments) {
                  "map of the plots (GeoJSON): measure heights in its boxes, keep its ids and "
                  "attributes, search none");
   declare_names(run, arguments);
-  run.add_flag("--force", options.replace, "replace an estimate folder that exists");
+  run.add_option("--csv", arguments.csv,
+                 "also write this table, a line a plot, for breeding databases: "
+                 "observationunit_name, attributes, heights (metres)");
+  run.add_flag("--force", options.replace, "replace an estimate folder, a table that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);
 }

@@ -3,49 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <functional>
 #include <limits>
-#include <numbers>
-#include <set>
 
-#include "core/csv.h"
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/manifest.h"
 #include "core/plot_features.h"
-#include "core/text.h"
 #include "estimate/ground_grids.h"
+#include "estimate/height_properties.h"
+#include "estimate/plot_tables.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = std::numbers::pi / 180;
-constexpr std::string_view kPrefix = "height_";
-constexpr std::string_view kError = "se_";
-constexpr std::string_view kLow = "low95_";
-constexpr std::string_view kHigh = "high95_";
-constexpr std::string_view kCanopy = "canopy_";
-constexpr std::string_view kSuffix = "_m";
-
-// The property of a height, and of what belongs to it ("se_", "low95_", "high95_"): the truth's own
-// names, height_p95_m and canopy_p95_m.
-std::string property_of(const std::string& height, std::string_view before = "") {
-  const std::string prefix = height.starts_with(kCanopy) ? "" : std::string(kPrefix);
-  return std::string(before) + prefix + height + std::string(kSuffix);
-}
-
-// The name of a height from its property, "" when the property is no height.
-std::string height_of(const std::string& property) {
-  if (!property.ends_with(kSuffix)) return "";
-  const std::string name = property.substr(0, property.size() - kSuffix.size());
-  if (name.size() > kCanopy.size() && name.starts_with(kCanopy)) return name;
-  if (name.size() <= kPrefix.size() || !name.starts_with(kPrefix)) return "";
-  return name.substr(kPrefix.size());
-}
 
 // Whether a property is one of those that an estimate gives its plots.
 bool is_measured(std::string property) {
@@ -92,118 +64,6 @@ PlotId id_of(const PlotFeature& feature, std::size_t number) {
   const auto found = feature.properties.find("plot_number");
   if (found == feature.properties.end()) return number;
   return PlotId::from(*found).value_or(number);
-}
-
-// A table's column: its name and what stands in it for a plot.
-struct Column {
-  std::string name;
-  std::function<std::string(const PlotEstimate&)> text;
-};
-
-template <class Value>
-std::string text_of(const std::map<std::string, Value>& values, const std::string& name,
-                    double (*number)(const Value&)) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : format_number(number(found->second));
-}
-
-// The heights of any of the plots, each followed by its standard error and interval.
-void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
-  std::set<std::string> names;
-  std::set<std::string> with_errors;
-  for (const PlotEstimate& plot : plots) {
-    for (const auto& [name, height_m] : plot.heights_m) names.insert(name);
-    for (const auto& [name, error] : plot.errors) with_errors.insert(name);
-  }
-  using Number = double (*)(const HeightError&);
-  const std::vector<std::pair<std::string_view, Number>> parts = {
-      {kError, [](const HeightError& error) { return error.standard_error_m; }},
-      {kLow, [](const HeightError& error) { return error.low95_m; }},
-      {kHigh, [](const HeightError& error) { return error.high95_m; }}};
-  for (const std::string& name : names) {
-    columns.push_back({property_of(name), [name](const PlotEstimate& plot) {
-                         return text_of<double>(plot.heights_m, name,
-                                                [](const double& height_m) { return height_m; });
-                       }});
-    if (!with_errors.contains(name)) continue;
-    for (const auto& [before, number] : parts) {
-      columns.push_back({property_of(name, before), [name, number](const PlotEstimate& plot) {
-                           return text_of<HeightError>(plot.errors, name, number);
-                         }});
-    }
-  }
-}
-
-// A value as a field of a table: texts as they are, nothing for null, else as JSON.
-std::string field_of(const json& value) {
-  if (value.is_null()) return "";
-  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-// An attribute of a plot, or `otherwise` where it has none of that name.
-std::string attribute(const PlotEstimate& plot, const std::string& name,
-                      const std::string& otherwise = "") {
-  const auto found = plot.attributes.find(name);
-  return found == plot.attributes.end() ? otherwise : field_of(*found);
-}
-
-// The attributes of any of the plots that no other column shows.
-void add_attributes(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
-  std::set<std::string> names;
-  for (const PlotEstimate& plot : plots) {
-    for (const auto& [name, value] : plot.attributes.items()) names.insert(name);
-  }
-  for (const Column& column : columns) names.erase(column.name);
-  for (const std::string& name : names) {
-    columns.push_back({name, [name](const PlotEstimate& plot) { return attribute(plot, name); }});
-  }
-}
-
-// The flags' reasons have neither quotes nor line ends.
-std::string quoted(const std::vector<std::string>& flags) {
-  return flags.empty() ? "" : '"' + joined(flags, "; ") + '"';
-}
-
-std::vector<Column> columns_of(const Estimate& estimate) {
-  const std::vector<PlotEstimate>& plots = estimate.plots;
-  std::vector<Column> columns = {
-      {estimate.id_property, [](const auto& plot) { return csv_field(plot.id.text()); }},
-      {"row_number",
-       [](const auto& plot) { return attribute(plot, "row_number", std::to_string(plot.row)); }},
-      {"col_number",
-       [](const auto& plot) { return attribute(plot, "col_number", std::to_string(plot.column)); }},
-      {"center_x_m", [](const auto& plot) { return format_number(plot.box.center.x()); }},
-      {"center_y_m", [](const auto& plot) { return format_number(plot.box.center.y()); }},
-      {"width_m", [](const auto& plot) { return format_number(plot.box.width_m); }},
-      {"length_m", [](const auto& plot) { return format_number(plot.box.length_m); }},
-      {"heading_deg",
-       [](const auto& plot) { return format_number(plot.box.heading_rad / kDegrees); }},
-      {"points", [](const auto& plot) { return std::to_string(plot.points); }}};
-  add_heights(plots, columns);
-  if (std::ranges::any_of(plots, [](const auto& plot) { return plot.confidence.has_value(); })) {
-    columns.push_back({"confidence", [](const auto& plot) {
-                         return plot.confidence ? format_number(*plot.confidence) : "";
-                       }});
-    columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
-  }
-  add_attributes(plots, columns);
-  for (Column& column : columns) column.name = csv_field(column.name);
-  return columns;
-}
-
-void write_heights(const fs::path& path, const Estimate& estimate) {
-  const std::vector<Column> columns = columns_of(estimate);
-  std::ofstream out(path);
-  for (const Column& column : columns)
-    out << (&column == &columns.front() ? "" : ",") << column.name;
-  out << '\n';
-  for (const PlotEstimate& plot : estimate.plots) {
-    for (const Column& column : columns) {
-      out << (&column == &columns.front() ? "" : ",") << column.text(plot);
-    }
-    out << '\n';
-  }
-  if (!out.flush()) throw InputError(path, "cannot be written");
 }
 
 // The standard errors and intervals that stand beside the heights.

@@ -8,11 +8,13 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "estimate/plot_map.h"
+#include "estimate/plot_tables.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::estimate {
@@ -110,6 +112,19 @@ void require_sound(const RunOptions& options) {
     throw InputError("an id is a property of given boxes or a column of plot names; give either");
 }
 
+// A table replaces no input, and does not lie in the folder that is replaced as a whole.
+void require_own_place(const fs::path& table, const fs::path& folder,
+                       const std::vector<fs::path>& inputs) {
+  std::error_code ignored;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(table, input, ignored)) throw InputError(table, "is an input of the run");
+  }
+  const fs::path within =
+      fs::weakly_canonical(table).lexically_relative(fs::weakly_canonical(folder));
+  if (!within.empty() && *within.begin() != "..")
+    throw InputError(table, "lies in the estimate folder, which has a heights.csv of its own");
+}
+
 // The plots as the user wants them called.
 void name(const RunOptions& options, const PlotMap& map, const NamedPlaces& places,
           Estimate& estimate) {
@@ -136,6 +151,11 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
   if (options.boxes) inputs.push_back(*options.boxes);
   if (options.numbering.names) inputs.push_back(*options.numbering.names);
   OutputFolder folder(options.output, options.replace, "estimator run", inputs);
+  std::optional<OutputFile> table;
+  if (options.csv) {
+    require_own_place(*options.csv, options.output, inputs);
+    table.emplace(*options.csv, options.replace);
+  }
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),
@@ -159,7 +179,9 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
                       {"heights", height_summary(estimate)},
                       {"diagnostics", estimate.diagnostics}};
   write_manifest(folder.path(), manifest);
+  if (table) write_traits(table->path(), estimate);
   folder.commit();
+  if (table) table->commit();
   return estimate;
 }
 

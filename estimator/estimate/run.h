@@ -22,12 +22,12 @@ struct RunOptions {
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
   NumberingOptions numbering = {};                  // of the plots that are found, without boxes
-  std::optional<std::string> id =
-      {};                             // the property of the boxes, or column of the names, with ids
-  bool replace = false;               // an estimate folder that exists
-  std::optional<Area> crop_box = {};  // use only the points in here
-  LatticeOptions lattice = {};        // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};    // as above, and the seed
+  std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
+  std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
+  bool replace = false;                           // an estimate folder, a table that exists
+  std::optional<Area> crop_box = {};              // use only the points in here
+  LatticeOptions lattice = {};                    // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};                // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };

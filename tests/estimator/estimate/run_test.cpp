@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/plot_features.h"
@@ -202,6 +203,42 @@ TEST(Run, NumbersAndNamesThePlotsThatItFinds) {
   EXPECT_THAT(message(), HasSubstr("not both"));
   options.numbering = {};
   EXPECT_THAT(message(), HasSubstr("give either"));
+}
+
+TEST(Run, WritesATableForDatabases) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_id", "A-12"}, {"cultivar", "Rock, early"}},
+                                    {{"plot_id", "0101"}, {"row_number", 7}});
+  options.csv = folder.path() / "traits.csv";
+  const Estimate estimate = run(options);
+  const CsvTable table = read_csv_table(*options.csv);
+  EXPECT_THAT(table.columns,
+              ::testing::ElementsAre("observationunit_name", "row_number", "col_number", "cultivar",
+                                     "plot_id", "height_raw-max_m", "height_raw-p99_m",
+                                     "height_voxel-max_m", "flags"));
+  ASSERT_EQ(table.lines.size(), 2u);
+  const double height_m = estimate.plots[0].heights_m.at("raw-max");
+  EXPECT_EQ(table.lines[0].fields[0], "A-12");
+  EXPECT_EQ(table.lines[0].fields[1], "") << "of no grid";
+  EXPECT_EQ(table.lines[0].fields[3], "Rock, early");
+  EXPECT_EQ(table.lines[0].fields[5], format_number(height_m));
+  EXPECT_EQ(table.lines[1].fields[0], "0101");
+  EXPECT_EQ(table.lines[1].fields[1], "7");
+}
+
+TEST(Run, PutsATableWhereItHarmsNothing) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_id", "A"}}, {{"plot_id", "B"}});
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  options.csv = folder.write("traits.csv", "kept");
+  EXPECT_THAT(message(), HasSubstr("--force"));
+  EXPECT_EQ(read_text(*options.csv), "kept");
+  options.replace = true;
+  options.csv = options.boxes;
+  EXPECT_THAT(message(), HasSubstr("is an input"));
+  options.csv = options.output / "traits.csv";
+  EXPECT_THAT(message(), HasSubstr("lies in the estimate folder"));
+  EXPECT_FALSE(fs::exists(options.output));
 }
 
 TEST(Run, LeavesNothingBehindOnBadInput) {
