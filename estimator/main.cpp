@@ -62,10 +62,7 @@ void say_votes(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_field(const Program& program, const nlohmann::json& diagnostics) {
-  if (diagnostics.contains("nothing")) {
-    program.say("plots      none: " + diagnostics["nothing"].get<std::string>());
-    return;
-  }
+  if (diagnostics.contains("nothing")) return;
   const auto& field = diagnostics["field"];
   const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
   program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg", number("width_m"),
@@ -208,6 +205,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
                   {"heights", summary},
                   {"diagnostics", estimate.diagnostics},
                   {"seconds", seconds}});
+  estimate::require_measured(estimate);
 }
 
 void declare_lattice(CLI::App& run, RunArguments& arguments) {

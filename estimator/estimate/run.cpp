@@ -185,6 +185,25 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
   return estimate;
 }
 
+void require_measured(const Estimate& estimate) {
+  const bool measured = std::ranges::any_of(
+      estimate.plots, [](const PlotEstimate& plot) { return !plot.heights_m.empty(); });
+  if (measured) return;
+  const json& diagnostics = estimate.diagnostics;
+  const Area area = diagnostics.at("area_m").get<Area>();
+  const double density =
+      diagnostics.at("points_in_area").get<double>() / ((area[2] - area[0]) * (area[3] - area[1]));
+  const std::string found = formatted(" (%.3g points/m2)", density);
+  if (!estimate.plots.empty()) {
+    throw NothingToMeasure("no plot has enough points for a height" + found +
+                           "; check that the boxes and the cloud are of one field, and fly lower "
+                           "where points are few");
+  }
+  throw NothingToMeasure("no plots: " + diagnostics.value("nothing", "none were found") + found +
+                         "; say where they are with --crop-box or --boxes, or fly lower where "
+                         "points are few");
+}
+
 json height_summary(const Estimate& estimate) {
   std::map<std::string, std::vector<double>> heights_m;
   for (const PlotEstimate& plot : estimate.plots) {

@@ -40,6 +40,10 @@ const std::vector<std::string>& method_names();
 // behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
 
+// Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says
+// why, how dense the cloud is, and what to do next.
+void require_measured(const Estimate& estimate);
+
 // How many plots have each height, and its median, least and greatest value, metres.
 nlohmann::json height_summary(const Estimate& estimate);
 

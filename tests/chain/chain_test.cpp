@@ -134,6 +134,28 @@ TEST_F(Chain, NumbersPlotsAsTheFieldBookDoes) {
   }
 }
 
+// A bare slope: sound input without plots. The folder is there, with the ground.
+TEST_F(Chain, SaysThatThereIsNothingToMeasure) {
+  std::string points;
+  std::size_t count = 0;
+  for (int x = 0; x < 100; ++x) {
+    for (int y = 0; y < 100; ++y, ++count) {
+      points += std::to_string(0.1 * x) + " " + std::to_string(0.1 * y) + " " +
+                std::to_string(0.01 * x) + "\n";
+    }
+  }
+  folder_.write("bare.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                                "\nproperty float x\nproperty float y\nproperty float z\n"
+                                "end_header\n" +
+                                points);
+  const Finished finished = run("estimator run bare.ply -o estimate", folder_.path().string());
+  EXPECT_EQ(finished.exit_code, 3) << finished.output << finished.errors;
+  for (const char* word : {"no plots: ", "points/m2", "--crop-box", "--boxes", "fly lower"})
+    EXPECT_NE(finished.errors.find(word), std::string::npos) << word << '\n' << finished.errors;
+  EXPECT_TRUE(exists("estimate/ground.asc"));
+  EXPECT_TRUE(exists("estimate/plots.geojson"));
+}
+
 TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "7"}) {
     succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);

@@ -241,6 +241,21 @@ TEST(Run, PutsATableWhereItHarmsNothing) {
   EXPECT_FALSE(fs::exists(options.output));
 }
 
+TEST(Run, KnowsWhenNothingWasMeasured) {
+  Estimate estimate{
+      .method = "lattice",
+      .diagnostics = {
+          {"points_in_area", 300}, {"area_m", {0, 0, 10, 20}}, {"nothing", "a reason"}}};
+  const auto message = [&] {
+    return message_of<NothingToMeasure>([&] { require_measured(estimate); });
+  };
+  EXPECT_THAT(message(), HasSubstr("no plots: a reason (1.5 points/m2)"));
+  estimate.plots = {{.id = 1, .box = {}}, {.id = 2, .box = {}}};
+  EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1.5 points/m2)"));
+  estimate.plots[1].heights_m["max"] = 0.5;
+  EXPECT_NO_THROW(require_measured(estimate));
+}
+
 TEST(Run, LeavesNothingBehindOnBadInput) {
   const TemporaryFolder folder;
   RunOptions options = small_run(folder, kFarm);
