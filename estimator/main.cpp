@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "estimate/run.h"
@@ -27,6 +28,11 @@ struct RunArguments {
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
+  std::string id;
+  std::string plot_names;
+  std::string numbering;
+  std::string first_corner;
+  std::string csv;
   std::optional<double> heading_deg;
   std::optional<int> plots;
   bool no_calibration = false;
@@ -58,10 +64,7 @@ void say_votes(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_field(const Program& program, const nlohmann::json& diagnostics) {
-  if (diagnostics.contains("nothing")) {
-    program.say("plots      none: " + diagnostics["nothing"].get<std::string>());
-    return;
-  }
+  if (diagnostics.contains("nothing")) return;
   const auto& field = diagnostics["field"];
   const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
   program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg", number("width_m"),
@@ -77,6 +80,41 @@ void say_crop(const Program& program, const nlohmann::json& crops) {
       likely.push_back(formatted("%s %.0f %%", crop.c_str(), 100 * probability.get<double>()));
   }
   program.say("crop       " + joined(likely, ", "));
+}
+
+// "EPSG:25832 (UTM 32N; ETRS89 is taken for WGS 84, within 2 m)", of a system that is UTM's.
+std::string described(const std::string& crs) {
+  const UtmSystem system = utm_system(crs).value();
+  std::string text =
+      crs + formatted(" (UTM %d%c", system.zone.number, system.zone.north ? 'N' : 'S');
+  if (system.datum != "WGS 84") text += "; " + system.datum + " is taken for WGS 84, within 2 m";
+  return text + ")";
+}
+
+void say_given(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("boxes")) return;
+  program.say(formatted("boxes      %zu plots given, %s %s to %s", estimate.plots.size(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (estimate.diagnostics["boxes"]["from_degrees"].get<bool>()) {
+    program.say("           longitude and latitude of the map converted to " +
+                described(estimate.crs));
+  }
+}
+
+// Whose names were given by row and column, and found no plot.
+void say_named(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("names")) return;
+  const auto& names = estimate.diagnostics["names"];
+  const auto& not_found = names["not_found"];
+  program.say(formatted("names      %zu of %zu named plots found, %s %s to %s",
+                        estimate.plots.size(), names["plots"].get<std::size_t>(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (not_found.empty()) return;
+  std::vector<std::string> ids;
+  for (const auto& id : not_found) ids.push_back(id.get<std::string>());
+  program.say("           not found: " + joined(ids, ", "));
 }
 
 void say_how(const Program& program, const nlohmann::json& diagnostics) {
@@ -98,13 +136,15 @@ void say_how(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {
-  std::map<std::string, std::size_t> plots_by_flag;
+  constexpr std::size_t kNamed = 5;
+  std::map<std::string, std::vector<std::string>> ids_by_flag;
   for (const estimate::PlotEstimate& plot : estimate.plots) {
-    for (const std::string& flag : plot.flags) ++plots_by_flag[flag];
+    for (const std::string& flag : plot.flags) ids_by_flag[flag].push_back(plot.id.text());
   }
-  for (const auto& [flag, plots] : plots_by_flag) {
-    program.say(
-        formatted("flagged    %zu of %zu plots: %s", plots, estimate.plots.size(), flag.c_str()));
+  for (const auto& [flag, ids] : ids_by_flag) {
+    const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
+    program.say(formatted("flagged    %zu of %zu plots: %s%s", ids.size(), estimate.plots.size(),
+                          flag.c_str(), named.c_str()));
   }
 }
 
@@ -127,6 +167,20 @@ void require_own_options(const CLI::App& command, const std::string& method) {
   }
 }
 
+estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
+  using estimate::Corner;
+  static const std::map<std::string, Corner> corners = {
+      {"sw", Corner::sw}, {"se", Corner::se}, {"nw", Corner::nw}, {"ne", Corner::ne}};
+  estimate::NumberingOptions numbering = arguments.options.numbering;
+  if (!arguments.numbering.empty()) {
+    numbering.numbering =
+        arguments.numbering == "serpentine" ? PlotNumbering::serpentine : PlotNumbering::rows;
+  }
+  if (!arguments.first_corner.empty()) numbering.first_corner = corners.at(arguments.first_corner);
+  if (!arguments.plot_names.empty()) numbering.names = arguments.plot_names;
+  return numbering;
+}
+
 void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
@@ -142,6 +196,9 @@ void run_estimate(const Program& program, RunArguments arguments) {
     options.lattice.hints.heading_rad = *arguments.heading_deg * std::numbers::pi / 180;
   }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
+  if (!arguments.id.empty()) options.id = arguments.id;
+  options.numbering = numbering_of(arguments);
+  if (!arguments.csv.empty()) options.csv = arguments.csv;
   if (options.method == "dhami2020" && arguments.boxes.empty() && !arguments.plots) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
@@ -151,15 +208,19 @@ void run_estimate(const Program& program, RunArguments arguments) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = estimate::height_summary(estimate);
   say_how(program, estimate.diagnostics);
+  say_given(program, estimate);
+  say_named(program, estimate);
   say_heights(program, summary);
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
                         options.output.c_str()));
+  if (options.csv) program.say("           and " + options.csv->string());
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},
                   {"heights", summary},
                   {"diagnostics", estimate.diagnostics},
                   {"seconds", seconds}});
+  estimate::require_measured(estimate);
 }
 
 void declare_lattice(CLI::App& run, RunArguments& arguments) {
@@ -214,6 +275,32 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
       ->group(group);
 }
 
+// What the plots are called.
+void declare_names(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--id", arguments.id,
+                 "property of --boxes, or column of --plot-names, that is the plots' id (default: "
+                 "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
+                 "name, id)");
+  run.add_option("--first-number", arguments.options.numbering.first_number,
+                 "number of the first plot that is found; the others follow along the rows")
+      ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1000000000}))
+      ->excludes("--boxes");
+  run.add_option("--numbering", arguments.numbering,
+                 "zigzag: every row from its first column (default); serpentine: every other row "
+                 "from its last")
+      ->check(CLI::IsMember({"zigzag", "serpentine"}))
+      ->excludes("--boxes");
+  run.add_option("--first-corner", arguments.first_corner,
+                 "sw, se, nw or ne: where row 1 and column 1 are, once plots are numbered or named "
+                 "(default: sw)")
+      ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
+      ->excludes("--boxes");
+  run.add_option("--plot-names", arguments.plot_names,
+                 "table (CSV) with columns row, column, an id and others: the plots that are found "
+                 "are called so, and keep the other columns")
+      ->excludes("--boxes", "--first-number", "--numbering");
+}
+
 void declare_run(Program& program, RunArguments& arguments) {
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
@@ -234,12 +321,17 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->delimiter(',')
       ->expected(4);
   run.add_option("--boxes", arguments.boxes,
-                 "plots.geojson with the plots' boxes: measure heights in them, search none");
+                 "map of the plots (GeoJSON): measure heights in its boxes, keep its ids and "
+                 "attributes, search none");
+  declare_names(run, arguments);
+  run.add_option("--csv", arguments.csv,
+                 "also write this table, a line a plot, for breeding databases: "
+                 "observationunit_name, attributes, heights (metres)");
   run.add_option("--plots", arguments.plots,
                  "how many plots lie in the field, or in --learn-box (1 to 100000; dhami2020 needs "
                  "it)")
       ->excludes("--boxes");
-  run.add_flag("--force", options.replace, "replace an estimate folder that exists");
+  run.add_flag("--force", options.replace, "replace an estimate folder, a table that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);
 }

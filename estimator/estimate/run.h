@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
+#include "estimate/plot_numbers.h"
 
 namespace plotscan::estimate {
 
@@ -19,11 +20,14 @@ struct RunOptions {
   std::filesystem::path cloud;  // PCD, PLY or LAS, or a scan folder with its cloud.pcd
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
-  std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
-  bool replace = false;                             // an estimate folder that exists
-  std::optional<Area> crop_box = {};                // use only the points in here
-  LatticeOptions lattice = {};                      // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};                  // as above, and the seed
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
+  NumberingOptions numbering = {};                  // of the plots that are found, without boxes
+  std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
+  std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
+  bool replace = false;                           // an estimate folder, a table that exists
+  std::optional<Area> crop_box = {};              // use only the points in here
+  LatticeOptions lattice = {};                    // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};                // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -32,9 +36,13 @@ struct RunOptions {
 const std::vector<std::string>& method_names();
 
 // Runs the method and writes the estimate folder (docs/estimate-format.md). With given boxes, plots
-// keep the file's numbers, rows and columns. Throws InputError on bad input; nothing is left behind
-// then.
+// keep the map's ids and attributes (plot_map.h). Throws InputError on bad input; nothing is left
+// behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
+
+// Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says
+// why, how dense the cloud is, and what to do next.
+void require_measured(const Estimate& estimate);
 
 // How many plots have each height, and its median, least and greatest value, metres.
 nlohmann::json height_summary(const Estimate& estimate);

@@ -99,8 +99,7 @@ TrialLayout layout_of(const PlotGridDescription& grid) {
   Eigen::AlignedBox2d bounds;  // along the layout's axes
   for (std::size_t row = 0; row < grid.rows.size(); ++row) {
     for (std::uint32_t place = 0; place < grid.rows[row].plots; ++place) {
-      const bool backward = grid.numbering == PlotNumbering::serpentine && row % 2 == 1;
-      const std::uint32_t column = backward ? grid.rows[row].plots - 1 - place : place;
+      const std::uint32_t column = column_at(grid.numbering, row, place, grid.rows[row].plots);
       const Eigen::Vector2d low(
           grid.rows[row].offset_m + column * pitch.x() + column_wider_m[column],
           static_cast<double>(row) * pitch.y() + row_wider_m[row]);

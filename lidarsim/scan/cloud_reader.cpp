@@ -146,4 +146,6 @@ CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSi
   return summary;
 }
 
+std::string cloud_crs(const std::filesystem::path& cloud) { return read_cloud_header(cloud).crs(); }
+
 }  // namespace plotscan::scan

@@ -38,4 +38,8 @@ struct PositionOptions {
 CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 
+// The coordinate system that the file names (CloudSummary::crs), of its header alone. Throws
+// InputError as read_positions does.
+std::string cloud_crs(const std::filesystem::path& cloud);
+
 }  // namespace plotscan::scan
