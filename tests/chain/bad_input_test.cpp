@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"estimator run truncated.las -o out", "promises 10 points of 20"},
         BadCommand{"estimator run index.ply -o out --crop-box 50,50,60,60",
                    "none of its 3 points lies in"},
-        BadCommand{"estimator run truncated.pcd -o out --plots 3", "belongs to --method dhami2020"},
+        BadCommand{"estimator run truncated.pcd -o out --voxel 0.1", "belongs to --method dhami2020"},
         BadCommand{"estimator run truncated.pcd -o out --noise=-1", "noise"},
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots=-3", "plots"},
         BadCommand{"estimator run index.ply -o out --boxes broken.yaml", "not a GeoJSON"},
