@@ -24,6 +24,7 @@ constexpr int kDenseNeighbours = 3;      // of 8, that a dense square metre has,
 struct Raster {
   Eigen::Array2d low = Eigen::Array2d::Zero();
   double step_m = 1;
+  double points_a_count = 1;
   int columns = 0;
   int rows = 0;
   std::vector<std::uint32_t> counts = {};
@@ -50,7 +51,9 @@ Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
   }
   if (!(low <= high).all()) throw InputError("the cloud has no finite point");
   constexpr double kMostSquares = 4096;
-  Raster raster{.low = low, .step_m = std::max(1.0, (high - low).maxCoeff() / kMostSquares)};
+  Raster raster{.low = low,
+                .step_m = std::max(1.0, (high - low).maxCoeff() / kMostSquares),
+                .points_a_count = static_cast<double>(every)};
   raster.columns = static_cast<int>((high - low).x() / raster.step_m) + 1;
   raster.rows = static_cast<int>((high - low).y() / raster.step_m) + 1;
   raster.counts.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
@@ -113,10 +116,40 @@ BasePlane base_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   return {.z_m = plane[0], .slope = plane.tail<2>()};
 }
 
+// Squares twice as wide.
+Raster coarser(const Raster& raster) {
+  Raster coarse{.low = raster.low,
+                .step_m = 2 * raster.step_m,
+                .points_a_count = raster.points_a_count,
+                .columns = (raster.columns + 1) / 2,
+                .rows = (raster.rows + 1) / 2};
+  coarse.counts.resize(static_cast<std::size_t>(coarse.columns) * coarse.rows);
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column)
+      coarse.counts[static_cast<std::size_t>(row / 2) * coarse.columns + column / 2] +=
+          raster.count(column, row);
+  }
+  return coarse;
+}
+
+// Points a square metre where most points lie, over squares wide enough to hold several.
+double usual_density(Raster raster) {
+  constexpr double kSeveral = 16;
+  while (usual_count(raster) < kSeveral && raster.columns * raster.rows > 1)
+    raster = coarser(raster);
+  return raster.points_a_count * usual_count(raster) / (raster.step_m * raster.step_m);
+}
+
+double cell_for(const Raster& raster) {
+  constexpr double kPointsOfCell = 2, kNarrowest_m = 0.2, kWidest_m = 10;
+  return std::clamp(std::sqrt(kPointsOfCell / usual_density(raster)), kNarrowest_m, kWidest_m);
+}
+
 }  // namespace
 
-Grid grid_of(std::span<const Eigen::Vector3f> points, double cell_m) {
+Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> step_m) {
   const Raster raster = raster_of(points);
+  const double cell_m = step_m.value_or(cell_for(raster));
   const double least = std::max(1.0, kSparse * usual_count(raster));
   const auto dense = [&](int column, int row) { return raster.count(column, row) >= least; };
   std::array<int, 4> box = {raster.columns, raster.rows, -1, -1};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct Columns {
 };
 
 // The grid that covers what was surveyed densely: sparse surroundings and stray points lie outside.
-Grid grid_of(std::span<const Eigen::Vector3f> points, double cell_m);
+// Without a step, cells are as wide as usually holds a few points, and no narrower than 0.2 m.
+Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> cell_m);
 
 // The points on the grid. Those that are not finite or outside of it are left out.
 Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid);

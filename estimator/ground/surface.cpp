@@ -141,6 +141,8 @@ Ground find_ground(const Columns& low, double noise_m) {
   return ground;
 }
 
+// Ground returns may lie so many cells apart where they are few.
+constexpr double kReachCells = 4;
 // A cell's bilinear patch leaves as much of a broken ground's heights, whatever the sensor's noise.
 constexpr double kLeastSpread_m = 0.01;
 
@@ -169,7 +171,8 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
         static_cast<float>(columns.base.z_m + grid.cell_m * columns.base.slope.dot(place));
     surface.seen[i] = ground.evidence.support[i] > 0.5f && ground.evidence.data[i] > 0;
   }
-  forget_beyond_reach(grid, ground.evidence.data, options.reach_m, surface);
+  forget_beyond_reach(grid, ground.evidence.data,
+                      std::max(options.reach_m, kReachCells * grid.cell_m), surface);
   return surface;
 }
 
@@ -248,8 +251,8 @@ Eigen::Vector2d Surface::slope(const Eigen::Vector2d& place) const {
 }
 
 Surface fit_surface(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  if (!(options.cell_m >= 0.02 && options.cell_m <= 10)) {
-    throw InputError("the ground's cell is " + std::to_string(options.cell_m) +
+  if (options.cell_m && !(*options.cell_m >= 0.02 && *options.cell_m <= 10)) {
+    throw InputError("the ground's cell is " + std::to_string(*options.cell_m) +
                      " m; it has to lie in 0.02 to 10 m");
   }
   if (options.noise_m && !(*options.noise_m >= 0 && *options.noise_m <= 1)) {

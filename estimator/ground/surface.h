@@ -48,9 +48,9 @@ struct Surface {
 };
 
 struct SurfaceOptions {
-  double cell_m = 0.2;                           // grid's step
+  std::optional<double> cell_m = std::nullopt;   // grid's step; by the points' density where absent
   std::optional<double> noise_m = std::nullopt;  // sigma of heights; estimated where absent
-  double reach_m = 4;  // farther from any ground return there is no ground
+  double reach_m = 4;  // farther from any ground return, and than 4 cells, there is no ground
   int threads = 1;
 };
 
