@@ -200,7 +200,8 @@ void declare_run(Program& program, RunArguments& arguments) {
                       [&program, &arguments] { run_estimate(program, arguments); });
   arguments.command = &run;
   auto& options = arguments.options;
-  run.add_option("CLOUD", options.cloud, "PCD, PLY or LAS cloud, or a scan folder (its cloud.pcd)")
+  run.add_option("CLOUD", options.cloud,
+                 "PCD, PLY, LAS or text cloud, or a scan folder (its cloud.pcd)")
       ->required();
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,

@@ -49,7 +49,7 @@ class CloudMap {
   std::size_t points_read_ = 0;
 };
 
-// Streams a cloud (PCD, PLY or LAS) into a map of the area; without one, of the field that
+// Streams a cloud into a map of the area; without one, of the field that
 // FieldFinder finds in a first pass over the file. Memory is bounded by the points inside the area.
 // Throws InputError on a broken cloud or when no point lies in the area.
 CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,

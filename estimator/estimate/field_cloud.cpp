@@ -87,8 +87,8 @@ namespace {
 
 scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& cloud) {
   const Stage stage("reading");
-  return scan::read_positions(
-      cloud, [&](auto points) { store.add(points); }, {.leave_out_marked = true});
+  return scan::read_positions(cloud, [&](auto points) { store.add(points); },
+                              {.leave_out_marked = true});
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ struct FieldCloud {
   std::string crs = {};  // the cloud's coordinate system (scan::CloudSummary)
 };
 
-// Streams a cloud (PCD, PLY or LAS) once, in memory bounded by the area over which it lies
+// Streams a cloud once, in memory bounded by the area over which it lies
 // (tile_store.h). Throws InputError on a broken cloud, or when no point lies in the area.
 FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
                       const ProgressReport& progress = {});

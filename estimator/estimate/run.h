@@ -16,7 +16,7 @@ namespace plotscan::estimate {
 
 // One run of a method, from files to an estimate folder.
 struct RunOptions {
-  std::filesystem::path cloud;  // PCD, PLY or LAS, or a scan folder with its cloud.pcd
+  std::filesystem::path cloud;  // any that scan reads, or a scan folder
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes

@@ -14,24 +14,60 @@ namespace plotscan::scan {
 namespace {
 
 constexpr std::size_t kMaxHeaderLine = std::size_t{1} << 16;
+// Bytes by which a format is known.
+constexpr std::size_t kStart = std::size_t{1} << 12;
 
-enum class CloudFormat { pcd, ply, las };
+enum class CloudFormat { pcd, ply, las, text };
 
-// By content, since names lie: PLY and LAS begin with their names, PCD with a comment or a header
-// entry.
-CloudFormat cloud_format(const std::filesystem::path& file) {
+std::string start_of(const std::filesystem::path& file) {
   require_file(file);
   std::ifstream in(file, std::ios::binary);
-  std::string start(7, '\0');
+  std::string start(kStart, '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(in.gcount()));
+  return start;
+}
+
+// PCD begins with a header entry, comments in front of it or not.
+bool is_pcd(const std::string& start) {
+  std::istringstream in(start);
+  for (std::string line, word; std::getline(in, line); word.clear()) {
+    std::istringstream(line) >> word;
+    if (word.empty() || word.starts_with('#')) continue;
+    return word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
+  }
+  return start.starts_with("# .PCD");
+}
+
+bool is_text(std::string_view start) {
+  return std::ranges::all_of(start, [](unsigned char c) {
+    return c >= ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f';
+  });
+}
+
+// By content, since names lie.
+CloudFormat cloud_format(const std::filesystem::path& file) {
+  const std::string start = start_of(file);
   if (start.starts_with("ply\n") || start.starts_with("ply\r")) return CloudFormat::ply;
   if (start.starts_with("LASF")) return CloudFormat::las;
-  if (start.starts_with("#") || start.starts_with("VERSION") || start.starts_with("FIELDS") ||
-      start.starts_with("COLUMNS"))
-    return CloudFormat::pcd;
-  throw InputError(file, start.empty() ? "is empty; a PCD, PLY or LAS cloud is expected"
-                                       : "is neither a PCD, nor a PLY, nor a LAS cloud");
+  if (is_pcd(start)) return CloudFormat::pcd;
+  if (start.empty()) throw InputError(file, "is empty; a PCD, PLY, LAS or text cloud is expected");
+  if (is_text(start)) return CloudFormat::text;
+  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text");
+}
+
+CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file) {
+  switch (format) {
+    case CloudFormat::pcd:
+      return read_pcd_header(file);
+    case CloudFormat::ply:
+      return read_ply_header(file);
+    case CloudFormat::las:
+      return read_las_header(file);
+    case CloudFormat::text:
+      return read_text_header(file);
+  }
+  throw std::logic_error("unknown format of a cloud");
 }
 
 // By a LAS point's withheld flag and class.
@@ -63,19 +99,26 @@ std::string CloudLayout::crs() const {
 HeaderLines::HeaderLines(const std::filesystem::path& file)
     : file_(file), in_(file, std::ios::binary) {}
 
-const std::vector<std::string>& HeaderLines::next() {
+std::optional<std::string> HeaderLines::next_text() {
   std::string text;
   ++line_;
   for (;;) {
     const int c = in_.get();
-    if (c == std::ifstream::traits_type::eof()) fail("the file ends inside its header");
+    if (c == std::ifstream::traits_type::eof()) break;
     ++offset_;
-    if (c == '\n') break;
+    if (c == '\n') return text;
     if (text.size() == kMaxHeaderLine) fail("a header line is too long; the header is broken");
     text.push_back(static_cast<char>(c));
   }
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+const std::vector<std::string>& HeaderLines::next() {
+  const std::optional<std::string> text = next_text();
+  if (!text) fail("the file ends inside its header");
   words_.clear();
-  std::istringstream in(text);
+  std::istringstream in(*text);
   for (std::string word; in >> word;) words_.push_back(word);
   return words_;
 }
@@ -105,10 +148,7 @@ void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
 }
 
 CloudLayout read_cloud_header(const std::filesystem::path& file) {
-  const CloudFormat format = cloud_format(file);
-  const CloudLayout layout = format == CloudFormat::pcd   ? read_pcd_header(file)
-                             : format == CloudFormat::ply ? read_ply_header(file)
-                                                          : read_las_header(file);
+  const CloudLayout layout = read_header_of(cloud_format(file), file);
   if (layout.points == 0) throw InputError(file, "the cloud is empty: its header says 0 points");
   return layout;
 }

@@ -31,10 +31,10 @@ struct PositionOptions {
   bool leave_out_marked = false;
 };
 
-// Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary) or LAS (1.0
-// to 1.4) cloud, whatever other fields it has. Nothing but positions is handed on, so that an
-// estimator cannot see labels. All but compressed PCD is read in constant memory. Throws InputError
-// (file, what is wrong) on a missing, foreign, truncated or empty cloud.
+// Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary), LAS (1.0 to
+// 1.4) or text cloud (a line a point), whatever other fields it has. Nothing but positions is
+// handed on, so that an estimator cannot see labels. All but compressed PCD is read in constant
+// memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or empty cloud.
 CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 

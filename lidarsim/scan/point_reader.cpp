@@ -200,7 +200,9 @@ double time_shift_s(const CloudLayout& layout, const CloudInfo& info) {
 CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   const CloudLayout layout = read_cloud_header(cloud);
   const Selection selection = select(layout);
-  CloudInfo info{.points = layout.points, .start = layout.start, .crs_wkt = layout.crs_wkt};
+  CloudInfo info{.points = layout.is_text ? 0 : layout.points,
+                 .start = layout.start,
+                 .crs_wkt = layout.crs_wkt};
   if (!has_float_coordinates(layout)) {
     const FirstPoint first = first_point(cloud, layout);
     info.origin_m = (first.position_m / kOriginStep_m).array().round() * kOriginStep_m;
