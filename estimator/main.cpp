@@ -68,6 +68,8 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_how(const Program& program, const nlohmann::json& diagnostics) {
+  for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
+    program.say("note       " + note.get<std::string>());
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
                         diagnostics["points_in_area"].get<std::size_t>()));

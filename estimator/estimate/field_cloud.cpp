@@ -106,6 +106,7 @@ FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& op
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;
   field.crs = summary.crs;
+  field.notes = summary.notes;
   if (progress) progress(0.3);
   return field;
 }

@@ -48,7 +48,8 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
-  std::string crs = {};  // the cloud's coordinate system (scan::CloudSummary)
+  std::string crs = {};                 // the cloud's coordinate system (scan::CloudSummary)
+  std::vector<std::string> notes = {};  // of how the file was read (scan::CloudSummary)
 };
 
 // Streams a cloud once, in memory bounded by the area over which it lies

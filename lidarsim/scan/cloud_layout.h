@@ -48,7 +48,8 @@ struct CloudLayout {
   std::uint64_t body_offset = 0;  // of the first point, bytes from the file's start
   std::size_t body_line = 0;      // of the first point, lines from 1
 
-  bool in_degrees = false;  // x and y
+  bool in_degrees = false;         // x and y
+  std::vector<std::string> notes;  // what the reader should be told, a sentence each
 
   // What only text without a header of its own kind says (text_header.cpp).
   bool is_text = false;
@@ -115,8 +116,9 @@ CloudLayout read_text_header(const std::filesystem::path& file);
 // By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
 CloudLayout read_cloud_header(const std::filesystem::path& file);
 
-// x, y and z of a PCD or PLY layout. InputError at the header's last line unless each is one float.
-void require_coordinates(const HeaderLines& lines, const CloudLayout& layout);
+// Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
+// header's last line unless each is one float.
+void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 
 // Receives points as rows of numbers, row after row, a number for each field asked for.
 using RowSink = std::function<void(std::span<const double> rows)>;

@@ -28,6 +28,13 @@ std::string start_of(const std::filesystem::path& file) {
   return start;
 }
 
+// The first line is "ply", blanks behind it or not.
+bool is_ply(const std::string& start) {
+  const std::size_t end = start.find_first_of("\r\n");
+  return start.starts_with("ply") && end != std::string::npos &&
+         start.find_first_not_of(" \t", 3) == end;
+}
+
 // PCD begins with a header entry, comments in front of it or not.
 bool is_pcd(const std::string& start) {
   std::istringstream in(start);
@@ -48,7 +55,7 @@ bool is_text(std::string_view start) {
 // By content, since names lie.
 CloudFormat cloud_format(const std::filesystem::path& file) {
   const std::string start = start_of(file);
-  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return CloudFormat::ply;
+  if (is_ply(start)) return CloudFormat::ply;
   if (start.starts_with("LASF")) return CloudFormat::las;
   if (is_pcd(start)) return CloudFormat::pcd;
   if (start.empty()) throw InputError(file, "is empty; a PCD, PLY, LAS or text cloud is expected");
@@ -137,9 +144,12 @@ std::uint64_t HeaderLines::whole_number(const std::string& word, std::uint64_t l
   return value;
 }
 
-void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
+void require_coordinates(const HeaderLines& lines, CloudLayout& layout) {
   for (const char axis : {'x', 'y', 'z'}) {
     const std::string name(1, axis);
+    const std::string capital(1, static_cast<char>(axis - 'x' + 'X'));
+    const auto capitals = std::ranges::find(layout.fields, capital, &ScalarField::name);
+    if (layout.find(name) == nullptr && capitals != layout.fields.end()) capitals->name = name;
     const ScalarField* field = layout.find(name);
     if (field == nullptr) lines.fail("the cloud has no field \"" + name + "\"");
     if (field->kind != 'F' || field->size < 4 || field->count != 1)
@@ -162,7 +172,7 @@ CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSi
     fields.push_back(*layout.find(las::kWithheld));
     fields.push_back(*layout.find(las::kClassification));
   }
-  CloudSummary summary{.crs = layout.crs(), .in_degrees = layout.in_degrees};
+  CloudSummary summary{.crs = layout.crs(), .in_degrees = layout.in_degrees, .notes = layout.notes};
   std::vector<Eigen::Vector3d> positions;
   read_rows(cloud, layout, fields, [&](std::span<const double> rows) {
     positions.clear();

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,6 +23,8 @@ struct CloudSummary {
   // that names no code; else "".
   std::string crs = {};
   bool in_degrees = false;  // x and y are longitude and latitude: the file says so
+  // What the user should be told of how the file was read, a sentence each.
+  std::vector<std::string> notes = {};
 };
 
 struct PositionOptions {

@@ -187,21 +187,29 @@ bool is_geographic(const std::string& wkt) {
   return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
 }
 
+// Where the points lie is said elsewhere: a wrong count of records does no harm to them.
+std::string count_note(std::uint64_t promised, std::uint64_t found) {
+  return "the header promises " + std::to_string(promised) + " variable length records, " +
+         std::to_string(found) + " are whole; the others were not looked at";
+}
+
 // What the variable length records say; `at` is the first one's.
 void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
                   const LasHeader& header, CloudLayout& layout) {
   const std::uint64_t end = extended ? file.size() : header.points_at;
   const std::uint64_t header_size = extended ? las::kEvlrHeaderSize : las::kVlrHeaderSize;
   for (std::uint64_t i = 0; i < count; ++i) {
-    if (at > end || end - at < header_size)
-      file.fail("promises " + std::to_string(count) + " variable length records, has " +
-                std::to_string(i));
-    const std::uint64_t size =
-        extended ? file.number<std::uint64_t>(at + 20) : file.number<std::uint16_t>(at + 20);
+    const bool has_header = at <= end && end - at >= header_size;
+    const std::uint64_t size = !has_header ? 0
+                               : extended  ? file.number<std::uint64_t>(at + 20)
+                                           : file.number<std::uint16_t>(at + 20);
+    if (!has_header || size > end - at - header_size) {
+      layout.notes.push_back(count_note(count, i));
+      return;
+    }
     const std::string user = file.text(at + 2, 16);
     const auto record = file.number<std::uint16_t>(at + 18);
     at += header_size;
-    if (size > end - at) file.fail("a variable length record reaches beyond its place");
     if (user == las::kSpecUser && record == las::kExtraBytesRecord) {
       add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {

@@ -103,15 +103,11 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
 
 json describe(const FieldCloud& cloud) {
   const FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},
-          {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite},
-          {"marked", counts.marked},
-          {"outside", counts.outside},
-          {"repeated", counts.repeated},
-          {"thinned", counts.thinned},
-          {"outliers", counts.outliers},
-          {"area_m", cloud.area}};
+  return {{"notes", cloud.notes},          {"points_read", counts.read},
+          {"points_in_area", counts.kept}, {"not_finite", counts.not_finite},
+          {"marked", counts.marked},       {"outside", counts.outside},
+          {"repeated", counts.repeated},   {"thinned", counts.thinned},
+          {"outliers", counts.outliers},   {"area_m", cloud.area}};
 }
 
 json describe(const ground::Surface& surface) {

@@ -17,6 +17,7 @@
 namespace plotscan::scan {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::TemporaryFolder;
@@ -230,6 +231,30 @@ TEST(ShortCrs, IsTheCodeOfTheProjectedSystem) {
         std::string(R"(PROJCS["x",GEOGCS["y",AUTHORITY["EPSG","4326"]]])"),
         std::string(R"(PROJCS["broken)")})
     EXPECT_EQ(short_crs(none), none);
+}
+
+// What matters is where the points begin.
+TEST_F(ForeignLasFile, AWrongCountOfRecordsIsNoted) {
+  const std::string wkt = R"(PROJCS["x",AUTHORITY["EPSG","32617"]])";
+  const std::string records = record("LASF_Projection", 2112, wkt);
+  const std::string beyond = record("someone", 1, "12") + std::string(60, '\xff');
+  const std::vector<ForeignLas> files = {
+      {.records = records, .record_count = 3},
+      {.records = records + "padding", .record_count = 4000000000},
+      {.records = records + beyond, .record_count = 3},
+      {.minor = 4, .records = records, .record_count = 1, .extended_record_count = 7}};
+  const std::vector<std::string> notes = {"promises 3 variable length records, 1 are whole",
+                                          "promises 4000000000 variable length records, 1 are",
+                                          "promises 3 variable length records, 2 are whole",
+                                          "promises 7 variable length records, 0 are whole"};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Read result = read(files[i], {{{1000, -2000, 3000}}});
+    ASSERT_EQ(result.positions.size(), 1u);
+    EXPECT_EQ(result.positions[0], Eigen::Vector3d(1, -2, 3));
+    EXPECT_EQ(result.summary.crs, "EPSG:32617");
+    EXPECT_THAT(result.summary.notes, ElementsAre(HasSubstr(notes[i])));
+  }
+  EXPECT_TRUE(read({.records = records, .record_count = 1}, {{}}).summary.notes.empty());
 }
 
 TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
