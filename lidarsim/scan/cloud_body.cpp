@@ -52,7 +52,8 @@ double number(const ScalarField& field, const char* bytes, bool swap) {
   }
 }
 
-// What a number of the file stands for.
+}  // namespace
+
 double decode(const ScalarField& field, const char* bytes, bool swap) {
   double value = number(field, bytes, swap);
   if (field.bits > 0)
@@ -60,6 +61,8 @@ double decode(const ScalarField& field, const char* bytes, bool swap) {
   const bool scaled = field.scale != 1 || field.add != 0;
   return scaled ? value * field.scale + field.add : value;
 }
+
+namespace {
 
 bool must_swap(const CloudLayout& layout) {
   return layout.big_endian != (std::endian::native == std::endian::big);
@@ -144,6 +147,12 @@ void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
       return read_binary(file, in, layout, wanted);
     case CloudBody::compressed:
       return read_compressed(file, in, layout, wanted);
+    case CloudBody::laz:
+#ifdef PLOTSCAN_HAVE_LASZIP
+      return read_laz(file, layout, wanted);
+#else
+      break;
+#endif
   }
   throw std::logic_error("unknown kind of cloud body");
 }

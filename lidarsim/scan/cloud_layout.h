@@ -21,6 +21,7 @@ enum class CloudBody {
   ascii,       // one point a line
   binary,      // one record a point
   compressed,  // PCD: LZF over field after field
+  laz,         // LAS records as LASzip packs them
 };
 
 // Where one number of a point lies, and how it is read: value = number * scale + add.
@@ -58,6 +59,7 @@ struct CloudLayout {
 
   // What only LAS says.
   bool is_las = false;
+  int point_format = 0;
   std::string crs_wkt;
   int crs_epsg = 0;                // from GeoTIFF keys; 0: none
   bool adjusted_gps_time = false;  // GPS time less 1e9 s; else of the GPS week

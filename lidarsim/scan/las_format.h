@@ -11,6 +11,7 @@
 
 namespace plotscan::scan::las {
 
+inline constexpr int kNewFormats = 6;  // the formats of LAS 1.4 begin here
 // Bytes of the point formats 0 to 10 without extra bytes (tables 7 to 18).
 inline constexpr std::array<std::size_t, 11> kFormatSizes = {20, 28, 26, 34, 57, 63,
                                                              30, 36, 38, 59, 67};

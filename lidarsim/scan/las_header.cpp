@@ -14,7 +14,11 @@ namespace {
 constexpr std::uint64_t kMaxText = std::uint64_t{1} << 16;
 constexpr std::size_t kOldHeaderSize = 227;
 constexpr std::uint8_t kCompressedFormat = 0xC0;  // LAZ sets one of these bits
-constexpr int kNewFormats = 6;                    // the formats of LAS 1.4 begin here
+#ifdef PLOTSCAN_HAVE_LASZIP
+constexpr bool kReadsLaz = true;
+#else
+constexpr bool kReadsLaz = false;
+#endif
 
 // A LAS file while its header is read. Little-endian numbers at their places.
 class LasFile {
@@ -55,6 +59,7 @@ struct LasHeader {
   std::size_t size = 0;
   std::uint64_t points_at = 0;
   int format = 0;
+  bool compressed = false;
   std::size_t record_size = 0;
   std::uint64_t points = 0;
 };
@@ -79,11 +84,13 @@ LasHeader read_header(LasFile& file) {
   if (header.points_at < header.size || header.points_at > file.size())
     file.fail("its points begin at byte " + std::to_string(header.points_at) +
               ", which is not between the header and the file's end");
-  const auto format = file.number<std::uint8_t>(104);
-  if ((format & kCompressedFormat) != 0)
+  const auto packed_format = file.number<std::uint8_t>(104);
+  header.compressed = (packed_format & kCompressedFormat) != 0;
+  if (header.compressed && !kReadsLaz)
     file.fail(
-        "is compressed (LAZ); uncompressed LAS is read: convert it with laszip or "
-        "PDAL");
+        "is compressed (LAZ), which this build does not read; make a LAS of it with scripts/unlaz, "
+        "or build Plotscan where liblaszip-dev is installed (Debian 13, Ubuntu 24.04)");
+  const auto format = static_cast<std::uint8_t>(packed_format & ~kCompressedFormat);
   if (format >= las::kFormatSizes.size())
     file.fail("point format " + std::to_string(format) + " is not known; 0 to 10 are");
   header.format = format;
@@ -123,7 +130,7 @@ void add_format_fields(int format, CloudLayout& layout) {
   ScalarField intensity = whole("intensity", 12, 2);
   intensity.scale = 1 / las::kIntensityScale;
   layout.fields.push_back(intensity);
-  const bool is_new = format >= kNewFormats;
+  const bool is_new = format >= las::kNewFormats;
   const int bits = is_new ? 4 : 3;
   layout.fields.push_back(whole("return_number", 14, 1, 0, bits));
   layout.fields.push_back(whole("number_of_returns", 14, 1, bits, bits));
@@ -230,8 +237,9 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   LasFile file(path);
   const LasHeader header = read_header(file);
   CloudLayout layout;
-  layout.body = CloudBody::binary;
+  layout.body = header.compressed ? CloudBody::laz : CloudBody::binary;
   layout.is_las = true;
+  layout.point_format = header.format;
   layout.points = header.points;
   layout.record_size = header.record_size;
   layout.body_offset = header.points_at;

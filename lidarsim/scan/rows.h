@@ -43,8 +43,16 @@ class Rows {
   std::vector<double> numbers_;
 };
 
+// What a number stands for that lies at `bytes`, in the other byte order if `swap`.
+double decode(const ScalarField& field, const char* bytes, bool swap);
+
 // One point a line, from where `in` stands.
 void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
                 const Wanted& wanted);
+
+#ifdef PLOTSCAN_HAVE_LASZIP
+// LAZ and COPC, by LASzip. Needs no open file.
+void read_laz(const std::filesystem::path& file, const CloudLayout& layout, const Wanted& wanted);
+#endif
 
 }  // namespace plotscan::scan

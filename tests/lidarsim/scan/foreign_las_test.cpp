@@ -266,7 +266,7 @@ TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
   EXPECT_EQ(read(whole).positions.size(), 3u);
   std::string broken = whole;
   put(broken, 104, static_cast<std::uint8_t>(1 | 0x80));
-  EXPECT_THAT(refusal(broken), HasSubstr("is compressed (LAZ)"));
+  EXPECT_THAT(refusal(broken), HasSubstr("LAZ"));
   broken = whole;
   put(broken, 105, std::uint16_t{27});
   EXPECT_THAT(refusal(broken), HasSubstr("points of format 1 have at least 28 bytes"));
