@@ -26,6 +26,7 @@ struct RunArguments {
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
+  std::string units;
   std::optional<double> heading_deg;
   bool no_calibration = false;
   bool no_level = false;
@@ -67,15 +68,16 @@ void say_field(const Program& program, const nlohmann::json& diagnostics) {
   program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
 }
 
-void say_how(const Program& program, const nlohmann::json& diagnostics) {
+void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
   for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
     program.say("note       " + note.get<std::string>());
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
                         diagnostics["points_in_area"].get<std::size_t>()));
   const auto& area = diagnostics["area_m"];
-  program.say(formatted("field      x %.1f to %.1f m, y %.1f to %.1f m", area[0].get<double>(),
-                        area[2].get<double>(), area[1].get<double>(), area[3].get<double>()));
+  const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
+  program.say(formatted("field      x %.1f to %.1f, y %.1f to %.1f (%s)", side(0), side(2), side(1),
+                        side(3), unit_name(unit_m).c_str()));
   if (diagnostics.contains("ground")) {
     const auto& ground = diagnostics["ground"];
     program.say(formatted("ground     seen in %.0f %% of %.1f m cells, noise %.1f cm",
@@ -120,6 +122,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
+  if (const auto unit_m = unit_named(arguments.units)) options.units = {*unit_m, *unit_m};
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   options.dhami2020.learn_box = area_of(arguments.learn_box);
@@ -137,7 +140,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = estimate::height_summary(estimate);
-  say_how(program, estimate.diagnostics);
+  say_how(program, estimate.diagnostics, estimate.units ? estimate.units->horizontal_m : 1);
   say_heights(program, summary);
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
@@ -174,7 +177,7 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
       ->group(group);
   run.add_option("--learn-box", arguments.learn_box,
                  "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
-                 "the grid over the whole field, metres")
+                 "the grid over the whole field, in the cloud's units")
       ->delimiter(',')
       ->expected(4)
       ->excludes("--boxes")
@@ -212,12 +215,18 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->check(CLI::IsMember(estimate::method_names()))
       ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
-                 "x0,y0,x1,y1: use only the points in here, metres (default: the densely scanned "
+                 "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "
+                 "densely scanned "
                  "field)")
       ->delimiter(',')
       ->expected(4);
   run.add_option("--boxes", arguments.boxes,
                  "plots.geojson with the plots' boxes: measure heights in them, search none");
+  run.add_option(
+         "--units", arguments.units,
+         "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: what "
+         "the file states, else metres)")
+      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
   run.add_flag("--force", options.replace, "replace an estimate folder that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);

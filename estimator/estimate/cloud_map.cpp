@@ -63,20 +63,20 @@ void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
 }
 
 CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,
-                  const ProgressReport& progress) {
+                  const ProgressReport& progress, const std::optional<CoordinateUnits>& units) {
   Area field{};
   if (area) {
     require_area(*area, "crop box");
     field = *area;
   } else {
     FieldFinder finder;
-    scan::read_positions(cloud, [&](auto points) { finder.add(points); });
+    scan::read_positions(cloud, [&](auto points) { finder.add(points); }, {.units = units});
     field = finder.field();
     require_area(field, cloud.string() + ": the scanned field");
   }
   if (progress) progress(0.2);
   CloudMap map(field);
-  scan::read_positions(cloud, [&](auto points) { map.add(points); });
+  scan::read_positions(cloud, [&](auto points) { map.add(points); }, {.units = units});
   if (map.points().empty()) {
     throw InputError(cloud, "none of its " + std::to_string(map.points_read()) +
                                 " points lies in the crop box " + text_of(field));

@@ -196,15 +196,17 @@ std::string method_of(const fs::path& folder) {
 void write_estimate(const fs::path& folder, const Estimate& estimate) {
   std::vector<PlotFeature> features;
   for (const PlotEstimate& plot : estimate.plots) features.push_back(feature_of(plot));
-  write_plot_features(folder / "plots.geojson", features, estimate.crs);
+  write_plot_features(folder / "plots.geojson", features, estimate.crs, estimate.units);
   write_heights(folder / "heights.csv", estimate.plots);
-  if (estimate.ground) write_ground(folder, *estimate.ground);
+  if (estimate.ground)
+    write_ground(folder, *estimate.ground, estimate.units.value_or(CoordinateUnits{}));
 }
 
 Estimate read_estimate(const fs::path& path) {
   const bool is_folder = fs::is_directory(path);
   const fs::path file = is_folder ? path / "plots.geojson" : path;
   Estimate estimate{.method = is_folder ? method_of(path) : ""};
+  estimate.units = read_coordinate_units(file);
   bool any_height = false;
   for (const PlotFeature& feature : read_plot_features(file)) {
     estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));

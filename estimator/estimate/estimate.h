@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/coordinate_units.h"
 #include "core/plot_box.h"
 #include "core/plot_features.h"
 #include "ground/surface.h"
@@ -42,6 +43,8 @@ struct Estimate {
   std::string method;  // "dhami2020"
   std::vector<PlotEstimate> plots = {};
   std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
+  // Of the cloud's file, where they are not metres: the files below have them, all else is metres.
+  std::optional<CoordinateUnits> units = {};
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };

@@ -85,10 +85,11 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& cloud) {
+scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& cloud,
+                             const std::optional<CoordinateUnits>& units) {
   const Stage stage("reading");
   return scan::read_positions(cloud, [&](auto points) { store.add(points); },
-                              {.leave_out_marked = true});
+                              {.leave_out_marked = true, .units = units});
 }
 
 }  // namespace
@@ -97,16 +98,12 @@ FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& op
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
-  const scan::CloudSummary summary = read_into(store, cloud);
-  if (summary.in_degrees)
-    throw InputError(cloud, "is in degrees; project it to metres first, such as those of UTM");
+  const scan::CloudSummary summary = read_into(store, cloud, options.units);
   if (progress) progress(0.2);
   FieldCloud field = take_field(store, options, cloud.string());
   field.counts.read += summary.not_finite + summary.marked;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;
-  field.crs = summary.crs;
-  field.notes = summary.notes;
   if (progress) progress(0.3);
   return field;
 }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/coordinate_units.h"
 #include "core/progress.h"
 #include "estimate/cloud_map.h"
 #include "estimate/tile_store.h"
@@ -22,6 +23,7 @@ struct FieldOptions {
   // of 3,400 points a square metre (128 would take 6 %), and bounds a hectare to 164 million
   // points.
   std::size_t points_per_cell = 256;
+  std::optional<CoordinateUnits> units = {};  // of the file, whatever it states itself
   int threads = 1;
 };
 
@@ -48,8 +50,6 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
-  std::string crs = {};                 // the cloud's coordinate system (scan::CloudSummary)
-  std::vector<std::string> notes = {};  // of how the file was read (scan::CloudSummary)
 };
 
 // Streams a cloud once, in memory bounded by the area over which it lies

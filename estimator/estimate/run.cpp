@@ -11,6 +11,7 @@
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "scan/cloud_reader.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -57,7 +58,8 @@ json options_json(const RunOptions& options) {
   json document =
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
   document["method"] = options.method;
-  document["crop_box_m"] = to_json(options.crop_box);
+  document["crop_box"] = to_json(options.crop_box);
+  document["unit_m"] = options.units ? json(options.units->horizontal_m) : json(nullptr);
   document["given_boxes"] = options.boxes.has_value();
   return document;
 }
@@ -76,6 +78,7 @@ void take_names(const std::vector<PlotFeature>& features, std::vector<PlotEstima
 template <class Options>
 Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
   options.crop_box = run.crop_box;
+  options.units = run.units;
   options.threads = run.threads;
   options.boxes.clear();
   for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
@@ -90,10 +93,30 @@ Estimate run_method(const fs::path& cloud, const RunOptions& run,
   return dhami2020(cloud, options, progress);
 }
 
-std::vector<PlotFeature> read_boxes(const fs::path& file) {
-  std::vector<PlotFeature> features = read_plot_features(file);
+std::vector<PlotFeature> read_boxes(const fs::path& file, double unit_m) {
+  std::vector<PlotFeature> features = read_plot_features(file, unit_m);
   if (features.empty()) throw InputError(file, "has no plots");
   return features;
+}
+
+std::optional<Area> in_metres(std::optional<Area> area, double unit_m) {
+  if (area) std::ranges::transform(*area, area->begin(), [&](double at) { return unit_m * at; });
+  return area;
+}
+
+// The areas of the options in metres.
+RunOptions in_metres(RunOptions options, double unit_m) {
+  options.crop_box = in_metres(options.crop_box, unit_m);
+  options.dhami2020.learn_box = in_metres(options.dhami2020.learn_box, unit_m);
+  return options;
+}
+
+// What the cloud's file says of its coordinates; the units that results are written in.
+void take_system(const scan::CloudSystem& system, const RunOptions& options, Estimate& estimate) {
+  estimate.crs = system.crs;
+  if (!system.zone && (options.units || system.units != CoordinateUnits{}))
+    estimate.units = system.units;
+  estimate.diagnostics["notes"] = system.notes;
 }
 
 }  // namespace
@@ -116,12 +139,15 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
                     .seed = options.seed,
                     .options = options_json(options),
                     .inputs = {cloud}};
+  const scan::CloudSystem system = scan::read_cloud_system(cloud, options.units);
+  const double unit_m = system.units.horizontal_m;
   std::vector<PlotFeature> boxes;
   if (options.boxes) {
-    boxes = read_boxes(*options.boxes);
+    boxes = read_boxes(*options.boxes, unit_m);
     manifest.inputs.push_back(*options.boxes);
   }
-  Estimate estimate = run_method(cloud, options, boxes, progress);
+  Estimate estimate = run_method(cloud, in_metres(options, unit_m), boxes, progress);
+  take_system(system, options, estimate);
   take_names(boxes, estimate.plots);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},

@@ -21,9 +21,12 @@ struct RunOptions {
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
   bool replace = false;                             // an estimate folder that exists
-  std::optional<Area> crop_box = {};                // use only the points in here
-  LatticeOptions lattice = {};                      // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};                  // as above, and the seed
+  // Use only the points in here. In the cloud's own coordinates, as are the given boxes and
+  // dhami2020's learn box; metres of UTM where the cloud is in degrees.
+  std::optional<Area> crop_box = {};
+  std::optional<CoordinateUnits> units = {};  // of the cloud, where it is silent or wrong
+  LatticeOptions lattice = {};                // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};            // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -31,9 +34,10 @@ struct RunOptions {
 // The methods that `run` knows, the default first.
 const std::vector<std::string>& method_names();
 
-// Runs the method and writes the estimate folder (docs/estimate-format.md). With given boxes, plots
-// keep the file's numbers, rows and columns. Throws InputError on bad input; nothing is left behind
-// then.
+// Runs the method and writes the estimate folder (docs/estimate-format.md). Methods count in
+// metres: the cloud's own coordinates become metres here and at reading, and become its own again
+// in write_estimate. With given boxes, plots keep the file's numbers, rows and columns. Throws
+// InputError on bad input; nothing is left behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
 
 // How many plots have each height, and its median, least and greatest value, metres.

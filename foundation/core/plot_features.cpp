@@ -54,15 +54,16 @@ json crs_member(const std::string& crs) {
   return {{"type", "name"}, {"properties", {{"name", name}}}};
 }
 
-void write_collection(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                      const std::string& crs, const char* coordinate_system,
-                      const Projection& projection) {
+json collection(const std::vector<PlotFeature>& plots, const std::string& coordinate_system,
+                const Projection& projection) {
   json features = json::array();
   for (const PlotFeature& plot : plots) features.push_back(feature_of(plot, projection));
-  json document = {{"type", "FeatureCollection"},
-                   {"coordinate_system", coordinate_system},
-                   {"features", features}};
-  if (!crs.empty()) document["crs"] = crs_member(crs);
+  return {{"type", "FeatureCollection"},
+          {"coordinate_system", coordinate_system},
+          {"features", features}};
+}
+
+void write_document(const std::filesystem::path& path, const json& document) {
   std::ofstream out(path);
   out << document.dump(1) << '\n';
   if (!out.flush()) throw InputError(path, "cannot be written");
@@ -98,10 +99,12 @@ const json& polygon_ring(const json& feature, const std::string& which) {
   throw InputError(which + " has geometry \"" + type + "\"; a plot is a Polygon of four corners");
 }
 
-PlotBox rectangle_of(const json& ring, const std::string& which) {
+PlotBox rectangle_of(const json& ring, double unit_m, const std::string& which) {
   std::vector<Eigen::Vector2d> corners;
-  for (const json& position : ring)
-    corners.emplace_back(position.at(0).get<double>(), position.at(1).get<double>());
+  for (const json& position : ring) {
+    corners.emplace_back(unit_m * position.at(0).get<double>(),
+                         unit_m * position.at(1).get<double>());
+  }
   if (corners.size() == 5 && corners.front() == corners.back()) corners.pop_back();
   if (corners.size() != 4)
     throw InputError(which + " has " + std::to_string(corners.size()) + " corners; a plot has 4");
@@ -145,49 +148,77 @@ void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::st
                    "heading_deg give; remove these five where the polygon is right");
 }
 
-PlotFeature read_feature(const json& feature, const std::string& which) {
+PlotFeature read_feature(const json& feature, double unit_m, const std::string& which) {
   PlotFeature plot;
   if (feature.contains("properties") && feature["properties"].is_object())
     plot.properties = feature["properties"];
-  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), which);
+  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), unit_m, which);
   plot.box = has_exact_box(plot.properties) ? exact_box(plot.properties) : polygon;
   require_sound(plot.box, which);
   require_agreement(plot.box, polygon, which);
   return plot;
 }
 
+constexpr const char* kUnits = "coordinate_units_m";
+
+std::optional<CoordinateUnits> units_of(const json& document) {
+  if (!document.contains(kUnits)) return std::nullopt;
+  return CoordinateUnits{.horizontal_m = document[kUnits].at("x_y").get<double>(),
+                         .vertical_m = document[kUnits].at("z").get<double>()};
+}
+
+// What `read` makes of the file as JSON.
+template <class Result>
+Result read_document(const std::filesystem::path& path,
+                     const std::function<Result(const json&)>& read) {
+  try {
+    return read(json::parse(read_text(path)));
+  } catch (const json::exception& error) {
+    throw InputError(path,
+                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+  }
+}
+
 }  // namespace
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                         const std::string& crs) {
-  write_collection(path, plots, crs,
-                   crs.empty() ? "local metres, x east, y north; not WGS84"
-                               : "metres of the system in member crs, x east, y north; not WGS84",
-                   [](const Eigen::Vector2d& corner) { return corner; });
+                         const std::string& crs, const std::optional<CoordinateUnits>& units) {
+  const double unit_m = units ? units->horizontal_m : 1;
+  const std::string unit = unit_name(unit_m);
+  json document =
+      collection(plots,
+                 crs.empty() ? "local " + unit + ", x east, y north; not WGS84"
+                             : unit + " of the system in member crs, x east, y north; not WGS84",
+                 [unit_m](const Eigen::Vector2d& corner) { return corner / unit_m; });
+  if (!crs.empty()) document["crs"] = crs_member(crs);
+  if (units) document[kUnits] = {{"x_y", units->horizontal_m}, {"z", units->vertical_m}};
+  write_document(path, document);
 }
 
 void write_plot_features_wgs84(const std::filesystem::path& path,
                                const std::vector<PlotFeature>& plots,
                                const Projection& lonlat_deg_from_world) {
-  write_collection(path, plots, "",
-                   "WGS84 longitude, latitude in degrees; attributes in local metres, x east, "
-                   "y north",
-                   lonlat_deg_from_world);
+  write_document(path, collection(plots,
+                                  "WGS84 longitude, latitude in degrees; attributes in local "
+                                  "metres, x east, y north",
+                                  lonlat_deg_from_world));
 }
 
-std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
-  try {
-    const json document = json::parse(read_text(path));
+std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path, double unit_m) {
+  return read_document<std::vector<PlotFeature>>(path, [&](const json& document) {
+    const std::optional<CoordinateUnits> units = units_of(document);
     std::vector<PlotFeature> plots;
     for (const json& feature : document.at("features")) {
       plots.push_back(
-          read_feature(feature, path.string() + ": feature " + std::to_string(plots.size() + 1)));
+          read_feature(feature, units ? units->horizontal_m : unit_m,
+                       path.string() + ": feature " + std::to_string(plots.size() + 1)));
     }
     return plots;
-  } catch (const json::exception& error) {
-    throw InputError(path,
-                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
-  }
+  });
+}
+
+std::optional<CoordinateUnits> read_coordinate_units(const std::filesystem::path& path) {
+  return read_document<std::optional<CoordinateUnits>>(path, units_of);
 }
 
 }  // namespace plotscan

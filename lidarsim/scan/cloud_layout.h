@@ -13,7 +13,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/coordinate_units.h"
 #include "core/utc_time.h"
+#include "scan/cloud_system.h"
 
 namespace plotscan::scan {
 
@@ -50,6 +52,7 @@ struct CloudLayout {
   std::size_t body_line = 0;      // of the first point, lines from 1
 
   bool in_degrees = false;         // x and y
+  CoordinateUnits units;           // else
   std::vector<std::string> notes;  // what the reader should be told, a sentence each
 
   // What only text without a header of its own kind says (text_header.cpp).
@@ -117,6 +120,10 @@ CloudLayout read_las_header(const std::filesystem::path& file);
 CloudLayout read_text_header(const std::filesystem::path& file);
 // By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
 CloudLayout read_cloud_header(const std::filesystem::path& file);
+
+// read_cloud_system of a file whose header was read.
+CloudSystem system_of(const std::filesystem::path& cloud, const CloudLayout& layout,
+                      const std::optional<CoordinateUnits>& given);
 
 // Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
 // header's last line unless each is one float.

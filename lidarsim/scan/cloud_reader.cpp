@@ -172,12 +172,13 @@ CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSi
     fields.push_back(*layout.find(las::kWithheld));
     fields.push_back(*layout.find(las::kClassification));
   }
-  CloudSummary summary{.crs = layout.crs(), .in_degrees = layout.in_degrees, .notes = layout.notes};
+  CloudSummary summary{.system = system_of(cloud, layout, options.units)};
   std::vector<Eigen::Vector3d> positions;
   read_rows(cloud, layout, fields, [&](std::span<const double> rows) {
     positions.clear();
     for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
-      const Eigen::Vector3d position(rows[i], rows[i + 1], rows[i + 2]);
+      const Eigen::Vector3d position =
+          summary.system.metres_of({rows[i], rows[i + 1], rows[i + 2]});
       if (!position.allFinite()) {
         ++summary.not_finite;
       } else if (marks && is_marked(rows.subspan(i + 3, 2))) {

@@ -3,28 +3,25 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
+#include "scan/cloud_system.h"
+
 namespace plotscan::scan {
 
-// Receives a cloud's positions piece by piece, in the file's order, world frame, metres.
+// Receives a cloud's positions piece by piece, in the file's order, world frame, metres: as
+// CloudSystem::metres_of gives them.
 using PositionSink = std::function<void(std::span<const Eigen::Vector3d>)>;
 
 // What was read.
 struct CloudSummary {
   std::size_t points = 0;      // handed to the sink
-  std::size_t not_finite = 0;  // left out: a coordinate was NaN or infinite
+  std::size_t not_finite = 0;  // left out: a coordinate was no number, or no place
   std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  // The coordinate system where the file names it (LAS): "EPSG:<code>", or well-known text where
-  // that names no code; else "".
-  std::string crs = {};
-  bool in_degrees = false;  // x and y are longitude and latitude: the file says so
-  // What the user should be told of how the file was read, a sentence each.
-  std::vector<std::string> notes = {};
+  CloudSystem system = {};     // of the file
 };
 
 struct PositionOptions {
@@ -32,6 +29,8 @@ struct PositionOptions {
   // the classes 7 (low noise) and 18 (high noise). LAS Specification 1.4 - R15, tables 8, 16, 17
   // (cited from memory).
   bool leave_out_marked = false;
+  // Of the file, where it is silent or wrong; else what the file states, metres where it does not.
+  std::optional<CoordinateUnits> units = {};
 };
 
 // Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary), LAS (1.0 to

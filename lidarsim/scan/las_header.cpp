@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "scan/cloud_layout.h"
+#include "scan/las_crs.h"
 #include "scan/las_format.h"
 
 namespace plotscan::scan {
@@ -177,15 +178,42 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
   }
 }
 
+// What the records say of units; where two of them say it, well-known text counts.
+struct StatedUnits {
+  WktUnits wkt = {};
+  WktUnits keys = {};
+};
+
+// Of EPSG's code of a unit of length (cited from memory); notes one that is not known.
+std::optional<double> unit_of_code(std::uint16_t code, CloudLayout& layout) {
+  if (code == 9001) return 1;
+  if (code == 9002) return kFoot_m;
+  if (code == 9003) return kUsSurveyFoot_m;
+  layout.notes.push_back("its unit has the code " + std::to_string(code) +
+                         ", which is not known here: taken for metres; --units says otherwise");
+  return std::nullopt;
+}
+
 // GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
-void read_geo_keys(const std::string& bytes, CloudLayout& layout) {
+void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& units) {
   std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
   std::memcpy(entries.data(), bytes.data(), entries.size() * 8);
   for (const auto& [key, place, count, value] : entries) {
     if (place != 0) continue;
     if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
     if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
+    if (key == las::kLinearUnitsKey) units.horizontal_m = unit_of_code(value, layout);
+    if (key == las::kVerticalUnitsKey) units.vertical_m = unit_of_code(value, layout);
   }
+}
+
+// Heights without a unit of their own are in that of x and y; those of degrees are metres.
+CoordinateUnits units_of(const StatedUnits& stated) {
+  CoordinateUnits units;
+  units.horizontal_m = stated.wkt.horizontal_m.value_or(stated.keys.horizontal_m.value_or(1));
+  units.vertical_m =
+      stated.wkt.vertical_m.value_or(stated.keys.vertical_m.value_or(units.horizontal_m));
+  return units;
 }
 
 // Whether a coordinate system as well-known text is one of degrees.
@@ -202,7 +230,7 @@ std::string count_note(std::uint64_t promised, std::uint64_t found) {
 
 // What the variable length records say; `at` is the first one's.
 void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
-                  const LasHeader& header, CloudLayout& layout) {
+                  const LasHeader& header, CloudLayout& layout, StatedUnits& units) {
   const std::uint64_t end = extended ? file.size() : header.points_at;
   const std::uint64_t header_size = extended ? las::kEvlrHeaderSize : las::kVlrHeaderSize;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -222,8 +250,9 @@ void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool ext
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
       layout.in_degrees = is_geographic(layout.crs_wkt);
+      units.wkt = units_of_wkt(layout.crs_wkt);
     } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
-      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout);
+      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units.keys);
     } else if (user == las::kPlotscanUser && record == las::kStartRecord) {
       layout.start = parse_utc(file.text(at, std::min(size, kMaxText)));
     }
@@ -246,11 +275,14 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   layout.adjusted_gps_time = (file.number<std::uint16_t>(6) & las::kAdjustedGpsTime) != 0;
   add_coordinates(file, layout);
   add_format_fields(header.format, layout);
-  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout);
+  StatedUnits units;
+  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout, units);
   if (header.minor >= 4) {
     const auto count = file.number<std::uint32_t>(243);
-    if (count > 0) read_records(file, file.number<std::uint64_t>(235), count, true, header, layout);
+    if (count > 0)
+      read_records(file, file.number<std::uint64_t>(235), count, true, header, layout, units);
   }
+  layout.units = units_of(units);
   return layout;
 }
 

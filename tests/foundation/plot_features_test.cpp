@@ -22,6 +22,23 @@ TEST(PlotFeatures, ComeBackAsWritten) {
   EXPECT_EQ(read[0].properties["height_max_m"], 0.61);
 }
 
+// Polygons in the cloud's feet, attributes in metres.
+TEST(PlotFeatures, AreInTheUnitsOfTheCloud) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "feet.geojson";
+  const PlotFeature plot{.box = {.center = {30.48, 60.96}, .width_m = 1.5, .length_m = 4}};
+  write_plot_features(file, {plot}, "EPSG:2264", CoordinateUnits{kFoot_m, 1});
+  const auto document = nlohmann::json::parse(read_text(file));
+  const auto& corners = document["features"][0]["geometry"]["coordinates"][0];
+  EXPECT_NEAR((corners[0][0].get<double>() + corners[2][0].get<double>()) / 2, 100, 1e-9);
+  EXPECT_NEAR((corners[0][1].get<double>() + corners[2][1].get<double>()) / 2, 200, 1e-9);
+  EXPECT_EQ(document["features"][0]["properties"]["center_x_m"], 30.48);
+  EXPECT_EQ(read_plot_features(file).at(0).box.center, plot.box.center);
+  EXPECT_EQ(read_coordinate_units(file), (CoordinateUnits{kFoot_m, 1}));
+  write_plot_features(file, {plot});
+  EXPECT_EQ(read_coordinate_units(file), std::nullopt);
+}
+
 constexpr const char* kForeign =
     R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": null,
   "geometry": {"type": "Polygon", "coordinates": [[%s]]}}]})";

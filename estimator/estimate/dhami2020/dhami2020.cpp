@@ -214,7 +214,7 @@ Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& o
   require_sound(options);
   std::optional<Area> area = options.crop_box;
   if (!area && !options.boxes.empty()) area = surroundings(options.boxes, options.extend_m);
-  return dhami2020(read_map(cloud, area, progress), options, progress);
+  return dhami2020(read_map(cloud, area, progress, options.units), options, progress);
 }
 
 }  // namespace plotscan::estimate

@@ -26,8 +26,9 @@ struct Dhami2020Options {
   double orientation_bin_rad = 0.3;
   double width_bin_m = 0.3;
   double length_bin_m = 0.5;
-  double extend_m = 0.5;            // each end of the box, to show ground
-  double plane_tolerance_m = 0.05;  // RANSAC inlier distance
+  double extend_m = 0.5;                      // each end of the box, to show ground
+  double plane_tolerance_m = 0.05;            // RANSAC inlier distance
+  std::optional<CoordinateUnits> units = {};  // of the cloud's file, whatever it states itself
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -42,7 +43,7 @@ void require_sound(const Dhami2020Options& options);
 Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
                    const ProgressReport& progress = {});
 
-// The same from a cloud (PCD or PLY), of which it reads what lies in crop_box; else, with given
+// The same from a cloud, of which it reads what lies in crop_box; else, with given
 // boxes, in their surroundings; else in the field that it finds. Throws InputError on a broken
 // cloud, and as above.
 Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,

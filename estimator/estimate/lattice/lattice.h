@@ -16,11 +16,12 @@ namespace plotscan::estimate {
 
 // What may be told to the lattice method; it needs none of it.
 struct LatticeOptions {
-  std::optional<Area> crop_box = {};   // use only the points in here
-  plots::Hints hints = {};             // of the plots' heading and size
-  std::vector<PlotBox> boxes = {};     // given boxes: no detection, heights only
-  std::optional<double> noise_m = {};  // sigma of the points' heights, else estimated
-  bool calibrated = true;              // plants' heights from the canopy's (docs/methods.md)
+  std::optional<Area> crop_box = {};          // use only the points in here
+  plots::Hints hints = {};                    // of the plots' heading and size
+  std::vector<PlotBox> boxes = {};            // given boxes: no detection, heights only
+  std::optional<double> noise_m = {};         // sigma of the points' heights, else estimated
+  bool calibrated = true;                     // plants' heights from the canopy's (docs/methods.md)
+  std::optional<CoordinateUnits> units = {};  // of the cloud's file, whatever it states itself
   int threads = 1;
 };
 
@@ -35,7 +36,7 @@ void require_sound(const LatticeOptions& options);
 Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
-// The same from a cloud (PCD, PLY or LAS): of the crop box; else of the given boxes and the ground
+// The same from a cloud: of the crop box; else of the given boxes and the ground
 // around them; else of the scanned field. Throws InputError on a broken cloud, and as above.
 Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/run.h"
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <numbers>
 
 #include "synthetic_farm.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/plot_features.h"
@@ -98,6 +101,81 @@ TEST(Run, KeepsTheNamesOfGivenPlots) {
   EXPECT_EQ(estimate.plots[1].id, 2u);
   EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-4);
   EXPECT_NEAR(estimate.plots[1].heights_m.at("raw-max"), kFarm.height_m(0, 0), 1e-4);
+}
+
+// The corner of the first plot in a plots.geojson.
+Eigen::Vector2d first_corner(const fs::path& folder) {
+  const auto document = nlohmann::json::parse(read_text(folder / "plots.geojson"));
+  const auto& corner = document["features"][0]["geometry"]["coordinates"][0][0];
+  return {corner[0].get<double>(), corner[1].get<double>()};
+}
+
+// A field in metres, and the same far away in US survey feet (z in them too): heights and boxes are
+// the same metres, and the polygons lie on the cloud.
+TEST(Run, FeetBecomeMetresAndGoBack) {
+  const TemporaryFolder folder;
+  constexpr double kFoot = 1200.0 / 3937.0;
+  const Eigen::Vector3d moved(300000, 200000, 400);
+  std::string text = "x,y,z\n";
+  for (const Eigen::Vector3d& point : kFarm.points()) {
+    const Eigen::Vector3d feet = (point + moved) / kFoot;
+    text += format_number(feet.x()) + "," + format_number(feet.y()) + "," +
+            format_number(feet.z()) + "\n";
+  }
+  RunOptions metres = small_run(folder, kFarm);
+  RunOptions feet = metres;
+  feet.cloud = folder.write("feet.csv", text);
+  feet.output = folder.path() / "feet";
+  feet.units = {kFoot, kFoot};
+  const Eigen::Vector2d low = moved.head<2>() + Eigen::Vector2d(-30, -30);
+  const Eigen::Vector2d high = moved.head<2>() + Eigen::Vector2d(30, 30);
+  metres.crop_box = Area{-30, -30, 30, 30};
+  feet.crop_box = Area{low.x() / kFoot, low.y() / kFoot, high.x() / kFoot, high.y() / kFoot};
+  const Estimate expected = run(metres);
+  const Estimate found = run(feet);
+  ASSERT_EQ(found.plots.size(), expected.plots.size());
+  EXPECT_NEAR(found.plots[3].heights_m.at("raw-max"), expected.plots[3].heights_m.at("raw-max"),
+              1e-3);
+  EXPECT_NEAR(found.plots[3].box.length_m, expected.plots[3].box.length_m, 0.05);
+  EXPECT_LT(
+      (first_corner(feet.output) * kFoot - moved.head<2>() - first_corner(metres.output)).norm(),
+      0.1);
+  EXPECT_THAT(found.diagnostics["notes"].dump(), HasSubstr("US survey feet are read as metres"));
+  const Estimate read = read_estimate(feet.output);
+  ASSERT_TRUE(read.units);
+  EXPECT_LT((read.plots[3].box.center - found.plots[3].box.center).norm(), 1e-6);
+
+  // Boxes drawn over the cloud in a GIS are in its feet.
+  feet.boxes = folder.write("drawn.geojson", [&] {
+    auto document = nlohmann::json::parse(read_text(feet.output / "plots.geojson"));
+    document.erase("coordinate_units_m");
+    for (auto& feature : document["features"]) feature["properties"] = {{"plot_number", 5}};
+    return document.dump();
+  }());
+  feet.dhami2020.plots = 0;
+  feet.replace = true;
+  const Estimate given = run(feet);
+  EXPECT_NEAR(given.plots[3].heights_m.at("raw-max"), expected.plots[3].heights_m.at("raw-max"),
+              1e-3);
+}
+
+// On the meridian of zone 31 a step of latitude is the meridian's arc, times 0.9996.
+TEST(Run, DegreesAreProjectedToUtm) {
+  const TemporaryFolder folder;
+  std::string text = "lon lat height\n";
+  constexpr double kLat = 48;
+  for (const Eigen::Vector3d& point : kFarm.points()) {
+    text += format_number(3 + point.x() / (111320 * std::cos(kLat * std::numbers::pi / 180))) +
+            " " + format_number(kLat + point.y() / 111200) + " " + format_number(point.z()) + "\n";
+  }
+  RunOptions options = small_run(folder, kFarm);
+  options.cloud = folder.write("degrees.txt", text);
+  const Estimate estimate = run(options);
+  EXPECT_EQ(estimate.plots.size(), 8u);
+  EXPECT_EQ(estimate.crs, "EPSG:32631");
+  EXPECT_NEAR(first_corner(options.output).x(), 500000, 50);
+  EXPECT_NEAR(first_corner(options.output).y(), 5316300, 500);
+  EXPECT_THAT(estimate.diagnostics["notes"].dump(), HasSubstr("zone 31N"));
 }
 
 TEST(Run, LeavesNothingBehindOnBadInput) {

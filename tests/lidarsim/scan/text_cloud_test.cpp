@@ -46,7 +46,7 @@ TEST_F(TextCloud, EverySeparatorIsRead) {
   EXPECT_EQ(read("512345.6789,4123456.7891,-1.5\n0.001,20,3\n"), kPoints);
   EXPECT_EQ(read("512345.6789, 4123456.7891 , -1.5,\n0.001,20,3,\n"), kPoints);
   EXPECT_EQ(read("512345.6789;4123456.7891;-1.5;tree\n0.001;20;3;wheat, ripe\n"), kPoints);
-  EXPECT_FALSE(summary_.in_degrees);
+  EXPECT_FALSE(summary_.system.zone);
 }
 
 TEST_F(TextCloud, HeadersNameTheColumns) {
@@ -63,8 +63,14 @@ TEST_F(TextCloud, HeadersNameTheColumns) {
 }
 
 TEST_F(TextCloud, DegreesAreKnownByTheirNames) {
-  EXPECT_EQ(read("lat,lon,alt\n52.1,8.4,70\n"), (Positions{{8.4, 52.1, 70}}));
-  EXPECT_TRUE(summary_.in_degrees);
+  // The meridian of zone 32, where UTM's easting is 500 km and its northing the scaled arc.
+  const Positions positions = read("lat,lon,alt\n45,9,70\n45,69,70\n");
+  ASSERT_EQ(positions.size(), 1u);
+  EXPECT_LT((positions[0] - Eigen::Vector3d(500000, 4982950.400, 70)).norm(), 1e-3);
+  EXPECT_EQ(summary_.not_finite, 1u);  // a place far from the first
+  EXPECT_EQ(summary_.system.crs, "EPSG:32632");
+  EXPECT_THAT(summary_.system.notes, ElementsAre(HasSubstr("UTM zone 32N")));
+  EXPECT_THAT(refusal("lon lat z\n226 100 1\n"), HasSubstr("longitude 226, latitude 100"));
 }
 
 // .pts: each scan's count of points in front of it; CloudCompare's count behind its header.
