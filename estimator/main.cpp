@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "info_command.h"
+
 #include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
@@ -328,6 +330,7 @@ int main(int argc, char** argv) {
   plotscan::Program program("estimator", "Find plots in point clouds and measure crop heights.");
   plotscan::RunArguments run;
   plotscan::declare_run(program, run);
+  plotscan::declare_info(program);
   plotscan::score::RunOptions score;
   std::string scores;
   plotscan::declare_score(program, score, scores);

@@ -42,6 +42,7 @@ struct ScalarField {
 };
 
 struct CloudLayout {
+  std::string format;  // "PCD, binary", for people
   CloudBody body = CloudBody::ascii;
   bool big_endian = false;
   std::uint64_t points = 0;     // kMaxPoints where nothing but the file's end tells
@@ -128,6 +129,14 @@ CloudSystem system_of(const std::filesystem::path& cloud, const CloudLayout& lay
 // Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
 // header's last line unless each is one float.
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
+
+// The first field of one readable number that has one of the names, the first name's first. Names
+// are in small letters, without underscores and CloudCompare's "scalar_": "ReturnNumber" and
+// "scalar_return_number" are "returnnumber". nullptr when there is none.
+const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
+
+// Of a LAS file's adjusted GPS time; nothing outside of a century from 1980.
+std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
 
 // Receives points as rows of numbers, row after row, a number for each field asked for.
 using RowSink = std::function<void(std::span<const double> rows)>;

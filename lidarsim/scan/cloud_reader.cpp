@@ -2,6 +2,7 @@
 #include "scan/cloud_reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <sstream>
 
@@ -77,6 +78,15 @@ CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file
   throw std::logic_error("unknown format of a cloud");
 }
 
+// "ReturnNumber", "return_number" and CloudCompare's "scalar_ReturnNumber" are one name.
+std::string plain_name(const std::string& name) {
+  std::string plain;
+  for (const char c : name)
+    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::string_view kPrefix = "scalar";
+  return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
+}
+
 // By a LAS point's withheld flag and class.
 bool is_marked(std::span<const double> withheld_and_class) {
   return withheld_and_class[0] != 0 || withheld_and_class[1] == las::kLowNoise ||
@@ -96,6 +106,16 @@ void CloudLayout::append(ScalarField field) {
 const ScalarField* CloudLayout::find(std::string_view name) const {
   const auto found = std::ranges::find(fields, name, &ScalarField::name);
   return found == fields.end() ? nullptr : &*found;
+}
+
+const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    for (const ScalarField& field : layout.fields) {
+      const bool readable = field.count == 1 && (field.kind != 'F' || field.size >= 4);
+      if (readable && plain_name(field.name) == name) return &field;
+    }
+  }
+  return nullptr;
 }
 
 std::string CloudLayout::crs() const {

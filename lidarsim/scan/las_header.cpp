@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scan/cloud_layout.h"
 #include "scan/las_crs.h"
 #include "scan/las_format.h"
@@ -269,6 +270,8 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   layout.body = header.compressed ? CloudBody::laz : CloudBody::binary;
   layout.is_las = true;
   layout.point_format = header.format;
+  layout.format = formatted("%s 1.%d, point format %d", header.compressed ? "LAZ" : "LAS",
+                            header.minor, header.format);
   layout.points = header.points;
   layout.record_size = header.record_size;
   layout.body_offset = header.points_at;

@@ -154,6 +154,7 @@ CloudLayout read_text_header(const std::filesystem::path& file) {
   layout.points = kMaxPoints;
   const TextHeader header = read_lines(file, lines, layout);
   layout.has_counts = header.has_count;
+  layout.format = "text";
   layout.separator = separator_of(header.first_point);
   std::vector<std::string_view> columns;
   split_columns(header.first_point, layout.separator, columns);
