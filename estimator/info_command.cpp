@@ -12,7 +12,7 @@ namespace plotscan {
 namespace {
 
 struct InfoArguments {
-  std::string cloud;
+  std::vector<std::filesystem::path> clouds;
   std::string units;
 };
 
@@ -92,11 +92,10 @@ void say_verdict(const Program& program, const inspect::CloudReport& report) {
 }
 
 void run_info(const Program& program, const InfoArguments& arguments) {
-  std::optional<CoordinateUnits> units;
-  if (const auto unit_m = unit_named(arguments.units)) units = {*unit_m, *unit_m};
-  std::filesystem::path cloud = arguments.cloud;
-  if (std::filesystem::is_directory(cloud)) cloud /= "cloud.pcd";
-  const inspect::CloudReport report = inspect::inspect_cloud(cloud, units);
+  CloudFiles cloud(cloud_files_of(arguments.clouds));
+  if (const auto unit_m = unit_named(arguments.units)) cloud.units = {*unit_m, *unit_m};
+  const inspect::CloudReport report = inspect::inspect_cloud(cloud);
+  if (cloud.files.size() > 1) program.say(formatted("files      %zu", cloud.files.size()));
   say_points(program, report.facts);
   say_extent(program, report.facts);
   say_system(program, report.facts.system);
@@ -112,7 +111,8 @@ void declare_info(Program& program) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App& info = program.command("info", "Say what a cloud is, and whether it can carry plots.",
                                    [&program, arguments] { run_info(program, *arguments); });
-  info.add_option("CLOUD", arguments->cloud, "any cloud that run takes, or a scan folder")
+  info.add_option("CLOUD", arguments->clouds,
+                  "clouds or folders, several of them as one cloud, as run takes them")
       ->required();
   info.add_option("--units", arguments->units,
                   "of the cloud's coordinates, whatever its file states: m, ft, us-ft")

@@ -124,7 +124,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
-  if (const auto unit_m = unit_named(arguments.units)) options.units = {*unit_m, *unit_m};
+  if (const auto unit_m = unit_named(arguments.units)) options.cloud.units = {*unit_m, *unit_m};
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   options.dhami2020.learn_box = area_of(arguments.learn_box);
@@ -207,8 +207,9 @@ void declare_run(Program& program, RunArguments& arguments) {
                       [&program, &arguments] { run_estimate(program, arguments); });
   arguments.command = &run;
   auto& options = arguments.options;
-  run.add_option("CLOUD", options.cloud,
-                 "PCD, PLY, LAS or text cloud, or a scan folder (its cloud.pcd)")
+  run.add_option("CLOUD", options.cloud.files,
+                 "PCD, PLY, LAS or text clouds, a scan folder (its cloud.pcd), or a folder of "
+                 "tiles; several are read as one")
       ->required();
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,
@@ -224,6 +225,12 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->expected(4);
   run.add_option("--boxes", arguments.boxes,
                  "plots.geojson with the plots' boxes: measure heights in them, search none");
+  run.add_option(
+         "--leave-out-class", options.cloud.leave_out_classes,
+         "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255));
   run.add_option(
          "--units", arguments.units,
          "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: what "

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "core/coordinate_units.h"
+#include "core/cloud_files.h"
 #include "core/progress.h"
 
 namespace plotscan::estimate {
@@ -52,10 +52,8 @@ class CloudMap {
 
 // Streams a cloud into a map of the area; without one, of the field that
 // FieldFinder finds in a first pass over the file. Memory is bounded by the points inside the area.
-// `units` are those of the file, whatever it states itself.
 // Throws InputError on a broken cloud or when no point lies in the area.
-CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,
-                  const ProgressReport& progress = {},
-                  const std::optional<CoordinateUnits>& units = {});
+CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
+                  const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include "core/coordinate_units.h"
+#include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/cloud_map.h"
 #include "estimate/tile_store.h"
@@ -23,7 +23,6 @@ struct FieldOptions {
   // of 3,400 points a square metre (128 would take 6 %), and bounds a hectare to 164 million
   // points.
   std::size_t points_per_cell = 256;
-  std::optional<CoordinateUnits> units = {};  // of the file, whatever it states itself
   int threads = 1;
 };
 
@@ -32,6 +31,7 @@ struct FieldCounts {
   std::uint64_t read = 0;
   std::uint64_t not_finite = 0;
   std::uint64_t marked = 0;    // withheld, or of a noise class, in a LAS file
+  std::uint64_t left_out = 0;  // of a class to leave out (CloudFiles)
   std::uint64_t outside = 0;   // of the field, or beyond any coordinate that makes sense
   std::uint64_t repeated = 0;  // the same point to 0.06 mm was there already
   std::uint64_t thinned = 0;   // points_per_cell others were there
@@ -54,7 +54,7 @@ struct FieldCloud {
 
 // Streams a cloud once, in memory bounded by the area over which it lies
 // (tile_store.h). Throws InputError on a broken cloud, or when no point lies in the area.
-FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
+FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress = {});
 
 // The field of points that were added to a store, which is spent by that. `name` stands in messages

@@ -21,12 +21,6 @@ using nlohmann::json;
 
 constexpr double kDegrees = std::numbers::pi / 180;
 
-fs::path cloud_file(const fs::path& cloud) {
-  fs::path file = fs::is_directory(cloud) ? cloud / "cloud.pcd" : cloud;
-  require_file(file);
-  return file;
-}
-
 template <class Number>
 json to_json(const std::optional<Number>& value) {
   return value ? json(*value) : json(nullptr);
@@ -59,7 +53,9 @@ json options_json(const RunOptions& options) {
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
   document["method"] = options.method;
   document["crop_box"] = to_json(options.crop_box);
-  document["unit_m"] = options.units ? json(options.units->horizontal_m) : json(nullptr);
+  const CloudFiles& cloud = options.cloud;
+  document["unit_m"] = cloud.units ? json(cloud.units->horizontal_m) : json(nullptr);
+  document["leave_out_classes"] = cloud.leave_out_classes;
   document["given_boxes"] = options.boxes.has_value();
   return document;
 }
@@ -78,14 +74,13 @@ void take_names(const std::vector<PlotFeature>& features, std::vector<PlotEstima
 template <class Options>
 Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
   options.crop_box = run.crop_box;
-  options.units = run.units;
   options.threads = run.threads;
   options.boxes.clear();
   for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
   return options;
 }
 
-Estimate run_method(const fs::path& cloud, const RunOptions& run,
+Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
                     const std::vector<PlotFeature>& boxes, const ProgressReport& progress) {
   if (run.method == "lattice") return lattice(cloud, completed(run.lattice, run, boxes), progress);
   Dhami2020Options options = completed(run.dhami2020, run, boxes);
@@ -114,7 +109,7 @@ RunOptions in_metres(RunOptions options, double unit_m) {
 // What the cloud's file says of its coordinates; the units that results are written in.
 void take_system(const scan::CloudSystem& system, const RunOptions& options, Estimate& estimate) {
   estimate.crs = system.crs;
-  if (!system.zone && (options.units || system.units != CoordinateUnits{}))
+  if (!system.zone && (options.cloud.units || system.units != CoordinateUnits{}))
     estimate.units = system.units;
   estimate.diagnostics["notes"] = system.notes;
 }
@@ -131,15 +126,16 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
     throw InputError("there is no method \"" + options.method + "\"; there is " +
                      joined(method_names(), ", "));
   }
-  const fs::path cloud = cloud_file(options.cloud);
-  std::vector<fs::path> inputs = {options.cloud};
+  CloudFiles cloud = options.cloud;
+  cloud.files = cloud_files_of(options.cloud.files);
+  std::vector<fs::path> inputs = options.cloud.files;
   if (options.boxes) inputs.push_back(*options.boxes);
   OutputFolder folder(options.output, options.replace, "estimator run", inputs);
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),
-                    .inputs = {cloud}};
-  const scan::CloudSystem system = scan::read_cloud_system(cloud, options.units);
+                    .inputs = cloud.files};
+  const scan::CloudSystem system = scan::read_cloud_system(cloud);
   const double unit_m = system.units.horizontal_m;
   std::vector<PlotFeature> boxes;
   if (options.boxes) {

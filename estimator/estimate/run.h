@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
@@ -16,7 +17,7 @@ namespace plotscan::estimate {
 
 // One run of a method, from files to an estimate folder.
 struct RunOptions {
-  std::filesystem::path cloud;  // any that scan reads, or a scan folder
+  CloudFiles cloud;  // files and folders, as cloud_files_of takes them
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
@@ -24,9 +25,8 @@ struct RunOptions {
   // Use only the points in here. In the cloud's own coordinates, as are the given boxes and
   // dhami2020's learn box; metres of UTM where the cloud is in degrees.
   std::optional<Area> crop_box = {};
-  std::optional<CoordinateUnits> units = {};  // of the cloud, where it is silent or wrong
-  LatticeOptions lattice = {};                // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};            // as above, and the seed
+  LatticeOptions lattice = {};      // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};  // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };

@@ -68,14 +68,13 @@ json time_json(const scan::CloudFacts& facts) {
 
 }  // namespace
 
-CloudReport inspect_cloud(const std::filesystem::path& cloud,
-                          const std::optional<CoordinateUnits>& units) {
+CloudReport inspect_cloud(const CloudFiles& cloud) {
   estimate::TileCounter tiles;
-  CloudReport report{.facts = scan::read_cloud_facts(
-                         cloud, [&](auto points) { tiles.add(points); }, units),
-                     .density = {}};
+  CloudReport report{
+      .facts = scan::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
+      .density = {}};
   const std::vector<estimate::TileCount> counts = tiles.counts();
-  if (counts.empty()) throw InputError(cloud, "its points lie beyond any place on Earth");
+  if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");
   report.density = estimate::field_density(counts);
   judge_density(report);
   judge_extent(report);

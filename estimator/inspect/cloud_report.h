@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "core/coordinate_units.h"
+#include "core/cloud_files.h"
 #include "estimate/field_density.h"
 #include "scan/cloud_facts.h"
 
@@ -27,10 +25,9 @@ struct CloudReport {
   std::vector<std::string> doubts = {};     // what may keep plots from being found
 };
 
-// Reads the cloud once; memory follows the area over which it lies. Given units are believed,
-// whatever the file states. Throws InputError on a broken cloud.
-CloudReport inspect_cloud(const std::filesystem::path& cloud,
-                          const std::optional<CoordinateUnits>& units = {});
+// Reads the cloud once; memory follows the area over which it lies. Throws InputError on a broken
+// cloud.
+CloudReport inspect_cloud(const CloudFiles& cloud);
 
 // ASPRS' standard classes ("LAS Specification 1.4 - R15", table 17; cited from memory): "ground";
 // "" for those that are reserved or a user's.

@@ -49,8 +49,8 @@ class FactFinder {
  public:
   FactFinder(const CloudLayout& layout, const Columns& columns, CloudFacts& facts)
       : is_las_(layout.is_las), columns_(columns), facts_(facts) {
-    if (columns.returned.there()) facts.returns.emplace();
-    if (columns.classified.there()) facts.classes.emplace();
+    if (columns.returned.there() && !facts.returns) facts.returns.emplace();
+    if (columns.classified.there() && !facts.classes) facts.classes.emplace();
   }
 
   // The position in metres; not finite where the point is left out.
@@ -64,8 +64,8 @@ class FactFinder {
     ++facts_.points;
     facts_.bounds.extend(point);
     facts_.bounds_m.extend(point_m);
-    if (facts_.returns) ++(*facts_.returns)[bin_of(columns_.returned.of(row))];
-    if (facts_.classes) ++(*facts_.classes)[bin_of(columns_.classified.of(row))];
+    if (columns_.returned.there()) ++(*facts_.returns)[bin_of(columns_.returned.of(row))];
+    if (columns_.classified.there()) ++(*facts_.classes)[bin_of(columns_.classified.of(row))];
     if (is_las_ && (columns_.withheld.of(row) != 0 || is_noise(columns_.classified.of(row))))
       ++facts_.marked;
     if (columns_.time.there()) take_time(columns_.time.of(row));
@@ -86,10 +86,6 @@ class FactFinder {
   CloudFacts& facts_;
 };
 
-void name_fields(const CloudLayout& layout, CloudFacts& facts) {
-  for (const ScalarField& field : layout.fields) facts.fields.push_back(field.name);
-}
-
 void date(const CloudLayout& layout, CloudFacts& facts) {
   if (!facts.time_s || !layout.adjusted_gps_time) return;
   const auto first = utc_of_adjusted_gps((*facts.time_s)[0]);
@@ -97,17 +93,16 @@ void date(const CloudLayout& layout, CloudFacts& facts) {
   if (first && last) facts.utc = {*first, *last};
 }
 
-}  // namespace
-
-CloudFacts read_cloud_facts(const std::filesystem::path& cloud, const PositionSink& sink,
-                            const std::optional<CoordinateUnits>& units) {
-  const CloudLayout layout = read_cloud_header(cloud);
-  CloudFacts facts{.format = layout.format, .system = system_of(cloud, layout, units)};
-  name_fields(layout, facts);
+void add_file(const std::filesystem::path& file, const PositionSink& sink, CloudFacts& facts) {
+  const CloudLayout layout = read_cloud_header(file);
+  if (facts.format.empty()) {
+    facts.format = layout.format;
+    for (const ScalarField& field : layout.fields) facts.fields.push_back(field.name);
+  }
   const Columns columns(layout);
   FactFinder finder(layout, columns, facts);
   std::vector<Eigen::Vector3d> positions;
-  read_rows(cloud, layout, columns.fields, [&](std::span<const double> rows) {
+  read_rows(file, layout, columns.fields, [&](std::span<const double> rows) {
     positions.clear();
     for (std::size_t i = 0; i < rows.size(); i += columns.fields.size()) {
       const Eigen::Vector3d position = finder.take(rows.subspan(i, columns.fields.size()));
@@ -115,8 +110,16 @@ CloudFacts read_cloud_facts(const std::filesystem::path& cloud, const PositionSi
     }
     if (!positions.empty()) sink(positions);
   });
-  if (facts.points == 0) throw InputError(cloud, "no point of the cloud has finite x, y and z");
   date(layout, facts);
+}
+
+}  // namespace
+
+CloudFacts read_cloud_facts(const CloudFiles& cloud, const PositionSink& sink) {
+  CloudFacts facts{.format = {}, .system = read_cloud_system(cloud)};
+  for (const std::filesystem::path& file : cloud.files) add_file(file, sink, facts);
+  if (facts.points == 0)
+    throw InputError(cloud.name() + ": no point of the cloud has finite x, y and z");
   return facts;
 }
 

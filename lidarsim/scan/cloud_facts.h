@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +35,9 @@ struct CloudFacts {
   std::optional<std::array<UtcTime, 2>> utc = {};
 };
 
-// Reads a cloud once, and hands its positions to the sink as read_positions does, marked ones too.
+// Reads a cloud once, and hands its positions to the sink as read_positions does, all classes and
+// marked ones too. Format and fields are those of the first file.
 // Throws InputError as read_positions does.
-CloudFacts read_cloud_facts(const std::filesystem::path& cloud, const PositionSink& sink,
-                            const std::optional<CoordinateUnits>& units = {});
+CloudFacts read_cloud_facts(const CloudFiles& cloud, const PositionSink& sink);
 
 }  // namespace plotscan::scan

@@ -2,6 +2,7 @@
 #include "scan/cloud_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <sstream>
@@ -87,10 +88,76 @@ std::string plain_name(const std::string& name) {
   return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
 }
 
-// By a LAS point's withheld flag and class.
-bool is_marked(std::span<const double> withheld_and_class) {
-  return withheld_and_class[0] != 0 || withheld_and_class[1] == las::kLowNoise ||
-         withheld_and_class[1] == las::kHighNoise;
+// What becomes of a point by its marks and its class.
+class PointFilter {
+ public:
+  enum class Fate { kept, marked, left_out };
+
+  // Adds the fields that it looks at to those that are read.
+  PointFilter(const std::filesystem::path& file, const CloudLayout& layout, const CloudFiles& cloud,
+              const PositionOptions& options, std::vector<ScalarField>& fields) {
+    marks_ = options.leave_out_marked && layout.is_las;
+    for (const int number : cloud.leave_out_classes)
+      left_out_.at(static_cast<std::size_t>(number)) = true;
+    if (marks_) add(layout.find(las::kWithheld), withheld_, fields);
+    has_class_ = marks_ || !cloud.leave_out_classes.empty();
+    if (!has_class_) return;
+    const ScalarField* classification = find_field(layout, {std::string(las::kClassification)});
+    if (classification == nullptr)
+      throw InputError(file,
+                       "has no field \"classification\": its points have no class to leave out");
+    add(classification, class_, fields);
+  }
+
+  Fate fate_of(std::span<const double> row) const {
+    if (!has_class_) return Fate::kept;
+    const double number = row[class_];
+    if (marks_ && (row[withheld_] != 0 || number == las::kLowNoise || number == las::kHighNoise))
+      return Fate::marked;
+    const bool left_out = number >= 0 && number < static_cast<double>(left_out_.size()) &&
+                          left_out_[static_cast<std::size_t>(number)];
+    return left_out ? Fate::left_out : Fate::kept;
+  }
+
+ private:
+  static void add(const ScalarField* field, std::size_t& place, std::vector<ScalarField>& fields) {
+    place = fields.size();
+    fields.push_back(*field);
+  }
+
+  bool marks_ = false;
+  bool has_class_ = false;
+  std::size_t withheld_ = 0;  // places in a row
+  std::size_t class_ = 0;
+  std::array<bool, 256> left_out_{};
+};
+
+// Adds one file to the sink and the summary, whose system it has.
+void read_file(const std::filesystem::path& file, const CloudFiles& cloud,
+               const PositionOptions& options, const PositionSink& sink, CloudSummary& summary) {
+  const CloudLayout layout = read_cloud_header(file);
+  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  const PointFilter filter(file, layout, cloud, options, fields);
+  std::vector<Eigen::Vector3d> positions;
+  read_rows(file, layout, fields, [&](std::span<const double> rows) {
+    positions.clear();
+    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
+      const auto row = rows.subspan(i, fields.size());
+      const Eigen::Vector3d position = summary.system.metres_of({row[0], row[1], row[2]});
+      const PointFilter::Fate fate = filter.fate_of(row);
+      if (!position.allFinite()) {
+        ++summary.not_finite;
+      } else if (fate == PointFilter::Fate::marked) {
+        ++summary.marked;
+      } else if (fate == PointFilter::Fate::left_out) {
+        ++summary.left_out;
+      } else {
+        positions.push_back(position);
+      }
+    }
+    summary.points += positions.size();
+    if (!positions.empty()) sink(positions);
+  });
 }
 
 }  // namespace
@@ -183,37 +250,17 @@ CloudLayout read_cloud_header(const std::filesystem::path& file) {
   return layout;
 }
 
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
+CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options) {
-  const CloudLayout layout = read_cloud_header(cloud);
-  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  const bool marks = options.leave_out_marked && layout.is_las;
-  if (marks) {
-    fields.push_back(*layout.find(las::kWithheld));
-    fields.push_back(*layout.find(las::kClassification));
+  CloudSummary summary{.system = read_cloud_system(cloud)};
+  for (const std::filesystem::path& file : cloud.files)
+    read_file(file, cloud, options, sink, summary);
+  if (summary.points + summary.marked + summary.left_out == 0)
+    throw InputError(cloud.name() + ": no point of the cloud has finite x, y and z");
+  if (summary.points == 0) {
+    throw InputError(cloud.name() + ": all points of the cloud are marked as withheld or noise" +
+                     (summary.left_out > 0 ? ", or of a class to leave out" : ""));
   }
-  CloudSummary summary{.system = system_of(cloud, layout, options.units)};
-  std::vector<Eigen::Vector3d> positions;
-  read_rows(cloud, layout, fields, [&](std::span<const double> rows) {
-    positions.clear();
-    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
-      const Eigen::Vector3d position =
-          summary.system.metres_of({rows[i], rows[i + 1], rows[i + 2]});
-      if (!position.allFinite()) {
-        ++summary.not_finite;
-      } else if (marks && is_marked(rows.subspan(i + 3, 2))) {
-        ++summary.marked;
-      } else {
-        positions.push_back(position);
-      }
-    }
-    summary.points += positions.size();
-    if (!positions.empty()) sink(positions);
-  });
-  if (summary.points + summary.marked == 0)
-    throw InputError(cloud, "no point of the cloud has finite x, y and z");
-  if (summary.points == 0)
-    throw InputError(cloud, "all points of the cloud are marked as withheld or noise");
   return summary;
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <span>
 
 #include <Eigen/Core>
 
+#include "core/cloud_files.h"
 #include "scan/cloud_system.h"
 
 namespace plotscan::scan {
@@ -21,7 +20,8 @@ struct CloudSummary {
   std::size_t points = 0;      // handed to the sink
   std::size_t not_finite = 0;  // left out: a coordinate was no number, or no place
   std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  CloudSystem system = {};     // of the file
+  std::size_t left_out = 0;    // left out: of a class to leave out (CloudFiles)
+  CloudSystem system = {};     // of the files
 };
 
 struct PositionOptions {
@@ -29,15 +29,15 @@ struct PositionOptions {
   // the classes 7 (low noise) and 18 (high noise). LAS Specification 1.4 - R15, tables 8, 16, 17
   // (cited from memory).
   bool leave_out_marked = false;
-  // Of the file, where it is silent or wrong; else what the file states, metres where it does not.
-  std::optional<CoordinateUnits> units = {};
 };
 
 // Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary), LAS (1.0 to
-// 1.4) or text cloud (a line a point), whatever other fields it has. Nothing but positions is
-// handed on, so that an estimator cannot see labels. All but compressed PCD is read in constant
-// memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or empty cloud.
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
+// 1.4) or text cloud (a line a point), file after file, whatever other fields it has. Nothing but
+// positions is handed on, so that an estimator cannot see labels. All but compressed PCD is read in
+// constant memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or
+// empty cloud, as read_cloud_system does, and on a file without classes where some are to be left
+// out.
+CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 
 }  // namespace plotscan::scan

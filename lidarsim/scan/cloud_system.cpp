@@ -96,9 +96,22 @@ CloudSystem system_of(const std::filesystem::path& cloud, const CloudLayout& lay
   return system;
 }
 
-CloudSystem read_cloud_system(const std::filesystem::path& cloud,
-                              const std::optional<CoordinateUnits>& given) {
-  return system_of(cloud, read_cloud_header(cloud), given);
+CloudSystem read_cloud_system(const CloudFiles& cloud) {
+  std::optional<CloudSystem> first;
+  for (const std::filesystem::path& file : cloud.files) {
+    const CloudSystem system = system_of(file, read_cloud_header(file), cloud.units);
+    if (!first) {
+      first = system;
+      continue;
+    }
+    const bool same_place = first->zone ? system.zone.has_value() : system.crs == first->crs;
+    if (!same_place || system.units != first->units) {
+      throw InputError(file, "states another coordinate system or other units than " +
+                                 cloud.files.front().string());
+    }
+  }
+  check(first.has_value(), "a cloud has files");
+  return *first;
 }
 
 }  // namespace plotscan::scan

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/cloud_files.h"
 #include "core/coordinate_units.h"
 #include "core/geodesy.h"
 
@@ -28,10 +28,9 @@ struct CloudSystem {
   Eigen::Vector3d metres_of(const Eigen::Vector3d& point) const;
 };
 
-// By the file's header and first points. Given units are believed, whatever the file states.
-// Throws InputError on a missing, foreign or empty cloud, and on degrees that are no place on Earth
-// with a UTM zone.
-CloudSystem read_cloud_system(const std::filesystem::path& cloud,
-                              const std::optional<CoordinateUnits>& given = {});
+// By the files' headers and first points; the zone is the first file's. Throws InputError on a
+// missing, foreign or empty cloud, on degrees that are no place on Earth with a UTM zone, and on
+// files that state other systems or units than the first.
+CloudSystem read_cloud_system(const CloudFiles& cloud);
 
 }  // namespace plotscan::scan

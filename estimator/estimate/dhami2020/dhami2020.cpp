@@ -209,12 +209,12 @@ Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
   return estimate;
 }
 
-Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
+Estimate dhami2020(const CloudFiles& cloud, const Dhami2020Options& options,
                    const ProgressReport& progress) {
   require_sound(options);
   std::optional<Area> area = options.crop_box;
   if (!area && !options.boxes.empty()) area = surroundings(options.boxes, options.extend_m);
-  return dhami2020(read_map(cloud, area, progress, options.units), options, progress);
+  return dhami2020(read_map(cloud, area, progress), options, progress);
 }
 
 }  // namespace plotscan::estimate

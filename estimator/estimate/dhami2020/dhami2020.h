@@ -26,9 +26,8 @@ struct Dhami2020Options {
   double orientation_bin_rad = 0.3;
   double width_bin_m = 0.3;
   double length_bin_m = 0.5;
-  double extend_m = 0.5;                      // each end of the box, to show ground
-  double plane_tolerance_m = 0.05;            // RANSAC inlier distance
-  std::optional<CoordinateUnits> units = {};  // of the cloud's file, whatever it states itself
+  double extend_m = 0.5;            // each end of the box, to show ground
+  double plane_tolerance_m = 0.05;  // RANSAC inlier distance
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -46,7 +45,7 @@ Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
 // The same from a cloud, of which it reads what lies in crop_box; else, with given
 // boxes, in their surroundings; else in the field that it finds. Throws InputError on a broken
 // cloud, and as above.
-Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
+Estimate dhami2020(const CloudFiles& cloud, const Dhami2020Options& options,
                    const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

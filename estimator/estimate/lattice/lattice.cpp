@@ -103,15 +103,11 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
 
 json describe(const FieldCloud& cloud) {
   const FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},
-          {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite},
-          {"marked", counts.marked},
-          {"outside", counts.outside},
-          {"repeated", counts.repeated},
-          {"thinned", counts.thinned},
-          {"outliers", counts.outliers},
-          {"area_m", cloud.area}};
+  return {{"points_read", counts.read},      {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite}, {"marked", counts.marked},
+          {"left_out", counts.left_out},     {"outside", counts.outside},
+          {"repeated", counts.repeated},     {"thinned", counts.thinned},
+          {"outliers", counts.outliers},     {"area_m", cloud.area}};
 }
 
 json describe(const ground::Surface& surface) {
@@ -176,15 +172,12 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   return estimate;
 }
 
-Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
-  return lattice(
-      read_field(
-          cloud,
-          {.area = area_to_read(options), .units = options.units, .threads = options.threads},
-          [&](double share) { report(progress, 0.4 * share); }),
-      options, progress);
+  return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+                            [&](double share) { report(progress, 0.4 * share); }),
+                 options, progress);
 }
 
 }  // namespace plotscan::estimate

@@ -16,12 +16,11 @@ namespace plotscan::estimate {
 
 // What may be told to the lattice method; it needs none of it.
 struct LatticeOptions {
-  std::optional<Area> crop_box = {};          // use only the points in here
-  plots::Hints hints = {};                    // of the plots' heading and size
-  std::vector<PlotBox> boxes = {};            // given boxes: no detection, heights only
-  std::optional<double> noise_m = {};         // sigma of the points' heights, else estimated
-  bool calibrated = true;                     // plants' heights from the canopy's (docs/methods.md)
-  std::optional<CoordinateUnits> units = {};  // of the cloud's file, whatever it states itself
+  std::optional<Area> crop_box = {};   // use only the points in here
+  plots::Hints hints = {};             // of the plots' heading and size
+  std::vector<PlotBox> boxes = {};     // given boxes: no detection, heights only
+  std::optional<double> noise_m = {};  // sigma of the points' heights, else estimated
+  bool calibrated = true;              // plants' heights from the canopy's (docs/methods.md)
   int threads = 1;
 };
 
@@ -38,7 +37,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
 
 // The same from a cloud: of the crop box; else of the given boxes and the ground
 // around them; else of the scanned field. Throws InputError on a broken cloud, and as above.
-Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

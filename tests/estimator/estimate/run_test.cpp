@@ -66,7 +66,7 @@ TEST(Run, WritesAFolderFromWhichTheRunCanBeRepeated) {
   const auto manifest = read_manifest(options.output);
   EXPECT_EQ(manifest["command"], "estimator run");
   EXPECT_EQ(manifest["options"]["plots"], 8);
-  EXPECT_EQ(manifest["inputs"][0]["hash"], file_hash(options.cloud));
+  EXPECT_EQ(manifest["inputs"][0]["hash"], file_hash(options.cloud.files.front()));
   EXPECT_EQ(manifest["results"]["plots"], 8);
   EXPECT_EQ(manifest["results"]["heights"]["raw-max"]["plots"], 8);
   EXPECT_EQ(manifest["results"]["diagnostics"]["votes"]["clusters"], 8);
@@ -77,7 +77,7 @@ TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
   RunOptions options = small_run(folder, kFarm);
   run(options);
   const std::string first = read_text(options.output / "manifest.json");
-  options.cloud = folder.path() / "scan";
+  options.cloud = CloudFiles(folder.path() / "scan");
   options.threads = 2;
   options.replace = true;
   run(options);
@@ -126,7 +126,7 @@ TEST(Run, FeetBecomeMetresAndGoBack) {
   RunOptions feet = metres;
   feet.cloud = folder.write("feet.csv", text);
   feet.output = folder.path() / "feet";
-  feet.units = {kFoot, kFoot};
+  feet.cloud.units = {kFoot, kFoot};
   const Eigen::Vector2d low = moved.head<2>() + Eigen::Vector2d(-30, -30);
   const Eigen::Vector2d high = moved.head<2>() + Eigen::Vector2d(30, 30);
   metres.crop_box = Area{-30, -30, 30, 30};
@@ -157,6 +157,30 @@ TEST(Run, FeetBecomeMetresAndGoBack) {
   const Estimate given = run(feet);
   EXPECT_NEAR(given.plots[3].heights_m.at("raw-max"), expected.plots[3].heights_m.at("raw-max"),
               1e-3);
+}
+
+// The same field in two tiles.
+TEST(Run, AFolderOfTilesIsOneCloud) {
+  const TemporaryFolder folder;
+  RunOptions whole = small_run(folder, kFarm);
+  RunOptions tiles = whole;
+  std::vector<Eigen::Vector3d> west, east;
+  for (const Eigen::Vector3d& point : kFarm.points())
+    (point.x() < 0 ? west : east).push_back(point);
+  ASSERT_FALSE(west.empty() || east.empty());
+  write_cloud(folder.path() / "tiles" / "west.pcd", west);
+  write_cloud(folder.path() / "tiles" / "east.pcd", east);
+  tiles.cloud = CloudFiles(folder.path() / "tiles");
+  tiles.output = folder.path() / "joined";
+  const Estimate expected = run(whole);
+  const Estimate found = run(tiles);
+  ASSERT_EQ(found.plots.size(), expected.plots.size());
+  for (std::size_t i = 0; i < found.plots.size(); ++i) {
+    EXPECT_LT((found.plots[i].box.center - expected.plots[i].box.center).norm(), 0.1);
+    EXPECT_NEAR(found.plots[i].heights_m.at("raw-max"), expected.plots[i].heights_m.at("raw-max"),
+                1e-6);
+  }
+  EXPECT_EQ(read_manifest(tiles.output)["inputs"].size(), 2u);
 }
 
 // On the meridian of zone 31 a step of latitude is the meridian's arc, times 0.9996.

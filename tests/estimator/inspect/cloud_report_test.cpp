@@ -60,7 +60,9 @@ TEST(CloudReport, SaysWhetherPlotsCanBeFound) {
 TEST(CloudReport, KnowsUnits) {
   const TemporaryFolder folder;
   const auto file = folder.write("feet.xyz", field(3, 0.3048));
-  const CloudReport report = inspect_cloud(file, CoordinateUnits{0.3048, 0.3048});
+  CloudFiles cloud(file);
+  cloud.units = {0.3048, 0.3048};
+  const CloudReport report = inspect_cloud(cloud);
   EXPECT_NEAR(report.density.median, 9, 1e-9);
   EXPECT_NEAR(report.facts.bounds.max().x(), (40 - 0.5 / 3) / 0.3048, 1e-9);
   EXPECT_NEAR(report.facts.bounds_m.max().x(), 40 - 0.5 / 3, 1e-9);

@@ -179,6 +179,52 @@ TEST_F(ForeignLasFile, WithheldAndNoiseAreLeftOutOnRequest) {
               HasSubstr("all points of the cloud are marked"));
 }
 
+TEST_F(ForeignLasFile, ClassesAreLeftOutOnRequest) {
+  const auto file =
+      folder_.write("classes.las", bytes_of({.minor = 4, .format = 6, .scale_m = {1, 1, 1}},
+                                            {{.xyz = {1, 0, 0}, .classification = 2},
+                                             {.xyz = {2, 0, 0}, .classification = 5},
+                                             {.xyz = {3, 0, 0}, .classification = 7},
+                                             {.xyz = {4, 0, 0}, .classification = 200}}));
+  CloudFiles cloud(file);
+  cloud.leave_out_classes = {5, 200};
+  std::vector<double> x;
+  const auto collect = [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& position : piece) x.push_back(position.x());
+  };
+  const CloudSummary summary = read_positions(cloud, collect, {.leave_out_marked = true});
+  EXPECT_THAT(x, ElementsAre(1));
+  EXPECT_EQ(summary.left_out, 2u);
+  EXPECT_EQ(summary.marked, 1u);
+  x.clear();
+  EXPECT_EQ(read_positions(cloud, collect).left_out, 2u);
+  EXPECT_THAT(x, ElementsAre(1, 3));
+  cloud.files = {folder_.write("bare.xyz", "1 2 3\n")};
+  EXPECT_THAT(message_of<InputError>([&] { read_positions(cloud, collect); }),
+              HasSubstr("has no field \"classification\""));
+}
+
+// Tiles of a survey, of different formats, are one cloud; of different systems they are not.
+TEST_F(ForeignLasFile, SeveralFilesAreOneCloud) {
+  const auto las = folder_.write("a.las", bytes_of({.scale_m = {1, 1, 1}}, {{{1, 2, 3}}}));
+  const auto text = folder_.write("b.xyz", "4 5 6\n7 8 9\n");
+  std::vector<Eigen::Vector3d> positions;
+  const CloudSummary summary =
+      read_positions(CloudFiles({las, text}), [&](std::span<const Eigen::Vector3d> piece) {
+        positions.insert(positions.end(), piece.begin(), piece.end());
+      });
+  EXPECT_EQ(summary.points, 3u);
+  EXPECT_EQ(positions, (std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+  const std::string wkt = R"(PROJCS["x",UNIT["foot",0.3048],AUTHORITY["EPSG","2264"]])";
+  const auto feet = folder_.write(
+      "c.las", bytes_of({.records = record("LASF_Projection", 2112, wkt), .record_count = 1},
+                        {{{1, 2, 3}}}));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_positions(CloudFiles({las, feet}), [](auto) {});
+              }),
+              HasSubstr("c.las: states another coordinate system or other units than"));
+}
+
 // Fields of these names in other files are labels, and labels are the truth.
 TEST_F(ForeignLasFile, MarksAreNotReadFromOtherFormats) {
   const Read result = read(
@@ -274,8 +320,9 @@ TEST_F(ForeignLasFile, GivenUnitsAreBelieved) {
   const auto file = folder_.write(
       "a.las", bytes_of({.records = key_record({{1024, 2}}), .record_count = 1}, {{{1000, 0, 0}}}));
   double x = 0;
-  const CloudSummary summary = read_positions(file, [&](auto piece) { x = piece[0].x(); },
-                                              {.units = CoordinateUnits{0.3048, 0.3048}});
+  CloudFiles cloud(file);
+  cloud.units = {0.3048, 0.3048};
+  const CloudSummary summary = read_positions(cloud, [&](auto piece) { x = piece[0].x(); });
   EXPECT_EQ(x, 0.3048);
   EXPECT_FALSE(summary.system.zone);
   EXPECT_THAT(summary.system.notes, ElementsAre(HasSubstr("as --units says")));
