@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kCoarsest_m = 256;
 constexpr double kTypicalCount = 16;
+constexpr double kMostSquares = 1e6;
 
 std::uint64_t tile_key(Tile tile) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(tile.x)) << 32 |
@@ -65,6 +66,22 @@ double area_of(const std::vector<Eigen::Vector2d>& corners) {
   return twice_m2 / 2;
 }
 
+double mean_density(std::span<const TileCount> counts, const FieldHull& hull, double area_m2) {
+  double points = 0;
+  for (const auto& [tile, count] : counts)
+    if (hull.holds(tile)) points += static_cast<double>(count);
+  return points / area_m2;
+}
+
+// Squares of fewer than two points on average have no median of kTypicalCount.
+int first_edge(double mean_per_m2, double area_m2) {
+  int edge_m = 1;
+  while (edge_m < kCoarsest_m &&
+         (mean_per_m2 * edge_m * edge_m < 2 || area_m2 > kMostSquares * edge_m * edge_m))
+    edge_m *= 2;
+  return edge_m;
+}
+
 }  // namespace
 
 void TileCounter::add(std::span<const Eigen::Vector3d> points) {
@@ -90,15 +107,22 @@ std::vector<TileCount> TileCounter::counts() const {
 FieldDensity field_density(std::span<const TileCount> counts) {
   const FieldHull hull = find_field(counts);
   FieldDensity density{.field = hull.bounds(), .area_m2 = area_of(hull.corners())};
+  const double mean = mean_density(counts, hull, density.area_m2);
+  density.square_m = first_edge(mean, density.area_m2);
   for (;; density.square_m *= 2) {
     const int edge_m = density.square_m;
-    const std::map<Tile, std::uint64_t> squares = squares_of(counts, edge_m);
-    std::vector<double> inside = counts_inside(squares, hull, edge_m, true);
-    if (inside.empty()) inside = counts_inside(squares, hull, edge_m, false);
+    const double square_m2 = static_cast<double>(edge_m) * edge_m;
+    std::vector<double> inside;
+    if (density.area_m2 <= kMostSquares * square_m2) {
+      const std::map<Tile, std::uint64_t> squares = squares_of(counts, edge_m);
+      inside = counts_inside(squares, hull, edge_m, true);
+      if (inside.empty()) inside = counts_inside(squares, hull, edge_m, false);
+    }
     const double median = quantile(inside, 0.5);
     if (median < kTypicalCount && edge_m < kCoarsest_m) continue;
-    density.median = median / (edge_m * edge_m);
-    density.least5 = quantile(std::move(inside), 0.05) / (edge_m * edge_m);
+    // A field that is smaller than a square, or without end.
+    density.median = inside.empty() ? mean : median / square_m2;
+    density.least5 = inside.empty() ? mean : quantile(std::move(inside), 0.05) / square_m2;
     return density;
   }
 }

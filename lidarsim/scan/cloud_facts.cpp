@@ -56,7 +56,7 @@ class FactFinder {
   // The position in metres; not finite where the point is left out.
   Eigen::Vector3d take(std::span<const double> row) {
     const Eigen::Vector3d point(row[0], row[1], row[2]);
-    const Eigen::Vector3d point_m = facts_.system.metres_of(point);
+    Eigen::Vector3d point_m = facts_.system.metres_of(point);
     if (!point_m.allFinite()) {
       ++facts_.not_finite;
       return point_m;

@@ -108,15 +108,13 @@ std::vector<std::string> column_names(const TextHeader& header, char separator) 
   std::vector<std::string_view> words;
   split_columns(header.names, separator, words);
   if (words.size() < 3) split_columns(header.names, separator_of(header.names), words);
-  std::vector<std::string> names;
-  for (const std::string_view word : words) names.emplace_back(word);
-  return names;
+  return {words.begin(), words.end()};
 }
 
 // The columns of x, y and z by their names; nothing unless all three are named.
 std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::string>& names) {
-  std::vector<std::string> plain;
-  for (const std::string& name : names) plain.push_back(plain_name(name));
+  std::vector<std::string> plain(names.size());
+  std::ranges::transform(names, plain.begin(), plain_name);
   std::array<std::size_t, 3> columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     auto found = plain.end();

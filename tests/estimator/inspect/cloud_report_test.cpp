@@ -56,6 +56,19 @@ TEST(CloudReport, SaysWhetherPlotsCanBeFound) {
   EXPECT_EQ(to_json(dense)["can_carry_plots"], true);
 }
 
+// Two points at the ends of the world, and a field of 9 km2.
+TEST(CloudReport, ThinCloudsHaveADensity) {
+  const TemporaryFolder folder;
+  const CloudReport two = inspect_cloud(folder.write("two.xyz", "0 0 0\n2e9 2e9 0\n"));
+  EXPECT_LT(two.density.median, 0.1);
+  EXPECT_EQ(two.obstacles.size(), 1u);
+  std::string text;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 100; ++y)
+      text += std::to_string(30 * x) + " " + std::to_string(30 * y) + " 0\n";
+  EXPECT_NEAR(inspect_cloud(folder.write("wide.xyz", text)).density.median, 1 / 900.0, 2e-4);
+}
+
 // Density is of square metres, the extent is the file's.
 TEST(CloudReport, KnowsUnits) {
   const TemporaryFolder folder;
