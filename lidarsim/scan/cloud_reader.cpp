@@ -245,7 +245,7 @@ void require_coordinates(const HeaderLines& lines, CloudLayout& layout) {
 }
 
 CloudLayout read_cloud_header(const std::filesystem::path& file) {
-  const CloudLayout layout = read_header_of(cloud_format(file), file);
+  CloudLayout layout = read_header_of(cloud_format(file), file);
   if (layout.points == 0) throw InputError(file, "the cloud is empty: its header says 0 points");
   return layout;
 }
