@@ -10,9 +10,11 @@
 #include "info_command.h"
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "estimate/run.h"
+#include "heights/measure_heights.h"
 #include "score/run.h"
 
 namespace plotscan {
@@ -29,7 +31,13 @@ struct RunArguments {
   std::vector<double> learn_box;
   std::string boxes;
   std::string units;
+  std::string id;
+  std::string plot_names;
+  std::string numbering;
+  std::string first_corner;
+  std::string csv;
   std::optional<double> heading_deg;
+  std::optional<int> plots;
   bool no_calibration = false;
   bool no_level = false;
 };
@@ -59,15 +67,57 @@ void say_votes(const Program& program, const nlohmann::json& diagnostics) {
 }
 
 void say_field(const Program& program, const nlohmann::json& diagnostics) {
-  if (diagnostics.contains("nothing")) {
-    program.say("plots      none: " + diagnostics["nothing"].get<std::string>());
-    return;
-  }
+  if (diagnostics.contains("nothing")) return;
   const auto& field = diagnostics["field"];
   const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
   program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg", number("width_m"),
                         number("length_m"), number("heading_deg")));
   program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
+}
+
+void say_crop(const Program& program, const nlohmann::json& crops) {
+  std::vector<std::string> likely;
+  for (const auto& [crop, probability] : crops.items()) {
+    constexpr double kLeast = 0.005;
+    if (probability.get<double>() >= kLeast)
+      likely.push_back(formatted("%s %.0f %%", crop.c_str(), 100 * probability.get<double>()));
+  }
+  program.say("crop       " + joined(likely, ", "));
+}
+
+// "EPSG:25832 (UTM 32N; ETRS89 is taken for WGS 84, within 2 m)", of a system that is UTM's.
+std::string described(const std::string& crs) {
+  const UtmSystem system = utm_system(crs).value();
+  std::string text =
+      crs + formatted(" (UTM %d%c", system.zone.number, system.zone.north ? 'N' : 'S');
+  if (system.datum != "WGS 84") text += "; " + system.datum + " is taken for WGS 84, within 2 m";
+  return text + ")";
+}
+
+void say_given(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("boxes")) return;
+  program.say(formatted("boxes      %zu plots given, %s %s to %s", estimate.plots.size(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (estimate.diagnostics["boxes"]["from_degrees"].get<bool>()) {
+    program.say("           longitude and latitude of the map converted to " +
+                described(estimate.crs));
+  }
+}
+
+// Whose names were given by row and column, and found no plot.
+void say_named(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("names")) return;
+  const auto& names = estimate.diagnostics["names"];
+  const auto& not_found = names["not_found"];
+  program.say(formatted("names      %zu of %zu named plots found, %s %s to %s",
+                        estimate.plots.size(), names["plots"].get<std::size_t>(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (not_found.empty()) return;
+  std::vector<std::string> ids;
+  for (const auto& id : not_found) ids.push_back(id.get<std::string>());
+  program.say("           not found: " + joined(ids, ", "));
 }
 
 void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
@@ -88,16 +138,19 @@ void say_how(const Program& program, const nlohmann::json& diagnostics, double u
   }
   if (diagnostics.contains("votes")) say_votes(program, diagnostics);
   if (diagnostics.contains("field")) say_field(program, diagnostics);
+  if (diagnostics.contains("crops")) say_crop(program, diagnostics["crops"]);
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {
-  std::map<std::string, std::size_t> plots_by_flag;
+  constexpr std::size_t kNamed = 5;
+  std::map<std::string, std::vector<std::string>> ids_by_flag;
   for (const estimate::PlotEstimate& plot : estimate.plots) {
-    for (const std::string& flag : plot.flags) ++plots_by_flag[flag];
+    for (const std::string& flag : plot.flags) ids_by_flag[flag].push_back(plot.id.text());
   }
-  for (const auto& [flag, plots] : plots_by_flag) {
-    program.say(
-        formatted("flagged    %zu of %zu plots: %s", plots, estimate.plots.size(), flag.c_str()));
+  for (const auto& [flag, ids] : ids_by_flag) {
+    const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
+    program.say(formatted("flagged    %zu of %zu plots: %s%s", ids.size(), estimate.plots.size(),
+                          flag.c_str(), named.c_str()));
   }
 }
 
@@ -120,6 +173,20 @@ void require_own_options(const CLI::App& command, const std::string& method) {
   }
 }
 
+estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
+  using estimate::Corner;
+  static const std::map<std::string, Corner> corners = {
+      {"sw", Corner::sw}, {"se", Corner::se}, {"nw", Corner::nw}, {"ne", Corner::ne}};
+  estimate::NumberingOptions numbering = arguments.options.numbering;
+  if (!arguments.numbering.empty()) {
+    numbering.numbering =
+        arguments.numbering == "serpentine" ? PlotNumbering::serpentine : PlotNumbering::rows;
+  }
+  if (!arguments.first_corner.empty()) numbering.first_corner = corners.at(arguments.first_corner);
+  if (!arguments.plot_names.empty()) numbering.names = arguments.plot_names;
+  return numbering;
+}
+
 void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
@@ -130,11 +197,16 @@ void run_estimate(const Program& program, RunArguments arguments) {
   options.dhami2020.learn_box = area_of(arguments.learn_box);
   options.dhami2020.level = !arguments.no_level;
   options.lattice.calibrated = !arguments.no_calibration;
+  options.lattice.hints.plots = arguments.plots;
+  options.dhami2020.plots = arguments.plots.value_or(0);
   if (arguments.heading_deg) {
     options.lattice.hints.heading_rad = *arguments.heading_deg * std::numbers::pi / 180;
   }
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
-  if (options.method == "dhami2020" && arguments.boxes.empty() && options.dhami2020.plots == 0) {
+  if (!arguments.id.empty()) options.id = arguments.id;
+  options.numbering = numbering_of(arguments);
+  if (!arguments.csv.empty()) options.csv = arguments.csv;
+  if (options.method == "dhami2020" && arguments.boxes.empty() && !arguments.plots) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
   const auto start = std::chrono::steady_clock::now();
@@ -143,15 +215,19 @@ void run_estimate(const Program& program, RunArguments arguments) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = estimate::height_summary(estimate);
   say_how(program, estimate.diagnostics, estimate.units ? estimate.units->horizontal_m : 1);
+  say_given(program, estimate);
+  say_named(program, estimate);
   say_heights(program, summary);
   say_flags(program, estimate);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
                         options.output.c_str()));
+  if (options.csv) program.say("           and " + options.csv->string());
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},
                   {"heights", summary},
                   {"diagnostics", estimate.diagnostics},
                   {"seconds", seconds}});
+  estimate::require_measured(estimate);
 }
 
 void declare_lattice(CLI::App& run, RunArguments& arguments) {
@@ -162,6 +238,14 @@ void declare_lattice(CLI::App& run, RunArguments& arguments) {
       ->group(group);
   run.add_option("--plot-width", method.hints.width_m, "of every plot (metres)")->group(group);
   run.add_option("--plot-length", method.hints.length_m, "of every plot (metres)")->group(group);
+  run.add_option("--rows", method.hints.rows,
+                 "rows of plots; they follow each other along the length")
+      ->group(group);
+  run.add_option("--columns", method.hints.columns, "columns of plots; along the width")
+      ->group(group);
+  run.add_option("--crop", method.crop, "soybean, wheat or maize (default: told from the canopy)")
+      ->check(CLI::IsMember(heights::crop_names()))
+      ->group(group);
   run.add_option("--noise", method.noise_m,
                  "sigma of the points' heights (metres; default: estimated from bare ground)")
       ->group(group);
@@ -173,10 +257,7 @@ void declare_lattice(CLI::App& run, RunArguments& arguments) {
 void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
   const std::string group = kDhamiGroup;
   auto& method = arguments.options.dhami2020;
-  run.add_option("--plots", method.plots,
-                 "how many plots lie in the field, or in --learn-box (1 to 100000)")
-      ->excludes("--boxes")
-      ->group(group);
+
   run.add_option("--learn-box", arguments.learn_box,
                  "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
                  "the grid over the whole field, in the cloud's units")
@@ -201,6 +282,32 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
       ->group(group);
 }
 
+// What the plots are called.
+void declare_names(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--id", arguments.id,
+                 "property of --boxes, or column of --plot-names, that is the plots' id (default: "
+                 "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
+                 "name, id)");
+  run.add_option("--first-number", arguments.options.numbering.first_number,
+                 "number of the first plot that is found; the others follow along the rows")
+      ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1000000000}))
+      ->excludes("--boxes");
+  run.add_option("--numbering", arguments.numbering,
+                 "zigzag: every row from its first column (default); serpentine: every other row "
+                 "from its last")
+      ->check(CLI::IsMember({"zigzag", "serpentine"}))
+      ->excludes("--boxes");
+  run.add_option("--first-corner", arguments.first_corner,
+                 "sw, se, nw or ne: where row 1 and column 1 are, once plots are numbered or named "
+                 "(default: sw)")
+      ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
+      ->excludes("--boxes");
+  run.add_option("--plot-names", arguments.plot_names,
+                 "table (CSV) with columns row, column, an id and others: the plots that are found "
+                 "are called so, and keep the other columns")
+      ->excludes("--boxes", "--first-number", "--numbering");
+}
+
 void declare_run(Program& program, RunArguments& arguments) {
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
@@ -219,12 +326,9 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
                  "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "
-                 "densely scanned "
-                 "field)")
+                 "densely scanned field)")
       ->delimiter(',')
       ->expected(4);
-  run.add_option("--boxes", arguments.boxes,
-                 "plots.geojson with the plots' boxes: measure heights in them, search none");
   run.add_option(
          "--leave-out-class", options.cloud.leave_out_classes,
          "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
@@ -236,7 +340,19 @@ void declare_run(Program& program, RunArguments& arguments) {
          "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: what "
          "the file states, else metres)")
       ->check(CLI::IsMember({"m", "ft", "us-ft"}));
-  run.add_flag("--force", options.replace, "replace an estimate folder that exists");
+  run.add_option("--boxes", arguments.boxes,
+                 "map of the plots (GeoJSON), in the cloud's units, or in longitude and latitude "
+                 "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
+                 "and attributes, search none");
+  declare_names(run, arguments);
+  run.add_option("--csv", arguments.csv,
+                 "also write this table, a line a plot, for breeding databases: "
+                 "observationunit_name, attributes, heights (metres)");
+  run.add_option("--plots", arguments.plots,
+                 "how many plots lie in the field, or in --learn-box (1 to 100000; dhami2020 needs "
+                 "it)")
+      ->excludes("--boxes");
+  run.add_flag("--force", options.replace, "replace an estimate folder, a table that exists");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);
 }

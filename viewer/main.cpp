@@ -77,7 +77,7 @@ struct EstimateArguments {
   fs::path cloud;
   fs::path estimate;
   fs::path png;
-  std::uint32_t plot = 0;
+  std::string plot;
   plotscan::view::FieldPictureOptions field;
   plotscan::view::PlotPictureOptions side;
 };
@@ -107,8 +107,8 @@ void draw_field(const plotscan::Program& program, const EstimateArguments& argum
 
 void draw_plot(const plotscan::Program& program, const EstimateArguments& arguments) {
   plotscan::view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
-                            estimate_with_ground(arguments.estimate), arguments.plot, arguments.png,
-                            arguments.side);
+                            estimate_with_ground(arguments.estimate),
+                            plotscan::PlotId(arguments.plot), arguments.png, arguments.side);
   program.say("wrote " + arguments.png.string());
   program.result({{"picture", arguments.png.string()}});
 }
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
       program.command("plot", "Draw a plot from the side, with its ground and heights, into a PNG.",
                       [&] { draw_plot(program, of_plot); });
   add_estimate_arguments(plot, of_plot);
-  plot.add_option("--plot", of_plot.plot, "number of the plot")->required();
+  plot.add_option("--plot", of_plot.plot, "id of the plot")->required();
   plot.add_option("--heights", of_plot.side.heights,
                   "heights to draw, with commas between, such as mean,p95,max")
       ->delimiter(',')

@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "calibration/fit_covariance.h"
 #include <Eigen/Cholesky>
+#include <tbb/parallel_for.h>
 
 #include "core/random.h"
 #include "core/statistics.h"
+#include "heights/crop_model.h"
 #include "heights/features.h"
 #include "heights/plot_ground.h"
+#include "heights/ratio_model.h"
 
 namespace plotscan::calibration {
 namespace {
@@ -79,6 +83,15 @@ void fit_within(std::span<const MeasuredField> fields, heights::Calibration& cal
   }
 }
 
+// "soybean" of "soybean-r2".
+std::string crop_of(const std::string& library) { return library.substr(0, library.find('-')); }
+
+std::vector<std::string> crops_of(std::span<const heights::CalibrationFarm> farms) {
+  std::set<std::string> crops;
+  for (const heights::CalibrationFarm& farm : farms) crops.insert(farm.crop);
+  return {crops.begin(), crops.end()};
+}
+
 heights::CalibrationFarm farm_of(const MeasuredField& field,
                                  const heights::Calibration& calibration) {
   std::vector<Eigen::VectorXd> features;
@@ -90,10 +103,13 @@ heights::CalibrationFarm farm_of(const MeasuredField& field,
     tops.push_back(plot.top_m);
   }
   return {.library = field.library,
+          .crop = crop_of(field.library),
           .top_m = quantile(tops, 0.5),
           .features = heights::field_features(features),
           .ratios = heights::field_features(ratios),
-          .within = {}};
+          .within = {},
+          .surprise_given_crop = {},
+          .surprise_told_crop = {}};
 }
 
 void scale_features(heights::Calibration& calibration) {
@@ -105,6 +121,51 @@ void scale_features(heights::Calibration& calibration) {
   calibration.center = plain.colwise().mean();
   const Eigen::MatrixXd centred = plain.rowwise() - calibration.center.transpose();
   calibration.scale = (centred.array().square().colwise().mean().sqrt()).max(kLeastScale);
+}
+
+// Under which the crops of the farms, each told by the others, are likeliest.
+double likeliest_sharpness(const heights::Calibration& calibration) {
+  std::vector<Eigen::VectorXd> scores(calibration.farms.size());
+  tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t i) {
+    scores[i] = heights::CropModel(calibration.without({&i, 1}))
+                    .scores(calibration.scaled(calibration.farms[i].features));
+  });
+  double best = 1, most = -INFINITY;
+  for (double sharpness = 1; sharpness < 50; sharpness *= 1.1) {
+    double likelihood = 0;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const auto own = static_cast<Eigen::Index>(calibration.index_of(calibration.farms[i].crop));
+      likelihood += std::log(heights::softmax(scores[i], sharpness)(own));
+    }
+    if (likelihood <= most) continue;
+    most = likelihood;
+    best = sharpness;
+  }
+  return best;
+}
+
+// Certainly its own.
+Eigen::VectorXd own_crop(const heights::Calibration& calibration,
+                         const heights::CalibrationFarm& farm) {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
+                               static_cast<Eigen::Index>(calibration.index_of(farm.crop)));
+}
+
+// Each farm's ratios by the others.
+void find_surprises(heights::Calibration& calibration) {
+  const heights::Calibration all = calibration;
+  tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
+    heights::CalibrationFarm& farm = calibration.farms[i];
+    const heights::Calibration others = all.without({&i, 1});
+    const heights::RatioModel model(others);
+    const Eigen::VectorXd scaled = others.scaled(farm.features);
+    const heights::Prediction told =
+        model.mixture(scaled, farm.top_m, heights::CropModel(others).probabilities(scaled));
+    const heights::Prediction given = model.mixture(scaled, farm.top_m, own_crop(others, farm));
+    farm.surprise_told_crop = (farm.ratios - told.values).cwiseQuotient(told.sds);
+    farm.surprise_given_crop = (farm.ratios - given.values).cwiseQuotient(given.sds);
+    farm.unlike = given.unlike;
+  });
 }
 
 // A share of the returns, drawn for the farm: all of half of the farms, else 1 to 1/30, but about
@@ -132,14 +193,68 @@ std::vector<Eigen::Vector3f> thinned(const PlotSample& plot, double share, std::
   return kept;
 }
 
-// Crops of one kind: "soybean" of "soy-r2".
-std::string crop_of(const std::string& library) { return library.substr(0, library.find('-')); }
+// The farms' numbers in groups.
+std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
+                                                Group group) {
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    by_name[group == Group::farm ? std::to_string(i) : calibration.farms[i].library].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
+  return groups;
+}
 
-void add(double error_m, bool inside, LeftOut& row) {
-  row.farms += 1;
-  row.rmse_m += error_m * error_m;
-  row.bias_m += error_m;
-  row.inside += inside ? 1 : 0;
+// A farm by the others.
+struct ByOthers {
+  heights::FieldRatios told, given;
+};
+
+void add(double error_m, double sd_m, Errors& errors) {
+  constexpr double kQuantile95 = 2.064;
+  errors.rmse_m += error_m * error_m;
+  errors.bias_m += error_m;
+  errors.inside += std::abs(error_m) < kQuantile95 * sd_m ? 1 : 0;
+}
+
+void finish(std::size_t farms, Errors& errors) {
+  const auto count = static_cast<double>(farms);
+  errors = {.rmse_m = std::sqrt(errors.rmse_m / count),
+            .bias_m = errors.bias_m / count,
+            .inside = errors.inside / count};
+}
+
+// A row for each height of a library, of a crop, and of all.
+std::vector<LeftOut> table_of(const heights::Calibration& calibration,
+                              const std::vector<ByOthers>& predictions) {
+  std::map<std::pair<std::string, std::string>, LeftOut> table;
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    const heights::CalibrationFarm& farm = calibration.farms[i];
+    for (std::size_t k = 0; k < calibration.heights.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      const auto add_to = [&](const heights::FieldRatios& ratios, Errors& errors) {
+        add(farm.top_m * (ratios.values(at) - farm.ratios(at)), farm.top_m * ratios.field_sds(at),
+            errors);
+      };
+      const std::string& height = calibration.heights[k];
+      for (const std::string& name : {farm.library, farm.crop, std::string("all")}) {
+        LeftOut& row =
+            table
+                .try_emplace({name, height},
+                             LeftOut{.name = name, .height = height, .told = {}, .given = {}})
+                .first->second;
+        ++row.farms;
+        add_to(predictions[i].told, row.told);
+        add_to(predictions[i].given, row.given);
+      }
+    }
+  }
+  std::vector<LeftOut> rows;
+  for (auto& [key, row] : table) {
+    finish(row.farms, row.told);
+    finish(row.farms, row.given);
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -172,54 +287,41 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   heights::Calibration calibration{.features = heights::feature_names(),
                                    .center = {},
                                    .scale = {},
-                                   .weights = {},
-                                   .covariance = {},
+                                   .like_crops = {},
+                                   .like_ratios = {},
                                    .within = {}};
   for (const auto& [height, value] : fields.front().plots.front().truth)
     calibration.heights.push_back(height);
   for (const MeasuredField& field : fields)
     calibration.farms.push_back(farm_of(field, calibration));
+  calibration.crops = crops_of(calibration.farms);
   scale_features(calibration);
-  fit_covariance(calibration);
+  calibration.like_crops =
+      fit_likeness(calibration.features_of_farms(), heights::crop_indicators(calibration),
+                   std::vector<double>(calibration.farms.size(), 1));
+  calibration.crop_sharpness = likeliest_sharpness(calibration);
+  calibration.like_ratios = fit_likeness(calibration.features_and_crops_of_farms(),
+                                         calibration.ratios(), calibration.noise());
+  find_surprises(calibration);
   fit_within(fields, calibration);
   return calibration;
 }
 
 std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group group) {
-  constexpr double kQuantile95 = 2.064;
-  std::map<std::string, int> numbers;
-  std::vector<int> groups;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
-    const std::string name =
-        group == Group::farm ? std::to_string(i) : calibration.farms[i].library;
-    groups.push_back(numbers.try_emplace(name, static_cast<int>(numbers.size())).first->second);
-  }
-  const heights::Kriging kriging(calibration.places(), calibration.ratios(), calibration.noise(),
-                                 calibration.covariance);
-  const std::vector<heights::Prediction> predictions = kriging.without_own_group(groups);
-  std::map<std::pair<std::string, std::string>, LeftOut> table;
-  for (std::size_t i = 0; i < predictions.size(); ++i) {
-    const heights::CalibrationFarm& farm = calibration.farms[i];
-    for (std::size_t k = 0; k < calibration.heights.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      const double error = predictions[i].values(row) - farm.ratios(row);
-      const bool inside = std::abs(error) < kQuantile95 * predictions[i].sds(row);
-      const std::string& height = calibration.heights[k];
-      for (const std::string& name : {farm.library, crop_of(farm.library), std::string("all")})
-        add(error * farm.top_m, inside,
-            table.try_emplace({name, height}, LeftOut{.name = name, .height = height})
-                .first->second);
+  const std::vector<std::vector<std::size_t>> left_out = groups_of(calibration, group);
+  std::vector<ByOthers> predictions(calibration.farms.size());
+  tbb::parallel_for(std::size_t{0}, left_out.size(), [&](std::size_t g) {
+    const heights::Calibration others = calibration.without(left_out[g]);
+    const heights::RatioModel model(others);
+    const heights::CropModel crops(others);
+    for (const std::size_t i : left_out[g]) {
+      const heights::CalibrationFarm& farm = calibration.farms[i];
+      const Eigen::VectorXd scaled = others.scaled(farm.features);
+      predictions[i] = {.told = model.at(scaled, farm.top_m, crops.probabilities(scaled), true),
+                        .given = model.at(scaled, farm.top_m, own_crop(others, farm), false)};
     }
-  }
-  std::vector<LeftOut> rows;
-  for (auto& [key, row] : table) {
-    const auto farms = static_cast<double>(row.farms);
-    row.rmse_m = std::sqrt(row.rmse_m / farms);
-    row.bias_m /= farms;
-    row.inside /= farms;
-    rows.push_back(row);
-  }
-  return rows;
+  });
+  return table_of(calibration, predictions);
 }
 
 }  // namespace plotscan::calibration

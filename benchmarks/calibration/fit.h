@@ -37,15 +37,21 @@ MeasuredField measure(const FieldSample& sample, Returns returns);
 // own features.
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
-// How well a height is predicted where a farm, or all farms of its library, are left out: what of
-// all farms of a kind.
+// How far a height's predictions are off.
+struct Errors {
+  double rmse_m = 0;
+  double bias_m = 0;
+  double inside = 0;  // share of the truths in the 95 % interval
+};
+
+// How well a height is predicted where a farm, or all farms of its library, are left out: of all
+// farms of a kind.
 struct LeftOut {
   std::string name;  // of the kind
   std::string height;
   std::size_t farms = 0;
-  double rmse_m = 0;
-  double bias_m = 0;
-  double inside = 0;  // share of the truths in the 95 % interval
+  Errors told;   // the crop told from the canopy
+  Errors given;  // the crop given
 };
 
 enum class Group { farm, library };

@@ -8,8 +8,8 @@
 namespace plotscan::calibration {
 namespace {
 
-// What is fitted, as logarithms: of each feature's weight over the common one, of that one's
-// square, of the linear part and of the noise.
+// What is fitted, as logarithms: of the weight of each number compared over the common one, of that
+// one's square, of the linear part and of the noise.
 struct Parameters {
   Eigen::VectorXd logs;
 
@@ -23,9 +23,9 @@ struct Parameters {
 };
 
 struct Farms {
-  Eigen::MatrixXd scaled;  // a row a farm
-  Eigen::MatrixXd ratios;  // the same, about their mean
-  Eigen::VectorXd noise;   // relative
+  Eigen::MatrixXd compared;  // a row a farm
+  Eigen::MatrixXd values;    // the same, about their mean
+  Eigen::VectorXd noise;     // relative
 };
 
 struct Cost {
@@ -45,20 +45,20 @@ Eigen::VectorXd sums_of_distances(const Eigen::MatrixXd& m, const Eigen::MatrixX
 
 // Negative logarithm of the likelihood and of the prior, and its gradient.
 Cost cost_of(const Parameters& parameters, const Farms& farms) {
-  const auto farm_count = static_cast<double>(farms.ratios.rows());
-  const auto heights = static_cast<double>(farms.ratios.cols());
+  const auto farm_count = static_cast<double>(farms.values.rows());
+  const auto heights = static_cast<double>(farms.values.cols());
   const Eigen::Index count = parameters.features();
   const Eigen::VectorXd weights = parameters.weights();
   const heights::Covariance covariance = parameters.covariance();
-  const Eigen::MatrixXd places = farms.scaled * weights.asDiagonal();
+  const Eigen::MatrixXd places = farms.compared * weights.asDiagonal();
   const Eigen::MatrixXd products = places * places.transpose();
   const Eigen::MatrixXd between = heights::covariances_of(places, covariance.linear);
   const Eigen::VectorXd noise = (covariance.noise * farms.noise).cwiseAbs2();
   const Eigen::LLT<Eigen::MatrixXd> factor(between + Eigen::MatrixXd(noise.asDiagonal()));
   const Eigen::MatrixXd inverse =
       factor.solve(Eigen::MatrixXd::Identity(between.rows(), between.cols()));
-  const Eigen::MatrixXd solved = inverse * farms.ratios;
-  const Eigen::VectorXd misfits = farms.ratios.cwiseProduct(solved).colwise().sum();
+  const Eigen::MatrixXd solved = inverse * farms.values;
+  const Eigen::VectorXd misfits = farms.values.cwiseProduct(solved).colwise().sum();
   const Eigen::VectorXd logs = parameters.logs.head(count);
 
   Cost cost{.value = heights * factor.matrixLLT().diagonal().array().log().sum() +
@@ -110,24 +110,20 @@ Parameters least_cost(Parameters parameters, const Farms& farms) {
 
 }  // namespace
 
-void fit_covariance(heights::Calibration& calibration) {
-  const Eigen::Index count = calibration.center.size();
-  const std::vector<double> noise = calibration.noise();
-  Farms farms{.scaled = Eigen::MatrixXd(static_cast<Eigen::Index>(noise.size()), count),
-              .ratios = calibration.ratios(),
-              .noise = Eigen::Map<const Eigen::VectorXd>(noise.data(),
-                                                         static_cast<Eigen::Index>(noise.size()))};
-  for (Eigen::Index i = 0; i < farms.scaled.rows(); ++i)
-    farms.scaled.row(i) =
-        calibration.scaled(calibration.farms[static_cast<std::size_t>(i)].features);
-  farms.ratios.rowwise() -= farms.ratios.colwise().mean().eval();
+heights::Likeness fit_likeness(const Eigen::MatrixXd& compared, const Eigen::MatrixXd& values,
+                               const std::vector<double>& noise) {
+  const Farms farms{.compared = compared,
+                    .values = values.rowwise() - values.colwise().mean(),
+                    .noise = Eigen::Map<const Eigen::VectorXd>(
+                        noise.data(), static_cast<Eigen::Index>(noise.size()))};
+  const Eigen::Index count = farms.compared.cols();
+  constexpr heights::Covariance kFirst{};
   Parameters first{.logs = Eigen::VectorXd::Zero(count + 3)};
   first.logs(count) = -std::log(static_cast<double>(count));
-  first.logs(count + 1) = std::log(calibration.covariance.linear);
-  first.logs(count + 2) = std::log(calibration.covariance.noise);
+  first.logs(count + 1) = std::log(kFirst.linear);
+  first.logs(count + 2) = std::log(kFirst.noise);
   const Parameters fitted = least_cost(first, farms);
-  calibration.weights = fitted.weights();
-  calibration.covariance = fitted.covariance();
+  return {.weights = fitted.weights(), .covariance = fitted.covariance()};
 }
 
 }  // namespace plotscan::calibration

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/program.h"
+#include "core/text.h"
 #include "core/text_file.h"
 
 namespace {
@@ -89,28 +90,30 @@ std::vector<calibration::MeasuredField> measured_fields(const std::vector<fs::pa
   return fields;
 }
 
-// A line a library, crop and height: with the farm left out, with its library, and with the library
-// where rays straight down without any error were measured.
+// A line a library, crop and height, rmse (bias) and the share inside the interval: with the farm
+// left out, then with its library, each with the crop told from the canopy and given; last with the
+// library where rays straight down without any error were measured, the crop given.
 void print_left_out(const Program& program, const heights::Calibration& fitted,
                     const heights::Calibration& perfect) {
   using calibration::Group;
-  const std::vector<calibration::LeftOut> farms = calibration::leave_out(fitted, Group::farm);
-  const std::vector<calibration::LeftOut> libraries =
-      calibration::leave_out(fitted, Group::library);
-  const std::vector<calibration::LeftOut> limits = calibration::leave_out(perfect, Group::library);
+  using calibration::LeftOut;
+  const std::vector<LeftOut> farms = leave_out(fitted, Group::farm);
+  const std::vector<LeftOut> libraries = leave_out(fitted, Group::library);
+  const std::vector<LeftOut> limits = leave_out(perfect, Group::library);
+  const auto figures = [](const char* what, const calibration::Errors& errors) {
+    return formatted("  %s %5.2f (%+5.2f) cm, %5.1f %%", what, 100 * errors.rmse_m,
+                     100 * errors.bias_m, 100 * errors.inside);
+  };
   for (std::size_t i = 0; i < libraries.size(); ++i) {
-    const calibration::LeftOut& row = libraries[i];
-    const auto limit = std::ranges::find_if(limits, [&](const calibration::LeftOut& other) {
+    const LeftOut& row = libraries[i];
+    const auto limit = std::ranges::find_if(limits, [&](const LeftOut& other) {
       return other.name == row.name && other.height == row.height;
     });
-    std::array<char, 240> line{};
-    std::snprintf(line.data(), line.size(),
-                  "%-20s %-11s %4zu farms  farm out: rmse %5.2f cm inside %5.1f %%  library out: "
-                  "rmse %5.2f cm bias %+5.2f cm inside %5.1f %%  perfect rays: %5.2f cm",
-                  row.name.c_str(), row.height.c_str(), row.farms, 100 * farms[i].rmse_m,
-                  100 * farms[i].inside, 100 * row.rmse_m, 100 * row.bias_m, 100 * row.inside,
-                  limit == limits.end() ? NAN : 100 * limit->rmse_m);
-    program.say(line.data());
+    const double limit_m = limit == limits.end() ? NAN : limit->given.rmse_m;
+    program.say(formatted("%-20s %-11s %4zu", row.name.c_str(), row.height.c_str(), row.farms) +
+                figures("farm out", farms[i].told) + figures("crop given", farms[i].given) +
+                figures("library out", row.told) + figures("crop given", row.given) +
+                formatted("  perfect rays %5.2f cm", 100 * limit_m));
   }
 }
 

@@ -25,7 +25,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   const std::vector<score::TruePlot> truth =
       field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
   measured.score = score::score_field(truth, estimate);
-  const std::set<std::uint32_t> extra(measured.score.extra.begin(), measured.score.extra.end());
+  const std::set<PlotId> extra(measured.score.extra.begin(), measured.score.extra.end());
   for (const estimate::PlotEstimate& plot : estimate.plots) {
     if (!plot.confidence) continue;
     (extra.contains(plot.id) ? measured.false_confidences : measured.true_confidences)

@@ -26,9 +26,9 @@ struct HeightError {
 
 // One plot as found in, or measured from, a cloud.
 struct PlotEstimate {
-  std::uint32_t id = 0;  // from 1
-  int row = 0;           // from 1; 0 when the method has no grid
-  int column = 0;        // from 1; 0 when the method has no grid
+  PlotId id = 0;   // as given, else a number from 1
+  int row = 0;     // from 1; 0 when the method has no grid
+  int column = 0;  // from 1; 0 when the method has no grid
   PlotBox box;
   std::size_t points = 0;  // cloud points the heights were taken from
   std::map<std::string, double> heights_m =
@@ -36,12 +36,15 @@ struct PlotEstimate {
   std::map<std::string, HeightError> errors = {};   // of heights_m, by the same names
   std::optional<double> confidence = std::nullopt;  // that this is a plot, 0 to 1
   std::vector<std::string> flags = {};  // why not to trust the heights; none: they may be trusted
+  // What was given with the plot's box (PlotMap), to be given back; not read by read_estimate.
+  nlohmann::json attributes = nlohmann::json::object();
 };
 
 // What a method says of a whole field.
 struct Estimate {
   std::string method;  // "dhami2020"
   std::vector<PlotEstimate> plots = {};
+  std::string id_property = "plot_number";  // the property and column that holds the plots' ids
   std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
   // Of the cloud's file, where they are not metres: the files below have them, all else is metres.
   std::optional<CoordinateUnits> units = {};
@@ -49,16 +52,24 @@ struct Estimate {
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };
 
-// Writes plots.geojson, heights.csv and, where the method models it, the ground's grids
+// Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system) in
+// metres, heights.csv and, where the method models it, the ground's grids
 // (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
-// its numeric properties named height_<name>_m or canopy_<name>_m; plots without a number get their
-// place in the file. The method is the one that the folder's manifest.json names, "" without a
-// manifest. The ground is not read. Throws InputError as read_plot_features does, when no plot has
-// a height, and when a file that no method of ours wrote has no plot.
+// its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
+// else its plot_number, else its place in the file. The method is the one that the folder's
+// manifest.json names, "" without a manifest. The ground is not read. Throws InputError as
+// read_plot_features does, when no plot has a height, and when a file that no method of ours wrote
+// has no plot.
 Estimate read_estimate(const std::filesystem::path& path);
+
+// What a feature of a given map says of its plot, to be given back (PlotEstimate::attributes): all
+// its properties but the five of its box. Those that an estimate writes itself (heights, their
+// errors, points, confidence, flags) are called given_<name>, so that nobody takes what the map
+// said for what was measured.
+nlohmann::json given_attributes(const PlotFeature& feature);
 
 // What one feature of a plots.geojson says; `number` is its place in the file, from 1.
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);

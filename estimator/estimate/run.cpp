@@ -2,15 +2,19 @@
 #include "estimate/run.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "estimate/plot_map.h"
+#include "estimate/plot_tables.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::estimate {
@@ -21,8 +25,8 @@ using nlohmann::json;
 
 constexpr double kDegrees = std::numbers::pi / 180;
 
-template <class Number>
-json to_json(const std::optional<Number>& value) {
+template <class Value>
+json to_json(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
@@ -31,6 +35,10 @@ json options_json(const LatticeOptions& options) {
   return {{"heading_deg", heading ? json(*heading / kDegrees) : json(nullptr)},
           {"plot_width_m", to_json(options.hints.width_m)},
           {"plot_length_m", to_json(options.hints.length_m)},
+          {"rows", to_json(options.hints.rows)},
+          {"columns", to_json(options.hints.columns)},
+          {"plots", to_json(options.hints.plots)},
+          {"crop", to_json(options.crop)},
           {"noise_m", to_json(options.noise_m)},
           {"calibrated", options.calibrated}};
 }
@@ -48,6 +56,17 @@ json options_json(const Dhami2020Options& options) {
           {"plane_tolerance_m", options.plane_tolerance_m}};
 }
 
+json options_json(const NumberingOptions& options) {
+  constexpr std::array<const char*, 4> kCorners = {"sw", "se", "nw", "ne"};
+  const Corner corner = options.first_corner.value_or(Corner::sw);
+  json document = {{"first_corner", kCorners.at(static_cast<std::size_t>(corner))}};
+  document["plot_names"] = options.names.has_value();
+  if (options.names) return document;
+  document["first_number"] = options.first_number.value_or(1);
+  document["numbering"] = options.numbering == PlotNumbering::serpentine ? "serpentine" : "zigzag";
+  return document;
+}
+
 json options_json(const RunOptions& options) {
   json document =
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
@@ -57,17 +76,9 @@ json options_json(const RunOptions& options) {
   document["unit_m"] = cloud.units ? json(cloud.units->horizontal_m) : json(nullptr);
   document["leave_out_classes"] = cloud.leave_out_classes;
   document["given_boxes"] = options.boxes.has_value();
+  document["id"] = to_json(options.id);
+  if (options.numbering.any()) document["numbering"] = options_json(options.numbering);
   return document;
-}
-
-// A plot measured in a given box keeps the number, row and column that the file gives it.
-void take_names(const std::vector<PlotFeature>& features, std::vector<PlotEstimate>& plots) {
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const PlotEstimate named = plot_of(features[i], i + 1);
-    plots[i].id = named.id;
-    plots[i].row = named.row;
-    plots[i].column = named.column;
-  }
 }
 
 // What every method is told, beside what is its own.
@@ -88,10 +99,50 @@ Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
   return dhami2020(cloud, options, progress);
 }
 
-std::vector<PlotFeature> read_boxes(const fs::path& file, double unit_m) {
-  std::vector<PlotFeature> features = read_plot_features(file, unit_m);
-  if (features.empty()) throw InputError(file, "has no plots");
-  return features;
+void require_sound(const RunOptions& options) {
+  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
+    throw InputError("there is no method \"" + options.method + "\"; there is " +
+                     joined(method_names(), ", "));
+  }
+  const NumberingOptions& numbering = options.numbering;
+  if (options.boxes && numbering.any())
+    throw InputError("plots in given boxes keep their ids: they are neither numbered nor named");
+  if (numbering.names && (numbering.first_number || numbering.numbering))
+    throw InputError("plots are numbered or named by a table, not both");
+  if (options.id && !options.boxes && !numbering.names)
+    throw InputError("an id is a property of given boxes or a column of plot names; give either");
+}
+
+// The cloud's files and the others that the user gives.
+std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions& options) {
+  if (options.boxes) files.push_back(*options.boxes);
+  if (options.numbering.names) files.push_back(*options.numbering.names);
+  return files;
+}
+
+// A table replaces no input, and does not lie in the folder that is replaced as a whole.
+void require_own_place(const fs::path& table, const fs::path& folder,
+                       const std::vector<fs::path>& inputs) {
+  std::error_code ignored;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(table, input, ignored)) throw InputError(table, "is an input of the run");
+  }
+  const fs::path within =
+      fs::weakly_canonical(table).lexically_relative(fs::weakly_canonical(folder));
+  if (!within.empty() && *within.begin() != "..")
+    throw InputError(table, "lies in the estimate folder, which has a heights.csv of its own");
+}
+
+// The plots as the user wants them called.
+void name(const RunOptions& options, const PlotMap& map, const NamedPlaces& places,
+          Estimate& estimate) {
+  if (options.boxes) {
+    take_names(map, estimate);
+  } else if (options.numbering.names) {
+    name_plots(options.numbering, places, estimate);
+  } else if (options.numbering.any()) {
+    number_plots(options.numbering, estimate);
+  }
 }
 
 std::optional<Area> in_metres(std::optional<Area> area, double unit_m) {
@@ -122,36 +173,57 @@ const std::vector<std::string>& method_names() {
 }
 
 Estimate run(const RunOptions& options, const ProgressReport& progress) {
-  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
-    throw InputError("there is no method \"" + options.method + "\"; there is " +
-                     joined(method_names(), ", "));
-  }
+  require_sound(options);
   CloudFiles cloud = options.cloud;
   cloud.files = cloud_files_of(options.cloud.files);
-  std::vector<fs::path> inputs = options.cloud.files;
-  if (options.boxes) inputs.push_back(*options.boxes);
-  OutputFolder folder(options.output, options.replace, "estimator run", inputs);
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),
-                    .inputs = cloud.files};
+                    .inputs = with_tables(cloud.files, options)};
+  OutputFolder folder(options.output, options.replace, "estimator run",
+                      with_tables(options.cloud.files, options));
+  std::optional<OutputFile> table;
+  if (options.csv) {
+    require_own_place(*options.csv, options.output, manifest.inputs);
+    table.emplace(*options.csv, options.replace);
+  }
   const scan::CloudSystem system = scan::read_cloud_system(cloud);
   const double unit_m = system.units.horizontal_m;
-  std::vector<PlotFeature> boxes;
-  if (options.boxes) {
-    boxes = read_boxes(*options.boxes, unit_m);
-    manifest.inputs.push_back(*options.boxes);
-  }
-  Estimate estimate = run_method(cloud, in_metres(options, unit_m), boxes, progress);
+  PlotMap map;
+  if (options.boxes) map = read_plot_map(*options.boxes, system.crs, unit_m, options.id);
+  NamedPlaces places;
+  if (options.numbering.names) places = read_named_places(*options.numbering.names, options.id);
+  Estimate estimate = run_method(cloud, in_metres(options, unit_m), map.plots, progress);
   take_system(system, options, estimate);
-  take_names(boxes, estimate.plots);
+  name(options, map, places, estimate);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},
                       {"diagnostics", estimate.diagnostics}};
   write_manifest(folder.path(), manifest);
+  if (table) write_traits(table->path(), estimate);
   folder.commit();
+  if (table) table->commit();
   return estimate;
+}
+
+void require_measured(const Estimate& estimate) {
+  const bool measured = std::ranges::any_of(
+      estimate.plots, [](const PlotEstimate& plot) { return !plot.heights_m.empty(); });
+  if (measured) return;
+  const json& diagnostics = estimate.diagnostics;
+  const Area area = diagnostics.at("area_m").get<Area>();
+  const double density =
+      diagnostics.at("points_in_area").get<double>() / ((area[2] - area[0]) * (area[3] - area[1]));
+  const std::string found = formatted(" (%.3g points/m2)", density);
+  if (!estimate.plots.empty()) {
+    throw NothingToMeasure("no plot has enough points for a height" + found +
+                           "; check that the boxes and the cloud are of one field, and fly lower "
+                           "where points are few");
+  }
+  throw NothingToMeasure("no plots: " + diagnostics.value("nothing", "none were found") + found +
+                         "; say where they are with --crop-box or --boxes, or fly lower where "
+                         "points are few");
 }
 
 json height_summary(const Estimate& estimate) {

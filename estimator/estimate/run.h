@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
+#include "estimate/plot_numbers.h"
 
 namespace plotscan::estimate {
 
@@ -20,8 +21,11 @@ struct RunOptions {
   CloudFiles cloud;  // files and folders, as cloud_files_of takes them
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
-  std::optional<std::filesystem::path> boxes = {};  // plots.geojson: heights only, in its boxes
-  bool replace = false;                             // an estimate folder that exists
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
+  NumberingOptions numbering = {};                  // of the plots that are found, without boxes
+  std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
+  std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
+  bool replace = false;                           // an estimate folder, a table that exists
   // Use only the points in here. In the cloud's own coordinates, as are the given boxes and
   // dhami2020's learn box; metres of UTM where the cloud is in degrees.
   std::optional<Area> crop_box = {};
@@ -36,9 +40,13 @@ const std::vector<std::string>& method_names();
 
 // Runs the method and writes the estimate folder (docs/estimate-format.md). Methods count in
 // metres: the cloud's own coordinates become metres here and at reading, and become its own again
-// in write_estimate. With given boxes, plots keep the file's numbers, rows and columns. Throws
+// in write_estimate. With given boxes, plots keep the map's ids and attributes (plot_map.h). Throws
 // InputError on bad input; nothing is left behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
+
+// Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says
+// why, how dense the cloud is, and what to do next.
+void require_measured(const Estimate& estimate);
 
 // How many plots have each height, and its median, least and greatest value, metres.
 nlohmann::json height_summary(const Estimate& estimate);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/calibration.h"
 
+#include <algorithm>
+
+#include "core/error.h"
 #include "core/statistics.h"
+#include "core/text.h"
 #include "heights/calibration_files.h"
 
 namespace plotscan::heights {
@@ -18,6 +22,17 @@ json numbers_of(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
+json json_of(const Likeness& likeness) {
+  return {{"weights", numbers_of(likeness.weights)},
+          {"linear", likeness.covariance.linear},
+          {"noise", likeness.covariance.noise}};
+}
+
+Likeness likeness_of(const json& document) {
+  return {.weights = vector_of(document.at("weights")),
+          .covariance = {.linear = document.at("linear"), .noise = document.at("noise")}};
+}
+
 }  // namespace
 
 Eigen::VectorXd Calibration::scaled(const Eigen::VectorXd& values) const {
@@ -25,10 +40,34 @@ Eigen::VectorXd Calibration::scaled(const Eigen::VectorXd& values) const {
   return (values - center).cwiseQuotient(scale).cwiseMax(-kFarthest).cwiseMin(kFarthest);
 }
 
-Eigen::MatrixXd Calibration::places() const {
+std::size_t Calibration::index_of(const std::string& crop) const {
+  const auto known = std::ranges::find(crops, crop);
+  if (known == crops.end())
+    throw InputError("there is no crop \"" + crop + "\" in the calibration; there is " +
+                     joined(crops, ", "));
+  return static_cast<std::size_t>(known - crops.begin());
+}
+
+Eigen::VectorXd Calibration::with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const {
+  Eigen::VectorXd values(scaled.size() + static_cast<Eigen::Index>(crops.size()));
+  values << scaled, Eigen::VectorXd::Constant(static_cast<Eigen::Index>(crops.size()), -1);
+  values(scaled.size() + static_cast<Eigen::Index>(crop)) = 1;
+  return values;
+}
+
+Eigen::MatrixXd Calibration::features_of_farms() const {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()), center.size());
   for (std::size_t i = 0; i < farms.size(); ++i)
-    rows.row(static_cast<Eigen::Index>(i)) = place(scaled(farms[i].features));
+    rows.row(static_cast<Eigen::Index>(i)) = scaled(farms[i].features);
+  return rows;
+}
+
+Eigen::MatrixXd Calibration::features_and_crops_of_farms() const {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()),
+                       center.size() + static_cast<Eigen::Index>(crops.size()));
+  for (std::size_t i = 0; i < farms.size(); ++i)
+    rows.row(static_cast<Eigen::Index>(i)) =
+        with_crop(scaled(farms[i].features), index_of(farms[i].crop));
   return rows;
 }
 
@@ -46,14 +85,27 @@ std::vector<double> Calibration::noise() const {
   return noise;
 }
 
+Calibration Calibration::without(std::span<const std::size_t> farms_left_out) const {
+  Calibration fewer = *this;
+  fewer.farms.clear();
+  for (std::size_t i = 0; i < farms.size(); ++i)
+    if (std::ranges::find(farms_left_out, i) == farms_left_out.end())
+      fewer.farms.push_back(farms[i]);
+  return fewer;
+}
+
 json json_of(const Calibration& calibration) {
   json farms = json::array();
   for (const CalibrationFarm& farm : calibration.farms) {
     farms.push_back({{"library", farm.library},
+                     {"crop", farm.crop},
                      {"top_m", farm.top_m},
                      {"features", numbers_of(farm.features)},
                      {"ratios", numbers_of(farm.ratios)},
-                     {"within", numbers_of(farm.within)}});
+                     {"within", numbers_of(farm.within)},
+                     {"surprise_given_crop", numbers_of(farm.surprise_given_crop)},
+                     {"surprise_told_crop", numbers_of(farm.surprise_told_crop)},
+                     {"unlike", farm.unlike}});
   }
   json within = json::array();
   for (const auto& row : calibration.within.rowwise()) within.push_back(numbers_of(row));
@@ -61,32 +113,38 @@ json json_of(const Calibration& calibration) {
           {"heights", calibration.heights},
           {"center", numbers_of(calibration.center)},
           {"scale", numbers_of(calibration.scale)},
-          {"weights", numbers_of(calibration.weights)},
-          {"linear", calibration.covariance.linear},
-          {"noise", calibration.covariance.noise},
+          {"crops", calibration.crops},
+          {"like_crops", json_of(calibration.like_crops)},
+          {"crop_sharpness", calibration.crop_sharpness},
+          {"like_ratios", json_of(calibration.like_ratios)},
           {"within", within},
           {"farms", farms}};
 }
 
 Calibration calibration_of(const json& document) {
-  Calibration calibration{
-      .features = document.at("features"),
-      .heights = document.at("heights"),
-      .center = vector_of(document.at("center")),
-      .scale = vector_of(document.at("scale")),
-      .weights = vector_of(document.at("weights")),
-      .covariance = {.linear = document.at("linear"), .noise = document.at("noise")},
-      .within = {}};
+  Calibration calibration{.features = document.at("features"),
+                          .heights = document.at("heights"),
+                          .center = vector_of(document.at("center")),
+                          .scale = vector_of(document.at("scale")),
+                          .crops = document.at("crops"),
+                          .like_crops = likeness_of(document.at("like_crops")),
+                          .crop_sharpness = document.at("crop_sharpness"),
+                          .like_ratios = likeness_of(document.at("like_ratios")),
+                          .within = {}};
   calibration.within.resize(static_cast<Eigen::Index>(calibration.heights.size()),
                             calibration.center.size());
   for (Eigen::Index row = 0; row < calibration.within.rows(); ++row)
     calibration.within.row(row) = vector_of(document.at("within").at(row));
   for (const json& farm : document.at("farms")) {
     calibration.farms.push_back({.library = farm.at("library"),
+                                 .crop = farm.at("crop"),
                                  .top_m = farm.at("top_m"),
                                  .features = vector_of(farm.at("features")),
                                  .ratios = vector_of(farm.at("ratios")),
-                                 .within = vector_of(farm.at("within"))});
+                                 .within = vector_of(farm.at("within")),
+                                 .surprise_given_crop = vector_of(farm.at("surprise_given_crop")),
+                                 .surprise_told_crop = vector_of(farm.at("surprise_told_crop")),
+                                 .unlike = farm.at("unlike")});
   }
   return calibration;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,35 +17,52 @@ namespace plotscan::heights {
 // A farm that the calibration was fitted on. Vectors of heights are in the calibration's order.
 struct CalibrationFarm {
   std::string library;  // of its plants
-  double top_m = 0;     // median over its plots
+  std::string crop;
+  double top_m = 0;  // median over its plots
   Eigen::VectorXd features;
   Eigen::VectorXd ratios;  // true heights over the canopy's top, the same
   Eigen::VectorXd within;  // sd of its plots' ratios about what is predicted
+  // Errors over standard deviations where the ratios are predicted from the other farms: with its
+  // crop given, and told from its canopy.
+  Eigen::VectorXd surprise_given_crop, surprise_told_crop;
+  double unlike = 0;  // Prediction::unlike by the other farms
+};
+
+// How like two fields are: the weights of what is compared, and the covariance over the places that
+// they make.
+struct Likeness {
+  Eigen::VectorXd weights;  // of each number that is compared
+  Covariance covariance;
 };
 
 // The file that benchmarks/calibration writes (heights/calibration.json). A height's ratio to the
-// canopy's top is kriged from the field's features and corrected by what the plot's differ from the
-// field's.
+// canopy's top is kriged from the field's features and its crop, and corrected by what the plot's
+// features differ from the field's.
 struct Calibration {
   std::vector<std::string> features = {};
   std::vector<std::string> heights = {};
   Eigen::VectorXd center;  // features are shifted and divided by these
   Eigen::VectorXd scale;
-  Eigen::VectorXd weights;  // of each feature in a farm's place: near farms have like ratios
-  Covariance covariance;
-  Eigen::MatrixXd within;  // a row a height: weights of the scaled differences
+  std::vector<std::string> crops = {};
+  Likeness like_crops;        // by features: fields of one crop are alike
+  double crop_sharpness = 1;  // of what they tell of the crop
+  Likeness like_ratios;       // by features and crop
+  Eigen::MatrixXd within;     // a row a height: weights of the scaled differences
   std::vector<CalibrationFarm> farms = {};
 
   // Features scaled to a spread of 1, no farther than 4 from the middle.
   Eigen::VectorXd scaled(const Eigen::VectorXd& values) const;
-  // Where the regression has a field or plot of these scaled features.
-  Eigen::VectorXd place(const Eigen::VectorXd& scaled) const {
-    return scaled.cwiseProduct(weights);
-  }
-  // A row a farm: their places, and their ratios.
-  Eigen::MatrixXd places() const;
+  // The crop's place in `crops`. Throws InputError on one that is not there.
+  std::size_t index_of(const std::string& crop) const;
+  // The scaled features of a field or plot, then 1 for its crop and -1 for each other.
+  Eigen::VectorXd with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const;
+  // A row a farm: its scaled features, the same with its crop, and its ratios.
+  Eigen::MatrixXd features_of_farms() const;
+  Eigen::MatrixXd features_and_crops_of_farms() const;
   Eigen::MatrixXd ratios() const;
   std::vector<double> noise() const;
+  // The same with fewer farms.
+  Calibration without(std::span<const std::size_t> farms_left_out) const;
 };
 
 nlohmann::json json_of(const Calibration& calibration);

@@ -68,10 +68,12 @@ double Kriging::unlike(const Eigen::VectorXd& place) const {
   return std::sqrt(std::max(0.0, own - known.squaredNorm()));
 }
 
+Eigen::VectorXd Kriging::values_at(const Eigen::VectorXd& place) const {
+  return center_.transpose() + weights_.transpose() * covariances(place);
+}
+
 Prediction Kriging::at(const Eigen::VectorXd& place, double noise) const {
-  Prediction prediction{.values = center_.transpose() + weights_.transpose() * covariances(place),
-                        .sds = {},
-                        .unlike = unlike(place)};
+  Prediction prediction{.values = values_at(place), .sds = {}, .unlike = unlike(place)};
   prediction.sds = scales_ * std::sqrt(square(prediction.unlike) + noise_variance(noise));
   return prediction;
 }
@@ -86,31 +88,6 @@ std::vector<std::size_t> Kriging::nearest(const Eigen::VectorXd& place, std::siz
   for (std::size_t k = 0; k < std::min(order.size(), count); ++k)
     nearest.push_back(order[k].second);
   return nearest;
-}
-
-std::vector<Prediction> Kriging::without_own_group(std::span<const int> groups) const {
-  const Eigen::MatrixXd inverse =
-      factor_.solve(Eigen::MatrixXd::Identity(places_.rows(), places_.rows()));
-  std::vector<Prediction> predictions(groups.size());
-  for (std::size_t first = 0; first < groups.size(); ++first) {
-    std::vector<Eigen::Index> group;
-    for (std::size_t i = 0; i < groups.size(); ++i)
-      if (groups[i] == groups[first]) group.push_back(static_cast<Eigen::Index>(i));
-    if (group.front() != static_cast<Eigen::Index>(first)) continue;
-    const Eigen::MatrixXd own = inverse(group, group);
-    const Eigen::MatrixXd covariance =
-        own.llt().solve(Eigen::MatrixXd::Identity(own.rows(), own.cols()));
-    const Eigen::MatrixXd shift = covariance * weights_(group, Eigen::all);
-    for (std::size_t k = 0; k < group.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(k);
-      const auto i = static_cast<std::size_t>(group[k]);
-      const double variance = std::max(0.0, covariance(row, row));
-      predictions[i] = {.values = (values_.row(group[k]) - shift.row(row)).transpose(),
-                        .sds = scales_ * std::sqrt(variance),
-                        .unlike = std::sqrt(std::max(0.0, variance - noise_variance(noise_[i])))};
-    }
-  }
-  return predictions;
 }
 
 }  // namespace plotscan::heights

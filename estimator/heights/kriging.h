@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -35,15 +34,13 @@ class Kriging {
   Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vector<double> noise,
           const Covariance& covariance);
 
+  Eigen::VectorXd values_at(const Eigen::VectorXd& place) const;
   // Of new values there, their own noise, so much more than usual, included.
   Prediction at(const Eigen::VectorXd& place, double noise) const;
   // Of the noiseless value alone: Prediction::unlike.
   double unlike(const Eigen::VectorXd& place) const;
   // The known places nearest to this one, at most `count`.
   std::vector<std::size_t> nearest(const Eigen::VectorXd& place, std::size_t count) const;
-  // Each place's values from those of other groups alone (Rasmussen and Williams, equation 5.12,
-  // for groups).
-  std::vector<Prediction> without_own_group(std::span<const int> groups) const;
 
  private:
   Eigen::VectorXd covariances(const Eigen::VectorXd& place) const;

@@ -65,9 +65,10 @@ std::vector<SeenPlot> see_all(std::span<const PlotPoints> plots, const ground::S
 
 }  // namespace
 
-std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
-                                         const ground::Surface& surface,
-                                         const HeightOptions& options) {
+const std::vector<std::string>& crop_names() { return shipped_calibration().crops; }
+
+FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Surface& surface,
+                             const HeightOptions& options) {
   std::vector<SeenPlot> seen = see_all(plots, surface, options.threads);
   std::vector<std::size_t> measured;
   std::vector<PlotCanopy> field;
@@ -76,19 +77,20 @@ std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
     measured.push_back(i);
     field.push_back(seen[i].canopy);
   }
-  const std::vector<PlantHeights> heights = options.calibrated
-                                                ? calibrated_heights(field, shipped_calibration())
-                                                : quantile_heights(field);
-  std::vector<PlotHeights> results(plots.size());
+  const FieldPlants plants = options.calibrated
+                                 ? calibrated_heights(field, shipped_calibration(), options.crop)
+                                 : quantile_heights(field);
+  FieldHeights field_heights{.plots = std::vector<PlotHeights>(plots.size()),
+                             .crops = plants.crops};
   for (std::size_t k = 0; k < measured.size(); ++k) {
-    results[measured[k]].heights = heights[k].heights;
-    seen[measured[k]].evidence.unlike = heights[k].unlike;
+    field_heights.plots[measured[k]].heights = plants.plots[k].heights;
+    seen[measured[k]].evidence.unlike = plants.plots[k].unlike;
   }
   for (std::size_t i = 0; i < plots.size(); ++i) {
-    results[i].points = plots[i].points.size();
-    results[i].flags = flags_of(seen[i].evidence, results[i].heights);
+    field_heights.plots[i].points = plots[i].points.size();
+    field_heights.plots[i].flags = flags_of(seen[i].evidence, field_heights.plots[i].heights);
   }
-  return results;
+  return field_heights;
 }
 
 }  // namespace plotscan::heights

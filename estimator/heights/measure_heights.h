@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,12 +37,21 @@ struct PlotPoints {
 
 struct HeightOptions {
   bool calibrated = true;  // plants' heights from the canopy's; false: the canopy's own quantiles
+  std::optional<std::string> crop = std::nullopt;  // as the calibration names it, where known
   int threads = 1;
 };
 
-// The heights of a field's plots, in their order.
-std::vector<PlotHeights> measure_heights(std::span<const PlotPoints> plots,
-                                         const ground::Surface& surface,
-                                         const HeightOptions& options);
+// The names of the crops that may be given.
+const std::vector<std::string>& crop_names();
+
+// The heights of a field's plots, in their order, and of which crop it is.
+struct FieldHeights {
+  std::vector<PlotHeights> plots = {};
+  std::map<std::string, double> crops = {};  // how likely each is; empty without calibration
+};
+
+// Throws InputError on an unknown crop.
+FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Surface& surface,
+                             const HeightOptions& options);
 
 }  // namespace plotscan::heights

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
+#include "heights/crop_model.h"
 #include "heights/ratio_model.h"
 
 namespace plotscan::heights {
@@ -57,6 +58,12 @@ void put_in_order(std::map<std::string, Height>& heights) {
   mean = height_of(std::min(mean.value_m, heights.at("max").value_m), mean.standard_error_m);
 }
 
+// Certainly that one.
+Eigen::VectorXd given(const Calibration& calibration, const std::string& crop) {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
+                               static_cast<Eigen::Index>(calibration.index_of(crop)));
+}
+
 double middle_top_m(std::span<const PlotCanopy> field) {
   std::vector<double> tops;
   for (const PlotCanopy& plot : field) tops.push_back(plot.top_m);
@@ -78,45 +85,50 @@ const std::map<std::string, CanopyQuantile>& canopy_quantiles() {
   return quantiles;
 }
 
-std::vector<PlantHeights> quantile_heights(std::span<const PlotCanopy> field) {
-  std::vector<PlantHeights> heights(field.size());
+FieldPlants quantile_heights(std::span<const PlotCanopy> field) {
+  FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
   for (std::size_t i = 0; i < field.size(); ++i) {
     for (const auto& [name, quantile] : canopy_quantiles()) {
-      heights[i].heights[name] =
+      plants.plots[i].heights[name] =
           height_of(field[i].quantiles_m.at(name),
                     std::hypot(quantile.relative_sd * field[i].top_m, field[i].ground_error_m));
     }
   }
-  return heights;
+  return plants;
 }
 
-std::vector<PlantHeights> calibrated_heights(std::span<const PlotCanopy> field,
-                                             const Calibration& calibration) {
-  std::vector<PlantHeights> heights(field.size());
-  if (field.empty()) return heights;
+FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
+                               const std::optional<std::string>& crop) {
+  FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
+  if (field.empty()) return plants;
   std::vector<Eigen::VectorXd> features;
   for (const PlotCanopy& plot : field) features.push_back(plot.features);
   const Eigen::VectorXd middle = calibration.scaled(field_features(features));
+  const Eigen::VectorXd crops =
+      crop ? given(calibration, *crop) : CropModel(calibration).probabilities(middle);
+  for (std::size_t i = 0; i < calibration.crops.size(); ++i)
+    plants.crops[calibration.crops[i]] = crops(static_cast<Eigen::Index>(i));
   const RatioModel model(calibration);
-  const FieldRatios ratios = model.at(calibration.place(middle), middle_top_m(field));
+  const FieldRatios ratios = model.at(middle, middle_top_m(field), crops, !crop);
   for (std::size_t i = 0; i < field.size(); ++i) {
     const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
     const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
     Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
-    heights[i].unlike = model.unlike(calibration.place(scaled));
-    if (heights[i].unlike > 1) {
-      const FieldRatios own = model.at(calibration.place(scaled), field[i].top_m);
+    PlantHeights& plot = plants.plots[i];
+    plot.unlike = model.unlike(scaled, crops);
+    if (plot.unlike > 1) {
+      const FieldRatios own = model.at(scaled, field[i].top_m, crops, !crop);
       sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
     }
     for (std::size_t k = 0; k < calibration.heights.size(); ++k) {
       const auto row = static_cast<Eigen::Index>(k);
-      heights[i].heights[calibration.heights[k]] =
+      plot.heights[calibration.heights[k]] =
           height_of(values(row) * field[i].top_m,
                     std::hypot(std::sqrt(sds(row)) * field[i].top_m, field[i].ground_error_m));
     }
-    put_in_order(heights[i].heights);
+    put_in_order(plot.heights);
   }
-  return heights;
+  return plants;
 }
 
 }  // namespace plotscan::heights

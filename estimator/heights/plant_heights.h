@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,12 +33,19 @@ struct PlantHeights {
   double unlike = 0;  // over 1: the canopy is unlike all that the calibration knows
 };
 
-// The heights of a field's plots by its canopies' own quantiles, whatever the crop.
-std::vector<PlantHeights> quantile_heights(std::span<const PlotCanopy> field);
+// The heights of a field's plots, and how likely it is of each crop.
+struct FieldPlants {
+  std::vector<PlantHeights> plots = {};
+  std::map<std::string, double> crops = {};
+};
 
-// The same by what the calibration's farms teach of canopies like the field's, in their order: no
-// percentile over a higher one, none over the tallest.
-std::vector<PlantHeights> calibrated_heights(std::span<const PlotCanopy> field,
-                                             const Calibration& calibration);
+// By the canopies' own quantiles, whatever the crop.
+FieldPlants quantile_heights(std::span<const PlotCanopy> field);
+
+// By what the calibration's farms teach of canopies like the field's, in their order: no percentile
+// over a higher one, none over the tallest. The crop is the given one, or told from the canopies.
+// Throws InputError on a given one that the calibration does not know.
+FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
+                               const std::optional<std::string>& crop = {});
 
 }  // namespace plotscan::heights

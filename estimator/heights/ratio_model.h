@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <Eigen/Core>
 
 #include "heights/calibration.h"
 #include "heights/kriging.h"
@@ -20,18 +20,27 @@ struct FieldRatios {
 // that were found on the farms most like the field.
 class RatioModel {
  public:
+  // Keeps a reference to the calibration.
   explicit RatioModel(const Calibration& calibration);
 
-  // Of a field's place (Calibration::place) and its canopy's top.
-  FieldRatios at(const Eigen::VectorXd& place, double top_m) const;
-  // How much less is known of a canopy there than of farms that were left out: over 1, it is
-  // farther from what is known than 95 of 100 of them were.
-  double unlike(const Eigen::VectorXd& place) const;
+  // Of a field's scaled features (Calibration::scaled), its canopy's top, and how likely it is of
+  // each crop. `told` is false where the crop was given.
+  FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const Eigen::VectorXd& crops,
+                 bool told) const;
+  // The same as the regression alone has it: a mixture over the crops that it may be.
+  Prediction mixture(const Eigen::VectorXd& scaled, double top_m,
+                     const Eigen::VectorXd& crops) const;
+  // How much less is known of a canopy with these scaled features, of its likeliest crop, than of
+  // farms that were left out: over 1, it is farther from what is known than 95 of 100 of them were.
+  double unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:
+  Eigen::VectorXd place(const Eigen::VectorXd& scaled, std::size_t crop) const;
+  Eigen::VectorXd likeliest_place(const Eigen::VectorXd& scaled,
+                                  const Eigen::VectorXd& crops) const;
+
+  const Calibration& calibration_;
   Kriging kriging_;
-  Eigen::MatrixXd surprises_;  // a row a farm, by the others: errors over standard deviations
-  Eigen::MatrixXd within_;     // a row a farm
   double usual_unlike_ = 1;
 };
 

@@ -61,16 +61,13 @@ AxisFit fit_shape(const Line& line, const BandShape& shape, bool shared) {
   return fit;
 }
 
-bool may_be(int size, double cell_m, const KnownSides& known) {
-  const auto is = [&](const std::optional<double>& side_m) {
-    return side_m && std::abs(size * cell_m - *side_m) <= 0.5 * cell_m + 0.01 * *side_m;
-  };
-  if (known.width_m && known.length_m) return is(known.width_m) || is(known.length_m);
-  return true;
+// Of the side that the user gave, if any.
+bool may_be(int size, const Line& line) {
+  const std::optional<double>& side_m = line.hint.side_m;
+  return !side_m || std::abs(size * line.cell_m - *side_m) <= 0.5 * line.cell_m + 0.01 * *side_m;
 }
 
 std::vector<BandShape> coarse_shapes(const Line& line) {
-  const KnownSides& known = line.known;
   std::vector<BandShape> shapes;
   const double most =
       std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
@@ -78,10 +75,9 @@ std::vector<BandShape> coarse_shapes(const Line& line) {
   for (double size = kLeastSide_m / line.cell_m; size <= most;
        size = std::max(size + 1, size * kSizeStep))
     sizes.push_back(static_cast<int>(size));
-  for (const auto& side_m : {known.width_m, known.length_m})
-    if (side_m) sizes.push_back(cells(*side_m, line.cell_m));
+  if (line.hint.side_m) sizes.push_back(cells(*line.hint.side_m, line.cell_m));
   for (const int size : sizes)
-    if (may_be(size, line.cell_m, known)) shapes.push_back({.size = size});
+    if (may_be(size, line)) shapes.push_back({.size = size});
   return shapes;
 }
 
@@ -106,15 +102,23 @@ bool is_regular(const Line& line, const AxisFit& fit) {
   return irregular <= kMostIrregular * steps;
 }
 
+// As many bands as the user said that plots follow each other; rows with offsets of their own may
+// lack some.
+bool has_told_count(const Line& line, const AxisFit& fit) {
+  const auto most = std::ranges::max(fit.begins, {}, &std::vector<int>::size).size();
+  return line.hint.count && most == static_cast<std::size_t>(*line.hint.count);
+}
+
 // The best of those that are plots, or drill rows of plots.
 AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
   std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
   for (const AxisFit& fit : fits) {
     if (!std::isfinite(fit.misfit)) break;
     const AxisFit plots = put_together(line, fit);
-    if (plots.drilled || is_regular(line, fit)) return fit;
+    const bool is_one = plots.drilled || is_regular(line, fit);
+    if (line.hint.count ? has_told_count(line, plots) : is_one) return fit;
   }
-  return fits.front();
+  return line.hint.count ? AxisFit{} : fits.front();
 }
 
 std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,
@@ -128,8 +132,8 @@ std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& 
 }  // namespace
 
 Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
-             const KnownSides& known) {
-  Line line{.cell_m = view.cell_m(), .known = known};
+             const AxisHint& hint) {
+  Line line{.cell_m = view.cell_m(), .hint = hint};
   for (const std::vector<Band>& across : strips) {
     const CanopyProfile profile = profile_along_r(view, across);
     line.profiles.emplace_back(profile);
@@ -142,7 +146,7 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
 AxisFit put_together(const Line& line, AxisFit fit) {
   fit.seen_shape = fit.shape;
   fit.seen = fit.begins;
-  if (line.known.width_m && line.known.length_m) return fit;  // the bands are the plots
+  if (line.hint.side_m || has_told_count(line, fit)) return fit;  // the bands are the plots
   std::vector<std::vector<double>> middles;
   for (std::size_t i = 0; i < fit.begins.size(); ++i) {
     middles.emplace_back();
@@ -173,7 +177,7 @@ AxisFit fit_axis(const Line& line, bool shared) {
   std::vector<BandShape> shapes;
   for (std::size_t i = 0; i < std::min(fits.size(), kRefined); ++i) {
     for (const BandShape& shape : shapes_like(fits[i].shape))
-      if (may_be(shape.size, line.cell_m, line.known)) shapes.push_back(shape);
+      if (may_be(shape.size, line)) shapes.push_back(shape);
   }
   if (!shared) fits.clear();  // of fewer profiles
   for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));

@@ -11,10 +11,10 @@
 
 namespace plotscan::plots {
 
-// Sides of the plots that the user knows, metres; either may lie along either axis.
-struct KnownSides {
-  std::optional<double> width_m = std::nullopt;
-  std::optional<double> length_m = std::nullopt;
+// What the user knows of the plots along an axis.
+struct AxisHint {
+  std::optional<double> side_m = std::nullopt;  // of a plot
+  std::optional<int> count = std::nullopt;      // of plots that follow each other
 };
 
 // How well bands of one shape explain what is seen along an axis.
@@ -33,7 +33,7 @@ struct AxisFit {
 // A line's profiles, and what a parameter is to gain: Schwarz's criterion.
 struct Line {
   double cell_m = 0;
-  KnownSides known = {};
+  AxisHint hint = {};
   std::vector<ProfileSums> profiles = {};
   double price = 0;
   double independent = 0;
@@ -41,7 +41,7 @@ struct Line {
 
 // A profile along the view's r for each list of bands of c.
 Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
-             const KnownSides& known);
+             const AxisHint& hint);
 
 // The bands that explain the line best, of those that are plots or drill rows of plots: the same on
 // all profiles, or on each its own. Its misfit is infinite where there are none.

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
 
 namespace plotscan::plots {
@@ -16,25 +17,36 @@ namespace {
 
 constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the table
 constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
-constexpr int kCoverBits = 32;         // above which a cell's sum of covers lies, below its count
-constexpr double kBlock_m = 1;         // in which density and the canopy's top are taken
-constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
-constexpr double kMostCells = 1e8;     // 10 m of oblique rows or an outlier must not eat memory
+constexpr int kCoverBits = 32;  // above which a cell's sum of covers lies, below its count
+constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
+constexpr double kMostCells = 1e8;        // 10 m of oblique rows or an outlier must not eat memory
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
+
+  void add(const Eigen::Vector2d& place) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
 };
 
 Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
-  Bounds bounds;
-  for (const Eigen::Vector3f& point : field.points()) {
-    if (field.leaves_out(point)) continue;
-    const Eigen::Vector2d ab = ab_from_world * point.head<2>().cast<double>();
-    bounds.low = bounds.low.cwiseMin(ab);
-    bounds.high = bounds.high.cwiseMax(ab);
-  }
-  return bounds;
+  const std::span<const Eigen::Vector3f> points = field.points();
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Bounds{},
+      [&](const tbb::blocked_range<std::size_t>& some, Bounds bounds) {
+        for (std::size_t i = some.begin(); i != some.end(); ++i) {
+          if (!field.leaves_out(points[i]))
+            bounds.add(ab_from_world * points[i].head<2>().cast<double>());
+        }
+        return bounds;
+      },
+      [](Bounds one, const Bounds& other) {
+        one.add(other.low);
+        one.add(other.high);
+        return one;
+      });
 }
 
 std::uint64_t share_of(double z_m, const CanopyScale& scale) {
@@ -110,23 +122,24 @@ double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
   return static_cast<double>(sum(covered_, a0, a1, b0, b1)) / (seen * kFullCover);
 }
 
-CanopyRaster rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
-                       const CanopyScale& scale, int threads) {
+std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                                    std::span<const CanopyScale> scales, int threads) {
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
   const std::span<const Eigen::Vector3f> points = field.points();
-  const Bounds bounds = bounds_of(field, ab_from_world);
-  if (!(bounds.low.x() <= bounds.high.x())) return CanopyRaster(axes, cell_m, 0, 0, {});
+  tbb::task_arena arena(threads);
+  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
+  if (!(bounds.low.x() <= bounds.high.x()))
+    return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
   const Eigen::Vector2d extent = bounds.high - bounds.low;
   while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
   const int a_cells = static_cast<int>(extent.x() / cell_m) + 1;
   const int b_cells = static_cast<int>(extent.y() / cell_m) + 1;
-  std::vector<std::uint64_t> returns(static_cast<std::size_t>(a_cells) *
-                                     static_cast<std::size_t>(b_cells));
-  tbb::task_arena arena(threads);
+  const auto cells = static_cast<std::size_t>(a_cells) * static_cast<std::size_t>(b_cells);
+  std::vector<std::vector<std::uint64_t>> returns(scales.size(), std::vector<std::uint64_t>(cells));
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, points.size(), 1 << 16), [&](const auto& r) {
-          for (std::size_t i = r.begin(); i != r.end(); ++i) {
+        tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
+          for (std::size_t i = some.begin(); i != some.end(); ++i) {
             if (field.leaves_out(points[i])) continue;
             const Eigen::Vector2d ab =
                 (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
@@ -134,15 +147,21 @@ CanopyRaster rasterise(const FieldCanopy& field, const Frame& axes, double cell_
                 static_cast<std::size_t>(std::clamp(static_cast<int>(ab.x()), 0, a_cells - 1));
             const auto b =
                 static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
-            std::atomic_ref<std::uint64_t> cell(returns[a * static_cast<std::size_t>(b_cells) + b]);
-            cell.fetch_add(1 + (share_of(points[i].z(), scale) << kCoverBits),
-                           std::memory_order_relaxed);
+            const std::size_t cell = a * static_cast<std::size_t>(b_cells) + b;
+            for (std::size_t k = 0; k < scales.size(); ++k) {
+              std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
+              sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
+                             std::memory_order_relaxed);
+            }
           }
         });
   });
   Frame frame = axes;
   frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;
-  return CanopyRaster(frame, cell_m, a_cells, b_cells, returns);
+  std::vector<CanopyRaster> rasters;
+  for (const std::vector<std::uint64_t>& sums : returns)
+    rasters.emplace_back(frame, cell_m, a_cells, b_cells, sums);
+  return rasters;
 }
 
 }  // namespace plotscan::plots

@@ -53,8 +53,9 @@ class CanopyRaster {
   std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
 };
 
-// The field's canopy in the directions of `axes`, whose origin is moved to the lowest a and b.
-CanopyRaster rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
-                       const CanopyScale& scale, int threads);
+// The field's canopy in the directions of `axes`, whose origin is moved to the lowest a and b; a
+// raster a scale.
+std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                                    std::span<const CanopyScale> scales, int threads);
 
 }  // namespace plotscan::plots

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include <Eigen/Eigenvalues>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "plots/statistics.h"
 
@@ -71,7 +73,9 @@ class Patch {
   Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
 };
 
-struct Block {
+}  // namespace
+
+struct FieldCanopy::Block {
   explicit Block(double canopy_m) : heights(canopy_m) {}
   std::uint32_t count = 0;
   HeightCounts heights;
@@ -90,7 +94,55 @@ struct Block {
   }
 };
 
-}  // namespace
+// How many blocks cover the points; 0 where no point is finite.
+std::size_t FieldCanopy::lay_out_blocks() {
+  low_.setConstant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low_;
+  for (const Eigen::Vector3f& point : points_) {
+    if (!point.allFinite()) continue;
+    low_ = low_.cwiseMin(point.head<2>().cast<double>());
+    high = high.cwiseMax(point.head<2>().cast<double>());
+  }
+  if (!(low_.x() <= high.x())) return 0;
+  const auto blocks = [&](double extent_m) {
+    return static_cast<std::size_t>(extent_m / block_m_) + 1;
+  };
+  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
+  blocks_along_y_ = blocks(high.y() - low_.y());
+  return blocks(high.x() - low_.x()) * blocks_along_y_;
+}
+
+// Each task fills blocks of its own with all of their points, in the points' order.
+std::vector<FieldCanopy::Block> FieldCanopy::filled_blocks(std::size_t count,
+                                                           double canopy_m) const {
+  constexpr std::size_t kTasks = 8;
+  constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> block_of_point(points_.size());
+  tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
+    block_of_point[i] =
+        points_[i].allFinite() ? static_cast<std::uint32_t>(block_of(points_[i])) : kNoBlock;
+  });
+  const auto patch_m = static_cast<float>(block_m_ / kPatches);
+  std::vector<Block> field(count, Block(canopy_m));
+  tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
+    const std::size_t begin = task * count / kTasks, end = (task + 1) * count / kTasks;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (block_of_point[i] < begin || block_of_point[i] >= end) continue;
+      const Eigen::Vector3f& point = points_[i];
+      Block& block = field[block_of_point[i]];
+      ++block.count;
+      if (point.z() > canopy_m) block.heights.add(point.z());
+      const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * kPatches / block_m_;
+      const Eigen::Vector2d corner(std::floor(at.x()), std::floor(at.y()));
+      const Eigen::Vector2f within = (at - corner).cast<float>();
+      block
+          .patches[static_cast<std::size_t>(at.x()) % kPatches * kPatches +
+                   static_cast<std::size_t>(at.y()) % kPatches]
+          .add({within.x() * patch_m, within.y() * patch_m, point.z()});
+    }
+  });
+  return field;
+}
 
 std::size_t FieldCanopy::block_of(const Eigen::Vector3f& point) const {
   const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) / block_m_;
@@ -130,38 +182,14 @@ double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, doubl
   return surfaces / std::max(1.0, all);
 }
 
-FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m)
+FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads)
     : points_(points) {
   const double low_m = std::max(kLeast_m, 2 * noise_m), canopy_m = 1.5 * low_m;
   scale_ = {low_m, 2 * low_m};
-  low_.setConstant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low_;
-  for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
-    low_ = low_.cwiseMin(point.head<2>().cast<double>());
-    high = high.cwiseMax(point.head<2>().cast<double>());
-  }
-  if (!(low_.x() <= high.x())) return;
-  const auto blocks = [&](double extent_m) {
-    return static_cast<std::size_t>(extent_m / block_m_) + 1;
-  };
-  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
-  blocks_along_y_ = blocks(high.y() - low_.y());
-  const auto patch_m = static_cast<float>(block_m_ / kPatches);
-  std::vector<Block> field(blocks(high.x() - low_.x()) * blocks_along_y_, Block(canopy_m));
-  for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
-    Block& block = field[block_of(point)];
-    ++block.count;
-    if (point.z() > canopy_m) block.heights.add(point.z());
-    const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * kPatches / block_m_;
-    const Eigen::Vector2d corner(std::floor(at.x()), std::floor(at.y()));
-    const Eigen::Vector2f within = (at - corner).cast<float>();
-    block
-        .patches[static_cast<std::size_t>(at.x()) % kPatches * kPatches +
-                 static_cast<std::size_t>(at.y()) % kPatches]
-        .add({within.x() * patch_m, within.y() * patch_m, point.z()});
-  }
+  const std::size_t count = lay_out_blocks();
+  if (count == 0) return;
+  tbb::task_arena arena(threads);
+  const std::vector<Block> field = arena.execute([&] { return filled_blocks(count, canopy_m); });
   std::vector<double> scanned, tops;
   for (const Block& block : field)
     if (block.count > 0) scanned.push_back(block.count);

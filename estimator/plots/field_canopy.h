@@ -25,7 +25,7 @@ struct CanopyScale {
 class FieldCanopy {
  public:
   // Keeps a reference to the points. noise_m is the sigma of their heights.
-  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m);
+  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads);
 
   std::span<const Eigen::Vector3f> points() const { return points_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
@@ -36,6 +36,10 @@ class FieldCanopy {
   double surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const;
 
  private:
+  struct Block;
+
+  std::size_t lay_out_blocks();
+  std::vector<Block> filled_blocks(std::size_t count, double canopy_m) const;
   std::size_t block_of(const Eigen::Vector3f& point) const;
   void leave_out_surfaces();
 

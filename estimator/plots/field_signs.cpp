@@ -20,26 +20,19 @@ constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looke
 constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
-constexpr double kMostUneven = 0.45;      // plots reach 0.3; trees two by two 0.7, bushes 1.1
-constexpr double kLeastHeld = 0.6;        // of the canopy; the rest may be weeds, or another trial
-constexpr double kLeastFilled = 0.6;      // of the places
-constexpr double kLeastEvidence = 30;     // nats a plot: a scanned room's furniture reaches 27
+// So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
+constexpr std::size_t kFewPlots = 4;
+constexpr double kLeastSquarenessOfFew = 1;
+constexpr double kMostUneven = 0.45;   // plots reach 0.3; trees two by two 0.7, bushes 1.1
+constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
+constexpr double kLeastFilled = 0.6;   // of the places
+constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
 
-struct Cells {
-  int r0, r1, c0, c1;
-};
-
-Cells cells_about(const Lattice& lattice, const Place& place, double around_m) {
-  const auto at = [&](double m) {
-    return static_cast<int>(std::lround(m / lattice.view.cell_m()));
-  };
-  return {at(place.r_m - lattice.r_size_m / 2 - around_m),
-          at(place.r_m + lattice.r_size_m / 2 + around_m),
-          at(place.c_m - lattice.c_size_m / 2 - around_m),
-          at(place.c_m + lattice.c_size_m / 2 + around_m)};
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
+  return cells_about(lattice, place.r_m, place.c_m, around_m);
 }
 
-double canopy_in(const RowView& view, const Cells& box) {
+double canopy_in(const RowView& view, const CellBox& box) {
   return view.cover(box.r0, box.r1, box.c0, box.c1) *
          view.seen_cells(box.r0, box.r1, box.c0, box.c1);
 }
@@ -58,7 +51,7 @@ Patch pooled(const Lattice& lattice, double around_m) {
       static_cast<std::size_t>(patch.r_cells) * static_cast<std::size_t>(patch.c_cells), 0);
   patch.seen = patch.canopy;
   for (const Place& place : lattice.places) {
-    const Cells box = cells_about(lattice, place, around_m);
+    const CellBox box = cells_about(lattice, place, around_m);
     std::size_t at = 0;
     for (int r = box.r0; r < box.r0 + patch.r_cells; ++r) {
       for (int c = box.c0; c < box.c0 + patch.c_cells; ++c, ++at) {
@@ -129,7 +122,7 @@ double filled_share(const Lattice& lattice) {
 double unevenness_of(const Lattice& lattice) {
   std::vector<double> spreads;
   for (const Place& place : lattice.places) {
-    const Cells box = cells_about(lattice, place, 0);
+    const CellBox box = cells_about(lattice, place, 0);
     const auto parts = [](double size_m) {
       return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
     };
@@ -164,7 +157,8 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
 FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evidence) {
   const RowView& view = lattice.view;
   const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
-  FieldSigns signs{.filled_share = filled_share(lattice),
+  FieldSigns signs{.plots = lattice.places.size(),
+                   .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
                    .squareness = squareness_of(lattice),
                    .unevenness = unevenness_of(lattice),
@@ -181,7 +175,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
   if (signs.aspect > kMostAspect) return "rows of a crop or a vineyard lie here, not plots";
-  if (signs.squareness < kLeastSquareness)
+  const bool few = signs.plots < kFewPlots;
+  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
   if (signs.unevenness > kMostUneven)
     return "single bushes or trees stand here, not plots that are covered by a crop";

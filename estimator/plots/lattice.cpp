@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <tuple>
+
+#include <Eigen/LU>
 
 #include "plots/statistics.h"
 
@@ -16,26 +19,15 @@ constexpr double kLeastShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
 
-struct Cells {
-  int r0, r1, c0, c1;
-};
-
-Cells cells_of(const Lattice& lattice, double r_m, double c_m, double margin_m) {
-  const double cell_m = lattice.view.cell_m();
-  const auto at = [&](double m) { return static_cast<int>(std::lround(m / cell_m)); };
-  const double r_half = lattice.r_size_m / 2 - margin_m, c_half = lattice.c_size_m / 2 - margin_m;
-  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
-}
-
 double inner_cover(const Lattice& lattice, const Place& place) {
   const double margin_m = 0.1 * std::min(lattice.r_size_m, lattice.c_size_m);
-  const Cells box = cells_of(lattice, place.r_m, place.c_m, margin_m);
+  const CellBox box = cells_about(lattice, place.r_m, place.c_m, -margin_m);
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
 // Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
-  const auto [r0, r1, c0, c1] = cells_of(lattice, place.r_m, place.c_m, 0);
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
   const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
   const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
@@ -112,8 +104,9 @@ void number(Lattice& lattice, const Layout& layout) {
   }
 }
 
-// Places between a row's plots, beyond its ends, and in columns that other rows have.
-void add_places(Lattice& lattice) {
+// Places between a row's plots, in columns that other rows have and, unless their number was told,
+// beyond its ends.
+void add_places(Lattice& lattice, bool beyond_ends) {
   const double pitch_m = lattice.c_pitch_m;
   if (pitch_m <= 0) return;
   std::vector<Place> added;
@@ -148,6 +141,7 @@ void add_places(Lattice& lattice) {
     if (lattice.aligned) {
       for (const Place& other : lattice.places) add(other.c_m, other.column);
     }
+    if (!beyond_ends) continue;
     add(present.front().c_m - pitch_m, present.front().column - 1);
     add(present.back().c_m + pitch_m, present.back().column + 1);
   }
@@ -174,6 +168,13 @@ void test_places(Lattice& lattice) {
   }
 }
 
+void take_fullest(Lattice& lattice, std::size_t plots) {
+  std::vector<Place*> places;
+  for (Place& place : lattice.places) places.push_back(&place);
+  std::ranges::stable_sort(places, std::greater(), &Place::share);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
+}
+
 // Lowest column and row become 0, columns without a plot are none.
 void renumber(Lattice& lattice) {
   std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
@@ -194,7 +195,15 @@ void renumber(Lattice& lattice) {
 
 }  // namespace
 
-Lattice fit_lattice(const Layout& layout) {
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m) {
+  const auto at = [&](double m) {
+    return static_cast<int>(std::lround(m / lattice.view.cell_m()));
+  };
+  const double r_half = lattice.r_size_m / 2 + around_m, c_half = lattice.c_size_m / 2 + around_m;
+  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
+}
+
+Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   Lattice lattice{.view = layout.view,
                   .r_size_m = layout.r_shape.size * layout.view.cell_m(),
                   .c_size_m = layout.c_shape.size * layout.view.cell_m(),
@@ -202,12 +211,37 @@ Lattice fit_lattice(const Layout& layout) {
                   .c_band_m = layout.c_shape.size * layout.view.cell_m()};
   number(lattice, layout);
   straighten(lattice);
-  add_places(lattice);
+  add_places(lattice, !hints.rows && !hints.columns);
   test_places(lattice);
+  if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   renumber(lattice);
   straighten(lattice);
   straighten(lattice);
   return lattice;
+}
+
+TrialLayout layout_of(const Lattice& lattice) {
+  const RowView& view = lattice.view;
+  const Eigen::Vector2d along_r = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized();
+  const Eigen::Vector2d along_c = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized();
+  const bool by_c = lattice.c_size_m > lattice.r_size_m;  // the plots' length lies along c
+  TrialLayout layout{.origin = view.to_world(0, 0),
+                     .row_axis = by_c ? along_r : along_c,
+                     .column_axis = by_c ? along_c : along_r,
+                     .width_m = std::min(lattice.r_size_m, lattice.c_size_m),
+                     .length_m = std::max(lattice.r_size_m, lattice.c_size_m),
+                     .column_pitch_m = by_c ? lattice.r_pitch_m : lattice.c_pitch_m,
+                     .row_pitch_m = by_c ? lattice.c_pitch_m : lattice.r_pitch_m};
+  Eigen::Matrix2d axes;
+  axes << layout.row_axis, layout.column_axis;
+  const Eigen::Matrix2d layout_from_world = axes.inverse();
+  for (const Place& place : lattice.places) {
+    layout.places.push_back(
+        {.row = (by_c ? place.column : place.row) + 1,
+         .column = (by_c ? place.row : place.column) + 1,
+         .position_m = layout_from_world * (view.to_world(place.r_m, place.c_m) - layout.origin)});
+  }
+  return layout;
 }
 
 }  // namespace plotscan::plots

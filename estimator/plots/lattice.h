@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/trial_layout.h"
 #include "plots/layout.h"
 
 namespace plotscan::plots {
@@ -35,9 +36,21 @@ struct Lattice {
   std::vector<Place> places = {};
 };
 
+// Cells [r0, r1) x [c0, c1) of the lattice's raster.
+struct CellBox {
+  int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
+};
+
+// Those of a plot about (r_m, c_m), and so much around it.
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m);
+
 // The lattice through a layout's plots: places between them and beyond their ends are tested for
-// canopy, and so are the layout's plots.
-Lattice fit_lattice(const Layout& layout);
+// canopy, and so are the layout's plots. Where their number was told, the places with the most
+// canopy are plots.
+Lattice fit_lattice(const Layout& layout, const Hints& hints);
+
+// The same as a layout of plots, their length the longer side.
+TrialLayout layout_of(const Lattice& lattice);
 
 // Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
 // too where they are aligned, and steps are equal but for alleys that clearly differ; else every

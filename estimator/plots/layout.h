@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plots/axis_fit.h"
+#include "plots/hints.h"
 
 namespace plotscan::plots {
 
@@ -27,7 +28,8 @@ struct Layout {
 
 // The layout that explains the canopy along both axes best, for its number of parameters: bands
 // over the whole field along either axis, or over the whole field along one and in each row by
-// itself along the other. Without rows where nothing stands out.
-Layout best_layout(const CanopyRaster& raster, const KnownSides& known = {});
+// itself along the other. Without rows where nothing stands out, or nothing that is as the hints
+// say.
+Layout best_layout(const CanopyRaster& raster, const Hints& hints = {});
 
 }  // namespace plotscan::plots

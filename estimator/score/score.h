@@ -17,9 +17,9 @@ namespace plotscan::score {
 
 // One plot as it is.
 struct TruePlot {
-  std::uint32_t id = 0;  // from 1
-  int row = 0;           // from 1; 0 when unknown
-  int column = 0;        // from 1; 0 when unknown
+  PlotId id = 0;   // as the truth has it, else from 1
+  int row = 0;     // from 1; 0 when unknown
+  int column = 0;  // from 1; 0 when unknown
   PlotBox box;
   std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m", "canopy_p95_m"
   bool scored = true;  // else whatever is said of the plot counts neither for nor against
@@ -32,8 +32,8 @@ std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
 
 // What an estimate says of a plot that it found.
 struct FoundPlot {
-  std::uint32_t estimate = 0;  // PlotEstimate::id
-  double iou = 0;              // of the two boxes
+  PlotId estimate = 0;  // PlotEstimate::id
+  double iou = 0;       // of the two boxes
   double center_error_m = 0;
   double heading_error_rad = 0;                              // between the length axes, 0 to pi / 2
   std::map<std::string, double> heights_m = {};              // by name, "raw-p99"
@@ -50,8 +50,8 @@ struct PlotScore {
 // An estimate of one field beside its truth.
 struct FieldScore {
   std::string method;
-  std::vector<PlotScore> plots;      // every true plot that is scored
-  std::vector<std::uint32_t> extra;  // ids of estimated plots that are no true plot
+  std::vector<PlotScore> plots;  // every true plot that is scored
+  std::vector<PlotId> extra;     // ids of estimated plots that are no true plot
 };
 
 struct ScoreOptions {

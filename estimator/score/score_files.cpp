@@ -58,11 +58,11 @@ void read_trust(const json& document, FoundPlot& found) {
 }
 
 json to_json(const PlotScore& plot) {
-  json document = {{"plot_number", plot.truth.id},     {"row_number", plot.truth.row},
-                   {"col_number", plot.truth.column},  {"box", to_json(plot.truth.box)},
-                   {"truths_m", plot.truth.heights_m}, {"found", nullptr}};
+  json document = {{"plot_number", plot.truth.id.json()}, {"row_number", plot.truth.row},
+                   {"col_number", plot.truth.column},     {"box", to_json(plot.truth.box)},
+                   {"truths_m", plot.truth.heights_m},    {"found", nullptr}};
   if (plot.found) {
-    document["found"] = {{"estimate", plot.found->estimate},
+    document["found"] = {{"estimate", plot.found->estimate.json()},
                          {"iou", plot.found->iou},
                          {"center_error_m", plot.found->center_error_m},
                          {"heading_error_deg", plot.found->heading_error_rad / kDegrees},
@@ -72,8 +72,14 @@ json to_json(const PlotScore& plot) {
   return document;
 }
 
+PlotId id_from_json(const json& value) {
+  const std::optional<PlotId> id = PlotId::from(value);
+  if (!id) throw InputError("a plot's id is " + value.dump() + "; it is a number or a text");
+  return *id;
+}
+
 PlotScore plot_from_json(const json& document) {
-  PlotScore plot{.truth = {.id = document.at("plot_number"),
+  PlotScore plot{.truth = {.id = id_from_json(document.at("plot_number")),
                            .row = document.at("row_number"),
                            .column = document.at("col_number"),
                            .box = box_from_json(document.at("box")),
@@ -81,7 +87,7 @@ PlotScore plot_from_json(const json& document) {
                  .found = {}};
   const json& found = document.at("found");
   if (found.is_null()) return plot;
-  plot.found = {.estimate = found.at("estimate"),
+  plot.found = {.estimate = id_from_json(found.at("estimate")),
                 .iou = found.at("iou"),
                 .center_error_m = found.at("center_error_m"),
                 .heading_error_rad = found.at("heading_error_deg").get<double>() * kDegrees,
@@ -159,11 +165,14 @@ json to_json(const HeightScore& score) {
 json to_json(const FieldScore& field) {
   json plots = json::array();
   for (const PlotScore& plot : field.plots) plots.push_back(to_json(plot));
-  return {{"method", field.method}, {"extra", field.extra}, {"plots", plots}};
+  json extra = json::array();
+  for (const PlotId& id : field.extra) extra.push_back(id.json());
+  return {{"method", field.method}, {"extra", extra}, {"plots", plots}};
 }
 
 FieldScore field_from_json(const json& document) {
-  FieldScore field{.method = document.at("method"), .plots = {}, .extra = document.at("extra")};
+  FieldScore field{.method = document.at("method"), .plots = {}, .extra = {}};
+  for (const json& id : document.at("extra")) field.extra.push_back(id_from_json(id));
   for (const json& plot : document.at("plots")) field.plots.push_back(plot_from_json(plot));
   return field;
 }
@@ -181,10 +190,11 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   if (!intervals.empty()) out << ",confidence,flags";
   out << '\n';
   for (const PlotScore& plot : field.plots) {
-    out << plot.truth.id << ',' << plot.truth.row << ',' << plot.truth.column << ',';
+    out << csv_field(plot.truth.id.text()) << ',' << plot.truth.row << ',' << plot.truth.column
+        << ',';
     if (plot.found) {
-      out << "1," << plot.found->estimate << ',' << format_number(plot.found->iou) << ','
-          << format_number(plot.found->center_error_m) << ','
+      out << "1," << csv_field(plot.found->estimate.text()) << ',' << format_number(plot.found->iou)
+          << ',' << format_number(plot.found->center_error_m) << ','
           << format_number(plot.found->heading_error_rad / kDegrees);
     } else {
       out << "0,,,,";

@@ -81,39 +81,49 @@ std::vector<double> widened(const std::map<std::uint32_t, double>& alleys_m, std
 
 }  // namespace
 
-std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
-  std::vector<Plot> plots;
-  Eigen::AlignedBox2d bounds;  // along the grid's own axes
-  const Eigen::Vector2d size(grid.width_m, grid.length_m);
+TrialLayout layout_of(const PlotGridDescription& grid) {
   const Eigen::Vector2d pitch = pitch_of(grid);
+  const Eigen::Matrix2d axes = axes_of(grid);
+  TrialLayout layout{.origin = grid.position_m,
+                     .row_axis = axes.col(0),
+                     .column_axis = axes.col(1),
+                     .width_m = grid.width_m,
+                     .length_m = grid.length_m,
+                     .column_pitch_m = pitch.x(),
+                     .row_pitch_m = pitch.y()};
   const std::vector<double> row_wider_m =
       widened(grid.row_alleys_m, grid.rows.size(), pitch.y() - grid.length_m);
   const std::vector<double> column_wider_m =
       widened(grid.column_alleys_m, columns_of(grid), pitch.x() - grid.width_m);
-  const Eigen::Matrix2d world_from_grid = axes_of(grid);
-  const double heading = std::atan2(world_from_grid(1, 1), world_from_grid(0, 1));
+  const Eigen::Vector2d size(grid.width_m, grid.length_m);
+  Eigen::AlignedBox2d bounds;  // along the layout's axes
   for (std::size_t row = 0; row < grid.rows.size(); ++row) {
     for (std::uint32_t place = 0; place < grid.rows[row].plots; ++place) {
-      const bool backward = grid.numbering == PlotNumbering::serpentine && row % 2 == 1;
-      const std::uint32_t column = backward ? grid.rows[row].plots - 1 - place : place;
+      const std::uint32_t column = column_at(grid.numbering, row, place, grid.rows[row].plots);
       const Eigen::Vector2d low(
           grid.rows[row].offset_m + column * pitch.x() + column_wider_m[column],
           static_cast<double>(row) * pitch.y() + row_wider_m[row]);
       bounds.extend(low);
       bounds.extend(low + size);
-      plots.push_back({.id = grid.first_number + static_cast<std::uint32_t>(plots.size()),
-                       .row = static_cast<int>(row + 1),
-                       .column = static_cast<int>(column + 1),
-                       .box = {.center = low + size / 2,
-                               .width_m = grid.width_m,
-                               .length_m = grid.length_m,
-                               .heading_rad = wrap_heading(heading)},
-                       .plant_count = 0,
-                       .heights = {}});
+      layout.places.push_back({.row = static_cast<int>(row + 1),
+                               .column = static_cast<int>(column + 1),
+                               .position_m = low + size / 2});
     }
   }
-  for (Plot& plot : plots) {
-    plot.box.center = grid.position_m + world_from_grid * (plot.box.center - bounds.center());
+  for (TrialPlace& place : layout.places) place.position_m -= bounds.center();
+  return layout;
+}
+
+std::vector<Plot> grid_plots(const PlotGridDescription& grid) {
+  const TrialLayout layout = layout_of(grid);
+  std::vector<Plot> plots;
+  for (const TrialPlace& place : layout.places) {
+    plots.push_back({.id = grid.first_number + static_cast<std::uint32_t>(plots.size()),
+                     .row = place.row,
+                     .column = place.column,
+                     .box = layout.box(place),
+                     .plant_count = 0,
+                     .heights = {}});
   }
   return plots;
 }

@@ -7,10 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/trial_layout.h"
 #include "farm/description.h"
 #include "farm/farm.h"
 
 namespace plotscan::farm {
+
+// The grid's places in the order of their numbers, those that are missing among them.
+TrialLayout layout_of(const PlotGridDescription& grid);
 
 // All plots of a grid in the order of their numbers, without plants, those that are missing among
 // them. Each box's length axis is the axis from row to row.

@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_set>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/text_file.h"
@@ -85,14 +86,6 @@ void require_different_ids(const std::filesystem::path& path, const std::vector<
     if (!ids.insert(plot.id).second)
       throw InputError(path, "plot " + std::to_string(plot.id) + " is given twice");
   }
-}
-
-// A CSV field (RFC 4180): accessions from other programs may hold commas and quotes.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
 }
 
 // What truth/plots.geojson says of a plot beside its box (docs/farm-format.md).
@@ -196,7 +189,7 @@ void write_trial_layout(const std::filesystem::path& path, const std::string& tr
   out << "plot_name,accession_name,plot_number,block_number,rep_number,row_number,col_number,"
          "center_x_m,center_y_m,width_m,length_m,heading_deg\n";
   for (const Plot& plot : plots) {
-    out << trial << "_" << plot.id << "," << quoted(plot.accession) << "," << plot.id << ","
+    out << trial << "_" << plot.id << "," << csv_field(plot.accession) << "," << plot.id << ","
         << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
     for (const double value : {plot.box.center.x(), plot.box.center.y(), plot.box.width_m,
                                plot.box.length_m, plot.box.heading_rad / kDegrees}) {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Core>
 
+#include "core/plot_numbering.h"
+
 namespace plotscan {
 class YamlSection;
 }
@@ -23,11 +25,6 @@ struct PlotRowDescription {
 struct PlotPitch {
   Eigen::Vector2d column_m = Eigen::Vector2d::Zero();  // from a plot to the next in its row
   Eigen::Vector2d row_m = Eigen::Vector2d::Zero();     // from a row to the next
-};
-
-enum class PlotNumbering {
-  rows,        // every row from its first column
-  serpentine,  // every other row from its last column, as one walks
 };
 
 // The `plots` section of farm.yaml (docs/farm-format.md): rows of equal plots. Before the grid is

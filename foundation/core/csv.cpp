@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -61,6 +62,13 @@ std::string format_number(double value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string field = "\"";
+  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
+  return field + "\"";
 }
 
 void CsvRow::fail(std::size_t column, const std::string& what) const {
@@ -123,6 +131,96 @@ void read_csv(const std::filesystem::path& file, const std::vector<std::string>&
   }
   if (header_fields == 0)
     throw InputError(file, "is empty; the header line " + joined(columns, ",") + " is expected");
+}
+
+namespace {
+
+// The fields of a table, record by record, out of its whole text.
+class TableText {
+ public:
+  TableText(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+    const std::string_view header = text_.substr(0, text_.find('\n'));
+    for (const char separator : {'\t', ';', ','}) {
+      if (header.find(separator) != std::string_view::npos) separator_ = separator;
+    }
+  }
+
+  // Nothing at the end of the text.
+  std::optional<CsvTable::Line> next() {
+    while (at_ < text_.size()) {
+      CsvTable::Line record{.line = line_, .fields = {field()}};
+      while (at_ < text_.size() && text_[at_] == separator_) {
+        ++at_;
+        record.fields.push_back(field());
+      }
+      ++at_;
+      ++line_;
+      if (record.fields.size() > 1 || !record.fields.front().empty()) return record;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // Up to the separator or line end after it.
+  std::string field() {
+    const std::size_t start = text_.find_first_not_of(" \r", at_);
+    if (start != std::string_view::npos && text_[start] == '"') return quoted_field(start + 1);
+    const std::size_t end = text_.find_first_of(std::string{separator_, '\n'}, at_);
+    const std::string_view text = text_.substr(at_, end - at_);
+    at_ = std::min(end, text_.size());
+    return std::string(trimmed(text));
+  }
+
+  std::string quoted_field(std::size_t start) {
+    std::string text;
+    for (std::size_t at = start; at < text_.size(); ++at) {
+      const bool closes = text_[at] == '"' && !text_.substr(at + 1).starts_with('"');
+      if (closes) {
+        at_ = std::min(text_.find_first_of(std::string{separator_, '\n'}, at), text_.size());
+        return text;
+      }
+      if (text_[at] == '"') ++at;  // two are one
+      if (text_[at] == '\n') ++line_;
+      text += text_[at];
+    }
+    throw InputError(file_, line_, "a quote is opened and not closed");
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view text_;
+  char separator_ = ',';
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+};
+
+}  // namespace
+
+CsvTable read_csv_table(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  TableText records(file, text);
+  std::optional<CsvTable::Line> header = records.next();
+  if (!header) throw InputError(file, "is empty; a header line is expected");
+  CsvTable table{.columns = std::move(header->fields)};
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const std::string& name = table.columns[i];
+    const auto earlier = table.columns.begin() + static_cast<std::ptrdiff_t>(i);
+    if (name.empty() || std::find(table.columns.begin(), earlier, name) != earlier) {
+      throw InputError(file, header->line,
+                       "column " + std::to_string(i + 1) + " is called \"" + name +
+                           "\"; every column has a name of its own");
+    }
+  }
+  while (std::optional<CsvTable::Line> line = records.next()) {
+    if (line->fields.size() != table.columns.size()) {
+      throw InputError(file, line->line,
+                       "has " + std::to_string(line->fields.size()) + " fields; the header names " +
+                           std::to_string(table.columns.size()));
+    }
+    table.lines.push_back(std::move(*line));
+  }
+  return table;
 }
 
 }  // namespace plotscan

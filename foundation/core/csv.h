@@ -12,6 +12,9 @@ namespace plotscan {
 // The shortest text that reads back as the same number ("0.1", "1e-07"); "nan" for NaN.
 std::string format_number(double value);
 
+// A text as a field of a CSV line (RFC 4180): in quotes where it holds commas, quotes or line ends.
+std::string csv_field(const std::string& text);
+
 // One line of a table while it is read: its fields by column, each error naming file, line and
 // column.
 class CsvRow {
@@ -44,5 +47,21 @@ class CsvRow {
 void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
               const std::vector<std::string>& optional_columns,
               const std::function<void(const CsvRow&)>& row);
+
+// A table as it is: any columns, all fields text.
+struct CsvTable {
+  struct Line {
+    std::size_t line = 0;  // in the file, from 1
+    std::vector<std::string> fields = {};
+  };
+  std::vector<std::string> columns = {};
+  std::vector<Line> lines = {};
+};
+
+// Reads a table as spreadsheets save it: a header line, fields between commas, or semicolons or
+// tabs where the header has these and no comma, quotes as RFC 4180 has them, blanks around fields
+// passed over, and so are empty lines. Throws InputError on a missing or empty file, a column
+// without a name or named twice, a line with another number of fields, or an open quote.
+CsvTable read_csv_table(const std::filesystem::path& file);
 
 }  // namespace plotscan

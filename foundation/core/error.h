@@ -19,6 +19,13 @@ class InputError : public std::runtime_error {
   InputError(const std::filesystem::path& file, std::size_t line, const std::string& message);
 };
 
+// Input that is sound and shows nothing of what is to be measured. The message says why, and what
+// to do next. Programs end with exit code 3.
+class NothingToMeasure : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 // Throws std::logic_error with the text: a bug in Plotscan, never the user's fault.
 void check(bool condition, const std::string& what);
 

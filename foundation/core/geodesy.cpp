@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geodesy.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include <GeographicLib/LocalCartesian.hpp>
@@ -12,6 +14,26 @@
 
 namespace plotscan {
 namespace {
+
+constexpr double kFalseEasting_m = 5e5;
+
+double false_northing_m(const UtmZone& zone) { return zone.north ? 0 : 1e7; }
+
+// EPSG codes `first_code` and up are the zones `first_zone` to `last_zone` of a datum.
+struct UtmCodes {
+  const char* datum;
+  bool north;
+  int first_code;
+  int first_zone;
+  int last_zone;
+};
+constexpr std::array<UtmCodes, 7> kUtmCodes = {{{"WGS 84", true, 32601, 1, 60},
+                                                {"WGS 84", false, 32701, 1, 60},
+                                                {"ETRS89", true, 25828, 28, 38},
+                                                {"NAD83", true, 26901, 1, 23},
+                                                {"NAD83(2011)", true, 6330, 1, 19},
+                                                {"GDA94", false, 28348, 48, 58},
+                                                {"GDA2020", false, 7846, 46, 59}}};
 
 GeographicLib::LocalCartesian frame_at(const Anchor& anchor) {
   return {anchor.latitude_deg, anchor.longitude_deg, anchor.altitude_m};
@@ -49,7 +71,30 @@ Eigen::Vector3d utm_from_geodetic(const UtmZone& zone, const GeodeticPoint& poin
   double north_m = 0;
   GeographicLib::TransverseMercator::UTM().Forward(zone.central_meridian_deg(), point.latitude_deg,
                                                    point.longitude_deg, east_m, north_m);
-  return {5e5 + east_m, north_m + (zone.north ? 0 : 1e7), point.altitude_m};
+  return {kFalseEasting_m + east_m, north_m + false_northing_m(zone), point.altitude_m};
+}
+
+GeodeticPoint geodetic_from_utm(const UtmZone& zone, const Eigen::Vector3d& point) {
+  GeodeticPoint geodetic{.altitude_m = point.z()};
+  GeographicLib::TransverseMercator::UTM().Reverse(
+      zone.central_meridian_deg(), point.x() - kFalseEasting_m, point.y() - false_northing_m(zone),
+      geodetic.latitude_deg, geodetic.longitude_deg);
+  return geodetic;
+}
+
+std::optional<UtmSystem> utm_system(const std::string& crs) {
+  constexpr std::string_view kPrefix = "EPSG:";
+  int code = 0;
+  const char* end = crs.data() + crs.size();
+  if (!crs.starts_with(kPrefix)) return std::nullopt;
+  const auto [stopped, error] = std::from_chars(crs.data() + kPrefix.size(), end, code);
+  if (error != std::errc() || stopped != end) return std::nullopt;
+  for (const UtmCodes& codes : kUtmCodes) {
+    const int zone = codes.first_zone + code - codes.first_code;
+    if (zone < codes.first_zone || zone > codes.last_zone) continue;
+    return UtmSystem{.zone = {.number = zone, .north = codes.north}, .datum = codes.datum};
+  }
+  return std::nullopt;
 }
 
 }  // namespace plotscan

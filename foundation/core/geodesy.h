@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include <Eigen/Core>
 
 namespace plotscan {
@@ -34,5 +37,18 @@ struct UtmZone {
 UtmZone utm_zone(const GeodeticPoint& point);
 // Easting, northing and height over the ellipsoid, metres.
 Eigen::Vector3d utm_from_geodetic(const UtmZone& zone, const GeodeticPoint& point);
+GeodeticPoint geodetic_from_utm(const UtmZone& zone, const Eigen::Vector3d& point);
+
+// A coordinate system whose eastings and northings are UTM's.
+struct UtmSystem {
+  UtmZone zone;
+  // "WGS 84", or a datum that is taken for it: its ellipsoid is the same to 0.1 mm, its places on
+  // Earth differ by up to 2 m.
+  std::string datum;
+};
+
+// Of "EPSG:<code>": UTM on WGS 84, ETRS89, NAD83, NAD83(2011), GDA94 and GDA2020 (codes as in
+// PROJ's registry); nothing for any other system.
+std::optional<UtmSystem> utm_system(const std::string& crs);
 
 }  // namespace plotscan

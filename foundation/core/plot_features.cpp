@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plot_features.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/geodesy.h"
+#include "core/rectangle_fit.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -13,12 +18,8 @@ namespace {
 using nlohmann::json;
 
 constexpr double kDegrees = std::numbers::pi / 180;
-// A polygon whose opposite sides differ by more than this share of their length is not a plot's
-// rectangle.
-constexpr double kRectangleTolerance = 0.05;
-// A polygon and the box among its attributes are the same plot within this share of its size:
-// programs round coordinates, to centimetres at the coarsest.
-constexpr double kAgreementTolerance = 0.01;
+// What write_plot_features_wgs84 calls its positions.
+constexpr std::string_view kDegreesStated = "WGS84 longitude, latitude";
 
 using Projection = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
@@ -40,10 +41,13 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
   properties["width_m"] = plot.box.width_m;
   properties["length_m"] = plot.box.length_m;
   properties["heading_deg"] = plot.box.heading_rad / kDegrees;
-  return {{"type", "Feature"},
-          {"geometry",
-           {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
-          {"properties", properties}};
+  json feature = {
+      {"type", "Feature"},
+      {"geometry",
+       {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
+      {"properties", properties}};
+  if (plot.id) feature["id"] = plot.id->json();
+  return feature;
 }
 
 // As GeoJSON 2008 names systems; well-known text that names no code stands there as it is.
@@ -69,11 +73,13 @@ void write_document(const std::filesystem::path& path, const json& document) {
   if (!out.flush()) throw InputError(path, "cannot be written");
 }
 
+constexpr std::array<const char*, 5> kBoxProperties = {"center_x_m", "center_y_m", "width_m",
+                                                       "length_m", "heading_deg"};
+
 bool has_exact_box(const json& properties) {
-  for (const char* name : {"center_x_m", "center_y_m", "width_m", "length_m", "heading_deg"}) {
-    if (!properties.contains(name) || !properties[name].is_number()) return false;
-  }
-  return true;
+  return std::ranges::all_of(kBoxProperties, [&](const char* name) {
+    return properties.contains(name) && properties[name].is_number();
+  });
 }
 
 PlotBox exact_box(const json& properties) {
@@ -82,10 +88,6 @@ PlotBox exact_box(const json& properties) {
       .width_m = properties["width_m"].get<double>(),
       .length_m = properties["length_m"].get<double>(),
       .heading_rad = properties["heading_deg"].get<double>() * kDegrees};
-}
-
-bool nearly_equal(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return (a - b).norm() <= kRectangleTolerance * std::max(a.norm(), b.norm());
 }
 
 // The outer ring of a Polygon, or of a MultiPolygon of one part, as GIS programs export it.
@@ -99,30 +101,23 @@ const json& polygon_ring(const json& feature, const std::string& which) {
   throw InputError(which + " has geometry \"" + type + "\"; a plot is a Polygon of four corners");
 }
 
-PlotBox rectangle_of(const json& ring, double unit_m, const std::string& which) {
+PlotBox rectangle_of(const json& ring, const Projection& metres, const std::string& which) {
   std::vector<Eigen::Vector2d> corners;
-  for (const json& position : ring) {
-    corners.emplace_back(unit_m * position.at(0).get<double>(),
-                         unit_m * position.at(1).get<double>());
+  for (const json& position : ring)
+    corners.push_back(metres({position.at(0).get<double>(), position.at(1).get<double>()}));
+  const std::optional<RectangleFit> fit = fit_rectangle(corners);
+  if (!fit) {
+    throw InputError(which + " has " + std::to_string(ring.size()) +
+                     " positions; a plot's polygon has 4 corners, and at most 1000 positions");
   }
-  if (corners.size() == 5 && corners.front() == corners.back()) corners.pop_back();
-  if (corners.size() != 4)
-    throw InputError(which + " has " + std::to_string(corners.size()) + " corners; a plot has 4");
-  const Eigen::Vector2d side = corners[1] - corners[0];
-  const Eigen::Vector2d other = corners[2] - corners[1];
-  const bool square_corners =
-      std::abs(side.dot(other)) <= kRectangleTolerance * side.norm() * other.norm();
-  if (!square_corners || !nearly_equal(side, corners[2] - corners[3]) ||
-      !nearly_equal(other, corners[3] - corners[0])) {
-    throw InputError(which + " is not a rectangle");
+  const double allowed_m = rectangle_tolerance_m(fit->box);
+  if (fit->off_m > allowed_m) {
+    throw InputError(which +
+                     formatted(" is not a rectangle: it is up to %.2f m off the nearest one, "
+                               "and %.2f m are allowed",
+                               fit->off_m, allowed_m));
   }
-  const bool side_is_length = side.norm() >= other.norm();
-  const Eigen::Vector2d length = side_is_length ? side : other;
-  const Eigen::Vector2d width = side_is_length ? other : side;
-  return {.center = (corners[0] + corners[1] + corners[2] + corners[3]) / 4,
-          .width_m = width.norm(),
-          .length_m = length.norm(),
-          .heading_rad = wrap_heading(std::atan2(length.y(), length.x()))};
+  return fit->box;
 }
 
 void require_sound(const PlotBox& box, const std::string& which) {
@@ -136,11 +131,13 @@ void require_sound(const PlotBox& box, const std::string& which) {
 // A polygon that was moved in a GIS, its old box still among its attributes, would be silently
 // ignored.
 void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::string& which) {
-  const double apart = (box.center - polygon.center).norm();
-  const double allowed = kAgreementTolerance * (1 + box.length_m + box.width_m);
-  const bool same = apart <= allowed &&
-                    std::abs(box.area_m2() - polygon.area_m2()) <= allowed * box.length_m &&
-                    intersection_over_union(box, polygon) > 1 - kRectangleTolerance;
+  const double allowed_m = rectangle_tolerance_m(box);
+  const auto corners = polygon.corners();
+  const bool same = std::ranges::all_of(box.corners(), [&](const Eigen::Vector2d& corner) {
+    return std::ranges::any_of(corners, [&](const Eigen::Vector2d& other) {
+      return (corner - other).norm() <= allowed_m;
+    });
+  });
   if (same) return;
   throw InputError(which +
                    ": its polygon is not the box that its properties center_x_m, center_y_m, "
@@ -148,12 +145,33 @@ void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::st
                    "heading_deg give; remove these five where the polygon is right");
 }
 
-PlotFeature read_feature(const json& feature, double unit_m, const std::string& which) {
+// "trial.geojson: feature 3", with the id that people know the plot by.
+std::string name_of(const std::filesystem::path& path, std::size_t place, const PlotFeature& plot) {
+  std::string feature = path.string() + ": feature " + std::to_string(place);
+  for (const std::string& property : plot_id_properties()) {
+    if (const auto id = id_in(plot, property))
+      return feature.append(" (").append(property).append(" \"").append(id->text()).append("\")");
+  }
+  return feature;
+}
+
+// How a file's positions become metres.
+struct Positions {
+  Projection metres;
+  bool in_degrees = false;
+};
+
+PlotFeature read_feature(const json& feature, const std::filesystem::path& path, std::size_t place,
+                         const Positions& positions) {
   PlotFeature plot;
   if (feature.contains("properties") && feature["properties"].is_object())
     plot.properties = feature["properties"];
-  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), unit_m, which);
-  plot.box = has_exact_box(plot.properties) ? exact_box(plot.properties) : polygon;
+  if (feature.contains("id")) plot.id = PlotId::from(feature["id"]);
+  const std::string which = name_of(path, place, plot);
+  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), positions.metres, which);
+  plot.box = polygon;
+  if (!positions.in_degrees && has_exact_box(plot.properties))
+    plot.box = exact_box(plot.properties);
   require_sound(plot.box, which);
   require_agreement(plot.box, polygon, which);
   return plot;
@@ -167,19 +185,102 @@ std::optional<CoordinateUnits> units_of(const json& document) {
                          .vertical_m = document[kUnits].at("z").get<double>()};
 }
 
-// What `read` makes of the file as JSON.
-template <class Result>
-Result read_document(const std::filesystem::path& path,
-                     const std::function<Result(const json&)>& read) {
-  try {
-    return read(json::parse(read_text(path)));
-  } catch (const json::exception& error) {
-    throw InputError(path,
-                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+// The system that a file names in its member crs, as "EPSG:<code>" where that is there; "" where it
+// names none.
+std::string stated_crs(const json& document) {
+  if (!document.contains("crs") || !document["crs"].is_object()) return "";
+  const json properties = document["crs"].value("properties", json::object());
+  const std::string name = properties.is_object() ? properties.value("name", "") : "";
+  const std::size_t code = name.find_last_of(':');
+  const bool is_epsg = name.find("EPSG:") != std::string::npos && code != std::string::npos;
+  return is_epsg ? "EPSG:" + name.substr(code + 1) : name;
+}
+
+// Longitude and latitude on WGS 84 or a datum that is taken for it (utm_system).
+bool is_geographic(const std::string& crs) {
+  for (const char* geographic :
+       {"EPSG:4326", "EPSG:4258", "EPSG:4269", "EPSG:6318", "EPSG:4283", "EPSG:7844"}) {
+    if (crs == geographic) return true;
   }
+  return crs.find("CRS84") != std::string::npos;
+}
+
+bool within_degrees(const json& coordinates) {
+  if (coordinates.is_array() && !coordinates.empty() && coordinates[0].is_number()) {
+    return std::abs(coordinates.at(0).get<double>()) <= 180 &&
+           std::abs(coordinates.at(1).get<double>()) <= 90;
+  }
+  return std::ranges::all_of(coordinates, within_degrees);
+}
+
+// Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
+bool is_in_degrees(const json& document, bool over_utm) {
+  const std::string stated = stated_crs(document);
+  if (!stated.empty()) return is_geographic(stated);
+  if (document.contains("coordinate_system") && document["coordinate_system"].is_string()) {
+    return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
+  }
+  if (!over_utm) return false;
+  return std::ranges::all_of(document.at("features"), [](const json& feature) {
+    return feature.contains("geometry") && feature["geometry"].is_object() &&
+           within_degrees(feature["geometry"].value("coordinates", json::array()));
+  });
+}
+
+// Both are names of one zone's metres, or no two names.
+bool may_be_same(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty() || a == b) return true;
+  const std::optional<UtmSystem> utm_a = utm_system(a);
+  const std::optional<UtmSystem> utm_b = utm_system(b);
+  return utm_a && utm_b && utm_a->zone.number == utm_b->zone.number &&
+         utm_a->zone.north == utm_b->zone.north;
+}
+
+Projection from_degrees(const UtmZone& zone) {
+  return [zone](const Eigen::Vector2d& lonlat_deg) -> Eigen::Vector2d {
+    return utm_from_geodetic(zone,
+                             {.latitude_deg = lonlat_deg.y(), .longitude_deg = lonlat_deg.x()})
+        .head<2>();
+  };
+}
+
+Projection from_units(double unit_m) {
+  return [unit_m](const Eigen::Vector2d& position) -> Eigen::Vector2d { return unit_m * position; };
+}
+
+// As read_plot_features says.
+Positions positions_of(const json& document, const std::filesystem::path& path,
+                       const std::string& crs, double unit_m) {
+  const std::optional<UtmSystem> utm = unit_m == 1 ? utm_system(crs) : std::nullopt;
+  if (is_in_degrees(document, utm.has_value())) {
+    if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
+    throw InputError(path, "is in longitude and latitude, and coordinates are wanted of a system " +
+                               (crs.empty() ? "that is not known"
+                                            : "(" + crs + ") that is not UTM's in metres") +
+                               "; give the map in these coordinates");
+  }
+  if (!may_be_same(stated_crs(document), crs)) {
+    throw InputError(path, "is in the coordinate system " + stated_crs(document) +
+                               ", and the cloud is in " + crs + "; give the map in the latter");
+  }
+  const std::optional<CoordinateUnits> units = units_of(document);
+  return {.metres = from_units(units ? units->horizontal_m : unit_m)};
+}
+
+PlacedPlots placed_plots(const json& document, const std::filesystem::path& path,
+                         const std::string& crs, double unit_m) {
+  const Positions positions = positions_of(document, path, crs, unit_m);
+  PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document)};
+  for (const json& feature : document.at("features"))
+    placed.plots.push_back(read_feature(feature, path, placed.plots.size() + 1, positions));
+  return placed;
 }
 
 }  // namespace
+
+bool is_box_property(const std::string& name) {
+  return std::ranges::find(kBoxProperties, name) != kBoxProperties.end();
+}
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
                          const std::string& crs, const std::optional<CoordinateUnits>& units) {
@@ -199,26 +300,35 @@ void write_plot_features_wgs84(const std::filesystem::path& path,
                                const std::vector<PlotFeature>& plots,
                                const Projection& lonlat_deg_from_world) {
   write_document(path, collection(plots,
-                                  "WGS84 longitude, latitude in degrees; attributes in local "
-                                  "metres, x east, y north",
+                                  std::string(kDegreesStated) +
+                                      " in degrees; attributes in local metres, x east, y north",
                                   lonlat_deg_from_world));
 }
 
-std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path, double unit_m) {
-  return read_document<std::vector<PlotFeature>>(path, [&](const json& document) {
-    const std::optional<CoordinateUnits> units = units_of(document);
-    std::vector<PlotFeature> plots;
-    for (const json& feature : document.at("features")) {
-      plots.push_back(
-          read_feature(feature, units ? units->horizontal_m : unit_m,
-                       path.string() + ": feature " + std::to_string(plots.size() + 1)));
-    }
-    return plots;
-  });
+const std::vector<std::string>& plot_id_properties() {
+  static const std::vector<std::string> names = {"plot_number",         "plot_id", "plot_name",
+                                                 "observationUnitName", "name",    "id"};
+  return names;
 }
 
-std::optional<CoordinateUnits> read_coordinate_units(const std::filesystem::path& path) {
-  return read_document<std::optional<CoordinateUnits>>(path, units_of);
+std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property) {
+  const auto found = plot.properties.find(property);
+  if (found != plot.properties.end()) return PlotId::from(*found);
+  return property == "id" ? plot.id : std::nullopt;
+}
+
+std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
+  return read_plot_features(path, "").plots;
+}
+
+PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
+                               double unit_m) {
+  try {
+    return placed_plots(json::parse(read_text(path)), path, crs, unit_m);
+  } catch (const json::exception& error) {
+    throw InputError(path,
+                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+  }
 }
 
 }  // namespace plotscan

@@ -11,6 +11,7 @@
 
 #include "core/coordinate_units.h"
 #include "core/plot_box.h"
+#include "core/plot_id.h"
 
 namespace plotscan {
 
@@ -20,6 +21,7 @@ namespace plotscan {
 struct PlotFeature {
   PlotBox box;
   nlohmann::json properties = nlohmann::json::object();
+  std::optional<PlotId> id = std::nullopt;  // the feature's member "id" (RFC 7946, section 3.2)
 };
 
 // GeoJSON (RFC 7946 layout) FeatureCollection, one Polygon a plot, in local metres: the file says
@@ -40,14 +42,37 @@ void write_plot_features_wgs84(
     const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
     const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& lonlat_deg_from_world);
 
-// Reads what write_plot_features writes, and any FeatureCollection of four-cornered polygons (from
-// QGIS, say): there the box is the rectangle with the polygon's centroid and mean side lengths,
-// length the longer side. Polygons are in the units that the file names, else in `unit_m`. Throws
-// InputError on a missing file, broken JSON, a polygon that is no near-rectangle, a non-finite
-// number.
-std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path, double unit_m = 1);
+// Whether write_plot_features gives every feature a property of that name, one of its box.
+bool is_box_property(const std::string& name);
 
-// The units that a file of write_plot_features names; nothing where it names none.
-std::optional<CoordinateUnits> read_coordinate_units(const std::filesystem::path& path);
+// Properties that hold a plot's id in field books, Breedbase and BrAPI, the likeliest first.
+const std::vector<std::string>& plot_id_properties();
+
+// A feature's id in a property; "id" may be its own member as well.
+std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property);
+
+// Reads what write_plot_features writes, and any FeatureCollection of polygons that are nearly
+// rectangles (from QGIS, say), in metres or the units that the file names: the box is the rectangle
+// nearest to the polygon, length the longer side (core/rectangle_fit.h). Throws InputError on a
+// missing file, broken JSON, a polygon that is farther from a rectangle than rectangle_tolerance_m,
+// a non-finite number, and a file that is in longitude and latitude.
+std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path);
+
+// Plots in the metres of a coordinate system.
+struct PlacedPlots {
+  std::vector<PlotFeature> plots = {};
+  bool from_degrees = false;  // the file has longitude and latitude, which were converted
+  std::optional<CoordinateUnits> units = {};  // that the file names (write_plot_features)
+};
+
+// The same as a map over a cloud: `crs` is the cloud's ("EPSG:<code>", "" where unknown), `unit_m`
+// the metres to one unit of its x and y. Positions are in the units that the file names, else in
+// `unit_m`. They are longitude and latitude in degrees where the file says so (its member crs, or
+// ours), and where it says nothing (RFC 7946), `crs` is UTM's in metres, and no number is beyond
+// 180 and 90: they are converted, and a box among the properties, which is of another frame, is
+// passed over. Throws InputError as above; on degrees where `crs` is not UTM's in metres; and on a
+// file of another system.
+PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
+                               double unit_m = 1);
 
 }  // namespace plotscan

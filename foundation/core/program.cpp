@@ -22,6 +22,7 @@ namespace plotscan {
 namespace {
 
 constexpr int kExitBadInput = 2;
+constexpr int kExitNothingToMeasure = 3;
 constexpr int kExitFailure = 1;
 constexpr int kBarWidth = 30;
 
@@ -126,6 +127,9 @@ int Program::run(int argc, char** argv) {
   remove_unfinished_work_on_interrupt();
   try {
     return guarded_run(argc, argv);
+  } catch (const NothingToMeasure& error) {
+    std::cerr << name_ << ": " << error.what() << '\n';
+    return kExitNothingToMeasure;
   } catch (const InputError& error) {
     std::cerr << name_ << ": " << error.what() << '\n';
     return kExitBadInput;

@@ -32,7 +32,8 @@ struct CommonOptions {
 //     description (YAML)")->required(); return program.run(argc, argv);
 //   }
 //
-// Exit codes: 0 done, 2 bad input or usage (InputError, CLI11's parse errors), 1 anything else.
+// Exit codes: 0 done, 2 bad input or usage (InputError, CLI11's parse errors), 3 nothing to measure
+// (NothingToMeasure), 1 anything else.
 class Program {
  public:
   Program(std::string name, const std::string& description);

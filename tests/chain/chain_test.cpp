@@ -88,6 +88,74 @@ TEST_F(Chain, EstimatesFromLasAsFromPcd) {
   }
 }
 
+// The farm's own map in degrees, made through the Earth's centre, over the cloud in UTM: the same
+// heights as in local metres, under the same numbers, and every attribute of the map.
+TEST_F(Chain, MeasuresInAMapOfLongitudeAndLatitude) {
+  succeed("farmgen generate " + kFarm +
+          " -o farm --seed 101 --set anchor.latitude_deg=37.2 --set anchor.longitude_deg=-80.5" +
+          " --set plots.first_number=301");
+  succeed("lidarsim fly farm -o scan");
+  succeed("lidarsim convert scan utm.las --crs utm");
+  succeed("estimator run scan -o local --boxes farm/truth/plots.geojson");
+  const Finished said =
+      succeed("estimator run utm.las -o utm --boxes farm/truth/plots_wgs84.geojson");
+  EXPECT_NE(said.output.find("converted to EPSG:32617 (UTM 17N)"), std::string::npos)
+      << said.output;
+  EXPECT_TRUE(exists("utm/plots.wgs84.geojson"));
+  const auto features = [&](const std::string& name) {
+    return nlohmann::json::parse(read_text(folder_.path() / name))["features"];
+  };
+  const auto local = features("local/plots.geojson");
+  const auto utm = features("utm/plots.geojson");
+  ASSERT_EQ(utm.size(), 9u);
+  for (std::size_t i = 0; i < utm.size(); ++i) {
+    const auto& plot = utm[i]["properties"];
+    EXPECT_EQ(plot["plot_number"], 301 + i);
+    EXPECT_EQ(plot["accession_name"], local[i]["properties"]["accession_name"]);
+    for (const char* height : {"canopy_p95_m", "canopy_p99_m"}) {
+      EXPECT_NEAR(plot[height].get<double>(), local[i]["properties"][height].get<double>(), 0.01)
+          << height;
+    }
+  }
+}
+
+// The farm is numbered as its description says, the plots that are found as the same words say.
+TEST_F(Chain, NumbersPlotsAsTheFieldBookDoes) {
+  succeed("farmgen generate " + kFarm +
+          " -o farm --seed 101 --set plots.numbering=serpentine --set plots.first_number=101");
+  succeed("lidarsim fly farm -o scan");
+  succeed("estimator run scan -o estimate --first-number 101 --numbering serpentine");
+  const auto scores =
+      nlohmann::json::parse(succeed("estimator score estimate --truth farm --json").output);
+  ASSERT_EQ(scores["boxes"]["found"], 9);
+  for (const auto& plot : scores["field"]["plots"]) {
+    EXPECT_EQ(plot["found"]["estimate"], plot["plot_number"]);
+    EXPECT_GT(plot["plot_number"], 100);
+  }
+}
+
+// A bare slope: sound input without plots. The folder is there, with the ground.
+TEST_F(Chain, SaysThatThereIsNothingToMeasure) {
+  std::string points;
+  std::size_t count = 0;
+  for (int x = 0; x < 100; ++x) {
+    for (int y = 0; y < 100; ++y, ++count) {
+      points += std::to_string(0.1 * x) + " " + std::to_string(0.1 * y) + " " +
+                std::to_string(0.01 * x) + "\n";
+    }
+  }
+  folder_.write("bare.ply", "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+                                "\nproperty float x\nproperty float y\nproperty float z\n"
+                                "end_header\n" +
+                                points);
+  const Finished finished = run("estimator run bare.ply -o estimate", folder_.path().string());
+  EXPECT_EQ(finished.exit_code, 3) << finished.output << finished.errors;
+  for (const char* word : {"no plots: ", "points/m2", "--crop-box", "--boxes", "fly lower"})
+    EXPECT_NE(finished.errors.find(word), std::string::npos) << word << '\n' << finished.errors;
+  EXPECT_TRUE(exists("estimate/ground.asc"));
+  EXPECT_TRUE(exists("estimate/plots.geojson"));
+}
+
 TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "7"}) {
     succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);

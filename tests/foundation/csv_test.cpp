@@ -61,5 +61,44 @@ TEST(FormatNumber, ReadsBackTheSame) {
   EXPECT_EQ(format_number(std::nan("")), "nan");
 }
 
+TEST(CsvTable, ReadsWhatSpreadsheetsSave) {
+  const testing::TemporaryFolder folder;
+  const auto table = [&](const std::string& text) {
+    return read_csv_table(folder.write("t.csv", text));
+  };
+  const CsvTable quoted =
+      table("\xef\xbb\xbfrow, plot_id ,note\r\n1,0101,\"Rock, \"\"early\"\"\nline\"\r\n\n2,,x\n");
+  EXPECT_EQ(quoted.columns, (std::vector<std::string>{"row", "plot_id", "note"}));
+  ASSERT_EQ(quoted.lines.size(), 2u);
+  EXPECT_EQ(quoted.lines[0].fields,
+            (std::vector<std::string>{"1", "0101", "Rock, \"early\"\nline"}));
+  EXPECT_EQ(quoted.lines[1].fields, (std::vector<std::string>{"2", "", "x"}));
+  EXPECT_EQ(quoted.lines[1].line, 5u);
+  EXPECT_EQ(table("a;b\n1,5;2\n").lines.at(0).fields, (std::vector<std::string>{"1,5", "2"}));
+  EXPECT_EQ(table("a\tb\n1\t2").lines.at(0).fields, (std::vector<std::string>{"1", "2"}));
+}
+
+TEST(CsvTable, ReadsItsOwnFields) {
+  const testing::TemporaryFolder folder;
+  const std::string text = "a \"b\", c\nd";
+  const CsvTable table = read_csv_table(
+      folder.write("t.csv", "x,y\n" + csv_field(text) + "," + csv_field("plain") + "\n"));
+  EXPECT_EQ(table.lines.at(0).fields, (std::vector<std::string>{text, "plain"}));
+}
+
+TEST(CsvTable, SaysWhatIsWrong) {
+  const testing::TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& says) {
+    const auto message =
+        message_of<InputError>([&] { read_csv_table(folder.write("t.csv", text)); });
+    EXPECT_NE(message.find(says), std::string::npos) << message;
+  };
+  refused("", "is empty");
+  refused("a,a\n", "column 2 is called \"a\"");
+  refused("a,\n1,2\n", "column 2 is called \"\"");
+  refused("a,b\n1,2\n1\n", ":3: has 1 fields; the header names 2");
+  refused("a,b\n1,\"2\n", "is opened and not closed");
+}
+
 }  // namespace
 }  // namespace plotscan

@@ -42,5 +42,35 @@ TEST(Geodesy, UtmEndsTowardsThePoles) {
   EXPECT_THROW(utm_zone(place(-81, 0)), InputError);
 }
 
+TEST(Geodesy, UtmComesBack) {
+  for (const GeodeticPoint& point : {place(43.6425, -79.3871), place(-33.8, 151.2)}) {
+    const UtmZone zone = utm_zone(point);
+    const GeodeticPoint back = geodetic_from_utm(zone, utm_from_geodetic(zone, point));
+    EXPECT_NEAR(back.latitude_deg, point.latitude_deg, 1e-11);
+    EXPECT_NEAR(back.longitude_deg, point.longitude_deg, 1e-11);
+  }
+}
+
+// Codes and zones as the EPSG registry of PROJ has them.
+TEST(Geodesy, UtmSystemsByTheirCodes) {
+  const auto zone = [](const std::string& crs) {
+    const auto system = utm_system(crs);
+    return system ? std::to_string(system->zone.number) + (system->zone.north ? "N " : "S ") +
+                        system->datum
+                  : "none";
+  };
+  EXPECT_EQ(zone("EPSG:32617"), "17N WGS 84");
+  EXPECT_EQ(zone("EPSG:32760"), "60S WGS 84");
+  EXPECT_EQ(zone("EPSG:25832"), "32N ETRS89");
+  EXPECT_EQ(zone("EPSG:26917"), "17N NAD83");
+  EXPECT_EQ(zone("EPSG:6346"), "17N NAD83(2011)");
+  EXPECT_EQ(zone("EPSG:28355"), "55S GDA94");
+  EXPECT_EQ(zone("EPSG:7855"), "55S GDA2020");
+  for (const char* other : {"", "EPSG:", "EPSG:32661", "EPSG:32600", "EPSG:4326", "EPSG:32617x",
+                            "PROJCS[\"no code\"]"}) {
+    EXPECT_EQ(zone(other), "none") << other;
+  }
+}
+
 }  // namespace
 }  // namespace plotscan

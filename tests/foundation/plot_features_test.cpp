@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plot_features.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/error.h"
 
@@ -34,9 +39,9 @@ TEST(PlotFeatures, AreInTheUnitsOfTheCloud) {
   EXPECT_NEAR((corners[0][1].get<double>() + corners[2][1].get<double>()) / 2, 200, 1e-9);
   EXPECT_EQ(document["features"][0]["properties"]["center_x_m"], 30.48);
   EXPECT_EQ(read_plot_features(file).at(0).box.center, plot.box.center);
-  EXPECT_EQ(read_coordinate_units(file), (CoordinateUnits{kFoot_m, 1}));
+  EXPECT_EQ(read_plot_features(file, "").units, (CoordinateUnits{kFoot_m, 1}));
   write_plot_features(file, {plot});
-  EXPECT_EQ(read_coordinate_units(file), std::nullopt);
+  EXPECT_EQ(read_plot_features(file, "").units, std::nullopt);
 }
 
 constexpr const char* kForeign =
@@ -81,6 +86,107 @@ TEST(PlotFeatures, RefusesAPolygonThatWasMovedAwayFromItsBox) {
     corner[0] = std::round((corner[0].get<double>() - 1.2) * 1000) / 1000;
   }
   EXPECT_NO_THROW(read_plot_features(folder.write("rounded.geojson", document.dump())));
+}
+
+// A turned plot as a GIS rounds it to decimetres, one corner given twice, a vertex on an edge, the
+// ring left open and running clockwise.
+TEST(PlotFeatures, FitsTheNearestRectangle) {
+  const testing::TemporaryFolder folder;
+  const PlotBox box{
+      .center = {512345.67, 4123456.78}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.4};
+  auto corners = box.corners();
+  std::ranges::reverse(corners);
+  const auto rounded = [](double value) { return std::round(value * 10) / 10; };
+  std::string ring;
+  const auto add = [&](const Eigen::Vector2d& at) {
+    ring += (ring.empty() ? "[" : ",[") + std::to_string(rounded(at.x())) + "," +
+            std::to_string(rounded(at.y())) + "]";
+  };
+  add(corners[0]);
+  add(corners[0]);
+  add((corners[0] + corners[1]) / 2);
+  for (std::size_t i = 1; i < 4; ++i) add(corners[i]);
+  const auto plots = read_plot_features(folder.write("gis.geojson", foreign(ring)));
+  EXPECT_LT((plots.at(0).box.center - box.center).norm(), 0.07);
+  EXPECT_NEAR(plots[0].box.length_m, 4, 0.1);
+  EXPECT_NEAR(plots[0].box.width_m, 1.5, 0.1);
+  EXPECT_LT(heading_difference(plots[0].box.heading_rad, 0.4), 0.03);
+}
+
+TEST(PlotFeatures, NamesThePlotThatIsNoRectangle) {
+  const testing::TemporaryFolder folder;
+  std::string text = foreign("[0,0],[4,0],[4.6,1.5],[0.6,1.5],[0,0]");
+  text.replace(text.find("null"), 4, R"({"plot_id": "A-12"})");
+  EXPECT_THAT(testing::message_of<InputError>(
+                  [&] { read_plot_features(folder.write("bad.geojson", text)); }),
+              ::testing::HasSubstr("feature 1 (plot_id \"A-12\") is not a rectangle: it is up to"));
+}
+
+// On the central meridian at the equator a degree's metres are known: 0.9996 of the ellipsoid's.
+constexpr const char* kFourMetresNorth =
+    "[9,0],[9.00001348,0],[9.00001348,3.61896e-5],"
+    "[9,3.61896e-5],[9,0]";
+
+TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
+  const testing::TemporaryFolder folder;
+  for (const std::string crs :
+       {"", R"("crs":{"properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)"}) {
+    std::string text = foreign(kFourMetresNorth);
+    text.insert(1, crs);
+    const PlacedPlots placed =
+        read_plot_features(folder.write("lonlat.geojson", text), "EPSG:32632");
+    EXPECT_TRUE(placed.from_degrees);
+    const PlotBox box = placed.plots.at(0).box;
+    EXPECT_NEAR(box.length_m, 0.9996 * 3.61896e-5 * 110574.276, 1e-4);
+    EXPECT_NEAR(box.width_m, 0.9996 * 1.348e-5 * 111319.491, 1e-4);
+    EXPECT_NEAR(box.center.x(), 5e5 + box.width_m / 2, 1e-4);
+    EXPECT_NEAR(box.center.y(), box.length_m / 2, 1e-4);
+  }
+}
+
+TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
+  const testing::TemporaryFolder folder;
+  const auto file = [&](const std::string& members) {
+    std::string text = foreign(kFourMetresNorth);
+    return folder.write("plots.geojson", text.insert(1, members));
+  };
+  const auto message = [](const std::filesystem::path& path, const std::string& crs) {
+    return testing::message_of<InputError>([&] { read_plot_features(path, crs); });
+  };
+  const std::string wgs84 = R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::4326"}},)";
+  EXPECT_THAT(message(file(wgs84), ""), ::testing::HasSubstr("longitude and latitude"));
+  EXPECT_THAT(message(file(wgs84), "EPSG:2193"), ::testing::HasSubstr("EPSG:2193"));
+  const std::string other = R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::32633"}},)";
+  EXPECT_THAT(message(file(other), "EPSG:32632"), ::testing::HasSubstr("EPSG:32633"));
+}
+
+// A GIS's map over a cloud in feet; UTM's code over one in feet makes no degrees.
+TEST(PlotFeatures, TakesTheUnitsOfTheCloud) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("feet.geojson", foreign("[0,0],[0,10],[-5,10],[-5,0],[0,0]"));
+  for (const std::string crs : {"", "EPSG:2264", "EPSG:32632"}) {
+    const PlacedPlots placed = read_plot_features(file, crs, kFoot_m);
+    EXPECT_FALSE(placed.from_degrees);
+    EXPECT_NEAR(placed.plots.at(0).box.length_m, 3.048, 1e-12);
+    EXPECT_NEAR(placed.plots.at(0).box.width_m, 1.524, 1e-12);
+  }
+  write_plot_features(file, read_plot_features(file), "EPSG:2264", CoordinateUnits{0.5, 1});
+  EXPECT_NEAR(read_plot_features(file, "EPSG:2264", kFoot_m).plots.at(0).box.length_m, 10, 1e-12)
+      << "the file's own units";
+}
+
+// Metres of the cloud's own zone under its other name, and local ones that the file calls local.
+TEST(PlotFeatures, LeavesMetresAsTheyAre) {
+  const testing::TemporaryFolder folder;
+  for (const std::string members :
+       {R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},)",
+        R"("coordinate_system":"local metres",)"}) {
+    std::string text = foreign("[0,0],[0,3],[-1,3],[-1,0],[0,0]");
+    const PlacedPlots placed =
+        read_plot_features(folder.write("metres.geojson", text.insert(1, members)), "EPSG:32632");
+    EXPECT_FALSE(placed.from_degrees);
+    EXPECT_NEAR(placed.plots.at(0).box.length_m, 3, 1e-12);
+  }
 }
 
 TEST(PlotFeatures, RefusesWhatIsNoPlot) {

@@ -120,7 +120,7 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
     box.center = axes.at(box.center);
     box.width_m *= axes.px_per_m().x();
     box.length_m *= axes.px_per_m().x();
-    labels.push_back({std::to_string(plot.id), box, !plot.flags.empty()});
+    labels.push_back({plot.id.text(), box, !plot.flags.empty()});
   }
   for (const PlacedLabel& label : place_labels(labels, kLabelShare * text_px)) {
     const Lettering lettering{

@@ -92,8 +92,8 @@ std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
   for (const std::string& name : names.empty() ? usual_names(plot) : names) {
     const auto height = plot.heights_m.find(name);
     if (height == plot.heights_m.end()) {
-      throw InputError(formatted("plot %u has no height '%s'; it has: ", plot.id, name.c_str()) +
-                       joined(all_names(plot), ", "));
+      throw InputError("plot " + plot.id.text() + " has no height '" + name +
+                       "'; it has: " + joined(all_names(plot), ", "));
     }
     HeightLine line{.name = name,
                     .height_m = height->second,

@@ -43,16 +43,13 @@ void validate(const estimate::Estimate& estimate, const PlotPictureOptions& opti
   if (!estimate.ground) throw InputError("the estimate has no ground");
 }
 
-const estimate::PlotEstimate& plot_numbered(const estimate::Estimate& estimate,
-                                            std::uint32_t number) {
-  const auto found = std::ranges::find(estimate.plots, number, &estimate::PlotEstimate::id);
+const estimate::PlotEstimate& plot_named(const estimate::Estimate& estimate, const PlotId& id) {
+  const auto found = std::ranges::find(estimate.plots, id, &estimate::PlotEstimate::id);
   if (found != estimate.plots.end()) return *found;
   if (estimate.plots.empty()) throw InputError("the estimate has no plots");
-  const auto [low, high] = std::ranges::minmax(estimate.plots, {}, &estimate::PlotEstimate::id);
-  throw InputError(
-      formatted("there is no plot %u; the estimate's %zu plots have numbers from %u "
-                "to %u",
-                number, estimate.plots.size(), low.id, high.id));
+  throw InputError("there is no plot " + id.text() + "; the estimate's " +
+                   std::to_string(estimate.plots.size()) + " plots are " +
+                   estimate.plots.front().id.text() + " to " + estimate.plots.back().id.text());
 }
 
 // What is drawn of a plot.
@@ -88,7 +85,7 @@ std::string title_of(const estimate::PlotEstimate& plot) {
   const std::string place = plot.row > 0 && plot.column > 0
                                 ? formatted(" (row %d, column %d)", plot.row, plot.column)
                                 : "";
-  return formatted("Plot %u", plot.id) + place;
+  return "Plot " + plot.id.text() + place;
 }
 
 std::string subtitle_of(const estimate::PlotEstimate& plot, double exaggeration) {
@@ -203,11 +200,11 @@ void add_words(Page& page, const Layout& layout, const estimate::PlotEstimate& p
 }  // namespace
 
 void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
-               std::uint32_t number, const std::filesystem::path& png,
+               const PlotId& id, const std::filesystem::path& png,
                const PlotPictureOptions& options) {
   validate(estimate, options);
   require_file(cloud);
-  const estimate::PlotEstimate& plot = plot_numbered(estimate, number);
+  const estimate::PlotEstimate& plot = plot_named(estimate, id);
   Scene scene{.plot = plot,
               .ground = ground_profile(*estimate.ground, plot.box, options.beyond_m),
               .ground_inside = ground_profile(*estimate.ground, plot.box, 0),
@@ -218,9 +215,8 @@ void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& est
   files.units = estimate.units;
   scan::read_positions(files, [&](auto points) { scene.points.add(points); });
   if (scene.points.points().empty()) {
-    throw InputError(cloud, formatted("has no point in plot %u; is it the cloud of this estimate, "
-                                      "in the same coordinates?",
-                                      number));
+    throw InputError(cloud, "has no point in plot " + id.text() +
+                                "; is it the cloud of this estimate, in the same coordinates?");
   }
   const Layout layout = lay_out(scene, options);
 

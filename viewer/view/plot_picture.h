@@ -28,7 +28,7 @@ struct PlotPictureOptions {
 // ground, a plot or height that it does not have, a cloud that is broken or has no point there, a
 // file that cannot be written, or a missing display.
 void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
-               std::uint32_t plot, const std::filesystem::path& png,
+               const PlotId& plot, const std::filesystem::path& png,
                const PlotPictureOptions& options);
 
 }  // namespace plotscan::view

@@ -51,11 +51,11 @@ Points inside(const Points& points, const Area& area, const Eigen::Vector3d& ori
 
 Clustering cluster(const Points& canopy, std::size_t voxels, const Dhami2020Options& options) {
   if (canopy.size() < static_cast<std::size_t>(options.plots)) {
-    throw InputError("only " + std::to_string(canopy.size()) + " of the map's " +
-                     std::to_string(voxels) + " voxels lie in the searched area and more than " +
-                     format_number(options.min_height_m) + " m above its ground, too few for " +
-                     std::to_string(options.plots) +
-                     " plots; check the crop box, the minimum height and the number of plots");
+    throw NothingToMeasure(
+        "only " + std::to_string(canopy.size()) + " of the map's " + std::to_string(voxels) +
+        " voxels lie in the searched area and more than " + format_number(options.min_height_m) +
+        " m above its ground, too few for " + std::to_string(options.plots) +
+        " plots; check the crop box, the minimum height and the number of plots");
   }
   return k_means(canopy,
                  {.clusters = options.plots, .seed = options.seed, .threads = options.threads});
@@ -73,8 +73,8 @@ std::vector<PlotBox> cluster_boxes(const Points& canopy, const Clustering& clust
     if (box.width_m > 0) boxes.push_back(box);
   }
   if (boxes.empty()) {
-    throw InputError("no cluster of the points above the ground has an area; " +
-                     std::string("is the number of plots right?"));
+    throw NothingToMeasure("no cluster of the points above the ground has an area; " +
+                           std::string("is the number of plots right?"));
   }
   return boxes;
 }
@@ -132,7 +132,9 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
       static_cast<double>(canopy.size()) / static_cast<double>(voxels.size());
   diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
                             {"iterations", clustering.iterations}};
-  if (!lattice) throw InputError("the clusters form no grid of plots");
+  if (!lattice)
+    throw NothingToMeasure(
+        "the clusters form no grid of plots; check the crop box and the number of plots");
   if (options.learn_box) {
     if (!lattice->many_rows || !lattice->many_columns) {
       throw InputError(
@@ -146,7 +148,9 @@ std::vector<PlotEstimate> find_plots(const CloudMap& map, const Points& voxels,
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
   std::vector<PlotEstimate> plots =
       fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
-  if (plots.empty()) throw InputError("no box of the grid holds canopy");
+  if (plots.empty())
+    throw NothingToMeasure(
+        "no box of the grid holds canopy; check the crop box and the minimum height");
   return plots;
 }
 

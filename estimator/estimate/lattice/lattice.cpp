@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/lattice/lattice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,7 +11,9 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/stage.h"
+#include "core/text.h"
 #include "estimate/given_boxes.h"
+#include "estimate/lattice/field_report.h"
 #include "estimate/points_in_boxes.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
@@ -22,6 +25,7 @@ using Points = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
 constexpr int kMostThreads = 1024;
+constexpr int kMostPlots = 100000;
 constexpr double kGroundAround_m = 4;  // read around given boxes, to see the ground beside them
 
 void report(const ProgressReport& progress, double share) {
@@ -65,7 +69,7 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, options.hints, options.threads);
   stage.found(std::to_string(field.plots.size()) + " plots");
-  diagnostics["field"] = field.fit;
+  diagnostics["field"] = json_of(field);
   if (!field.nothing.empty()) diagnostics["nothing"] = field.nothing;
   std::vector<PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
@@ -89,16 +93,18 @@ void take(const heights::PlotHeights& measured, PlotEstimate& plot) {
 }
 
 void measure(std::vector<PlotEstimate>& plots, const Points& heights,
-             const ground::Surface& surface, const LatticeOptions& options) {
+             const ground::Surface& surface, const LatticeOptions& options, json& diagnostics) {
   const Stage stage("plots' heights");
   std::vector<PlotBox> boxes;
   for (const PlotEstimate& plot : plots) boxes.push_back(plot.box);
   const std::vector<Points> inside = points_in_boxes(heights, boxes);
   std::vector<heights::PlotPoints> clouds;
   for (std::size_t i = 0; i < plots.size(); ++i) clouds.push_back({boxes[i], inside[i]});
-  const std::vector<heights::PlotHeights> measured = heights::measure_heights(
-      clouds, surface, {.calibrated = options.calibrated, .threads = options.threads});
-  for (std::size_t i = 0; i < plots.size(); ++i) take(measured[i], plots[i]);
+  const heights::FieldHeights measured = heights::measure_heights(
+      clouds, surface,
+      {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
+  for (std::size_t i = 0; i < plots.size(); ++i) take(measured.plots[i], plots[i]);
+  if (!measured.crops.empty()) diagnostics["crops"] = measured.crops;
 }
 
 json describe(const FieldCloud& cloud) {
@@ -136,6 +142,12 @@ std::optional<Area> area_to_read(const LatticeOptions& options) {
               boxes[3] + kGroundAround_m};
 }
 
+void require_known(const std::optional<std::string>& crop) {
+  const std::vector<std::string>& crops = heights::crop_names();
+  if (!crop || std::ranges::find(crops, *crop) != crops.end()) return;
+  throw InputError("there is no crop \"" + *crop + "\"; there is " + joined(crops, ", "));
+}
+
 void require_between(const std::optional<double>& value, double low, double high,
                      const std::string& name) {
   if (!value || (*value >= low && *value <= high)) return;
@@ -149,7 +161,11 @@ void require_sound(const LatticeOptions& options) {
   if (options.crop_box) require_area(*options.crop_box, "crop box");
   require_between(options.hints.width_m, 0.1, 100, "the plots' width in metres");
   require_between(options.hints.length_m, 0.1, 100, "the plots' length in metres");
+  require_between(options.hints.rows, 1, kMostPlots, "the number of rows");
+  require_between(options.hints.columns, 1, kMostPlots, "the number of columns");
+  require_between(options.hints.plots, 1, kMostPlots, "the number of plots");
   require_between(options.noise_m, 0, 0.5, "the noise's sigma in metres");
+  require_known(options.crop);
   require_between(options.threads, 1, kMostThreads, "the number of threads");
 }
 
@@ -165,7 +181,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
   report(progress, 0.8);
-  measure(estimate.plots, heights, surface, options);
+  measure(estimate.plots, heights, surface, options, estimate.diagnostics);
   for (PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();
   estimate.ground = moved(surface, cloud.origin);
   report(progress, 1);

@@ -16,11 +16,12 @@ namespace plotscan::estimate {
 
 // What may be told to the lattice method; it needs none of it.
 struct LatticeOptions {
-  std::optional<Area> crop_box = {};   // use only the points in here
-  plots::Hints hints = {};             // of the plots' heading and size
-  std::vector<PlotBox> boxes = {};     // given boxes: no detection, heights only
-  std::optional<double> noise_m = {};  // sigma of the points' heights, else estimated
-  bool calibrated = true;              // plants' heights from the canopy's (docs/methods.md)
+  std::optional<Area> crop_box = {};     // use only the points in here
+  plots::Hints hints = {};               // of the plots' heading, size and number
+  std::vector<PlotBox> boxes = {};       // given boxes: no detection, heights only
+  std::optional<double> noise_m = {};    // sigma of the points' heights, else estimated
+  bool calibrated = true;                // plants' heights from the canopy's (docs/methods.md)
+  std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
   int threads = 1;
 };
 

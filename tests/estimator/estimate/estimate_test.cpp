@@ -72,6 +72,33 @@ TEST(Estimate, KeepsMillimetresInMapGridCoordinates) {
   EXPECT_THAT(read_text(folder.path() / "heights.csv"), HasSubstr("512345.678,4123456.789,1.234"));
 }
 
+// UTM 32 on its central meridian at the equator, where the ellipsoid's metres a degree are known
+// (0.9996 of them on the map); and read back as a map of the same cloud.
+TEST(Estimate, IsWrittenInWgs84WhereTheSystemIsUtm) {
+  const TemporaryFolder folder;
+  const PlotBox box{.center = {500000, 0}, .width_m = 2, .length_m = 6, .heading_rad = 0};
+  const auto file = folder.path() / "plots.wgs84.geojson";
+  write_estimate(folder.path(), {.method = "lattice", .plots = {{.id = 1, .box = box}}});
+  EXPECT_FALSE(std::filesystem::exists(file)) << "of no known system";
+  write_estimate(folder.path(), {.method = "lattice",
+                                 .plots = {{.id = 1, .box = box}},
+                                 .crs = "EPSG:32632",
+                                 .units = CoordinateUnits{kFoot_m, kFoot_m}});
+  EXPECT_FALSE(std::filesystem::exists(file)) << "UTM's, but in feet";
+  write_estimate(folder.path(),
+                 {.method = "lattice", .plots = {{.id = 1, .box = box}}, .crs = "EPSG:32632"});
+  const auto document = nlohmann::json::parse(read_text(file));
+  EXPECT_FALSE(document.contains("crs")) << "RFC 7946 has none";
+  const auto& ring = document["features"][0]["geometry"]["coordinates"][0];
+  const double east_deg = 3 / 0.9996 / 111319.491;
+  const double north_deg = 1 / 0.9996 / 110574.276;
+  EXPECT_NEAR(ring[2][0].get<double>(), 9 + east_deg, 1e-10);
+  EXPECT_NEAR(ring[2][1].get<double>(), north_deg, 1e-10);
+  const PlacedPlots back = read_plot_features(file, "EPSG:32632");
+  EXPECT_TRUE(back.from_degrees);
+  EXPECT_NEAR(intersection_over_union(back.plots.at(0).box, box), 1, 1e-6);
+}
+
 TEST(Estimate, WritesOneLineAPlot) {
   const TemporaryFolder folder;
   write_estimate(folder.path(), two_plots());

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/calibration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "heights/crop_model.h"
 #include "heights/features.h"
 #include "heights/ratio_model.h"
 
 namespace plotscan::heights {
 namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 TEST(Calibration, TheShippedOneFitsTheFeatures) {
   EXPECT_EQ(shipped_calibration().features, feature_names());
@@ -22,47 +31,112 @@ TEST(Calibration, ReadsBackAsItWasWritten) {
   EXPECT_EQ(json_of(read), json_of(shipped));
 }
 
-// Plants of libraries that were left out: their farms' truths lie in the 95 % intervals.
-TEST(Calibration, IntervalsHoldForPlantsThatWereLeftOut) {
+Eigen::VectorXd certainly(const Calibration& calibration, const std::string& crop) {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
+                               static_cast<Eigen::Index>(calibration.index_of(crop)));
+}
+
+std::vector<std::size_t> farms_of(const Calibration& calibration, const std::string& library) {
+  std::vector<std::size_t> farms;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    if (calibration.farms[i].library == library) farms.push_back(i);
+  return farms;
+}
+
+// Farms of whole libraries that the model has not seen.
+struct Unseen {
+  std::size_t farms = 0, inside = 0, of_its_crop = 0;
+  double told_squares = 0, given_squares = 0;  // of the mean's errors, square metres
+};
+
+Unseen of_unseen(const std::vector<std::string>& libraries) {
   const Calibration& shipped = shipped_calibration();
-  std::map<std::string, int> numbers;
-  std::vector<int> libraries;
-  for (const CalibrationFarm& farm : shipped.farms)
-    libraries.push_back(
-        numbers.try_emplace(farm.library, static_cast<int>(numbers.size())).first->second);
-  const std::vector<Prediction> predictions =
-      Kriging(shipped.places(), shipped.ratios(), shipped.noise(), shipped.covariance)
-          .without_own_group(libraries);
-  for (std::size_t k = 0; k < shipped.heights.size(); ++k) {
-    const auto height = static_cast<Eigen::Index>(k);
-    double inside = 0;
-    double surprise = 0;
-    for (std::size_t i = 0; i < predictions.size(); ++i) {
-      const double error = shipped.farms[i].ratios(height) - predictions[i].values(height);
-      const double sd = predictions[i].sds(height);
-      inside += std::abs(error) < 1.96 * sd ? 1 : 0;
-      surprise += std::pow(error / sd, 2);
+  const auto mean = std::ranges::find(shipped.heights, "mean") - shipped.heights.begin();
+  Unseen unseen;
+  for (const std::string& library : libraries) {
+    const std::vector<std::size_t> farms = farms_of(shipped, library);
+    const Calibration others = shipped.without(farms);
+    const RatioModel model(others);
+    const CropModel crops(others);
+    for (const std::size_t i : farms) {
+      const CalibrationFarm& farm = shipped.farms[i];
+      const Eigen::VectorXd scaled = others.scaled(farm.features);
+      const Eigen::VectorXd probabilities = crops.probabilities(scaled);
+      const FieldRatios told = model.at(scaled, farm.top_m, probabilities, true);
+      const FieldRatios given = model.at(scaled, farm.top_m, certainly(shipped, farm.crop), false);
+      const double error = told.values(mean) - farm.ratios(mean);
+      ++unseen.farms;
+      unseen.inside += std::abs(error) < 2.064 * told.field_sds(mean) ? 1 : 0;
+      unseen.of_its_crop +=
+          probabilities(static_cast<Eigen::Index>(shipped.index_of(farm.crop))) > 0.5 ? 1 : 0;
+      unseen.told_squares += std::pow(farm.top_m * error, 2);
+      unseen.given_squares += std::pow(farm.top_m * (given.values(mean) - farm.ratios(mean)), 2);
     }
-    const auto farms = static_cast<double>(predictions.size());
-    EXPECT_GT(inside / farms, 0.88) << shipped.heights[k];
-    EXPECT_LT(inside / farms, 0.99) << shipped.heights[k];
-    EXPECT_NEAR(std::sqrt(surprise / farms), 1, 0.3) << shipped.heights[k];
   }
+  return unseen;
+}
+
+// Plants of libraries that were left out: their farms' truths lie in the 95 % intervals, and their
+// crop is told from the canopy.
+TEST(Calibration, HoldsForPlantsThatWereLeftOut) {
+  const Unseen unseen = of_unseen({"soybean-r1", "soybean-r3", "soybean-bushy", "soybean-v6",
+                                   "wheat-z55", "wheat-ripe", "wheat-single-z39", "maize-r3"});
+  const auto farms = static_cast<double>(unseen.farms);
+  EXPECT_GT(farms, 80);
+  EXPECT_GT(static_cast<double>(unseen.inside), 0.86 * farms);
+  EXPECT_LT(static_cast<double>(unseen.inside), 0.995 * farms);
+  EXPECT_GT(static_cast<double>(unseen.of_its_crop), 0.85 * farms);
+}
+
+TEST(Calibration, IsSurerOfSoybeansMeanWhereTheCropIsGiven) {
+  const Unseen unseen =
+      of_unseen({"soybean-r1", "soybean-r3", "soybean-bushy", "soybean-v6", "soybean-even"});
+  EXPECT_LT(unseen.given_squares, 0.85 * unseen.told_squares);
+}
+
+TEST(Calibration, RefusesACropThatItDoesNotKnow) {
+  EXPECT_THAT([] { shipped_calibration().index_of("barley"); },
+              ThrowsMessage<InputError>(HasSubstr("there is maize, soybean, wheat")));
+}
+
+// By hand: two scores apart by ln 3 / sharpness are as 3 to 1.
+TEST(Calibration, ScoresBecomeProbabilities) {
+  const Eigen::Vector2d scores(std::log(3) / 5, 0);
+  EXPECT_NEAR(softmax(scores, 5)(0), 0.75, 1e-12);
+}
+
+// Two crops that may be: the mixture's mean and variance, by its two parts.
+TEST(Calibration, MixesTheCropsThatItMayBe) {
+  const Calibration& shipped = shipped_calibration();
+  const RatioModel model(shipped);
+  const Eigen::VectorXd scaled = shipped.scaled(shipped.farms.front().features);
+  const auto of = [&](const std::string& crop) {
+    return model.mixture(scaled, 0.8, certainly(shipped, crop));
+  };
+  const Prediction maize = of("maize"), wheat = of("wheat");
+  const Prediction both = model.mixture(
+      scaled, 0.8, 0.25 * certainly(shipped, "maize") + 0.75 * certainly(shipped, "wheat"));
+  const double value = 0.25 * maize.values(0) + 0.75 * wheat.values(0);
+  const double apart = maize.values(0) - wheat.values(0);
+  EXPECT_NEAR(both.values(0), value, 1e-12);
+  EXPECT_NEAR(std::pow(both.sds(0), 2),
+              0.25 * std::pow(maize.sds(0), 2) + 0.75 * std::pow(wheat.sds(0), 2) +
+                  0.25 * 0.75 * apart * apart,
+              1e-12);
 }
 
 TEST(Calibration, FewFarmsAreUnlikeWhatIsKnown) {
   const Calibration& shipped = shipped_calibration();
   const RatioModel model(shipped);
-  const Eigen::MatrixXd places = shipped.places();
   int unlike = 0;
-  for (Eigen::Index i = 0; i < places.rows(); ++i)
-    unlike += model.unlike(places.row(i)) > 1 ? 1 : 0;
-  EXPECT_LT(unlike, 0.03 * static_cast<double>(places.rows()));
+  for (const CalibrationFarm& farm : shipped.farms)
+    unlike += model.unlike(shipped.scaled(farm.features), certainly(shipped, farm.crop)) > 1;
+  EXPECT_LT(unlike, 0.03 * static_cast<double>(shipped.farms.size()));
   // A field of glass plates on stilts: all features as far from the middle as they can be, by
   // turns.
-  Eigen::VectorXd far = Eigen::VectorXd::Constant(places.cols(), 4);
+  Eigen::VectorXd far = Eigen::VectorXd::Constant(shipped.center.size(), 4);
   for (Eigen::Index k = 0; k < far.size(); k += 2) far(k) = -4;
-  EXPECT_GT(model.unlike(shipped.place(far)), 1);
+  EXPECT_GT(model.unlike(far, certainly(shipped, "maize")), 1);
 }
 
 }  // namespace

@@ -63,27 +63,5 @@ TEST(Kriging, IsTheClosedFormOfTwoPlaces) {
   EXPECT_NEAR(kriging.at(Eigen::VectorXd::Constant(1, 0.3), 1).values(0), expected, 1e-9);
 }
 
-// Leaving a group out by the inverse's blocks is leaving it out.
-TEST(Kriging, WithoutOwnGroupIsAFitWithoutIt) {
-  const Known data = known(40);
-  std::vector<int> groups;
-  for (int i = 0; i < 40; ++i) groups.push_back(i % 7);
-  const std::vector<Prediction> predictions =
-      Kriging(data.places, data.values, std::vector<double>(40, 1), kCovariance)
-          .without_own_group(groups);
-  std::vector<Eigen::Index> others;
-  for (Eigen::Index i = 0; i < 40; ++i)
-    if (groups[static_cast<std::size_t>(i)] != 3) others.push_back(i);
-  const Kriging rest(data.places(others, Eigen::all), data.values(others, Eigen::all),
-                     std::vector<double>(others.size(), 1), kCovariance);
-  for (Eigen::Index i = 3; i < 40; i += 7) {
-    const Prediction expected = rest.at(data.places.row(i), 1);
-    const Prediction& found = predictions[static_cast<std::size_t>(i)];
-    // The values' mean, about which both are kriged, hardly matters under a wide level.
-    EXPECT_NEAR(found.values(0), expected.values(0), 0.02);
-    EXPECT_NEAR(found.unlike, expected.unlike, 1e-5);
-  }
-}
-
 }  // namespace
 }  // namespace plotscan::heights

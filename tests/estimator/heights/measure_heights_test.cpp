@@ -22,7 +22,7 @@ struct Field {
   std::vector<PlotHeights> measured(bool calibrated = true, int threads = 1) const {
     std::vector<PlotPoints> plots;
     for (std::size_t i = 0; i < boxes.size(); ++i) plots.push_back({boxes[i], returns[i]});
-    return measure_heights(plots, surface, {.calibrated = calibrated, .threads = threads});
+    return measure_heights(plots, surface, {.calibrated = calibrated, .threads = threads}).plots;
   }
 };
 

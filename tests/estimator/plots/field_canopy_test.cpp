@@ -38,10 +38,10 @@ TEST(FieldCanopy, LeavesOutRoofsAndWallsButNoCanopy) {
   const auto roof = points_over([](double x, double y, RandomStream&) {
     return in_middle(x, y) ? 1 + 0.4 * (x - 10) / 4 : NAN;
   });
-  EXPECT_FALSE(FieldCanopy(canopy, kNoise_m).leaves_out(middle));
-  EXPECT_LT(FieldCanopy(canopy, kNoise_m).surface_share(places, 5), 0.02);
-  EXPECT_TRUE(FieldCanopy(roof, kNoise_m).leaves_out(middle));
-  EXPECT_GT(FieldCanopy(roof, kNoise_m).surface_share(places, 5), 0.9);
+  EXPECT_FALSE(FieldCanopy(canopy, kNoise_m, 2).leaves_out(middle));
+  EXPECT_LT(FieldCanopy(canopy, kNoise_m, 2).surface_share(places, 5), 0.02);
+  EXPECT_TRUE(FieldCanopy(roof, kNoise_m, 2).leaves_out(middle));
+  EXPECT_GT(FieldCanopy(roof, kNoise_m, 2).surface_share(places, 5), 0.9);
 }
 
 TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {
@@ -49,7 +49,7 @@ TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {
     const auto points = points_over([&](double x, double y, RandomStream& random) {
       return in_middle(x, y) ? random.uniform(0, top_m) : NAN;
     });
-    const CanopyScale scale = FieldCanopy(points, kNoise_m).scale();
+    const CanopyScale scale = FieldCanopy(points, kNoise_m, 2).scale();
     EXPECT_NEAR(scale.low_m, 0.05, 1e-9);
     EXPECT_NEAR(scale.high_m / top_m, 0.9, 0.1);
   }
@@ -59,14 +59,14 @@ TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {
   auto points = points_over([](double, double, RandomStream&) { return NAN; });
   for (int i = 0; i < 50; ++i) points.emplace_back(40.0F + 0.2F * static_cast<float>(i), 5, 0.5F);
   points.emplace_back(5, NAN, 0);
-  const FieldCanopy field(points, kNoise_m);
+  const FieldCanopy field(points, kNoise_m, 2);
   EXPECT_TRUE(field.leaves_out({45, 5, 0.5}));
   EXPECT_TRUE(field.leaves_out({5, NAN, 0}));
   EXPECT_FALSE(field.leaves_out({5, 5, 0}));
 }
 
 TEST(FieldCanopy, OfNoPointsHasNoneToLeaveOut) {
-  EXPECT_TRUE(FieldCanopy({}, kNoise_m).points().empty());
+  EXPECT_TRUE(FieldCanopy({}, kNoise_m, 2).points().empty());
 }
 
 }  // namespace

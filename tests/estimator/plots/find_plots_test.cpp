@@ -107,7 +107,7 @@ TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_dri
 TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_clumps, 0.8); }
 
 // Strips side by side may be the rows of one plot, or plots: the user may know.
-TEST(FindPlots, TakesTheSidesThatAreKnown) {
+std::vector<Eigen::Vector3f> points_over_strips() {
   std::vector<PlotBox> strips;
   for (const PlotBox& box : Trial{.gap_m = 0.8}.boxes()) {
     for (const double side : {-0.42, 0.42}) {
@@ -116,11 +116,33 @@ TEST(FindPlots, TakesTheSidesThatAreKnown) {
       strips.back().width_m = 0.66;
     }
   }
-  const std::vector<Eigen::Vector3f> points = points_over(strips);
+  return points_over(strips);
+}
+
+TEST(FindPlots, TakesTheSidesThatAreKnown) {
+  const std::vector<Eigen::Vector3f> points = points_over_strips();
   EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), 18U);
   const PlotField known = find_plots(points, 0.02, {.width_m = 0.66, .length_m = 4}, 2);
   ASSERT_EQ(known.plots.size(), 36U);
   EXPECT_NEAR(known.plots.front().box.width_m, 0.66, 0.1);
+}
+
+TEST(FindPlots, TakesTheNumbersThatAreKnown) {
+  const std::vector<Eigen::Vector3f> points = points_over_strips();
+  const auto found = [&](const Hints& hints) { return find_plots(points, 0.02, hints, 2); };
+  EXPECT_EQ(found({.columns = 12}).plots.size(), 36U);
+  EXPECT_EQ(found({.rows = 3, .columns = 12}).plots.size(), 36U);
+  EXPECT_EQ(found({.columns = 6}).plots.size(), 18U);
+  EXPECT_EQ(found({.plots = 36}).plots.size(), 36U);
+  EXPECT_EQ(found({.plots = 18}).plots.size(), 18U);
+  EXPECT_NE(found({.rows = 5}).nothing, "");
+  EXPECT_NE(found({.plots = 7}).nothing, "");
+}
+
+TEST(FindPlots, LeavesOutTheMissingOneOfTheNumberThatIsKnown) {
+  const std::vector<PlotBox> boxes = Trial{.missing = 8}.boxes();
+  const auto plots = static_cast<int>(boxes.size());
+  EXPECT_EQ(find_plots(points_over(boxes), 0.02, {.plots = plots}, 2).plots.size(), boxes.size());
 }
 
 TEST(FindPlots, SaysThatBareGroundHasNone) {
@@ -129,9 +151,15 @@ TEST(FindPlots, SaysThatBareGroundHasNone) {
   EXPECT_NE(field.nothing, "");
 }
 
-TEST(FindPlots, SaysThatASinglePlotIsNoLattice) {
-  const std::vector<PlotBox> one = {Trial{}.boxes().front()};
-  EXPECT_NE(find_plots(points_over(one), 0.02, {}, 2).nothing, "");
+TEST(FindPlots, FindsOneToThreePlots) {
+  for (const std::size_t count : {1U, 2U, 3U}) {
+    std::vector<PlotBox> few = Trial{}.boxes();
+    few.resize(count);
+    const PlotField field = find_plots(points_over(few), 0.02, {}, 2);
+    ASSERT_EQ(field.plots.size(), count) << field.nothing;
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_GT(intersection_over_union(few[i], field.plots[i].box), 0.9);
+  }
 }
 
 TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
@@ -160,7 +188,8 @@ TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.plots[i].box.heading_rad, two.plots[i].box.heading_rad);
     EXPECT_EQ(one.plots[i].confidence, two.plots[i].confidence);
   }
-  EXPECT_EQ(one.fit.dump(), two.fit.dump());
+  EXPECT_EQ(one.fit->layout.row_axis, two.fit->layout.row_axis);
+  EXPECT_EQ(one.signs->squareness, two.signs->squareness);
 }
 
 }  // namespace

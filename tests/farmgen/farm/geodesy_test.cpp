@@ -151,7 +151,7 @@ TEST(Geodesy, DegreesAreNotTakenForMetres) {
   anchored_example(folder);
   EXPECT_THAT(message_of<InputError>(
                   [&] { read_plot_features(folder.path() / "farm/truth/plots_wgs84.geojson"); }),
-              HasSubstr("feature 1"));
+              HasSubstr("longitude and latitude"));
 }
 
 TEST(Geodesy, AnchorsOffTheEarthAreRefused) {

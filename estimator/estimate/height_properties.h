@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace plotscan::estimate {
+
+// What heights are called in files.
+inline constexpr std::string_view kPrefix = "height_";
+inline constexpr std::string_view kError = "se_";
+inline constexpr std::string_view kLow = "low95_";
+inline constexpr std::string_view kHigh = "high95_";
+inline constexpr std::string_view kCanopy = "canopy_";
+inline constexpr std::string_view kSuffix = "_m";
+
+// The property of a height, and of what belongs to it ("se_", "low95_", "high95_"): the truth's own
+// names, height_p95_m and canopy_p95_m.
+inline std::string property_of(const std::string& height, std::string_view before = "") {
+  const std::string prefix = height.starts_with(kCanopy) ? "" : std::string(kPrefix);
+  return std::string(before) + prefix + height + std::string(kSuffix);
+}
+
+// The name of a height from its property, "" when the property is no height.
+inline std::string height_of(const std::string& property) {
+  if (!property.ends_with(kSuffix)) return "";
+  const std::string name = property.substr(0, property.size() - kSuffix.size());
+  if (name.size() > kCanopy.size() && name.starts_with(kCanopy)) return name;
+  if (name.size() <= kPrefix.size() || !name.starts_with(kPrefix)) return "";
+  return name.substr(kPrefix.size());
+}
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/plot_map.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/text.h"
+
+namespace plotscan::estimate {
+namespace fs = std::filesystem;
+namespace {
+
+std::string properties_of(const std::vector<PlotFeature>& plots) {
+  std::set<std::string> names;
+  for (const PlotFeature& plot : plots) {
+    for (const auto& [name, value] : plot.properties.items()) names.insert(name);
+  }
+  return joined({names.begin(), names.end()}, ", ");
+}
+
+// The property in which at least one plot has an id.
+std::optional<std::string> id_property_of(const fs::path& file,
+                                          const std::vector<PlotFeature>& plots,
+                                          const std::optional<std::string>& wanted) {
+  const auto names_a_plot = [&](const std::string& property) {
+    return std::ranges::any_of(
+        plots, [&](const PlotFeature& plot) { return id_in(plot, property).has_value(); });
+  };
+  if (wanted) {
+    if (names_a_plot(*wanted)) return wanted;
+    throw InputError(file, "no plot has an id in a property \"" + *wanted +
+                               "\"; the plots' properties are: " + properties_of(plots));
+  }
+  const auto found = std::ranges::find_if(plot_id_properties(), names_a_plot);
+  if (found == plot_id_properties().end()) return std::nullopt;
+  return *found;
+}
+
+// "feature 3".
+std::vector<std::string> feature_places(std::size_t plots) {
+  std::vector<std::string> places;
+  for (std::size_t i = 1; i <= plots; ++i) places.push_back("feature " + std::to_string(i));
+  return places;
+}
+
+// `where` says of each plot where it stands in the file.
+std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>& plots,
+                           const std::vector<std::string>& where, const std::string& property) {
+  std::vector<PlotId> ids;
+  std::map<PlotId, std::string> places;
+  for (const PlotFeature& plot : plots) {
+    const std::string& place = where[ids.size()];
+    const std::optional<PlotId> id = id_in(plot, property);
+    if (!id) {
+      throw InputError(file, place + " has no id in its property \"" + property +
+                                 "\", and others have; --id names another property");
+    }
+    const auto [earlier, is_new] = places.emplace(*id, place);
+    if (!is_new) {
+      throw InputError(file, earlier->second + " and " + place + " have the same " + property +
+                                 " \"" + id->text() +
+                                 "\"; --id names a property that differs from plot to plot");
+    }
+    ids.push_back(*id);
+  }
+  return ids;
+}
+
+constexpr long long kMostPlaces = 1000000;  // rows, or columns, of a field
+
+// The place of the first of the names among a table's columns, which it must have.
+std::size_t column_of(const fs::path& file, const CsvTable& table,
+                      const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(table.columns, name);
+    if (found != table.columns.end())
+      return static_cast<std::size_t>(found - table.columns.begin());
+  }
+  throw InputError(file, "has no column " + joined(names, " or ") + "; its columns are " +
+                             joined(table.columns, ", "));
+}
+
+int place_of(const fs::path& file, const CsvTable& table, const CsvTable::Line& line,
+             std::size_t column) {
+  const std::vector<std::string_view> fields(line.fields.begin(), line.fields.end());
+  return static_cast<int>(
+      CsvRow(file, line.line, table.columns, fields).integer(column, 1, kMostPlaces));
+}
+
+}  // namespace
+
+NamedPlaces read_named_places(const fs::path& file, const std::optional<std::string>& id_property) {
+  const CsvTable table = read_csv_table(file);
+  const std::size_t row = column_of(file, table, {"row", "row_number"});
+  const std::size_t column = column_of(file, table, {"column", "col", "col_number"});
+  std::vector<PlotFeature> plots;
+  std::vector<std::string> where;
+  for (const CsvTable::Line& line : table.lines) {
+    plots.emplace_back();
+    where.push_back("line " + std::to_string(line.line));
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      if (i != row && i != column) plots.back().properties[table.columns[i]] = line.fields[i];
+    }
+  }
+  const auto property = id_property_of(file, plots, id_property);
+  if (!property)
+    throw InputError(file, "has no id of a plot; --id names the column, such as plot_id");
+  const std::vector<PlotId> ids = ids_of(file, plots, where, *property);
+  NamedPlaces named{.id_property = *property};
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const std::pair place{place_of(file, table, table.lines[i], row),
+                          place_of(file, table, table.lines[i], column)};
+    const bool is_new =
+        named.plots.emplace(place, NamedPlot{ids[i], given_attributes(plots[i])}).second;
+    if (!is_new)
+      throw InputError(file, table.lines[i].line, "names a row and column that has a plot already");
+  }
+  return named;
+}
+
+PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
+                      const std::optional<std::string>& id_property) {
+  PlacedPlots placed = read_plot_features(file, crs, unit_m);
+  PlotMap map{.plots = std::move(placed.plots), .from_degrees = placed.from_degrees};
+  if (map.plots.empty()) throw InputError(file, "has no plots");
+  if (const auto property = id_property_of(file, map.plots, id_property)) {
+    map.id_property = *property;
+    map.ids = ids_of(file, map.plots, feature_places(map.plots.size()), *property);
+  } else {
+    for (std::size_t i = 0; i < map.plots.size(); ++i) map.ids.emplace_back(i + 1);
+  }
+  return map;
+}
+
+void take_names(const PlotMap& map, Estimate& estimate) {
+  check(map.plots.size() == estimate.plots.size(), "an estimate of other plots than the map's");
+  estimate.id_property = map.id_property;
+  for (std::size_t i = 0; i < map.plots.size(); ++i) {
+    const PlotEstimate named = plot_of(map.plots[i], i + 1);
+    estimate.plots[i].id = map.ids[i];
+    estimate.plots[i].row = named.row;
+    estimate.plots[i].column = named.column;
+    estimate.plots[i].attributes = given_attributes(map.plots[i]);
+  }
+  estimate.diagnostics["boxes"] = {
+      {"plots", map.plots.size()}, {"id", map.id_property}, {"from_degrees", map.from_degrees}};
+}
+
+}  // namespace plotscan::estimate

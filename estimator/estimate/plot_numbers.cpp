@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/plot_numbers.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace plotscan::estimate {
+namespace {
+
+using nlohmann::json;
+
+// A plot's place along one of the grid's axes: its row, or its column.
+using Place = int PlotEstimate::*;
+
+Eigen::Vector2d direction_of(Corner corner) {
+  const bool west = corner == Corner::sw || corner == Corner::nw;
+  const bool south = corner == Corner::sw || corner == Corner::se;
+  return {west ? -1 : 1, south ? -1 : 1};
+}
+
+int most(const std::vector<PlotEstimate>& plots, Place place) {
+  int most = 0;
+  for (const PlotEstimate& plot : plots) most = std::max(most, plot.*place);
+  return most;
+}
+
+// Where the places count to: the sum of the directions between plots that are one place apart along
+// this axis and share the other's.
+Eigen::Vector2d counting_direction(const std::vector<PlotEstimate>& plots, Place place,
+                                   Place other) {
+  std::map<std::pair<int, int>, Eigen::Vector2d> centers;
+  for (const PlotEstimate& plot : plots) centers[{plot.*other, plot.*place}] = plot.box.center;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const auto& [at, center] : centers) {
+    const auto next = centers.find({at.first, at.second + 1});
+    if (next != centers.end()) sum += (next->second - center).normalized();
+  }
+  return sum;
+}
+
+// Counts the places from the end of the axis that lies towards the corner.
+void count_from(Corner corner, Place place, Place other, std::vector<PlotEstimate>& plots) {
+  if (counting_direction(plots, place, other).dot(direction_of(corner)) <= 0) return;
+  const int last = most(plots, place);
+  for (PlotEstimate& plot : plots) plot.*place = last + 1 - plot.*place;
+}
+
+// Rows and columns as they are counted from the first corner.
+void count_places(const NumberingOptions& options, std::vector<PlotEstimate>& plots) {
+  for (const PlotEstimate& plot : plots) {
+    if (plot.row < 1 || plot.column < 1)
+      throw InputError("the plots have no rows and columns by which they could be numbered");
+  }
+  const Corner corner = options.first_corner.value_or(Corner::sw);
+  count_from(corner, &PlotEstimate::row, &PlotEstimate::column, plots);
+  count_from(corner, &PlotEstimate::column, &PlotEstimate::row, plots);
+}
+
+void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimate>& plots) {
+  int rows = 0;
+  int columns = 0;
+  for (const auto& [place, plot] : places.plots) {
+    rows = std::max(rows, place.first);
+    columns = std::max(columns, place.second);
+  }
+  const int found_rows = most(plots, &PlotEstimate::row);
+  const int found_columns = most(plots, &PlotEstimate::column);
+  if (rows == found_rows && columns == found_columns) return;
+  throw InputError(
+      formatted("the named plots have %d rows and %d columns, and plots in %d rows and %d columns "
+                "were found; give their boxes (--boxes), or the part of the field that is named "
+                "(--crop-box)",
+                rows, columns, found_rows, found_columns));
+}
+
+}  // namespace
+
+void number_plots(const NumberingOptions& options, Estimate& estimate) {
+  std::vector<PlotEstimate>& plots = estimate.plots;
+  count_places(options, plots);
+  const auto columns = static_cast<std::uint64_t>(most(plots, &PlotEstimate::column));
+  const PlotNumbering numbering = options.numbering.value_or(PlotNumbering::rows);
+  std::map<std::uint64_t, PlotEstimate> by_number;
+  for (PlotEstimate& plot : plots) {
+    const auto row = static_cast<std::uint64_t>(plot.row - 1);
+    const std::uint32_t place =
+        column_at(numbering, row, static_cast<std::uint32_t>(plot.column - 1),
+                  static_cast<std::uint32_t>(columns));
+    const std::uint64_t number = options.first_number.value_or(1) + row * columns + place;
+    plot.id = number;
+    by_number.emplace(number, std::move(plot));
+  }
+  check(by_number.size() == plots.size(), "two plots in one row and column");
+  plots.clear();
+  for (auto& [number, plot] : by_number) plots.push_back(std::move(plot));
+}
+
+void name_plots(const NumberingOptions& options, const NamedPlaces& places, Estimate& estimate) {
+  if (estimate.plots.empty()) return;
+  count_places(options, estimate.plots);
+  require_same_shape(places, estimate.plots);
+  std::map<std::pair<int, int>, NamedPlot> missing = places.plots;
+  for (PlotEstimate& plot : estimate.plots) {
+    const auto named = missing.find({plot.row, plot.column});
+    if (named == missing.end()) {
+      throw InputError(
+          formatted("a plot was found in row %d, column %d, and no plot is named there", plot.row,
+                    plot.column));
+    }
+    plot.id = named->second.id;
+    plot.attributes = std::move(named->second.attributes);
+    missing.erase(named);
+  }
+  std::ranges::sort(estimate.plots, [](const PlotEstimate& a, const PlotEstimate& b) {
+    return std::pair(a.row, a.column) < std::pair(b.row, b.column);
+  });
+  estimate.id_property = places.id_property;
+  json ids = json::array();
+  for (const auto& [place, plot] : missing) ids.push_back(plot.id.json());
+  estimate.diagnostics["names"] = {
+      {"plots", places.plots.size()}, {"id", places.id_property}, {"not_found", ids}};
+}
+
+}  // namespace plotscan::estimate

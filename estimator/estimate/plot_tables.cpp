@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/plot_tables.h"
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <set>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "estimate/height_properties.h"
+
+namespace plotscan::estimate {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegrees = std::numbers::pi / 180;
+
+// A table's column: its name and what stands in it for a plot.
+struct Column {
+  std::string name;
+  std::function<std::string(const PlotEstimate&)> text;
+};
+
+template <class Value>
+std::string text_of(const std::map<std::string, Value>& values, const std::string& name,
+                    double (*number)(const Value&)) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : format_number(number(found->second));
+}
+
+// The heights of any of the plots, each followed by its standard error and interval.
+void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
+  std::set<std::string> names;
+  std::set<std::string> with_errors;
+  for (const PlotEstimate& plot : plots) {
+    for (const auto& [name, height_m] : plot.heights_m) names.insert(name);
+    for (const auto& [name, error] : plot.errors) with_errors.insert(name);
+  }
+  using Number = double (*)(const HeightError&);
+  const std::vector<std::pair<std::string_view, Number>> parts = {
+      {kError, [](const HeightError& error) { return error.standard_error_m; }},
+      {kLow, [](const HeightError& error) { return error.low95_m; }},
+      {kHigh, [](const HeightError& error) { return error.high95_m; }}};
+  for (const std::string& name : names) {
+    columns.push_back({property_of(name), [name](const PlotEstimate& plot) {
+                         return text_of<double>(plot.heights_m, name,
+                                                [](const double& height_m) { return height_m; });
+                       }});
+    if (!with_errors.contains(name)) continue;
+    for (const auto& [before, number] : parts) {
+      columns.push_back({property_of(name, before), [name, number](const PlotEstimate& plot) {
+                           return text_of<HeightError>(plot.errors, name, number);
+                         }});
+    }
+  }
+}
+
+// A value as a field of a table: texts as they are, nothing for null, else as JSON.
+std::string field_of(const json& value) {
+  if (value.is_null()) return "";
+  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+// An attribute of a plot, or `otherwise` where it has none of that name.
+std::string attribute(const PlotEstimate& plot, const std::string& name,
+                      const std::string& otherwise = "") {
+  const auto found = plot.attributes.find(name);
+  return found == plot.attributes.end() ? otherwise : field_of(*found);
+}
+
+// The attributes of any of the plots that no other column shows.
+void add_attributes(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
+  std::set<std::string> names;
+  for (const PlotEstimate& plot : plots) {
+    for (const auto& [name, value] : plot.attributes.items()) names.insert(name);
+  }
+  for (const Column& column : columns) names.erase(column.name);
+  for (const std::string& name : names) {
+    columns.push_back({name, [name](const PlotEstimate& plot) { return attribute(plot, name); }});
+  }
+}
+
+// The flags' reasons have neither quotes nor line ends.
+std::string quoted(const std::vector<std::string>& flags) {
+  return flags.empty() ? "" : '"' + joined(flags, "; ") + '"';
+}
+
+// The place in the grid, as given or found; `without` where there is none.
+void add_place(std::vector<Column>& columns, const std::string& without) {
+  const auto text = [without](int place) { return place > 0 ? std::to_string(place) : without; };
+  columns.push_back({"row_number", [text](const auto& plot) {
+                       return attribute(plot, "row_number", text(plot.row));
+                     }});
+  columns.push_back({"col_number", [text](const auto& plot) {
+                       return attribute(plot, "col_number", text(plot.column));
+                     }});
+}
+
+std::vector<Column> columns_of(const Estimate& estimate) {
+  const std::vector<PlotEstimate>& plots = estimate.plots;
+  std::vector<Column> columns = {
+      {estimate.id_property, [](const auto& plot) { return csv_field(plot.id.text()); }}};
+  add_place(columns, "0");
+  const std::vector<Column> box = {
+      {"center_x_m", [](const auto& plot) { return format_number(plot.box.center.x()); }},
+      {"center_y_m", [](const auto& plot) { return format_number(plot.box.center.y()); }},
+      {"width_m", [](const auto& plot) { return format_number(plot.box.width_m); }},
+      {"length_m", [](const auto& plot) { return format_number(plot.box.length_m); }},
+      {"heading_deg",
+       [](const auto& plot) { return format_number(plot.box.heading_rad / kDegrees); }},
+      {"points", [](const auto& plot) { return std::to_string(plot.points); }}};
+  columns.insert(columns.end(), box.begin(), box.end());
+  add_heights(plots, columns);
+  if (std::ranges::any_of(plots, [](const auto& plot) { return plot.confidence.has_value(); })) {
+    columns.push_back({"confidence", [](const auto& plot) {
+                         return plot.confidence ? format_number(*plot.confidence) : "";
+                       }});
+    columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
+  }
+  add_attributes(plots, columns);
+  return columns;
+}
+
+// What a database takes: what the plots are called, what was known of them, what was measured.
+std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
+  std::vector<Column> columns = {
+      {"observationunit_name", [](const auto& plot) { return csv_field(plot.id.text()); }}};
+  add_place(columns, "");
+  add_attributes(plots, columns);
+  add_heights(plots, columns);
+  columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
+  return columns;
+}
+
+void write_table(const fs::path& path, const std::vector<Column>& columns,
+                 const std::vector<PlotEstimate>& plots) {
+  std::ofstream out(path);
+  for (const Column& column : columns)
+    out << (&column == &columns.front() ? "" : ",") << csv_field(column.name);
+  out << '\n';
+  for (const PlotEstimate& plot : plots) {
+    for (const Column& column : columns) {
+      out << (&column == &columns.front() ? "" : ",") << column.text(plot);
+    }
+    out << '\n';
+  }
+  if (!out.flush()) throw InputError(path, "cannot be written");
+}
+
+}  // namespace
+
+void write_heights(const fs::path& path, const Estimate& estimate) {
+  write_table(path, columns_of(estimate), estimate.plots);
+}
+
+void write_traits(const fs::path& path, const Estimate& estimate) {
+  write_table(path, trait_columns(estimate.plots), estimate.plots);
+}
+
+}  // namespace plotscan::estimate

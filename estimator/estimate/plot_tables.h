@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "estimate/estimate.h"
+
+namespace plotscan::estimate {
+
+// An estimate as tables (CSV, RFC 4180), a header line and a line a plot; heights in metres, empty
+// where not measured, each followed by its standard error and 95 % interval where it has them.
+// Throws InputError where they cannot be written.
+
+// heights.csv of an estimate folder (docs/estimate-format.md): id, place in the grid, box, points,
+// heights, confidence, flags, attributes.
+void write_heights(const std::filesystem::path& path, const Estimate& estimate);
+
+// For a breeding database: observationunit_name (the first column of Breedbase's phenotype
+// uploads), the plot's id; place in the grid; attributes; heights; flags.
+void write_traits(const std::filesystem::path& path, const Estimate& estimate);
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heights/crop_model.h"
+
+#include <vector>
+
+namespace plotscan::heights {
+
+Eigen::VectorXd softmax(const Eigen::VectorXd& scores, double sharpness) {
+  const Eigen::ArrayXd shares = (sharpness * (scores.array() - scores.maxCoeff())).exp();
+  return shares / shares.sum();
+}
+
+Eigen::MatrixXd crop_indicators(const Calibration& calibration) {
+  Eigen::MatrixXd indicators =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(calibration.farms.size()),
+                            static_cast<Eigen::Index>(calibration.crops.size()));
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    indicators(static_cast<Eigen::Index>(i),
+               static_cast<Eigen::Index>(calibration.index_of(calibration.farms[i].crop))) = 1;
+  return indicators;
+}
+
+CropModel::CropModel(const Calibration& calibration)
+    : weights_(calibration.like_crops.weights),
+      sharpness_(calibration.crop_sharpness),
+      indicators_(calibration.features_of_farms() * weights_.asDiagonal(),
+                  crop_indicators(calibration), std::vector<double>(calibration.farms.size(), 1),
+                  calibration.like_crops.covariance) {}
+
+Eigen::VectorXd CropModel::scores(const Eigen::VectorXd& scaled) const {
+  return indicators_.values_at(scaled.cwiseProduct(weights_));
+}
+
+Eigen::VectorXd CropModel::probabilities(const Eigen::VectorXd& scaled) const {
+  return softmax(scores(scaled), sharpness_);
+}
+
+}  // namespace plotscan::heights

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "heights/calibration.h"
+#include "heights/kriging.h"
+
+namespace plotscan::heights {
+
+// Which crop a canopy is of, by the calibration's farms: indicators of the crops are kriged
+// (Goovaerts 1997, cited from memory), and the scores become probabilities by a softmax of the
+// sharpness that was the likeliest for farms left out.
+class CropModel {
+ public:
+  explicit CropModel(const Calibration& calibration);
+
+  // By crop, in the calibration's order, of a field's scaled features: near 1 for its crop and near
+  // 0 for the others.
+  Eigen::VectorXd scores(const Eigen::VectorXd& scaled) const;
+  Eigen::VectorXd probabilities(const Eigen::VectorXd& scaled) const;
+
+ private:
+  Eigen::VectorXd weights_;
+  double sharpness_;
+  Kriging indicators_;
+};
+
+Eigen::VectorXd softmax(const Eigen::VectorXd& scores, double sharpness);
+
+// A row a farm, a column a crop: 1 where it is the farm's.
+Eigen::MatrixXd crop_indicators(const Calibration& calibration);
+
+}  // namespace plotscan::heights

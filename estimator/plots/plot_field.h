@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/plot_box.h"
+#include "core/trial_layout.h"
+
+namespace plotscan::plots {
+
+struct FoundPlot {
+  int row = 0;            // from 1: rows follow each other along the plots' length
+  int column = 0;         // from 1: columns follow each other along their width
+  PlotBox box = {};       // in the points' frame
+  double confidence = 0;  // 0 to 1
+  bool cut_off = false;   // the box reaches over the edge of what was scanned
+};
+
+// What tells a field of plots from an orchard, parked cars, bushes, a room.
+struct FieldSigns {
+  std::size_t plots = 0;
+  double held_share = 0;     // of the canopy, in the plots
+  double filled_share = 0;   // of the rows' places from their first plot to their last
+  double surface_share = 0;  // of what stands on the field, that is smooth as walls and roofs are
+  double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
+  double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
+  double aspect = 0;         // length of a plot over its width
+  double evidence = 0;       // for a plot, over one canopy without them: Schwarz's criterion, nats
+};
+
+// The layout of a field's plots, and how well it fits.
+struct FieldFit {
+  TrialLayout layout;
+  bool columns_aligned = true;                           // else every row's plots lie by themselves
+  double rms_along_length_m = 0, rms_along_width_m = 0;  // of the plots' centres about it
+  double leaf_spread_m = 0;                              // sigma of the leaves over a plot's edges
+  double side_contrast = 0;  // canopy within a plot's sides less that beyond, a share of full cover
+};
+
+// A field's plots, or why it has none.
+struct PlotField {
+  std::vector<FoundPlot> plots = {};
+  std::string nothing = {};  // why there are no plots here; "" when there are
+  std::optional<FieldFit> fit = std::nullopt;
+  std::optional<FieldSigns> signs = std::nullopt;  // of the plots, or of what was taken for them
+};
+
+}  // namespace plotscan::plots

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace plotscan {
+
+// A plot's id as people write it, a number or a text, and what it is stays what it is: 101 is
+// written as the number 101, "A-12" and "0101" as these texts. Two ids that read alike are the
+// same.
+class PlotId {
+ public:
+  // Implicit: programs number the plots that they find.
+  PlotId(std::uint64_t number = 0) : text_(std::to_string(number)), is_number_(true) {}
+  explicit PlotId(std::string text) : text_(std::move(text)) {}
+  // A JSON value as an id: a finite number or a text that is not blank, else nothing.
+  static std::optional<PlotId> from(const nlohmann::json& value);
+
+  const std::string& text() const { return text_; }
+  nlohmann::json json() const;
+
+  friend bool operator==(const PlotId& a, const PlotId& b) { return a.text_ == b.text_; }
+  friend bool operator<(const PlotId& a, const PlotId& b) { return a.text_ < b.text_; }
+  friend std::ostream& operator<<(std::ostream& out, const PlotId& id) { return out << id.text_; }
+
+ private:
+  std::string text_;
+  bool is_number_ = false;
+};
+
+}  // namespace plotscan

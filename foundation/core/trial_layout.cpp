@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/trial_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plotscan {
+namespace {
+
+double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
+
+int highest(const std::vector<TrialPlace>& places, int TrialPlace::*number) {
+  int most = 0;
+  for (const TrialPlace& place : places) most = std::max(most, place.*number);
+  return most;
+}
+
+}  // namespace
+
+double TrialLayout::heading_rad() const { return wrap_heading(angle_of(column_axis)); }
+
+double TrialLayout::skew_rad() const {
+  return std::remainder(angle_of(row_axis) - angle_of(column_axis) - std::numbers::pi / 2,
+                        std::numbers::pi);
+}
+
+int TrialLayout::rows() const { return highest(places, &TrialPlace::row); }
+
+int TrialLayout::columns() const { return highest(places, &TrialPlace::column); }
+
+PlotBox TrialLayout::box(const TrialPlace& place) const {
+  Eigen::Matrix2d axes;
+  axes << row_axis, column_axis;
+  return {.center = origin + axes * place.position_m,
+          .width_m = width_m,
+          .length_m = length_m,
+          .heading_rad = heading_rad()};
+}
+
+}  // namespace plotscan
