@@ -34,6 +34,14 @@ pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 # Without it lidarsim neither writes nor reads Velodyne's recordings.
 pkg_check_modules(pcap QUIET IMPORTED_TARGET libpcap)
+# Without it LAZ and COPC are refused. Debian 13 and Ubuntu 24.04 have it (liblaszip-dev), Debian 12 has not.
+find_path(LASZIP_INCLUDE_DIR laszip/laszip_api.h)
+find_library(LASZIP_LIBRARY laszip)
+if(LASZIP_INCLUDE_DIR AND LASZIP_LIBRARY)
+  add_library(laszip UNKNOWN IMPORTED)
+  set_target_properties(laszip PROPERTIES IMPORTED_LOCATION ${LASZIP_LIBRARY})
+  target_include_directories(laszip SYSTEM INTERFACE ${LASZIP_INCLUDE_DIR})
+endif()
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 

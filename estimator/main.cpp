@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "info_command.h"
+
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/program.h"
@@ -28,6 +30,7 @@ struct RunArguments {
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
+  std::string units;
   std::string id;
   std::string plot_names;
   std::string numbering;
@@ -117,13 +120,16 @@ void say_named(const Program& program, const estimate::Estimate& estimate) {
   program.say("           not found: " + joined(ids, ", "));
 }
 
-void say_how(const Program& program, const nlohmann::json& diagnostics) {
+void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
+  for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
+    program.say("note       " + note.get<std::string>());
   program.say(formatted("points     %zu read, %zu in the field",
                         diagnostics["points_read"].get<std::size_t>(),
                         diagnostics["points_in_area"].get<std::size_t>()));
   const auto& area = diagnostics["area_m"];
-  program.say(formatted("field      x %.1f to %.1f m, y %.1f to %.1f m", area[0].get<double>(),
-                        area[2].get<double>(), area[1].get<double>(), area[3].get<double>()));
+  const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
+  program.say(formatted("field      x %.1f to %.1f, y %.1f to %.1f (%s)", side(0), side(2), side(1),
+                        side(3), unit_name(unit_m).c_str()));
   if (diagnostics.contains("ground")) {
     const auto& ground = diagnostics["ground"];
     program.say(formatted("ground     seen in %.0f %% of %.1f m cells, noise %.1f cm",
@@ -185,6 +191,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
+  if (const auto unit_m = unit_named(arguments.units)) options.cloud.units = {*unit_m, *unit_m};
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   options.dhami2020.learn_box = area_of(arguments.learn_box);
@@ -207,7 +214,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = estimate::height_summary(estimate);
-  say_how(program, estimate.diagnostics);
+  say_how(program, estimate.diagnostics, estimate.units ? estimate.units->horizontal_m : 1);
   say_given(program, estimate);
   say_named(program, estimate);
   say_heights(program, summary);
@@ -253,7 +260,7 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
 
   run.add_option("--learn-box", arguments.learn_box,
                  "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
-                 "the grid over the whole field, metres")
+                 "the grid over the whole field, in the cloud's units")
       ->delimiter(',')
       ->expected(4)
       ->excludes("--boxes")
@@ -307,7 +314,9 @@ void declare_run(Program& program, RunArguments& arguments) {
                       [&program, &arguments] { run_estimate(program, arguments); });
   arguments.command = &run;
   auto& options = arguments.options;
-  run.add_option("CLOUD", options.cloud, "PCD, PLY or LAS cloud, or a scan folder (its cloud.pcd)")
+  run.add_option("CLOUD", options.cloud.files,
+                 "PCD, PLY, LAS or text clouds, a scan folder (its cloud.pcd), or a folder of "
+                 "tiles; several are read as one")
       ->required();
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,
@@ -316,13 +325,25 @@ void declare_run(Program& program, RunArguments& arguments) {
       ->check(CLI::IsMember(estimate::method_names()))
       ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
-                 "x0,y0,x1,y1: use only the points in here, metres (default: the densely scanned "
-                 "field)")
+                 "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "
+                 "densely scanned field)")
       ->delimiter(',')
       ->expected(4);
+  run.add_option(
+         "--leave-out-class", options.cloud.leave_out_classes,
+         "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255));
+  run.add_option(
+         "--units", arguments.units,
+         "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: what "
+         "the file states, else metres)")
+      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
   run.add_option("--boxes", arguments.boxes,
-                 "map of the plots (GeoJSON): measure heights in its boxes, keep its ids and "
-                 "attributes, search none");
+                 "map of the plots (GeoJSON), in the cloud's units, or in longitude and latitude "
+                 "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
+                 "and attributes, search none");
   declare_names(run, arguments);
   run.add_option("--csv", arguments.csv,
                  "also write this table, a line a plot, for breeding databases: "
@@ -432,6 +453,7 @@ int main(int argc, char** argv) {
   plotscan::Program program("estimator", "Find plots in point clouds and measure crop heights.");
   plotscan::RunArguments run;
   plotscan::declare_run(program, run);
+  plotscan::declare_info(program);
   plotscan::score::RunOptions score;
   std::string scores;
   plotscan::declare_score(program, score, scores);

@@ -71,9 +71,10 @@ void declare_convert(Program& program) {
       program.command("convert", "Convert scans, clouds, recordings and trajectories.",
                       [&program, arguments] { run_convert(program, *arguments); });
   convert
-      .add_option("IN", arguments->in,
-                  "scan folder, cloud (PCD, PLY, LAS), recording (pcap, bag, MCAP), or trajectory "
-                  "(TUM text, trajectory.csv)")
+      .add_option(
+          "IN", arguments->in,
+          "scan folder, cloud (PCD, PLY, LAS, text), recording (pcap, bag, MCAP), or trajectory "
+          "(TUM text, trajectory.csv)")
       ->required();
   convert
       .add_option("OUT", arguments->out,

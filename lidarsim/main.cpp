@@ -139,7 +139,8 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                         ->excludes(flight);
   add_settings(fly, options, *flight, *waypoints);
   fly.add_option("--format", options.formats,
-                 "also write the scan as ply, las, pcap, bag or mcap (docs/formats.md) beside "
+                 "also write the scan as ply, las, laz (with LASzip), pcap, bag or mcap "
+                 "(docs/formats.md) beside "
                  "cloud.pcd; several with commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);

@@ -92,7 +92,8 @@ plotscan::estimate::Estimate estimate_with_ground(const fs::path& folder) {
                                "has no ground.asc: its method models no ground to draw "
                                "over; estimator run --method lattice does");
   }
-  estimate.ground = plotscan::estimate::read_ground(folder);
+  estimate.ground =
+      plotscan::estimate::read_ground(folder, estimate.units.value_or(plotscan::CoordinateUnits{}));
   return estimate;
 }
 

@@ -62,7 +62,7 @@ void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
   }
 }
 
-CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,
+CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
                   const ProgressReport& progress) {
   Area field{};
   if (area) {
@@ -72,14 +72,14 @@ CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>&
     FieldFinder finder;
     scan::read_positions(cloud, [&](auto points) { finder.add(points); });
     field = finder.field();
-    require_area(field, cloud.string() + ": the scanned field");
+    require_area(field, cloud.name() + ": the scanned field");
   }
   if (progress) progress(0.2);
   CloudMap map(field);
   scan::read_positions(cloud, [&](auto points) { map.add(points); });
   if (map.points().empty()) {
-    throw InputError(cloud, "none of its " + std::to_string(map.points_read()) +
-                                " points lies in the crop box " + text_of(field));
+    throw InputError(cloud.name() + ": none of its " + std::to_string(map.points_read()) +
+                     " points lies in the crop box " + text_of(field));
   }
   if (progress) progress(0.4);
   return map;

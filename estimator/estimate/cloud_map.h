@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/cloud_files.h"
 #include "core/progress.h"
 
 namespace plotscan::estimate {
@@ -49,10 +50,10 @@ class CloudMap {
   std::size_t points_read_ = 0;
 };
 
-// Streams a cloud (PCD, PLY or LAS) into a map of the area; without one, of the field that
+// Streams a cloud into a map of the area; without one, of the field that
 // FieldFinder finds in a first pass over the file. Memory is bounded by the points inside the area.
 // Throws InputError on a broken cloud or when no point lies in the area.
-CloudMap read_map(const std::filesystem::path& cloud, const std::optional<Area>& area,
+CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
                   const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

@@ -120,8 +120,10 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   std::vector<PlotFeature> features;
   for (const PlotEstimate& plot : estimate.plots)
     features.push_back(feature_of(plot, estimate.id_property));
-  write_plot_features(folder / "plots.geojson", features, estimate.crs);
-  if (const std::optional<UtmSystem> utm = utm_system(estimate.crs)) {
+  const CoordinateUnits units = estimate.units.value_or(CoordinateUnits{});
+  write_plot_features(folder / "plots.geojson", features, estimate.crs, estimate.units);
+  const std::optional<UtmSystem> utm = utm_system(estimate.crs);
+  if (utm && units.horizontal_m == 1) {
     write_plot_features_wgs84(
         folder / "plots.wgs84.geojson", features,
         [&](const Eigen::Vector2d& corner) -> Eigen::Vector2d {
@@ -130,15 +132,17 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
         });
   }
   write_heights(folder / "heights.csv", estimate);
-  if (estimate.ground) write_ground(folder, *estimate.ground);
+  if (estimate.ground) write_ground(folder, *estimate.ground, units);
 }
 
 Estimate read_estimate(const fs::path& path) {
   const bool is_folder = fs::is_directory(path);
   const fs::path file = is_folder ? path / "plots.geojson" : path;
   Estimate estimate{.method = is_folder ? method_of(path) : ""};
+  const PlacedPlots placed = read_plot_features(file, "");
+  estimate.units = placed.units;
   bool any_height = false;
-  for (const PlotFeature& feature : read_plot_features(file)) {
+  for (const PlotFeature& feature : placed.plots) {
     estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));
     any_height = any_height || !estimate.plots.back().heights_m.empty();
   }

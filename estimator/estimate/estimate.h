@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/coordinate_units.h"
 #include "core/plot_box.h"
 #include "core/plot_features.h"
 #include "ground/surface.h"
@@ -45,12 +46,14 @@ struct Estimate {
   std::vector<PlotEstimate> plots = {};
   std::string id_property = "plot_number";  // the property and column that holds the plots' ids
   std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
+  // Of the cloud's file, where they are not metres: the files below have them, all else is metres.
+  std::optional<CoordinateUnits> units = {};
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };
 
-// Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system),
-// heights.csv and, where the method models it, the ground's grids
+// Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system) in
+// metres, heights.csv and, where the method models it, the ground's grids
 // (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 

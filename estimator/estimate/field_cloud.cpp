@@ -85,7 +85,7 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& cloud) {
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud) {
   const Stage stage("reading");
   return scan::read_positions(cloud, [&](auto points) { store.add(points); },
                               {.leave_out_marked = true});
@@ -93,19 +93,17 @@ scan::CloudSummary read_into(TileStore& store, const std::filesystem::path& clou
 
 }  // namespace
 
-FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
+FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   const scan::CloudSummary summary = read_into(store, cloud);
-  if (summary.in_degrees)
-    throw InputError(cloud, "is in degrees; project it to metres first, such as those of UTM");
   if (progress) progress(0.2);
-  FieldCloud field = take_field(store, options, cloud.string());
-  field.counts.read += summary.not_finite + summary.marked;
+  FieldCloud field = take_field(store, options, cloud.name());
+  field.counts.read += summary.not_finite + summary.marked + summary.left_out;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;
-  field.crs = summary.crs;
+  field.counts.left_out = summary.left_out;
   if (progress) progress(0.3);
   return field;
 }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/cloud_map.h"
 #include "estimate/tile_store.h"
@@ -30,6 +31,7 @@ struct FieldCounts {
   std::uint64_t read = 0;
   std::uint64_t not_finite = 0;
   std::uint64_t marked = 0;    // withheld, or of a noise class, in a LAS file
+  std::uint64_t left_out = 0;  // of a class to leave out (CloudFiles)
   std::uint64_t outside = 0;   // of the field, or beyond any coordinate that makes sense
   std::uint64_t repeated = 0;  // the same point to 0.06 mm was there already
   std::uint64_t thinned = 0;   // points_per_cell others were there
@@ -48,12 +50,11 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
-  std::string crs = {};  // the cloud's coordinate system (scan::CloudSummary)
 };
 
-// Streams a cloud (PCD, PLY or LAS) once, in memory bounded by the area over which it lies
+// Streams a cloud once, in memory bounded by the area over which it lies
 // (tile_store.h). Throws InputError on a broken cloud, or when no point lies in the area.
-FieldCloud read_field(const std::filesystem::path& cloud, const FieldOptions& options,
+FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress = {});
 
 // The field of points that were added to a store, which is spent by that. `name` stands in messages

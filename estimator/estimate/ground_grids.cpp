@@ -21,13 +21,13 @@ constexpr const char* kNoData = "-9999";
 
 // Esri's ASCII raster: the corner is the lower left cell's, whose centre is the first node; lines
 // go from north to south.
-void write_grid(const fs::path& path, const ground::Surface& surface,
+void write_grid(const fs::path& path, const ground::Surface& surface, double unit_m,
                 const std::function<std::string(std::size_t)>& text) {
   std::ofstream out(path);
   out << "ncols " << surface.columns << "\nnrows " << surface.rows << "\nxllcorner "
-      << format_number(surface.origin.x() - surface.cell_m / 2) << "\nyllcorner "
-      << format_number(surface.origin.y() - surface.cell_m / 2) << "\ncellsize "
-      << format_number(surface.cell_m) << "\nNODATA_value " << kNoData << '\n';
+      << format_number((surface.origin.x() - surface.cell_m / 2) / unit_m) << "\nyllcorner "
+      << format_number((surface.origin.y() - surface.cell_m / 2) / unit_m) << "\ncellsize "
+      << format_number(surface.cell_m / unit_m) << "\nNODATA_value " << kNoData << '\n';
   for (int row = surface.rows - 1; row >= 0; --row) {
     for (int column = 0; column < surface.columns; ++column) {
       const auto node = static_cast<std::size_t>(row) * surface.columns + column;
@@ -39,11 +39,20 @@ void write_grid(const fs::path& path, const ground::Surface& surface,
   if (!out.flush()) throw InputError(path, "cannot be written");
 }
 
-std::string to_tenth_millimetres(float metres) { return formatted("%.4f", metres); }
+// To a tenth of a millimetre, in feet finer.
+std::string rounded(float metres, double unit_m) { return formatted("%.4f", metres / unit_m); }
+
+// A grid in metres, but for its values.
+EsriGrid read_grid(const fs::path& path, double unit_m) {
+  EsriGrid grid = read_esri_grid(path);
+  grid.first *= unit_m;
+  grid.cell *= unit_m;
+  return grid;
+}
 
 // A grid on the same nodes as the surface, by their places there.
-std::vector<float> values_of(const fs::path& path, const ground::Surface& surface) {
-  EsriGrid grid = read_esri_grid(path);
+std::vector<float> values_of(const fs::path& path, const ground::Surface& surface, double unit_m) {
+  EsriGrid grid = read_grid(path, unit_m);
   const bool same = grid.columns == surface.columns && grid.rows == surface.rows &&
                     std::abs(grid.cell - surface.cell_m) < 1e-6 * surface.cell_m &&
                     (grid.first - surface.origin).norm() < 0.01 * surface.cell_m;
@@ -53,24 +62,29 @@ std::vector<float> values_of(const fs::path& path, const ground::Surface& surfac
 
 }  // namespace
 
-void write_ground(const fs::path& folder, const ground::Surface& surface) {
-  write_grid(folder / "ground.asc", surface,
-             [&](std::size_t node) { return to_tenth_millimetres(surface.z_m[node]); });
-  write_grid(folder / "ground_se.asc", surface,
-             [&](std::size_t node) { return to_tenth_millimetres(surface.sd_m[node]); });
-  write_grid(folder / "ground_seen.asc", surface,
+void write_ground(const fs::path& folder, const ground::Surface& surface,
+                  const CoordinateUnits& units) {
+  const double unit_m = units.horizontal_m;
+  write_grid(folder / "ground.asc", surface, unit_m,
+             [&](std::size_t node) { return rounded(surface.z_m[node], units.vertical_m); });
+  write_grid(folder / "ground_se.asc", surface, unit_m,
+             [&](std::size_t node) { return rounded(surface.sd_m[node], units.vertical_m); });
+  write_grid(folder / "ground_seen.asc", surface, unit_m,
              [&](std::size_t node) { return std::string(surface.seen[node] ? "1" : "0"); });
 }
 
-ground::Surface read_ground(const fs::path& folder) {
-  EsriGrid heights = read_esri_grid(folder / "ground.asc");
+ground::Surface read_ground(const fs::path& folder, const CoordinateUnits& units) {
+  const double unit_m = units.horizontal_m;
+  EsriGrid heights = read_grid(folder / "ground.asc", unit_m);
   ground::Surface surface{.origin = heights.first,
                           .cell_m = heights.cell,
                           .columns = heights.columns,
                           .rows = heights.rows,
                           .z_m = std::move(heights.values)};
-  surface.sd_m = values_of(folder / "ground_se.asc", surface);
-  for (const float seen : values_of(folder / "ground_seen.asc", surface))
+  surface.sd_m = values_of(folder / "ground_se.asc", surface, unit_m);
+  for (float& z : surface.z_m) z *= static_cast<float>(units.vertical_m);
+  for (float& sd : surface.sd_m) sd *= static_cast<float>(units.vertical_m);
+  for (const float seen : values_of(folder / "ground_seen.asc", surface, unit_m))
     surface.seen.push_back(seen > 0);
   return surface;
 }

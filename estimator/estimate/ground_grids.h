@@ -3,19 +3,22 @@
 
 #include <filesystem>
 
+#include "core/coordinate_units.h"
 #include "ground/surface.h"
 
 namespace plotscan::estimate {
 
 // Writes a surface as three ESRI ASCII grids, one node a cell, into an existing folder, for QGIS,
-// GDAL and R: ground.asc (height), ground_se.asc (its standard error), both in metres, -9999 out of
+// GDAL and R: ground.asc (height), ground_se.asc (its standard error), -9999 out of
 // reach, and ground_seen.asc (1 where ground returns show it, 0 where it is interpolated, -9999 out
 // of reach). Throws InputError when they cannot be written.
-void write_ground(const std::filesystem::path& folder, const ground::Surface& surface);
+// The files' numbers are in `units`, those of z for ground.asc and ground_se.asc.
+void write_ground(const std::filesystem::path& folder, const ground::Surface& surface,
+                  const CoordinateUnits& units = {});
 
 // Reads the three grids of such a folder back, Plotscan's or another program's (lower left corner
 // or centre, any line breaks, any value for no data); `noise_m` is not in them and stays 0. Throws
 // InputError when one is missing, is no ESRI ASCII grid, or has other nodes than the first.
-ground::Surface read_ground(const std::filesystem::path& folder);
+ground::Surface read_ground(const std::filesystem::path& folder, const CoordinateUnits& units = {});
 
 }  // namespace plotscan::estimate

@@ -121,9 +121,9 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
   return named;
 }
 
-PlotMap read_plot_map(const fs::path& file, const std::string& crs,
+PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property) {
-  PlacedPlots placed = read_plot_features(file, crs);
+  PlacedPlots placed = read_plot_features(file, crs, unit_m);
   PlotMap map{.plots = std::move(placed.plots), .from_degrees = placed.from_degrees};
   if (map.plots.empty()) throw InputError(file, "has no plots");
   if (const auto property = id_property_of(file, map.plots, id_property)) {

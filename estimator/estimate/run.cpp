@@ -25,12 +25,6 @@ using nlohmann::json;
 
 constexpr double kDegrees = std::numbers::pi / 180;
 
-fs::path cloud_file(const fs::path& cloud) {
-  fs::path file = fs::is_directory(cloud) ? cloud / "cloud.pcd" : cloud;
-  require_file(file);
-  return file;
-}
-
 template <class Value>
 json to_json(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
@@ -77,7 +71,10 @@ json options_json(const RunOptions& options) {
   json document =
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
   document["method"] = options.method;
-  document["crop_box_m"] = to_json(options.crop_box);
+  document["crop_box"] = to_json(options.crop_box);
+  const CloudFiles& cloud = options.cloud;
+  document["unit_m"] = cloud.units ? json(cloud.units->horizontal_m) : json(nullptr);
+  document["leave_out_classes"] = cloud.leave_out_classes;
   document["given_boxes"] = options.boxes.has_value();
   document["id"] = to_json(options.id);
   if (options.numbering.any()) document["numbering"] = options_json(options.numbering);
@@ -94,7 +91,7 @@ Options completed(Options options, const RunOptions& run, const std::vector<Plot
   return options;
 }
 
-Estimate run_method(const fs::path& cloud, const RunOptions& run,
+Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
                     const std::vector<PlotFeature>& boxes, const ProgressReport& progress) {
   if (run.method == "lattice") return lattice(cloud, completed(run.lattice, run, boxes), progress);
   Dhami2020Options options = completed(run.dhami2020, run, boxes);
@@ -114,6 +111,13 @@ void require_sound(const RunOptions& options) {
     throw InputError("plots are numbered or named by a table, not both");
   if (options.id && !options.boxes && !numbering.names)
     throw InputError("an id is a property of given boxes or a column of plot names; give either");
+}
+
+// The cloud's files and the others that the user gives.
+std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions& options) {
+  if (options.boxes) files.push_back(*options.boxes);
+  if (options.numbering.names) files.push_back(*options.numbering.names);
+  return files;
 }
 
 // A table replaces no input, and does not lie in the folder that is replaced as a whole.
@@ -141,6 +145,26 @@ void name(const RunOptions& options, const PlotMap& map, const NamedPlaces& plac
   }
 }
 
+std::optional<Area> in_metres(std::optional<Area> area, double unit_m) {
+  if (area) std::ranges::transform(*area, area->begin(), [&](double at) { return unit_m * at; });
+  return area;
+}
+
+// The areas of the options in metres.
+RunOptions in_metres(RunOptions options, double unit_m) {
+  options.crop_box = in_metres(options.crop_box, unit_m);
+  options.dhami2020.learn_box = in_metres(options.dhami2020.learn_box, unit_m);
+  return options;
+}
+
+// What the cloud's file says of its coordinates; the units that results are written in.
+void take_system(const scan::CloudSystem& system, const RunOptions& options, Estimate& estimate) {
+  estimate.crs = system.crs;
+  if (!system.zone && (options.cloud.units || system.units != CoordinateUnits{}))
+    estimate.units = system.units;
+  estimate.diagnostics["notes"] = system.notes;
+}
+
 }  // namespace
 
 const std::vector<std::string>& method_names() {
@@ -150,33 +174,27 @@ const std::vector<std::string>& method_names() {
 
 Estimate run(const RunOptions& options, const ProgressReport& progress) {
   require_sound(options);
-  const fs::path cloud = cloud_file(options.cloud);
-  std::vector<fs::path> inputs = {options.cloud};
-  if (options.boxes) inputs.push_back(*options.boxes);
-  if (options.numbering.names) inputs.push_back(*options.numbering.names);
-  OutputFolder folder(options.output, options.replace, "estimator run", inputs);
-  std::optional<OutputFile> table;
-  if (options.csv) {
-    require_own_place(*options.csv, options.output, inputs);
-    table.emplace(*options.csv, options.replace);
-  }
+  CloudFiles cloud = options.cloud;
+  cloud.files = cloud_files_of(options.cloud.files);
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),
-                    .inputs = {cloud}};
-  const std::string crs = scan::cloud_crs(cloud);
+                    .inputs = with_tables(cloud.files, options)};
+  OutputFolder folder(options.output, options.replace, "estimator run",
+                      with_tables(options.cloud.files, options));
+  std::optional<OutputFile> table;
+  if (options.csv) {
+    require_own_place(*options.csv, options.output, manifest.inputs);
+    table.emplace(*options.csv, options.replace);
+  }
+  const scan::CloudSystem system = scan::read_cloud_system(cloud);
+  const double unit_m = system.units.horizontal_m;
   PlotMap map;
-  if (options.boxes) {
-    map = read_plot_map(*options.boxes, crs, options.id);
-    manifest.inputs.push_back(*options.boxes);
-  }
+  if (options.boxes) map = read_plot_map(*options.boxes, system.crs, unit_m, options.id);
   NamedPlaces places;
-  if (options.numbering.names) {
-    places = read_named_places(*options.numbering.names, options.id);
-    manifest.inputs.push_back(*options.numbering.names);
-  }
-  Estimate estimate = run_method(cloud, options, map.plots, progress);
-  estimate.crs = crs;
+  if (options.numbering.names) places = read_named_places(*options.numbering.names, options.id);
+  Estimate estimate = run_method(cloud, in_metres(options, unit_m), map.plots, progress);
+  take_system(system, options, estimate);
   name(options, map, places, estimate);
   write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},

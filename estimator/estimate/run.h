@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
@@ -17,7 +18,7 @@ namespace plotscan::estimate {
 
 // One run of a method, from files to an estimate folder.
 struct RunOptions {
-  std::filesystem::path cloud;  // PCD, PLY or LAS, or a scan folder with its cloud.pcd
+  CloudFiles cloud;  // files and folders, as cloud_files_of takes them
   std::filesystem::path output;
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
@@ -25,9 +26,11 @@ struct RunOptions {
   std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
   std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
   bool replace = false;                           // an estimate folder, a table that exists
-  std::optional<Area> crop_box = {};              // use only the points in here
-  LatticeOptions lattice = {};                    // crop box, boxes, threads are taken from here
-  Dhami2020Options dhami2020 = {};                // as above, and the seed
+  // Use only the points in here. In the cloud's own coordinates, as are the given boxes and
+  // dhami2020's learn box; metres of UTM where the cloud is in degrees.
+  std::optional<Area> crop_box = {};
+  LatticeOptions lattice = {};      // crop box, boxes, threads are taken from here
+  Dhami2020Options dhami2020 = {};  // as above, and the seed
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -35,9 +38,10 @@ struct RunOptions {
 // The methods that `run` knows, the default first.
 const std::vector<std::string>& method_names();
 
-// Runs the method and writes the estimate folder (docs/estimate-format.md). With given boxes, plots
-// keep the map's ids and attributes (plot_map.h). Throws InputError on bad input; nothing is left
-// behind then.
+// Runs the method and writes the estimate folder (docs/estimate-format.md). Methods count in
+// metres: the cloud's own coordinates become metres here and at reading, and become its own again
+// in write_estimate. With given boxes, plots keep the map's ids and attributes (plot_map.h). Throws
+// InputError on bad input; nothing is left behind then.
 Estimate run(const RunOptions& options, const ProgressReport& progress = {});
 
 // Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says

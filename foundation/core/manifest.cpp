@@ -94,7 +94,7 @@ void require_unchanged(const fs::path& folder, const std::string& part) {
       const std::string file = output.at("file");
       if (!file.starts_with(part + "/")) continue;
       const fs::path path = path_inside(folder, file, folder / "manifest.json");
-      if (file_hash(path) != output.at("hash")) {
+      if (file_hash(path) != output.at("hash").get<std::string>()) {
         throw InputError(path,
                          "was changed after plotscan wrote it (manifest.json holds another hash)");
       }

@@ -58,15 +58,16 @@ json crs_member(const std::string& crs) {
   return {{"type", "name"}, {"properties", {{"name", name}}}};
 }
 
-void write_collection(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                      const std::string& crs, const std::string& coordinate_system,
-                      const Projection& projection) {
+json collection(const std::vector<PlotFeature>& plots, const std::string& coordinate_system,
+                const Projection& projection) {
   json features = json::array();
   for (const PlotFeature& plot : plots) features.push_back(feature_of(plot, projection));
-  json document = {{"type", "FeatureCollection"},
-                   {"coordinate_system", coordinate_system},
-                   {"features", features}};
-  if (!crs.empty()) document["crs"] = crs_member(crs);
+  return {{"type", "FeatureCollection"},
+          {"coordinate_system", coordinate_system},
+          {"features", features}};
+}
+
+void write_document(const std::filesystem::path& path, const json& document) {
   std::ofstream out(path);
   out << document.dump(1) << '\n';
   if (!out.flush()) throw InputError(path, "cannot be written");
@@ -146,30 +147,42 @@ void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::st
 
 // "trial.geojson: feature 3", with the id that people know the plot by.
 std::string name_of(const std::filesystem::path& path, std::size_t place, const PlotFeature& plot) {
-  const std::string feature = path.string() + ": feature " + std::to_string(place);
+  std::string feature = path.string() + ": feature " + std::to_string(place);
   for (const std::string& property : plot_id_properties()) {
     if (const auto id = id_in(plot, property))
-      return feature + " (" + property + " \"" + id->text() + "\")";
+      return feature.append(" (").append(property).append(" \"").append(id->text()).append("\")");
   }
   return feature;
 }
 
+// How a file's positions become metres.
+struct Positions {
+  Projection metres;
+  bool in_degrees = false;
+};
+
 PlotFeature read_feature(const json& feature, const std::filesystem::path& path, std::size_t place,
-                         const Projection& metres_from_lonlat) {
+                         const Positions& positions) {
   PlotFeature plot;
   if (feature.contains("properties") && feature["properties"].is_object())
     plot.properties = feature["properties"];
   if (feature.contains("id")) plot.id = PlotId::from(feature["id"]);
   const std::string which = name_of(path, place, plot);
-  const auto as_they_are = [](const Eigen::Vector2d& position) { return position; };
-  const PlotBox polygon =
-      rectangle_of(polygon_ring(feature, which),
-                   metres_from_lonlat ? metres_from_lonlat : Projection(as_they_are), which);
+  const PlotBox polygon = rectangle_of(polygon_ring(feature, which), positions.metres, which);
   plot.box = polygon;
-  if (!metres_from_lonlat && has_exact_box(plot.properties)) plot.box = exact_box(plot.properties);
+  if (!positions.in_degrees && has_exact_box(plot.properties))
+    plot.box = exact_box(plot.properties);
   require_sound(plot.box, which);
   require_agreement(plot.box, polygon, which);
   return plot;
+}
+
+constexpr const char* kUnits = "coordinate_units_m";
+
+std::optional<CoordinateUnits> units_of(const json& document) {
+  if (!document.contains(kUnits)) return std::nullopt;
+  return CoordinateUnits{.horizontal_m = document[kUnits].at("x_y").get<double>(),
+                         .vertical_m = document[kUnits].at("z").get<double>()};
 }
 
 // The system that a file names in its member crs, as "EPSG:<code>" where that is there; "" where it
@@ -200,14 +213,14 @@ bool within_degrees(const json& coordinates) {
   return std::ranges::all_of(coordinates, within_degrees);
 }
 
-// Whether positions are longitude and latitude, where the metres wanted are those of `crs`.
-bool is_in_degrees(const json& document, const std::string& crs) {
+// Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
+bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
   if (!stated.empty()) return is_geographic(stated);
   if (document.contains("coordinate_system") && document["coordinate_system"].is_string()) {
     return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
   }
-  if (!utm_system(crs)) return false;
+  if (!over_utm) return false;
   return std::ranges::all_of(document.at("features"), [](const json& feature) {
     return feature.contains("geometry") && feature["geometry"].is_object() &&
            within_degrees(feature["geometry"].value("coordinates", json::array()));
@@ -223,34 +236,43 @@ bool may_be_same(const std::string& a, const std::string& b) {
          utm_a->zone.north == utm_b->zone.north;
 }
 
-// From longitude and latitude in degrees to the system's metres.
-Projection into_utm(const std::filesystem::path& path, const std::string& crs) {
-  const std::optional<UtmSystem> system = utm_system(crs);
-  if (!system) {
-    throw InputError(path, "is in longitude and latitude, and metres are wanted of " +
-                               (crs.empty() ? "a system that is not known"
-                                            : "a system (" + crs + ") that is not UTM's") +
-                               "; give the map in these metres");
-  }
-  return [zone = system->zone](const Eigen::Vector2d& lonlat_deg) -> Eigen::Vector2d {
+Projection from_degrees(const UtmZone& zone) {
+  return [zone](const Eigen::Vector2d& lonlat_deg) -> Eigen::Vector2d {
     return utm_from_geodetic(zone,
                              {.latitude_deg = lonlat_deg.y(), .longitude_deg = lonlat_deg.x()})
         .head<2>();
   };
 }
 
-PlacedPlots placed_plots(const json& document, const std::filesystem::path& path,
-                         const std::string& crs) {
-  PlacedPlots placed{.from_degrees = is_in_degrees(document, crs)};
-  const Projection metres_from_lonlat = placed.from_degrees ? into_utm(path, crs) : Projection();
-  if (!placed.from_degrees && !may_be_same(stated_crs(document), crs)) {
+Projection from_units(double unit_m) {
+  return [unit_m](const Eigen::Vector2d& position) -> Eigen::Vector2d { return unit_m * position; };
+}
+
+// As read_plot_features says.
+Positions positions_of(const json& document, const std::filesystem::path& path,
+                       const std::string& crs, double unit_m) {
+  const std::optional<UtmSystem> utm = unit_m == 1 ? utm_system(crs) : std::nullopt;
+  if (is_in_degrees(document, utm.has_value())) {
+    if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
+    throw InputError(path, "is in longitude and latitude, and coordinates are wanted of a system " +
+                               (crs.empty() ? "that is not known"
+                                            : "(" + crs + ") that is not UTM's in metres") +
+                               "; give the map in these coordinates");
+  }
+  if (!may_be_same(stated_crs(document), crs)) {
     throw InputError(path, "is in the coordinate system " + stated_crs(document) +
                                ", and the cloud is in " + crs + "; give the map in the latter");
   }
-  for (const json& feature : document.at("features")) {
-    placed.plots.push_back(
-        read_feature(feature, path, placed.plots.size() + 1, metres_from_lonlat));
-  }
+  const std::optional<CoordinateUnits> units = units_of(document);
+  return {.metres = from_units(units ? units->horizontal_m : unit_m)};
+}
+
+PlacedPlots placed_plots(const json& document, const std::filesystem::path& path,
+                         const std::string& crs, double unit_m) {
+  const Positions positions = positions_of(document, path, crs, unit_m);
+  PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document)};
+  for (const json& feature : document.at("features"))
+    placed.plots.push_back(read_feature(feature, path, placed.plots.size() + 1, positions));
   return placed;
 }
 
@@ -261,20 +283,26 @@ bool is_box_property(const std::string& name) {
 }
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                         const std::string& crs) {
-  write_collection(path, plots, crs,
-                   crs.empty() ? "local metres, x east, y north; not WGS84"
-                               : "metres of the system in member crs, x east, y north; not WGS84",
-                   [](const Eigen::Vector2d& corner) { return corner; });
+                         const std::string& crs, const std::optional<CoordinateUnits>& units) {
+  const double unit_m = units ? units->horizontal_m : 1;
+  const std::string unit = unit_name(unit_m);
+  json document =
+      collection(plots,
+                 crs.empty() ? "local " + unit + ", x east, y north; not WGS84"
+                             : unit + " of the system in member crs, x east, y north; not WGS84",
+                 [unit_m](const Eigen::Vector2d& corner) { return corner / unit_m; });
+  if (!crs.empty()) document["crs"] = crs_member(crs);
+  if (units) document[kUnits] = {{"x_y", units->horizontal_m}, {"z", units->vertical_m}};
+  write_document(path, document);
 }
 
 void write_plot_features_wgs84(const std::filesystem::path& path,
                                const std::vector<PlotFeature>& plots,
                                const Projection& lonlat_deg_from_world) {
-  write_collection(
-      path, plots, "",
-      std::string(kDegreesStated) + " in degrees; attributes in local metres, x east, y north",
-      lonlat_deg_from_world);
+  write_document(path, collection(plots,
+                                  std::string(kDegreesStated) +
+                                      " in degrees; attributes in local metres, x east, y north",
+                                  lonlat_deg_from_world));
 }
 
 const std::vector<std::string>& plot_id_properties() {
@@ -293,9 +321,10 @@ std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
   return read_plot_features(path, "").plots;
 }
 
-PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs) {
+PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
+                               double unit_m) {
   try {
-    return placed_plots(json::parse(read_text(path)), path, crs);
+    return placed_plots(json::parse(read_text(path)), path, crs, unit_m);
   } catch (const json::exception& error) {
     throw InputError(path,
                      std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());

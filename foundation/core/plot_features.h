@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/coordinate_units.h"
 #include "core/plot_box.h"
 #include "core/plot_id.h"
 
@@ -29,8 +30,11 @@ struct PlotFeature {
 // Where the metres are those of a known system, `crs` names it, and so does a member "crs" of the
 // file: "EPSG:<code>" as GeoJSON 2008 (section 3; cited from memory) has it, which GIS programs
 // read; else as the text itself.
+// With `units`, the polygons are in these in place of metres, and a member "coordinate_units_m"
+// says so (metres to one unit, "x_y" and "z"); the attributes stay metres.
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                         const std::string& crs = "");
+                         const std::string& crs = "",
+                         const std::optional<CoordinateUnits>& units = {});
 
 // The same with each corner as WGS84 longitude and latitude, degrees, as RFC 7946 wants them:
 // `lonlat_deg_from_world` gives them. The box among the attributes stays in local metres.
@@ -48,23 +52,27 @@ const std::vector<std::string>& plot_id_properties();
 std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property);
 
 // Reads what write_plot_features writes, and any FeatureCollection of polygons that are nearly
-// rectangles (from QGIS, say), in metres: the box is the rectangle nearest to the polygon, length
-// the longer side (core/rectangle_fit.h). Throws InputError on a missing file, broken JSON, a
-// polygon that is farther from a rectangle than rectangle_tolerance_m, a non-finite number, and a
-// file that is in longitude and latitude.
+// rectangles (from QGIS, say), in metres or the units that the file names: the box is the rectangle
+// nearest to the polygon, length the longer side (core/rectangle_fit.h). Throws InputError on a
+// missing file, broken JSON, a polygon that is farther from a rectangle than rectangle_tolerance_m,
+// a non-finite number, and a file that is in longitude and latitude.
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path);
 
 // Plots in the metres of a coordinate system.
 struct PlacedPlots {
   std::vector<PlotFeature> plots = {};
   bool from_degrees = false;  // the file has longitude and latitude, which were converted
+  std::optional<CoordinateUnits> units = {};  // that the file names (write_plot_features)
 };
 
-// The same in metres of `crs` ("EPSG:<code>", "" where unknown). Positions are longitude and
-// latitude in degrees where the file says so (its member crs, or ours), and where it says nothing
-// (RFC 7946), `crs` is UTM's, and no number is beyond 180 and 90: they are converted, and a box
-// among the properties, which is of another frame, is passed over. Throws InputError as above; on
-// degrees where `crs` is not UTM's; and on a file in metres of another system.
-PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs);
+// The same as a map over a cloud: `crs` is the cloud's ("EPSG:<code>", "" where unknown), `unit_m`
+// the metres to one unit of its x and y. Positions are in the units that the file names, else in
+// `unit_m`. They are longitude and latitude in degrees where the file says so (its member crs, or
+// ours), and where it says nothing (RFC 7946), `crs` is UTM's in metres, and no number is beyond
+// 180 and 90: they are converted, and a box among the properties, which is of another frame, is
+// passed over. Throws InputError as above; on degrees where `crs` is not UTM's in metres; and on a
+// file of another system.
+PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
+                               double unit_m = 1);
 
 }  // namespace plotscan

@@ -79,6 +79,13 @@ const std::vector<Format>& formats() {
        .has_crs = true,
        .open = open_cloud,
        .create = create_las},
+#ifdef PLOTSCAN_HAVE_LASZIP
+      {.name = "LAZ cloud",
+       .extensions = {".laz"},
+       .has_crs = true,
+       .open = open_cloud,
+       .create = create_laz},
+#endif
 #ifdef PLOTSCAN_HAVE_PCAP
       pcap_format(),
       pcapng_format(),

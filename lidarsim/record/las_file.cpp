@@ -5,6 +5,9 @@
 #include "core/geodesy.h"
 #include "scan/las_crs.h"
 #include "scan/las_writer.h"
+#ifdef PLOTSCAN_HAVE_LASZIP
+#include "scan/laz_writer.h"
+#endif
 #include "scan/scan_angles.h"
 
 namespace plotscan::record {
@@ -27,10 +30,8 @@ void place_in_utm(const Source& source, const std::filesystem::path& file, scan:
   };
 }
 
-}  // namespace
-
-std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
-                                              const Source& source, const WriteOptions& options) {
+scan::LasOptions las_options(const std::filesystem::path& file, const Source& source,
+                             const WriteOptions& options) {
   scan::LasOptions las{.start = source.info.start, .crs_wkt = source.info.crs_wkt};
   if (las.crs_wkt.empty()) las.crs_wkt = scan::local_crs_wkt();
   las.offset_m = source.info.origin_m;
@@ -42,7 +43,21 @@ std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
     las.scan_angle_rad = [angles](const scan::LabelledPoint& p) { return angles->angle_rad(p); };
   }
   if (options.crs == "utm") place_in_utm(source, file, las);
-  return std::make_unique<scan::LasWriter>(file, las);
+  return las;
 }
+
+}  // namespace
+
+std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
+                                              const Source& source, const WriteOptions& options) {
+  return std::make_unique<scan::LasWriter>(file, las_options(file, source, options));
+}
+
+#ifdef PLOTSCAN_HAVE_LASZIP
+std::unique_ptr<scan::PointWriter> create_laz(const std::filesystem::path& file,
+                                              const Source& source, const WriteOptions& options) {
+  return std::make_unique<scan::LazWriter>(file, las_options(file, source, options));
+}
+#endif
 
 }  // namespace plotscan::record

@@ -13,5 +13,10 @@ namespace plotscan::record {
 // are asked for and the source has no place on Earth.
 std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
                                               const Source& source, const WriteOptions& options);
+#ifdef PLOTSCAN_HAVE_LASZIP
+// The same, packed.
+std::unique_ptr<scan::PointWriter> create_laz(const std::filesystem::path& file,
+                                              const Source& source, const WriteOptions& options);
+#endif
 
 }  // namespace plotscan::record

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <type_traits>
 
@@ -10,11 +9,11 @@
 
 #include "core/error.h"
 #include "scan/cloud_layout.h"
+#include "scan/rows.h"
 
 namespace plotscan::scan {
 namespace {
 
-constexpr std::size_t kChunkPoints = 8192;
 // LZF turns at most 264 bytes into 3 of a back reference.
 constexpr std::uint64_t kMaxLzfRatio = 88;
 
@@ -53,7 +52,8 @@ double number(const ScalarField& field, const char* bytes, bool swap) {
   }
 }
 
-// What a number of the file stands for.
+}  // namespace
+
 double decode(const ScalarField& field, const char* bytes, bool swap) {
   double value = number(field, bytes, swap);
   if (field.bits > 0)
@@ -62,33 +62,7 @@ double decode(const ScalarField& field, const char* bytes, bool swap) {
   return scaled ? value * field.scale + field.add : value;
 }
 
-// What the readers below share: which points and fields are wanted, and where they go.
-struct Wanted {
-  std::uint64_t points;
-  std::span<const ScalarField> fields;
-  const RowSink& sink;
-};
-
-// Collects rows and hands them on in chunks.
-class Rows {
- public:
-  explicit Rows(const Wanted& wanted) : wanted_(wanted) {
-    numbers_.reserve(kChunkPoints * wanted.fields.size());
-  }
-
-  void add(double number) { numbers_.push_back(number); }
-  void end_row() {
-    if (numbers_.size() == kChunkPoints * wanted_.fields.size()) flush();
-  }
-  void flush() {
-    if (!numbers_.empty()) wanted_.sink(numbers_);
-    numbers_.clear();
-  }
-
- private:
-  const Wanted& wanted_;
-  std::vector<double> numbers_;
-};
+namespace {
 
 bool must_swap(const CloudLayout& layout) {
   return layout.big_endian != (std::endian::native == std::endian::big);
@@ -159,57 +133,6 @@ void read_compressed(const std::filesystem::path& file, std::ifstream& in,
   rows.flush();
 }
 
-double parse_number(const std::filesystem::path& file, std::size_t line_number,
-                    std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size())
-    throw InputError(file, line_number, "\"" + std::string(word) + "\" is not a number");
-  return value;
-}
-
-void split_words(std::string_view line, std::vector<std::string_view>& words) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  words.clear();
-  const char* at = line.data();
-  const char* end = at + line.size();
-  for (;;) {
-    while (at != end && is_space(*at)) ++at;
-    if (at == end) return;
-    const char* begin = at;
-    while (at != end && !is_space(*at)) ++at;
-    words.emplace_back(begin, static_cast<std::size_t>(at - begin));
-  }
-}
-
-void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
-                const Wanted& wanted) {
-  std::size_t line_number = layout.body_line - 1;
-  std::string line;
-  std::vector<std::string_view> words;
-  Rows rows(wanted);
-  for (std::uint64_t read = 0; read < wanted.points;) {
-    if (!std::getline(in, line)) {
-      throw InputError(file, "is truncated: the header promises " + std::to_string(layout.points) +
-                                 " points, the file holds " + std::to_string(read));
-    }
-    ++line_number;
-    split_words(line, words);
-    if (words.empty()) continue;
-    if (words.size() != layout.columns) {
-      throw InputError(file, line_number,
-                       "has " + std::to_string(words.size()) + " values; the header names " +
-                           std::to_string(layout.columns));
-    }
-    for (const ScalarField& field : wanted.fields)
-      rows.add(parse_number(file, line_number, words[field.column]));
-    rows.end_row();
-    ++read;
-  }
-  rows.flush();
-}
-
 }  // namespace
 
 void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
@@ -224,6 +147,12 @@ void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
       return read_binary(file, in, layout, wanted);
     case CloudBody::compressed:
       return read_compressed(file, in, layout, wanted);
+    case CloudBody::laz:
+#ifdef PLOTSCAN_HAVE_LASZIP
+      return read_laz(file, layout, wanted);
+#else
+      break;
+#endif
   }
   throw std::logic_error("unknown kind of cloud body");
 }

@@ -2,6 +2,8 @@
 #include "scan/cloud_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <sstream>
 
@@ -14,30 +16,148 @@ namespace plotscan::scan {
 namespace {
 
 constexpr std::size_t kMaxHeaderLine = std::size_t{1} << 16;
+// Bytes by which a format is known.
+constexpr std::size_t kStart = std::size_t{1} << 12;
 
-enum class CloudFormat { pcd, ply, las };
+enum class CloudFormat { pcd, ply, las, text };
 
-// By content, since names lie: PLY and LAS begin with their names, PCD with a comment or a header
-// entry.
-CloudFormat cloud_format(const std::filesystem::path& file) {
+std::string start_of(const std::filesystem::path& file) {
   require_file(file);
   std::ifstream in(file, std::ios::binary);
-  std::string start(7, '\0');
+  std::string start(kStart, '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(in.gcount()));
-  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return CloudFormat::ply;
-  if (start.starts_with("LASF")) return CloudFormat::las;
-  if (start.starts_with("#") || start.starts_with("VERSION") || start.starts_with("FIELDS") ||
-      start.starts_with("COLUMNS"))
-    return CloudFormat::pcd;
-  throw InputError(file, start.empty() ? "is empty; a PCD, PLY or LAS cloud is expected"
-                                       : "is neither a PCD, nor a PLY, nor a LAS cloud");
+  return start;
 }
 
-// By a LAS point's withheld flag and class.
-bool is_marked(std::span<const double> withheld_and_class) {
-  return withheld_and_class[0] != 0 || withheld_and_class[1] == las::kLowNoise ||
-         withheld_and_class[1] == las::kHighNoise;
+// The first line is "ply", blanks behind it or not.
+bool is_ply(const std::string& start) {
+  const std::size_t end = start.find_first_of("\r\n");
+  return start.starts_with("ply") && end != std::string::npos &&
+         start.find_first_not_of(" \t", 3) == end;
+}
+
+// PCD begins with a header entry, comments in front of it or not.
+bool is_pcd(const std::string& start) {
+  std::istringstream in(start);
+  for (std::string line, word; std::getline(in, line); word.clear()) {
+    std::istringstream(line) >> word;
+    if (word.empty() || word.starts_with('#')) continue;
+    return word == "VERSION" || word == "FIELDS" || word == "COLUMNS";
+  }
+  return start.starts_with("# .PCD");
+}
+
+bool is_text(std::string_view start) {
+  return std::ranges::all_of(start, [](unsigned char c) {
+    return c >= ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f';
+  });
+}
+
+// By content, since names lie.
+CloudFormat cloud_format(const std::filesystem::path& file) {
+  const std::string start = start_of(file);
+  if (is_ply(start)) return CloudFormat::ply;
+  if (start.starts_with("LASF")) return CloudFormat::las;
+  if (is_pcd(start)) return CloudFormat::pcd;
+  if (start.empty()) throw InputError(file, "is empty; a PCD, PLY, LAS or text cloud is expected");
+  if (is_text(start)) return CloudFormat::text;
+  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text");
+}
+
+CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file) {
+  switch (format) {
+    case CloudFormat::pcd:
+      return read_pcd_header(file);
+    case CloudFormat::ply:
+      return read_ply_header(file);
+    case CloudFormat::las:
+      return read_las_header(file);
+    case CloudFormat::text:
+      return read_text_header(file);
+  }
+  throw std::logic_error("unknown format of a cloud");
+}
+
+// "ReturnNumber", "return_number" and CloudCompare's "scalar_ReturnNumber" are one name.
+std::string plain_name(const std::string& name) {
+  std::string plain;
+  for (const char c : name)
+    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::string_view kPrefix = "scalar";
+  return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
+}
+
+// What becomes of a point by its marks and its class.
+class PointFilter {
+ public:
+  enum class Fate { kept, marked, left_out };
+
+  // Adds the fields that it looks at to those that are read.
+  PointFilter(const std::filesystem::path& file, const CloudLayout& layout, const CloudFiles& cloud,
+              const PositionOptions& options, std::vector<ScalarField>& fields) {
+    marks_ = options.leave_out_marked && layout.is_las;
+    for (const int number : cloud.leave_out_classes)
+      left_out_.at(static_cast<std::size_t>(number)) = true;
+    if (marks_) add(layout.find(las::kWithheld), withheld_, fields);
+    has_class_ = marks_ || !cloud.leave_out_classes.empty();
+    if (!has_class_) return;
+    const ScalarField* classification = find_field(layout, {std::string(las::kClassification)});
+    if (classification == nullptr)
+      throw InputError(file,
+                       "has no field \"classification\": its points have no class to leave out");
+    add(classification, class_, fields);
+  }
+
+  Fate fate_of(std::span<const double> row) const {
+    if (!has_class_) return Fate::kept;
+    const double number = row[class_];
+    if (marks_ && (row[withheld_] != 0 || number == las::kLowNoise || number == las::kHighNoise))
+      return Fate::marked;
+    const bool left_out = number >= 0 && number < static_cast<double>(left_out_.size()) &&
+                          left_out_[static_cast<std::size_t>(number)];
+    return left_out ? Fate::left_out : Fate::kept;
+  }
+
+ private:
+  static void add(const ScalarField* field, std::size_t& place, std::vector<ScalarField>& fields) {
+    place = fields.size();
+    fields.push_back(*field);
+  }
+
+  bool marks_ = false;
+  bool has_class_ = false;
+  std::size_t withheld_ = 0;  // places in a row
+  std::size_t class_ = 0;
+  std::array<bool, 256> left_out_{};
+};
+
+// Adds one file to the sink and the summary, whose system it has.
+void read_file(const std::filesystem::path& file, const CloudFiles& cloud,
+               const PositionOptions& options, const PositionSink& sink, CloudSummary& summary) {
+  const CloudLayout layout = read_cloud_header(file);
+  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  const PointFilter filter(file, layout, cloud, options, fields);
+  std::vector<Eigen::Vector3d> positions;
+  read_rows(file, layout, fields, [&](std::span<const double> rows) {
+    positions.clear();
+    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
+      const auto row = rows.subspan(i, fields.size());
+      const Eigen::Vector3d position = summary.system.metres_of({row[0], row[1], row[2]});
+      const PointFilter::Fate fate = filter.fate_of(row);
+      if (!position.allFinite()) {
+        ++summary.not_finite;
+      } else if (fate == PointFilter::Fate::marked) {
+        ++summary.marked;
+      } else if (fate == PointFilter::Fate::left_out) {
+        ++summary.left_out;
+      } else {
+        positions.push_back(position);
+      }
+    }
+    summary.points += positions.size();
+    if (!positions.empty()) sink(positions);
+  });
 }
 
 }  // namespace
@@ -55,6 +175,16 @@ const ScalarField* CloudLayout::find(std::string_view name) const {
   return found == fields.end() ? nullptr : &*found;
 }
 
+const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    for (const ScalarField& field : layout.fields) {
+      const bool readable = field.count == 1 && (field.kind != 'F' || field.size >= 4);
+      if (readable && plain_name(field.name) == name) return &field;
+    }
+  }
+  return nullptr;
+}
+
 std::string CloudLayout::crs() const {
   if (!crs_wkt.empty()) return short_crs(crs_wkt);
   return crs_epsg == 0 ? "" : "EPSG:" + std::to_string(crs_epsg);
@@ -63,19 +193,26 @@ std::string CloudLayout::crs() const {
 HeaderLines::HeaderLines(const std::filesystem::path& file)
     : file_(file), in_(file, std::ios::binary) {}
 
-const std::vector<std::string>& HeaderLines::next() {
+std::optional<std::string> HeaderLines::next_text() {
   std::string text;
   ++line_;
   for (;;) {
     const int c = in_.get();
-    if (c == std::ifstream::traits_type::eof()) fail("the file ends inside its header");
+    if (c == std::ifstream::traits_type::eof()) break;
     ++offset_;
-    if (c == '\n') break;
+    if (c == '\n') return text;
     if (text.size() == kMaxHeaderLine) fail("a header line is too long; the header is broken");
     text.push_back(static_cast<char>(c));
   }
+  if (text.empty()) return std::nullopt;
+  return text;
+}
+
+const std::vector<std::string>& HeaderLines::next() {
+  const std::optional<std::string> text = next_text();
+  if (!text) fail("the file ends inside its header");
   words_.clear();
-  std::istringstream in(text);
+  std::istringstream in(*text);
   for (std::string word; in >> word;) words_.push_back(word);
   return words_;
 }
@@ -94,9 +231,12 @@ std::uint64_t HeaderLines::whole_number(const std::string& word, std::uint64_t l
   return value;
 }
 
-void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
+void require_coordinates(const HeaderLines& lines, CloudLayout& layout) {
   for (const char axis : {'x', 'y', 'z'}) {
     const std::string name(1, axis);
+    const std::string capital(1, static_cast<char>(axis - 'x' + 'X'));
+    const auto capitals = std::ranges::find(layout.fields, capital, &ScalarField::name);
+    if (layout.find(name) == nullptr && capitals != layout.fields.end()) capitals->name = name;
     const ScalarField* field = layout.find(name);
     if (field == nullptr) lines.fail("the cloud has no field \"" + name + "\"");
     if (field->kind != 'F' || field->size < 4 || field->count != 1)
@@ -105,47 +245,23 @@ void require_coordinates(const HeaderLines& lines, const CloudLayout& layout) {
 }
 
 CloudLayout read_cloud_header(const std::filesystem::path& file) {
-  const CloudFormat format = cloud_format(file);
-  const CloudLayout layout = format == CloudFormat::pcd   ? read_pcd_header(file)
-                             : format == CloudFormat::ply ? read_ply_header(file)
-                                                          : read_las_header(file);
+  CloudLayout layout = read_header_of(cloud_format(file), file);
   if (layout.points == 0) throw InputError(file, "the cloud is empty: its header says 0 points");
   return layout;
 }
 
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
+CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options) {
-  const CloudLayout layout = read_cloud_header(cloud);
-  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  const bool marks = options.leave_out_marked && layout.is_las;
-  if (marks) {
-    fields.push_back(*layout.find(las::kWithheld));
-    fields.push_back(*layout.find(las::kClassification));
+  CloudSummary summary{.system = read_cloud_system(cloud)};
+  for (const std::filesystem::path& file : cloud.files)
+    read_file(file, cloud, options, sink, summary);
+  if (summary.points + summary.marked + summary.left_out == 0)
+    throw InputError(cloud.name() + ": no point of the cloud has finite x, y and z");
+  if (summary.points == 0) {
+    throw InputError(cloud.name() + ": all points of the cloud are marked as withheld or noise" +
+                     (summary.left_out > 0 ? ", or of a class to leave out" : ""));
   }
-  CloudSummary summary{.crs = layout.crs(), .in_degrees = layout.in_degrees};
-  std::vector<Eigen::Vector3d> positions;
-  read_rows(cloud, layout, fields, [&](std::span<const double> rows) {
-    positions.clear();
-    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
-      const Eigen::Vector3d position(rows[i], rows[i + 1], rows[i + 2]);
-      if (!position.allFinite()) {
-        ++summary.not_finite;
-      } else if (marks && is_marked(rows.subspan(i + 3, 2))) {
-        ++summary.marked;
-      } else {
-        positions.push_back(position);
-      }
-    }
-    summary.points += positions.size();
-    if (!positions.empty()) sink(positions);
-  });
-  if (summary.points + summary.marked == 0)
-    throw InputError(cloud, "no point of the cloud has finite x, y and z");
-  if (summary.points == 0)
-    throw InputError(cloud, "all points of the cloud are marked as withheld or noise");
   return summary;
 }
-
-std::string cloud_crs(const std::filesystem::path& cloud) { return read_cloud_header(cloud).crs(); }
 
 }  // namespace plotscan::scan

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <span>
-#include <string>
 
 #include <Eigen/Core>
 
+#include "core/cloud_files.h"
+#include "scan/cloud_system.h"
+
 namespace plotscan::scan {
 
-// Receives a cloud's positions piece by piece, in the file's order, world frame, metres.
+// Receives a cloud's positions piece by piece, in the file's order, world frame, metres: as
+// CloudSystem::metres_of gives them.
 using PositionSink = std::function<void(std::span<const Eigen::Vector3d>)>;
 
 // What was read.
 struct CloudSummary {
   std::size_t points = 0;      // handed to the sink
-  std::size_t not_finite = 0;  // left out: a coordinate was NaN or infinite
+  std::size_t not_finite = 0;  // left out: a coordinate was no number, or no place
   std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  // The coordinate system where the file names it (LAS): "EPSG:<code>", or well-known text where
-  // that names no code; else "".
-  std::string crs = {};
-  bool in_degrees = false;  // x and y are longitude and latitude: the file says so
+  std::size_t left_out = 0;    // left out: of a class to leave out (CloudFiles)
+  CloudSystem system = {};     // of the files
 };
 
 struct PositionOptions {
@@ -31,15 +31,13 @@ struct PositionOptions {
   bool leave_out_marked = false;
 };
 
-// Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary) or LAS (1.0
-// to 1.4) cloud, whatever other fields it has. Nothing but positions is handed on, so that an
-// estimator cannot see labels. All but compressed PCD is read in constant memory. Throws InputError
-// (file, what is wrong) on a missing, foreign, truncated or empty cloud.
-CloudSummary read_positions(const std::filesystem::path& cloud, const PositionSink& sink,
+// Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary), LAS (1.0 to
+// 1.4) or text cloud (a line a point), file after file, whatever other fields it has. Nothing but
+// positions is handed on, so that an estimator cannot see labels. All but compressed PCD is read in
+// constant memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or
+// empty cloud, as read_cloud_system does, and on a file without classes where some are to be left
+// out.
+CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
-
-// The coordinate system that the file names (CloudSummary::crs), of its header alone. Throws
-// InputError as read_positions does.
-std::string cloud_crs(const std::filesystem::path& cloud);
 
 }  // namespace plotscan::scan

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/las_crs.h"
 
-#include <algorithm>
-#include <string_view>
+#include <charconv>
+#include <cmath>
 
+#include "core/coordinate_units.h"
 #include "core/text.h"
+#include "scan/wkt.h"
 
 namespace plotscan::scan {
 namespace {
 
-// The digits that follow, in quotes or not.
-std::string code_at(std::string_view text) {
-  if (text.starts_with('"')) text.remove_prefix(1);
-  return std::string(text.substr(0, text.find_first_not_of("0123456789")));
+// UNIT["metre", 1] of a node, or of its axes, as WKT 2 has it.
+std::optional<double> unit_of(const WktNode* node) {
+  if (node == nullptr) return std::nullopt;
+  for (const WktNode& child : node->children) {
+    if (child.keyword == "AXIS" && unit_of(&child)) return unit_of(&child);
+    if ((child.keyword != "UNIT" && child.keyword != "LENGTHUNIT") || child.values.size() < 2)
+      continue;
+    const std::string& text = child.values[1];
+    double unit_m = 0;
+    const char* end = text.data() + text.size();
+    if (std::from_chars(text.data(), end, unit_m).ptr == end && unit_m > 0 && std::isfinite(unit_m))
+      return exact_unit(unit_m);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -41,23 +53,22 @@ std::string utm_crs_wkt(const UtmZone& zone) {
 }
 
 std::string short_crs(const std::string& wkt) {
-  const std::size_t start = std::min(wkt.find("PROJCS["), wkt.find("PROJCRS["));
-  if (start == std::string::npos) return wkt;
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t at = start; at < wkt.size(); ++at) {
-    if (wkt[at] == '"') quoted = !quoted;
-    if (quoted) continue;
-    if (wkt[at] == '[') ++depth;
-    if (wkt[at] == ']' && --depth == 0) break;
-    if (depth != 1) continue;
-    const std::string_view rest = std::string_view(wkt).substr(at);
-    for (const std::string_view name : {R"(AUTHORITY["EPSG",)", R"(ID["EPSG",)"}) {
-      const std::string code = rest.starts_with(name) ? code_at(rest.substr(name.size())) : "";
-      if (!code.empty()) return "EPSG:" + code;
-    }
+  const std::optional<WktNode> root = parse_wkt(wkt);
+  const WktNode* projected = root ? root->find({"PROJCS", "PROJCRS"}) : nullptr;
+  if (projected == nullptr) return wkt;
+  for (const WktNode& child : projected->children) {
+    const bool is_id = child.keyword == "AUTHORITY" || child.keyword == "ID";
+    if (is_id && child.values.size() >= 2 && child.values[0] == "EPSG")
+      return "EPSG:" + child.values[1];
   }
   return wkt;
+}
+
+WktUnits units_of_wkt(const std::string& wkt) {
+  const std::optional<WktNode> root = parse_wkt(wkt);
+  if (!root) return {};
+  return {.horizontal_m = unit_of(root->find({"PROJCS", "PROJCRS", "LOCAL_CS", "ENGCRS"})),
+          .vertical_m = unit_of(root->find({"VERT_CS", "VERTCRS", "VERTICALCRS"}))};
 }
 
 }  // namespace plotscan::scan

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/geodesy.h"
@@ -18,5 +19,14 @@ std::string utm_crs_wkt(const UtmZone& zone);
 // "EPSG:<code>" of the projected system that a text (WKT 1 or 2) describes, where it names the
 // code; else the text itself.
 std::string short_crs(const std::string& wkt);
+
+// Metres to one unit of x and y, and of z, where well-known text states them.
+struct WktUnits {
+  std::optional<double> horizontal_m = {};
+  std::optional<double> vertical_m = {};
+};
+
+// Of a projected or local system, and of the heights beside it. Nothing of a text that is broken.
+WktUnits units_of_wkt(const std::string& wkt);
 
 }  // namespace plotscan::scan

@@ -11,6 +11,7 @@
 
 namespace plotscan::scan::las {
 
+inline constexpr int kNewFormats = 6;  // the formats of LAS 1.4 begin here
 // Bytes of the point formats 0 to 10 without extra bytes (tables 7 to 18).
 inline constexpr std::array<std::size_t, 11> kFormatSizes = {20, 28, 26, 34, 57, 63,
                                                              30, 36, 38, 59, 67};
@@ -26,10 +27,13 @@ inline constexpr std::string_view kProjectionUser = "LASF_Projection";
 inline constexpr std::uint16_t kWktRecord = 2112;
 inline constexpr std::uint16_t kGeoKeysRecord = 34735;
 // Keys of GeoTIFF (OGC 19-008r4, section 7; cited from memory): the kind of coordinate system, and
-// a projected one's EPSG code.
+// a projected one's EPSG code and units.
 inline constexpr std::uint16_t kModelKey = 1024;
 inline constexpr std::uint16_t kGeographicModel = 2;  // degrees
 inline constexpr std::uint16_t kProjectedKey = 3072;
+// Units of x and y of a projected system, and of z: EPSG codes.
+inline constexpr std::uint16_t kLinearUnitsKey = 3076;
+inline constexpr std::uint16_t kVerticalUnitsKey = 4099;
 inline constexpr std::uint16_t kUserDefined = 32767;  // no code
 // Ours: the UTC time of the points' time 0, as text.
 inline constexpr std::string_view kPlotscanUser = "plotscan";

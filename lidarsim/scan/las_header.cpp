@@ -4,7 +4,9 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scan/cloud_layout.h"
+#include "scan/las_crs.h"
 #include "scan/las_format.h"
 
 namespace plotscan::scan {
@@ -14,7 +16,11 @@ namespace {
 constexpr std::uint64_t kMaxText = std::uint64_t{1} << 16;
 constexpr std::size_t kOldHeaderSize = 227;
 constexpr std::uint8_t kCompressedFormat = 0xC0;  // LAZ sets one of these bits
-constexpr int kNewFormats = 6;                    // the formats of LAS 1.4 begin here
+#ifdef PLOTSCAN_HAVE_LASZIP
+constexpr bool kReadsLaz = true;
+#else
+constexpr bool kReadsLaz = false;
+#endif
 
 // A LAS file while its header is read. Little-endian numbers at their places.
 class LasFile {
@@ -55,6 +61,7 @@ struct LasHeader {
   std::size_t size = 0;
   std::uint64_t points_at = 0;
   int format = 0;
+  bool compressed = false;
   std::size_t record_size = 0;
   std::uint64_t points = 0;
 };
@@ -79,11 +86,13 @@ LasHeader read_header(LasFile& file) {
   if (header.points_at < header.size || header.points_at > file.size())
     file.fail("its points begin at byte " + std::to_string(header.points_at) +
               ", which is not between the header and the file's end");
-  const auto format = file.number<std::uint8_t>(104);
-  if ((format & kCompressedFormat) != 0)
+  const auto packed_format = file.number<std::uint8_t>(104);
+  header.compressed = (packed_format & kCompressedFormat) != 0;
+  if (header.compressed && !kReadsLaz)
     file.fail(
-        "is compressed (LAZ); uncompressed LAS is read: convert it with laszip or "
-        "PDAL");
+        "is compressed (LAZ), which this build does not read; make a LAS of it with scripts/unlaz, "
+        "or build Plotscan where liblaszip-dev is installed (Debian 13, Ubuntu 24.04)");
+  const auto format = static_cast<std::uint8_t>(packed_format & ~kCompressedFormat);
   if (format >= las::kFormatSizes.size())
     file.fail("point format " + std::to_string(format) + " is not known; 0 to 10 are");
   header.format = format;
@@ -123,7 +132,7 @@ void add_format_fields(int format, CloudLayout& layout) {
   ScalarField intensity = whole("intensity", 12, 2);
   intensity.scale = 1 / las::kIntensityScale;
   layout.fields.push_back(intensity);
-  const bool is_new = format >= kNewFormats;
+  const bool is_new = format >= las::kNewFormats;
   const int bits = is_new ? 4 : 3;
   layout.fields.push_back(whole("return_number", 14, 1, 0, bits));
   layout.fields.push_back(whole("number_of_returns", 14, 1, bits, bits));
@@ -170,15 +179,42 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
   }
 }
 
+// What the records say of units; where two of them say it, well-known text counts.
+struct StatedUnits {
+  WktUnits wkt = {};
+  WktUnits keys = {};
+};
+
+// Of EPSG's code of a unit of length (cited from memory); notes one that is not known.
+std::optional<double> unit_of_code(std::uint16_t code, CloudLayout& layout) {
+  if (code == 9001) return 1;
+  if (code == 9002) return kFoot_m;
+  if (code == 9003) return kUsSurveyFoot_m;
+  layout.notes.push_back("its unit has the code " + std::to_string(code) +
+                         ", which is not known here: taken for metres; --units says otherwise");
+  return std::nullopt;
+}
+
 // GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
-void read_geo_keys(const std::string& bytes, CloudLayout& layout) {
+void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& units) {
   std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
   std::memcpy(entries.data(), bytes.data(), entries.size() * 8);
   for (const auto& [key, place, count, value] : entries) {
     if (place != 0) continue;
     if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
     if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
+    if (key == las::kLinearUnitsKey) units.horizontal_m = unit_of_code(value, layout);
+    if (key == las::kVerticalUnitsKey) units.vertical_m = unit_of_code(value, layout);
   }
+}
+
+// Heights without a unit of their own are in that of x and y; those of degrees are metres.
+CoordinateUnits units_of(const StatedUnits& stated) {
+  CoordinateUnits units;
+  units.horizontal_m = stated.wkt.horizontal_m.value_or(stated.keys.horizontal_m.value_or(1));
+  units.vertical_m =
+      stated.wkt.vertical_m.value_or(stated.keys.vertical_m.value_or(units.horizontal_m));
+  return units;
 }
 
 // Whether a coordinate system as well-known text is one of degrees.
@@ -187,28 +223,37 @@ bool is_geographic(const std::string& wkt) {
   return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
 }
 
+// Where the points lie is said elsewhere: a wrong count of records does no harm to them.
+std::string count_note(std::uint64_t promised, std::uint64_t found) {
+  return "the header promises " + std::to_string(promised) + " variable length records, " +
+         std::to_string(found) + " are whole; the others were not looked at";
+}
+
 // What the variable length records say; `at` is the first one's.
 void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
-                  const LasHeader& header, CloudLayout& layout) {
+                  const LasHeader& header, CloudLayout& layout, StatedUnits& units) {
   const std::uint64_t end = extended ? file.size() : header.points_at;
   const std::uint64_t header_size = extended ? las::kEvlrHeaderSize : las::kVlrHeaderSize;
   for (std::uint64_t i = 0; i < count; ++i) {
-    if (at > end || end - at < header_size)
-      file.fail("promises " + std::to_string(count) + " variable length records, has " +
-                std::to_string(i));
-    const std::uint64_t size =
-        extended ? file.number<std::uint64_t>(at + 20) : file.number<std::uint16_t>(at + 20);
+    const bool has_header = at <= end && end - at >= header_size;
+    const std::uint64_t size = !has_header ? 0
+                               : extended  ? file.number<std::uint64_t>(at + 20)
+                                           : file.number<std::uint16_t>(at + 20);
+    if (!has_header || size > end - at - header_size) {
+      layout.notes.push_back(count_note(count, i));
+      return;
+    }
     const std::string user = file.text(at + 2, 16);
     const auto record = file.number<std::uint16_t>(at + 18);
     at += header_size;
-    if (size > end - at) file.fail("a variable length record reaches beyond its place");
     if (user == las::kSpecUser && record == las::kExtraBytesRecord) {
       add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
       layout.in_degrees = is_geographic(layout.crs_wkt);
+      units.wkt = units_of_wkt(layout.crs_wkt);
     } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
-      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout);
+      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units.keys);
     } else if (user == las::kPlotscanUser && record == las::kStartRecord) {
       layout.start = parse_utc(file.text(at, std::min(size, kMaxText)));
     }
@@ -222,19 +267,25 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   LasFile file(path);
   const LasHeader header = read_header(file);
   CloudLayout layout;
-  layout.body = CloudBody::binary;
+  layout.body = header.compressed ? CloudBody::laz : CloudBody::binary;
   layout.is_las = true;
+  layout.point_format = header.format;
+  layout.format = formatted("%s 1.%d, point format %d", header.compressed ? "LAZ" : "LAS",
+                            header.minor, header.format);
   layout.points = header.points;
   layout.record_size = header.record_size;
   layout.body_offset = header.points_at;
   layout.adjusted_gps_time = (file.number<std::uint16_t>(6) & las::kAdjustedGpsTime) != 0;
   add_coordinates(file, layout);
   add_format_fields(header.format, layout);
-  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout);
+  StatedUnits units;
+  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout, units);
   if (header.minor >= 4) {
     const auto count = file.number<std::uint32_t>(243);
-    if (count > 0) read_records(file, file.number<std::uint64_t>(235), count, true, header, layout);
+    if (count > 0)
+      read_records(file, file.number<std::uint64_t>(235), count, true, header, layout, units);
   }
+  layout.units = units_of(units);
   return layout;
 }
 

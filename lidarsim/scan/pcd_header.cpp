@@ -110,6 +110,7 @@ CloudLayout read_pcd_header(const std::filesystem::path& file) {
 
   CloudLayout layout;
   layout.body = body_kind(lines, header.data);
+  layout.format = "PCD, " + header.data;
   layout.points = point_count(lines, header);
   for (const ScalarField& field : header.fields) {
     layout.append(field);

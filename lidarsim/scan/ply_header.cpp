@@ -32,6 +32,7 @@ void read_format(const HeaderLines& lines, const std::vector<std::string>& words
                "\" must be ascii, binary_little_endian or binary_big_endian");
   }
   layout.body = format == "ascii" ? CloudBody::ascii : CloudBody::binary;
+  layout.format = "PLY, " + format;
   layout.big_endian = format == "binary_big_endian";
 }
 

@@ -48,7 +48,7 @@ PointClass class_of_asprs(double number) {
 
 struct KnownField {
   std::string name;                  // in PCD and PLY files of ours
-  std::vector<std::string> aliases;  // as plain_name leaves them, the first found counts
+  std::vector<std::string> aliases;  // as find_field takes them
   Put put;
 };
 
@@ -96,25 +96,6 @@ const KnownField& asprs_class() {
   return field;
 }
 
-// "ReturnNumber", "return_number" and CloudCompare's "scalar_ReturnNumber" are one name.
-std::string plain_name(const std::string& name) {
-  std::string plain;
-  for (const char c : name)
-    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::string_view kPrefix = "scalar";
-  return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
-}
-
-const ScalarField* find_known(const CloudLayout& layout, const KnownField& known) {
-  for (const std::string& alias : known.aliases) {
-    for (const ScalarField& field : layout.fields) {
-      const bool readable = field.count == 1 && (field.kind != 'F' || field.size >= 4);
-      if (readable && plain_name(field.name) == alias) return &field;
-    }
-  }
-  return nullptr;
-}
-
 struct SelectedField {
   const KnownField* known;
   double unit;  // of the file's numbers in ours
@@ -136,10 +117,10 @@ Selection select(const CloudLayout& layout) {
   for (const char* axis : {"x", "y", "z"}) selection.fields.push_back(*layout.find(axis));
   for (const KnownField& named : known_fields()) {
     const KnownField* known = &named;
-    const ScalarField* field = find_known(layout, named);
+    const ScalarField* field = find_field(layout, named.aliases);
     if (field == nullptr && named.name == "class") {
       known = &asprs_class();
-      field = find_known(layout, *known);
+      field = find_field(layout, known->aliases);
     }
     if (field == nullptr) continue;
     selection.fields.push_back(*field);
@@ -181,11 +162,7 @@ bool has_float_coordinates(const CloudLayout& layout) {
 
 // The whole second of UTC at or before an adjusted GPS time.
 std::optional<UtcTime> second_of(double adjusted_s) {
-  const UtcTime epoch = *parse_utc("1980-01-06T00:00:00Z");
-  const double second = std::floor(adjusted_s + las::kGpsTimeAdjustment_s - gps_seconds(epoch));
-  constexpr double kCentury_s = 3.2e9;
-  if (!(second >= 0 && second < kCentury_s)) return std::nullopt;
-  return later(epoch, second);
+  return utc_of_adjusted_gps(std::floor(adjusted_s));
 }
 
 // What turns the file's times into seconds from info.start.
@@ -197,10 +174,20 @@ double time_shift_s(const CloudLayout& layout, const CloudInfo& info) {
 
 }  // namespace
 
+std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s) {
+  const UtcTime epoch = *parse_utc("1980-01-06T00:00:00Z");
+  const double second_s = adjusted_s + las::kGpsTimeAdjustment_s - gps_seconds(epoch);
+  constexpr double kCentury_s = 3.2e9;
+  if (!(second_s >= 0 && second_s < kCentury_s)) return std::nullopt;
+  return later(epoch, second_s);
+}
+
 CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   const CloudLayout layout = read_cloud_header(cloud);
   const Selection selection = select(layout);
-  CloudInfo info{.points = layout.points, .start = layout.start, .crs_wkt = layout.crs_wkt};
+  CloudInfo info{.points = layout.is_text ? 0 : layout.points,
+                 .start = layout.start,
+                 .crs_wkt = layout.crs_wkt};
   if (!has_float_coordinates(layout)) {
     const FirstPoint first = first_point(cloud, layout);
     info.origin_m = (first.position_m / kOriginStep_m).array().round() * kOriginStep_m;

@@ -17,7 +17,7 @@ namespace plotscan::scan {
 
 // What a cloud's file says beside its points, and what their numbers count from.
 struct CloudInfo {
-  std::uint64_t points = 0;  // that the header promises
+  std::uint64_t points = 0;  // that the header promises; 0 of text, which promises none
   // A point lies at origin_m + (x, y, z): points are floats, which do not hold coordinates of
   // hundreds of kilometres. Zero where the file's own coordinates are floats; else, in each
   // coordinate, the first finite point's rounded to whole kilometres.
@@ -32,9 +32,9 @@ struct CloudInfo {
 // Reads a cloud's header and the beginning of its points. Throws InputError as read_points does.
 CloudInfo read_cloud_info(const std::filesystem::path& cloud);
 
-// Streams the points of a PCD, PLY or LAS cloud with every field of LabelledPoint that the file
-// has, relative to info.origin_m; the other fields keep their defaults. Which names and units are
-// understood: docs/formats.md. Points that are not finite are left out. Throws InputError on a
+// Streams the points of a PCD, PLY, LAS or text cloud with every field of LabelledPoint that the
+// file has, relative to info.origin_m; the other fields keep their defaults. Which names and units
+// are understood: docs/formats.md. Points that are not finite are left out. Throws InputError on a
 // missing, foreign, truncated or empty cloud, and on a number that its field cannot hold.
 CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& info,
                          const PointSink& sink);

@@ -54,6 +54,7 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 100\nDATA binary\nabc");
   folder.write("nan.pcd",
                "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\nnan 0 0\n0 0 inf\n");
+  folder.write("broken.csv", "x,y,z\n1,2,3\n4,five,6\n");
   folder.write("compressed.laz", las_header(1 | 0x80));
   folder.write("truncated.las", las_header(0) + std::string(190, 'x'));
   folder.write("not_a_farm/readme", "x");
@@ -139,11 +140,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"estimator run absent.pcd -o out", "absent.pcd"},
         BadCommand{"estimator run truncated.pcd -o out", "truncated.pcd"},
         BadCommand{"estimator run nan.pcd -o out", "no point of the cloud has finite"},
-        BadCommand{"estimator run compressed.laz -o out", "(LAZ)"},
+        BadCommand{"estimator info absent.las", "absent.las"},
+        BadCommand{"estimator info broken.csv", "broken.csv:3: \"five\" is not a number"},
+        BadCommand{"estimator run broken.csv -o out", "broken.csv:3:"},
+        BadCommand{"estimator run nan.pcd -o out --units miles", "--units"},
+        BadCommand{"estimator run compressed.laz -o out", "LAZ"},
         BadCommand{"estimator run truncated.las -o out", "promises 10 points of 20"},
         BadCommand{"estimator run index.ply -o out --crop-box 50,50,60,60",
                    "none of its 3 points lies in"},
-        BadCommand{"estimator run truncated.pcd -o out --voxel 0.1", "belongs to --method dhami2020"},
+        BadCommand{"estimator run truncated.pcd -o out --voxel 0.1",
+                   "belongs to --method dhami2020"},
         BadCommand{"estimator run truncated.pcd -o out --noise=-1", "noise"},
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots=-3", "plots"},
         BadCommand{"estimator run index.ply -o out --boxes broken.yaml", "not a GeoJSON"},

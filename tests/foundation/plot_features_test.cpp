@@ -27,6 +27,23 @@ TEST(PlotFeatures, ComeBackAsWritten) {
   EXPECT_EQ(read[0].properties["height_max_m"], 0.61);
 }
 
+// Polygons in the cloud's feet, attributes in metres.
+TEST(PlotFeatures, AreInTheUnitsOfTheCloud) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "feet.geojson";
+  const PlotFeature plot{.box = {.center = {30.48, 60.96}, .width_m = 1.5, .length_m = 4}};
+  write_plot_features(file, {plot}, "EPSG:2264", CoordinateUnits{kFoot_m, 1});
+  const auto document = nlohmann::json::parse(read_text(file));
+  const auto& corners = document["features"][0]["geometry"]["coordinates"][0];
+  EXPECT_NEAR((corners[0][0].get<double>() + corners[2][0].get<double>()) / 2, 100, 1e-9);
+  EXPECT_NEAR((corners[0][1].get<double>() + corners[2][1].get<double>()) / 2, 200, 1e-9);
+  EXPECT_EQ(document["features"][0]["properties"]["center_x_m"], 30.48);
+  EXPECT_EQ(read_plot_features(file).at(0).box.center, plot.box.center);
+  EXPECT_EQ(read_plot_features(file, "").units, (CoordinateUnits{kFoot_m, 1}));
+  write_plot_features(file, {plot});
+  EXPECT_EQ(read_plot_features(file, "").units, std::nullopt);
+}
+
 constexpr const char* kForeign =
     R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": null,
   "geometry": {"type": "Polygon", "coordinates": [[%s]]}}]})";
@@ -141,6 +158,21 @@ TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
   EXPECT_THAT(message(file(wgs84), "EPSG:2193"), ::testing::HasSubstr("EPSG:2193"));
   const std::string other = R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::32633"}},)";
   EXPECT_THAT(message(file(other), "EPSG:32632"), ::testing::HasSubstr("EPSG:32633"));
+}
+
+// A GIS's map over a cloud in feet; UTM's code over one in feet makes no degrees.
+TEST(PlotFeatures, TakesTheUnitsOfTheCloud) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("feet.geojson", foreign("[0,0],[0,10],[-5,10],[-5,0],[0,0]"));
+  for (const std::string crs : {"", "EPSG:2264", "EPSG:32632"}) {
+    const PlacedPlots placed = read_plot_features(file, crs, kFoot_m);
+    EXPECT_FALSE(placed.from_degrees);
+    EXPECT_NEAR(placed.plots.at(0).box.length_m, 3.048, 1e-12);
+    EXPECT_NEAR(placed.plots.at(0).box.width_m, 1.524, 1e-12);
+  }
+  write_plot_features(file, read_plot_features(file), "EPSG:2264", CoordinateUnits{0.5, 1});
+  EXPECT_NEAR(read_plot_features(file, "EPSG:2264", kFoot_m).plots.at(0).box.length_m, 10, 1e-12)
+      << "the file's own units";
 }
 
 // Metres of the cloud's own zone under its other name, and local ones that the file calls local.

@@ -162,7 +162,9 @@ void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& es
   const Layout layout = lay_out(shown_part(estimate, options.margin_m), options);
   const Axes& axes = layout.axes;
   TopHeights tops(axes.shown, axes.frame_px.sizes().cast<int>());
-  scan::read_positions(cloud, [&](auto points) { tops.add(points, *estimate.ground); });
+  CloudFiles files(cloud);
+  files.units = estimate.units;
+  scan::read_positions(files, [&](auto points) { tops.add(points, *estimate.ground); });
   if (tops.points() == 0) {
     throw InputError(cloud,
                      "has no point in the estimate's field; is it the cloud of this "

@@ -211,7 +211,9 @@ void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& est
               .heights = height_lines(plot, options.heights),
               .points = SideView(plot.box, options.beyond_m)};
   const Display display;
-  scan::read_positions(cloud, [&](auto points) { scene.points.add(points); });
+  CloudFiles files(cloud);
+  files.units = estimate.units;
+  scan::read_positions(files, [&](auto points) { scene.points.add(points); });
   if (scene.points.points().empty()) {
     throw InputError(cloud, "has no point in plot " + id.text() +
                                 "; is it the cloud of this estimate, in the same coordinates?");

@@ -213,7 +213,7 @@ Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
   return estimate;
 }
 
-Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
+Estimate dhami2020(const CloudFiles& cloud, const Dhami2020Options& options,
                    const ProgressReport& progress) {
   require_sound(options);
   std::optional<Area> area = options.crop_box;

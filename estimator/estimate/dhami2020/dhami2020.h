@@ -42,10 +42,10 @@ void require_sound(const Dhami2020Options& options);
 Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
                    const ProgressReport& progress = {});
 
-// The same from a cloud (PCD or PLY), of which it reads what lies in crop_box; else, with given
+// The same from a cloud, of which it reads what lies in crop_box; else, with given
 // boxes, in their surroundings; else in the field that it finds. Throws InputError on a broken
 // cloud, and as above.
-Estimate dhami2020(const std::filesystem::path& cloud, const Dhami2020Options& options,
+Estimate dhami2020(const CloudFiles& cloud, const Dhami2020Options& options,
                    const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

@@ -109,15 +109,11 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
 
 json describe(const FieldCloud& cloud) {
   const FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},
-          {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite},
-          {"marked", counts.marked},
-          {"outside", counts.outside},
-          {"repeated", counts.repeated},
-          {"thinned", counts.thinned},
-          {"outliers", counts.outliers},
-          {"area_m", cloud.area}};
+  return {{"points_read", counts.read},      {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite}, {"marked", counts.marked},
+          {"left_out", counts.left_out},     {"outside", counts.outside},
+          {"repeated", counts.repeated},     {"thinned", counts.thinned},
+          {"outliers", counts.outliers},     {"area_m", cloud.area}};
 }
 
 json describe(const ground::Surface& surface) {
@@ -178,7 +174,6 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   require_sound(options);
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
-  estimate.crs = cloud.crs;
   const ground::Surface surface = ground_of(cloud.points, options);
   report(progress, 0.6);
   const Points heights = above_ground(cloud.points, surface, options.threads);
@@ -193,7 +188,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   return estimate;
 }
 
-Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
   return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},

@@ -36,9 +36,9 @@ void require_sound(const LatticeOptions& options);
 Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
-// The same from a cloud (PCD, PLY or LAS): of the crop box; else of the given boxes and the ground
+// The same from a cloud: of the crop box; else of the given boxes and the ground
 // around them; else of the scanned field. Throws InputError on a broken cloud, and as above.
-Estimate lattice(const std::filesystem::path& cloud, const LatticeOptions& options,
+Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
 }  // namespace plotscan::estimate

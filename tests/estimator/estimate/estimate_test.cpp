@@ -80,6 +80,11 @@ TEST(Estimate, IsWrittenInWgs84WhereTheSystemIsUtm) {
   const auto file = folder.path() / "plots.wgs84.geojson";
   write_estimate(folder.path(), {.method = "lattice", .plots = {{.id = 1, .box = box}}});
   EXPECT_FALSE(std::filesystem::exists(file)) << "of no known system";
+  write_estimate(folder.path(), {.method = "lattice",
+                                 .plots = {{.id = 1, .box = box}},
+                                 .crs = "EPSG:32632",
+                                 .units = CoordinateUnits{kFoot_m, kFoot_m}});
+  EXPECT_FALSE(std::filesystem::exists(file)) << "UTM's, but in feet";
   write_estimate(folder.path(),
                  {.method = "lattice", .plots = {{.id = 1, .box = box}}, .crs = "EPSG:32632"});
   const auto document = nlohmann::json::parse(read_text(file));

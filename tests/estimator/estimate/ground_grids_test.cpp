@@ -42,6 +42,22 @@ TEST(GroundGrids, AreEsriAsciiRasters) {
   EXPECT_EQ(read_text(folder.path() / "ground_seen.asc"), head + "0 1 -9999\n1 0 1\n");
 }
 
+TEST(GroundGrids, AreInTheUnitsOfTheCloud) {
+  const TemporaryFolder folder;
+  const CoordinateUnits units{.horizontal_m = 0.5, .vertical_m = 0.25};
+  write_ground(folder.path(), surface(), units);
+  const std::string head =
+      "ncols 3\nnrows 2\nxllcorner 999999.8\nyllcorner 79.8\ncellsize 0.4\n"
+      "NODATA_value -9999\n";
+  EXPECT_EQ(read_text(folder.path() / "ground.asc"),
+            head + "16.0000 20.0000 -9999\n4.0000 8.0000 12.0000\n");
+  const ground::Surface read = read_ground(folder.path(), units);
+  EXPECT_NEAR(read.origin.x(), 500000, 1e-9);
+  EXPECT_NEAR(read.cell_m, 0.2, 1e-12);
+  EXPECT_NEAR(read.z_m[4], 5, 1e-6);
+  EXPECT_NEAR(read.sd_m[4], 0.05, 1e-6);
+}
+
 TEST(GroundGrids, SayThatTheyCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_THAT(message_of<InputError>([&] { write_ground(folder.path() / "absent", surface()); }),

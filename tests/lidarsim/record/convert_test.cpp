@@ -159,7 +159,7 @@ TEST_F(Convert, TrajectoriesGoToTumAndBack) {
 TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   fs::create_directory(folder_.path() / "empty");
   folder_.write("taken.pcd", "x");
-  folder_.write("text.xyz", "1 2 3\n");
+  folder_.write("archive.xyz", "PK\x03\x04");
   const auto before = files();
   EXPECT_THAT(refusal(scan_, "out.ply", {.write = {.encoding = "compressed"}}),
               HasSubstr("there are binary, ascii"));
@@ -170,7 +170,7 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   EXPECT_THAT(refusal(scan_, "taken.pcd"), HasSubstr("--force"));
   EXPECT_THAT(refusal(scan_, "none/out.pcd"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder_.path() / "absent.pcd", "out.pcd"), HasSubstr("no such file"));
-  EXPECT_THAT(refusal(folder_.path() / "text.xyz", "out.pcd"), HasSubstr("neither"));
+  EXPECT_THAT(refusal(folder_.path() / "archive.xyz", "out.pcd"), HasSubstr("neither"));
   EXPECT_THAT(refusal(folder_.path() / "empty", "out.pcd"), HasSubstr("no manifest.json"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.tum"), HasSubstr("no trajectory"));
   EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"), HasSubstr("is a trajectory"));

@@ -34,7 +34,8 @@ TEST(BrokenCloud, MissingEmptyAndForeignFilesAreRefused) {
   EXPECT_THAT(file_refusal(folder.path() / "none.pcd"), HasSubstr("no such file"));
   EXPECT_THAT(file_refusal(folder.path()), HasSubstr("not a regular file"));
   EXPECT_THAT(refusal(std::string()), HasSubstr("is empty"));
-  EXPECT_THAT(refusal(std::string("1 2 3\n")), HasSubstr("neither a PCD, nor a PLY, nor a LAS"));
+  EXPECT_THAT(refusal(std::string("PK\x03\x04 1 2 3\n")),
+              HasSubstr("neither a PCD, nor a PLY, nor a LAS"));
   EXPECT_THAT(refusal(std::string("LASF and so on")), HasSubstr("is truncated"));
 }
 

@@ -140,6 +140,40 @@ TEST(CloudReader, ReadsBigEndianPly) {
   EXPECT_EQ(result.positions[0], Eigen::Vector3d(1.5, -2.0, 3.125));
 }
 
+// PDAL names PCD's fields in capitals; some programs leave a blank behind "ply".
+TEST(CloudReader, ReadsCapitalsAndBlanks) {
+  const TemporaryFolder folder;
+  const std::vector<Eigen::Vector3d> expected = {{1.5, -2, 3}};
+  EXPECT_EQ(read(folder.write("a.pcd",
+                              "VERSION 0.7\nFIELDS Intensity X Y Z\nSIZE 2 8 8 8\nTYPE U F F F\n"
+                              "COUNT 1 1 1 1\nPOINTS 1\nDATA ascii\n7 1.5 -2 3\n"))
+                .positions,
+            expected);
+  for (const std::string& first : {std::string("ply \n"), std::string("ply\t \r\n")}) {
+    EXPECT_EQ(read(folder.write("a.ply", first + "format ascii 1.0\nelement vertex 1\n"
+                                                 "property float x\nproperty float y\n"
+                                                 "property float z\nend_header\n1.5 -2 3\n"))
+                  .positions,
+              expected);
+  }
+}
+
+// PDAL's test files, where they are at hand: one survey as LAS and as PCD.
+TEST(CloudReader, ReadsPdalsPcdAsItsLas) {
+  const std::filesystem::path real = PLOTSCAN_SHARED_DATA_DIR "/real";
+  if (!exists(real)) GTEST_SKIP() << real << " is not at hand";
+  const Read pcd = read(real / "autzen-utm.pcd");
+  const Read las = read(real / "autzen-utm-chipped-25.las");
+  ASSERT_EQ(pcd.positions.size(), 1065u);
+  ASSERT_EQ(las.positions.size(), 1065u);
+  const auto mean = [](const Read& read) -> Eigen::Vector3d {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& position : read.positions) sum += position;
+    return sum / static_cast<double>(read.positions.size());
+  };
+  EXPECT_LT((mean(pcd) - mean(las)).norm(), 0.1);
+}
+
 // As an organised cloud, of a depth camera or of a driver, whose misses are NaN.
 TEST(CloudReader, ReadsPclsOrganisedClouds) {
   const TemporaryFolder folder;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "temporary_folder.h"
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +18,7 @@
 namespace plotscan::scan {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::TemporaryFolder;
@@ -140,7 +142,7 @@ TEST_F(ForeignLasFile, EveryVersionAndPointFormatIsRead) {
         ASSERT_EQ(result.positions.size(), 2u) << minor << " " << format;
         EXPECT_EQ(result.positions[0], Eigen::Vector3d(11, 18, 33));
         EXPECT_LT((result.positions[1] - Eigen::Vector3d(10.004, 20.005, 30.006)).norm(), 1e-12);
-        EXPECT_EQ(result.summary.crs, "");
+        EXPECT_EQ(result.summary.system.crs, "");
       }
     }
   }
@@ -177,6 +179,52 @@ TEST_F(ForeignLasFile, WithheldAndNoiseAreLeftOutOnRequest) {
               HasSubstr("all points of the cloud are marked"));
 }
 
+TEST_F(ForeignLasFile, ClassesAreLeftOutOnRequest) {
+  const auto file =
+      folder_.write("classes.las", bytes_of({.minor = 4, .format = 6, .scale_m = {1, 1, 1}},
+                                            {{.xyz = {1, 0, 0}, .classification = 2},
+                                             {.xyz = {2, 0, 0}, .classification = 5},
+                                             {.xyz = {3, 0, 0}, .classification = 7},
+                                             {.xyz = {4, 0, 0}, .classification = 200}}));
+  CloudFiles cloud(file);
+  cloud.leave_out_classes = {5, 200};
+  std::vector<double> x;
+  const auto collect = [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& position : piece) x.push_back(position.x());
+  };
+  const CloudSummary summary = read_positions(cloud, collect, {.leave_out_marked = true});
+  EXPECT_THAT(x, ElementsAre(1));
+  EXPECT_EQ(summary.left_out, 2u);
+  EXPECT_EQ(summary.marked, 1u);
+  x.clear();
+  EXPECT_EQ(read_positions(cloud, collect).left_out, 2u);
+  EXPECT_THAT(x, ElementsAre(1, 3));
+  cloud.files = {folder_.write("bare.xyz", "1 2 3\n")};
+  EXPECT_THAT(message_of<InputError>([&] { read_positions(cloud, collect); }),
+              HasSubstr("has no field \"classification\""));
+}
+
+// Tiles of a survey, of different formats, are one cloud; of different systems they are not.
+TEST_F(ForeignLasFile, SeveralFilesAreOneCloud) {
+  const auto las = folder_.write("a.las", bytes_of({.scale_m = {1, 1, 1}}, {{{1, 2, 3}}}));
+  const auto text = folder_.write("b.xyz", "4 5 6\n7 8 9\n");
+  std::vector<Eigen::Vector3d> positions;
+  const CloudSummary summary =
+      read_positions(CloudFiles({las, text}), [&](std::span<const Eigen::Vector3d> piece) {
+        positions.insert(positions.end(), piece.begin(), piece.end());
+      });
+  EXPECT_EQ(summary.points, 3u);
+  EXPECT_EQ(positions, (std::vector<Eigen::Vector3d>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+  const std::string wkt = R"(PROJCS["x",UNIT["foot",0.3048],AUTHORITY["EPSG","2264"]])";
+  const auto feet = folder_.write(
+      "c.las", bytes_of({.records = record("LASF_Projection", 2112, wkt), .record_count = 1},
+                        {{{1, 2, 3}}}));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_positions(CloudFiles({las, feet}), [](auto) {});
+              }),
+              HasSubstr("c.las: states another coordinate system or other units than"));
+}
+
 // Fields of these names in other files are labels, and labels are the truth.
 TEST_F(ForeignLasFile, MarksAreNotReadFromOtherFormats) {
   const Read result = read(
@@ -193,14 +241,14 @@ TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
                   .records = record("LASF_Projection", 2112, wkt + '\0'),
                   .record_count = 1},
                  {{}})
-                .summary.crs,
+                .summary.system.crs,
             wkt);
   EXPECT_EQ(read({.minor = 4,
                   .format = 6,
                   .extended_records = record("LASF_Projection", 2112, wkt, true),
                   .extended_record_count = 1},
                  {{}})
-                .summary.crs,
+                .summary.system.crs,
             wkt);
   // GeoTIFF keys: a projected system, 32617, of EPSG.
   const auto keys = [](std::uint16_t model, std::uint16_t projected) {
@@ -210,13 +258,87 @@ TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
                   {reinterpret_cast<const char*>(numbers.data()), sizeof numbers});
   };
   const Read utm = read({.records = keys(1, 32617), .record_count = 1}, {{}});
-  EXPECT_EQ(utm.summary.crs, "EPSG:32617");
-  EXPECT_FALSE(utm.summary.in_degrees);
-  EXPECT_EQ(read({.records = keys(1, 32767), .record_count = 1}, {{}}).summary.crs, "");
-  EXPECT_TRUE(read({.records = keys(2, 32767), .record_count = 1}, {{}}).summary.in_degrees);
+  EXPECT_EQ(utm.summary.system.crs, "EPSG:32617");
+  EXPECT_FALSE(utm.summary.system.zone.has_value());
+  EXPECT_EQ(read({.records = keys(1, 32767), .record_count = 1}, {{}}).summary.system.crs, "");
+  EXPECT_TRUE(
+      read({.records = keys(2, 32767), .record_count = 1}, {{}}).summary.system.zone.has_value());
   const std::string degrees = R"(GEOGCS["WGS 84",DATUM["WGS_1984"]])";
   EXPECT_TRUE(read({.records = record("LASF_Projection", 2112, degrees), .record_count = 1}, {{}})
-                  .summary.in_degrees);
+                  .summary.system.zone.has_value());
+}
+
+constexpr double kUsFoot = 1200.0 / 3937.0;
+
+std::string wkt_record(const std::string& wkt) { return record("LASF_Projection", 2112, wkt); }
+
+std::string key_record(const std::vector<std::array<std::uint16_t, 2>>& keys) {
+  std::vector<std::uint16_t> numbers = {1, 1, 0, static_cast<std::uint16_t>(keys.size())};
+  for (const auto& [key, value] : keys) numbers.insert(numbers.end(), {key, 0, 1, value});
+  return record("LASF_Projection", 34735,
+                {reinterpret_cast<const char*>(numbers.data()), 2 * numbers.size()});
+}
+
+// Feet of x and y and of z, wherever they are stated, are metres when they leave the reader.
+TEST_F(ForeignLasFile, StatedUnitsBecomeMetres) {
+  struct Case {
+    std::string records;
+    double horizontal_m, vertical_m;
+  };
+  const std::string us_foot = R"(UNIT["Foot_US",0.3048006096012192])";
+  const std::vector<Case> cases = {
+      {wkt_record(R"(PROJCS["a",GEOGCS["b",UNIT["Degree",0.0174]],PARAMETER["p",1],)" + us_foot +
+                  "]"),
+       kUsFoot, kUsFoot},
+      {wkt_record(R"(COMPD_CS["c",PROJCS["a",UNIT["foot",0.3048]],)"
+                  R"(VERT_CS["v",UNIT["metre",1]]])"),
+       0.3048, 1},
+      {wkt_record(R"(COMPOUNDCRS["c",PROJCRS["a",BASEGEOGCRS["g"],CONVERSION["u",PARAMETER["e",5,)"
+                  R"(LENGTHUNIT["metre",1]]],CS[Cartesian,2],AXIS["e",east,LENGTHUNIT["US survey )"
+                  R"(foot",0.304800609601219]],AXIS["n",north]],VERTCRS["v",CS[vertical,1],)"
+                  R"(AXIS["h",up],LENGTHUNIT["foot",0.3048]]])"),
+       kUsFoot, 0.3048},
+      {key_record({{1024, 1}, {3072, 2264}, {3076, 9003}}), kUsFoot, kUsFoot},
+      {key_record({{1024, 1}, {3076, 9002}, {4099, 9001}}), 0.3048, 1},
+      {key_record({{1024, 1}, {3076, 9001}, {4099, 9003}}), 1, kUsFoot}};
+  for (const Case& stated : cases) {
+    const ForeignLas las{
+        .offset_m = {2e6, 6e5, 1000}, .records = stated.records, .record_count = 1};
+    const Read result = read(las, {{{1000, 2000, 3000}}});
+    const Eigen::Vector3d expected(2000001 * stated.horizontal_m, 600002 * stated.horizontal_m,
+                                   1003 * stated.vertical_m);
+    EXPECT_LT((result.positions.at(0) - expected).norm(), 1e-6) << stated.records;
+    EXPECT_THAT(result.summary.system.notes, ElementsAre(HasSubstr("are read as metres")));
+  }
+  const std::string odd = key_record({{1024, 1}, {3076, 9005}});
+  const Read unknown = read({.records = odd, .record_count = 1}, {{{1000, 0, 0}}});
+  EXPECT_EQ(unknown.positions.at(0).x(), 1);
+  EXPECT_THAT(unknown.summary.system.notes, ElementsAre(HasSubstr("code 9005")));
+}
+
+TEST_F(ForeignLasFile, GivenUnitsAreBelieved) {
+  const auto file = folder_.write(
+      "a.las", bytes_of({.records = key_record({{1024, 2}}), .record_count = 1}, {{{1000, 0, 0}}}));
+  double x = 0;
+  CloudFiles cloud(file);
+  cloud.units = {0.3048, 0.3048};
+  const CloudSummary summary = read_positions(cloud, [&](auto piece) { x = piece[0].x(); });
+  EXPECT_EQ(x, 0.3048);
+  EXPECT_FALSE(summary.system.zone);
+  EXPECT_THAT(summary.system.notes, ElementsAre(HasSubstr("as --units says")));
+}
+
+// A survey of Nebraska in US survey feet, of others: the bounds that its header states.
+TEST(RealLas, UsFeetBecomeMetres) {
+  const std::filesystem::path file = PLOTSCAN_SHARED_DATA_DIR "/real/nebraska_us_feet.las";
+  if (!exists(file)) GTEST_SKIP() << file << " is not at hand";
+  Eigen::AlignedBox3d bounds;
+  read_positions(file, [&](auto piece) {
+    for (const Eigen::Vector3d& position : piece) bounds.extend(position);
+  });
+  EXPECT_LT((bounds.min() - kUsFoot * Eigen::Vector3d(2445180, 604300, 1352.7)).norm(), 1e-4);
+  EXPECT_LT((bounds.max() - kUsFoot * Eigen::Vector3d(2445239.99, 604339.98, 1403.96)).norm(),
+            1e-4);
 }
 
 TEST(ShortCrs, IsTheCodeOfTheProjectedSystem) {
@@ -232,6 +354,30 @@ TEST(ShortCrs, IsTheCodeOfTheProjectedSystem) {
     EXPECT_EQ(short_crs(none), none);
 }
 
+// What matters is where the points begin.
+TEST_F(ForeignLasFile, AWrongCountOfRecordsIsNoted) {
+  const std::string wkt = R"(PROJCS["x",AUTHORITY["EPSG","32617"]])";
+  const std::string records = record("LASF_Projection", 2112, wkt);
+  const std::string beyond = record("someone", 1, "12") + std::string(60, '\xff');
+  const std::vector<ForeignLas> files = {
+      {.records = records, .record_count = 3},
+      {.records = records + "padding", .record_count = 4000000000},
+      {.records = records + beyond, .record_count = 3},
+      {.minor = 4, .records = records, .record_count = 1, .extended_record_count = 7}};
+  const std::vector<std::string> notes = {"promises 3 variable length records, 1 are whole",
+                                          "promises 4000000000 variable length records, 1 are",
+                                          "promises 3 variable length records, 2 are whole",
+                                          "promises 7 variable length records, 0 are whole"};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const Read result = read(files[i], {{{1000, -2000, 3000}}});
+    ASSERT_EQ(result.positions.size(), 1u);
+    EXPECT_EQ(result.positions[0], Eigen::Vector3d(1, -2, 3));
+    EXPECT_EQ(result.summary.system.crs, "EPSG:32617");
+    EXPECT_THAT(result.summary.system.notes, ElementsAre(HasSubstr(notes[i])));
+  }
+  EXPECT_TRUE(read({.records = records, .record_count = 1}, {{}}).summary.system.notes.empty());
+}
+
 TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
   const auto refusal = [&](const std::string& bytes) {
     return message_of<InputError>([&] { read(bytes); });
@@ -241,7 +387,7 @@ TEST_F(ForeignLasFile, BrokenOnesAreRefused) {
   EXPECT_EQ(read(whole).positions.size(), 3u);
   std::string broken = whole;
   put(broken, 104, static_cast<std::uint8_t>(1 | 0x80));
-  EXPECT_THAT(refusal(broken), HasSubstr("is compressed (LAZ)"));
+  EXPECT_THAT(refusal(broken), HasSubstr("LAZ"));
   broken = whole;
   put(broken, 105, std::uint16_t{27});
   EXPECT_THAT(refusal(broken), HasSubstr("points of format 1 have at least 28 bytes"));

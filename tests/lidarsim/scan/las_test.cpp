@@ -192,14 +192,11 @@ TEST_F(BrokenLas, IsRefusedWithWhatIsWrong) {
   EXPECT_THAT(refusal(with<std::uint16_t>(105, 35)), HasSubstr("extra bytes do not fit"));
   EXPECT_THAT(refusal(with<double>(131, 0)), HasSubstr("scale factors"));
   EXPECT_THAT(refusal(with<double>(163, std::nan(""))), HasSubstr("offsets finite"));
-  EXPECT_THAT(refusal(with<std::uint32_t>(100, 4000000000)), HasSubstr("variable length records"));
-  EXPECT_THAT(refusal(with<std::uint16_t>(375 + 20, 65535)), HasSubstr("beyond its place"));
   EXPECT_THAT(refusal(with<std::uint16_t>(375 + 20, 191)), HasSubstr("is broken"));
   EXPECT_THAT(refusal(with<std::uint8_t>(375 + 54 + 2, 31)), HasSubstr("type 31"));
   EXPECT_THAT(refusal(with<std::uint64_t>(247, 4)), HasSubstr("promises 4 points of 41 bytes"));
   EXPECT_THAT(refusal(with<std::uint64_t>(247, std::uint64_t{1} << 62)), HasSubstr("promises"));
   EXPECT_THAT(refusal(with<std::uint64_t>(247, 0)), HasSubstr("empty"));
-  EXPECT_THAT(refusal(with<std::uint32_t>(243, 7)), HasSubstr("variable length record"));
   for (std::size_t size = 1; size < bytes_.size(); size += 7)
     EXPECT_NE(refusal(bytes_.substr(0, size)), "");
 }

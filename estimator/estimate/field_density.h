@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimate/cloud_map.h"
+#include "estimate/tile_store.h"
+
+namespace plotscan::estimate {
+
+// Counts points by tile. Memory follows the area over which they lie.
+class TileCounter {
+ public:
+  void add(std::span<const Eigen::Vector3d> points);  // metres
+  // In the tiles' order.
+  std::vector<TileCount> counts() const;
+  // Points farther away than a tile's number reaches.
+  std::uint64_t out_of_range() const { return out_of_range_; }
+
+ private:
+  std::unordered_map<std::uint64_t, std::uint64_t> count_by_tile_;
+  std::uint64_t out_of_range_ = 0;
+};
+
+// How densely a field was scanned.
+struct FieldDensity {
+  Area field{};        // bounds of the densely scanned field (find_field), metres
+  double area_m2 = 0;  // of its outline
+  // Of the squares inside of the outline, an empty one too: points a square metre, median and 5 %
+  // quantile.
+  double median = 0;
+  double least5 = 0;
+  int square_m = 1;  // the smallest of 1, 2, 4, ... 256 m with 16 points in the median square
+};
+
+// At least one tile.
+FieldDensity field_density(std::span<const TileCount> counts);
+
+}  // namespace plotscan::estimate

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "info_command.h"
+
+#include <memory>
+#include <string>
+
+#include "inspect/cloud_report.h"
+
+#include "core/text.h"
+
+namespace plotscan {
+namespace {
+
+struct InfoArguments {
+  std::vector<std::filesystem::path> clouds;
+  std::string units;
+};
+
+void say_points(const Program& program, const scan::CloudFacts& facts) {
+  std::string left_out;
+  if (facts.not_finite > 0) left_out += formatted(", %zu more are not finite", facts.not_finite);
+  if (facts.marked > 0) left_out += formatted(", %zu marked as withheld or noise", facts.marked);
+  program.say("format     " + facts.format);
+  program.say(formatted("points     %zu%s", facts.points, left_out.c_str()));
+}
+
+void say_extent(const Program& program, const scan::CloudFacts& facts) {
+  const int digits = facts.system.zone ? 6 : 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    program.say(formatted("%-10s %c %.*f to %.*f", axis == 0 ? "extent" : "", "xyz"[axis],
+                          axis < 2 ? digits : 2, facts.bounds.min()[axis], axis < 2 ? digits : 2,
+                          facts.bounds.max()[axis]));
+  }
+}
+
+// A code, or the name at the head of well-known text.
+std::string name_of(const std::string& crs) {
+  if (crs.empty()) return "not stated";
+  const std::size_t begin = crs.find('"');
+  const std::size_t end = begin == std::string::npos ? begin : crs.find('"', begin + 1);
+  return end == std::string::npos ? crs : crs.substr(begin + 1, end - begin - 1);
+}
+
+void say_system(const Program& program, const scan::CloudSystem& system) {
+  const std::string x_y = system.zone ? "degrees" : unit_name(system.units.horizontal_m);
+  program.say("units      " + x_y + ", z in " + unit_name(system.units.vertical_m));
+  program.say("system     " + name_of(system.crs));
+  for (const std::string& note : system.notes) program.say("note       " + note);
+}
+
+void say_density(const Program& program, const estimate::FieldDensity& density) {
+  const estimate::Area& field = density.field;
+  program.say(formatted("field      %.0f x %.0f m around, %.2f ha scanned densely",
+                        field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
+  program.say(
+      formatted("density    %s points/m2 (median), %s in the thinnest 5 %%, in squares of %d m",
+                inspect::density_text(density.median).c_str(),
+                inspect::density_text(density.least5).c_str(), density.square_m));
+}
+
+// "1 62.5 %, 2 37.5 %"
+std::string shares(const scan::CountByNumber& counts, std::uint64_t points, bool named) {
+  std::string text;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const std::string name = named ? inspect::class_name(i) : "";
+    text += formatted("%s%zu%s%s%s %.1f %%", text.empty() ? "" : ", ", i, name.empty() ? "" : " (",
+                      name.c_str(), name.empty() ? "" : ")",
+                      100 * static_cast<double>(counts[i]) / static_cast<double>(points));
+  }
+  return text;
+}
+
+void say_fields(const Program& program, const scan::CloudFacts& facts) {
+  program.say("fields     " + joined(facts.fields, ", "));
+  if (facts.returns) program.say("returns    " + shares(*facts.returns, facts.points, false));
+  if (facts.classes) program.say("classes    " + shares(*facts.classes, facts.points, true));
+  if (facts.utc) {
+    program.say("time       " + format_utc((*facts.utc)[0]) + " to " + format_utc((*facts.utc)[1]));
+  } else if (facts.time_s) {
+    program.say(formatted("time       %.3f to %.3f s", (*facts.time_s)[0], (*facts.time_s)[1]));
+  }
+}
+
+void say_verdict(const Program& program, const inspect::CloudReport& report) {
+  const char* verdict = !report.obstacles.empty() ? "no"
+                        : report.doubts.empty()   ? "yes"
+                                                  : "perhaps";
+  program.say(formatted("plots      %s, as far as density and classes tell", verdict));
+  for (const std::string& why : report.obstacles) program.say("           " + why);
+  for (const std::string& why : report.doubts) program.say("           " + why);
+}
+
+void run_info(const Program& program, const InfoArguments& arguments) {
+  CloudFiles cloud(cloud_files_of(arguments.clouds));
+  if (const auto unit_m = unit_named(arguments.units)) cloud.units = {*unit_m, *unit_m};
+  const inspect::CloudReport report = inspect::inspect_cloud(cloud);
+  if (cloud.files.size() > 1) program.say(formatted("files      %zu", cloud.files.size()));
+  say_points(program, report.facts);
+  say_extent(program, report.facts);
+  say_system(program, report.facts.system);
+  say_density(program, report.density);
+  say_fields(program, report.facts);
+  say_verdict(program, report);
+  program.result(inspect::to_json(report));
+}
+
+}  // namespace
+
+void declare_info(Program& program) {
+  const auto arguments = std::make_shared<InfoArguments>();
+  CLI::App& info = program.command("info", "Say what a cloud is, and whether it can carry plots.",
+                                   [&program, arguments] { run_info(program, *arguments); });
+  info.add_option("CLOUD", arguments->clouds,
+                  "clouds or folders, several of them as one cloud, as run takes them")
+      ->required();
+  info.add_option("--units", arguments->units,
+                  "of the cloud's coordinates, whatever its file states: m, ft, us-ft")
+      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
+}
+
+}  // namespace plotscan

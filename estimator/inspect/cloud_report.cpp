@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inspect/cloud_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "core/utc_time.h"
+
+namespace plotscan::inspect {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kLongestSide_m = 10000;  // as estimate::require_area has it
+constexpr std::size_t kGroundClass = 2;
+
+void judge_density(CloudReport& report) {
+  const double density = report.density.median;
+  const auto too_few = [&](const char* how) {
+    return formatted("%s points/m2 %s too few: plots are found from about %.0f on",
+                     density_text(density).c_str(), how, kPlotsFound);
+  };
+  if (density <= kPlotsLost) {
+    report.obstacles.push_back(too_few("are"));
+  } else if (density < kPlotsFound) {
+    report.doubts.push_back(too_few("may be"));
+  }
+}
+
+void judge_extent(CloudReport& report) {
+  const estimate::Area& field = report.density.field;
+  if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
+    report.obstacles.emplace_back("the field is over 10 km long: give a part of it (--crop-box)");
+}
+
+// A cloud whose crop was filtered out.
+void judge_classes(CloudReport& report) {
+  const auto& classes = report.facts.classes;
+  if (classes && (*classes)[kGroundClass] == report.facts.points)
+    report.obstacles.emplace_back("every point is of the class ground: the crop was taken out");
+}
+
+json to_json(const std::optional<scan::CountByNumber>& counts) {
+  if (!counts) return nullptr;
+  json document = json::object();
+  for (std::size_t i = 0; i < counts->size(); ++i)
+    if ((*counts)[i] > 0) document[std::to_string(i)] = (*counts)[i];
+  return document;
+}
+
+json to_json(const Eigen::AlignedBox3d& bounds) {
+  return {{"least", {bounds.min().x(), bounds.min().y(), bounds.min().z()}},
+          {"most", {bounds.max().x(), bounds.max().y(), bounds.max().z()}}};
+}
+
+json time_json(const scan::CloudFacts& facts) {
+  if (!facts.time_s) return nullptr;
+  json document = {{"first_s", (*facts.time_s)[0]}, {"last_s", (*facts.time_s)[1]}};
+  if (facts.utc) {
+    document["first_utc"] = format_utc((*facts.utc)[0]);
+    document["last_utc"] = format_utc((*facts.utc)[1]);
+  }
+  return document;
+}
+
+}  // namespace
+
+CloudReport inspect_cloud(const CloudFiles& cloud) {
+  estimate::TileCounter tiles;
+  CloudReport report{
+      .facts = scan::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
+      .density = {}};
+  const std::vector<estimate::TileCount> counts = tiles.counts();
+  if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");
+  report.density = estimate::field_density(counts);
+  judge_density(report);
+  judge_extent(report);
+  judge_classes(report);
+  return report;
+}
+
+std::string class_name(std::size_t number) {
+  static constexpr std::array<const char*, 19> kNames = {"never classified",
+                                                         "unclassified",
+                                                         "ground",
+                                                         "low vegetation",
+                                                         "medium vegetation",
+                                                         "high vegetation",
+                                                         "building",
+                                                         "low noise",
+                                                         "",
+                                                         "water",
+                                                         "rail",
+                                                         "road",
+                                                         "",
+                                                         "wire guard",
+                                                         "wire conductor",
+                                                         "transmission tower",
+                                                         "wire connector",
+                                                         "bridge deck",
+                                                         "high noise"};
+  return number < kNames.size() ? kNames[number] : "";
+}
+
+std::string density_text(double per_m2) {
+  return formatted(per_m2 < 100 ? "%.3g" : "%.0f", per_m2);
+}
+
+json to_json(const CloudReport& report) {
+  const scan::CloudFacts& facts = report.facts;
+  const estimate::FieldDensity& density = report.density;
+  return {
+      {"format", facts.format},
+      {"points", facts.points},
+      {"not_finite", facts.not_finite},
+      {"marked", facts.marked},
+      {"extent", to_json(facts.bounds)},
+      {"extent_m", to_json(facts.bounds_m)},
+      {"units_m", {{"x_y", facts.system.units.horizontal_m}, {"z", facts.system.units.vertical_m}}},
+      {"crs", facts.system.crs},
+      {"notes", facts.system.notes},
+      {"fields", facts.fields},
+      {"returns", to_json(facts.returns)},
+      {"classes", to_json(facts.classes)},
+      {"time", time_json(facts)},
+      {"field", {{"area_m", density.field}, {"area_m2", density.area_m2}}},
+      {"density_per_m2",
+       {{"median", density.median},
+        {"least_5_percent", density.least5},
+        {"square_m", density.square_m}}},
+      {"can_carry_plots", report.obstacles.empty()},
+      {"obstacles", report.obstacles},
+      {"doubts", report.doubts}};
+}
+
+}  // namespace plotscan::inspect

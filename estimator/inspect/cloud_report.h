@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/cloud_files.h"
+#include "estimate/field_density.h"
+#include "scan/cloud_facts.h"
+
+namespace plotscan::inspect {
+
+// Points a square metre at which plots were found, and at which they were not any more
+// (docs/real-clouds.md).
+inline constexpr double kPlotsFound = 85;
+inline constexpr double kPlotsLost = 42;
+
+// A cloud before anything is measured in it.
+struct CloudReport {
+  scan::CloudFacts facts;
+  estimate::FieldDensity density;
+  std::vector<std::string> obstacles = {};  // why it can carry no plots; none: it can
+  std::vector<std::string> doubts = {};     // what may keep plots from being found
+};
+
+// Reads the cloud once; memory follows the area over which it lies. Throws InputError on a broken
+// cloud.
+CloudReport inspect_cloud(const CloudFiles& cloud);
+
+// ASPRS' standard classes ("LAS Specification 1.4 - R15", table 17; cited from memory): "ground";
+// "" for those that are reserved or a user's.
+std::string class_name(std::size_t number);
+
+// Points a square metre, as people read them: "3040", "12.5", "0.6".
+std::string density_text(double per_m2);
+
+nlohmann::json to_json(const CloudReport& report);
+
+}  // namespace plotscan::inspect

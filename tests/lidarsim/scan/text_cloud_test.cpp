@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clouds as lines of text, as programs and people write them.
+#include <string>
+#include <vector>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "scan/cloud_reader.h"
+#include "scan/point_reader.h"
+
+namespace plotscan::scan {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+using Positions = std::vector<Eigen::Vector3d>;
+
+class TextCloud : public ::testing::Test {
+ protected:
+  Positions read(const std::string& text, const std::string& name = "cloud.txt") {
+    Positions positions;
+    summary_ = read_positions(folder_.write(name, text), [&](auto piece) {
+      positions.insert(positions.end(), piece.begin(), piece.end());
+    });
+    return positions;
+  }
+  std::string refusal(const std::string& text) {
+    return message_of<InputError>([&] { read(text); });
+  }
+
+  TemporaryFolder folder_;
+  CloudSummary summary_;
+};
+
+const Positions kPoints = {{512345.6789, 4123456.7891, -1.5}, {1e-3, 20, 3}};
+
+TEST_F(TextCloud, EverySeparatorIsRead) {
+  EXPECT_EQ(read("512345.6789 4123456.7891 -1.5\n0.001 20 3\n"), kPoints);
+  EXPECT_EQ(read("  512345.6789\t4123456.7891  -1.5\r\n\r\n1e-3 +20 3"), kPoints);
+  EXPECT_EQ(read("512345.6789,4123456.7891,-1.5\n0.001,20,3\n"), kPoints);
+  EXPECT_EQ(read("512345.6789, 4123456.7891 , -1.5,\n0.001,20,3,\n"), kPoints);
+  EXPECT_EQ(read("512345.6789;4123456.7891;-1.5;tree\n0.001;20;3;wheat, ripe\n"), kPoints);
+  EXPECT_FALSE(summary_.system.zone);
+}
+
+TEST_F(TextCloud, HeadersNameTheColumns) {
+  EXPECT_EQ(read("//X Y Z R G B\n512345.6789 4123456.7891 -1.5 1 2 3\n0.001 20 3 4 5 6\n"),
+            kPoints);
+  EXPECT_EQ(read("\xef\xbb\xbf\"id\",\"Z [m]\",\"Northing\",\"Easting\"\r\n"
+                 "a,-1.5,4123456.7891,512345.6789\r\nb,3,20,0.001\r\n"),
+            kPoints);
+  EXPECT_EQ(read("time y height x\n0 4123456.7891 -1.5 512345.6789\n1 20 3 0.001\n"), kPoints);
+  EXPECT_EQ(read("# made by hand\n# in UTM 17\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"),
+            kPoints);
+  EXPECT_EQ(read("//X Y Z Original cloud index\n512345.6789 4123456.7891 -1.5 7\n0.001 20 3 7\n"),
+            kPoints);
+}
+
+TEST_F(TextCloud, DegreesAreKnownByTheirNames) {
+  // The meridian of zone 32, where UTM's easting is 500 km and its northing the scaled arc.
+  const Positions positions = read("lat,lon,alt\n45,9,70\n45,69,70\n");
+  ASSERT_EQ(positions.size(), 1u);
+  EXPECT_LT((positions[0] - Eigen::Vector3d(500000, 4982950.400, 70)).norm(), 1e-3);
+  EXPECT_EQ(summary_.not_finite, 1u);  // a place far from the first
+  EXPECT_EQ(summary_.system.crs, "EPSG:32632");
+  EXPECT_THAT(summary_.system.notes, ElementsAre(HasSubstr("UTM zone 32N")));
+  EXPECT_THAT(refusal("lon lat z\n226 100 1\n"), HasSubstr("longitude 226, latitude 100"));
+}
+
+// .pts: each scan's count of points in front of it; CloudCompare's count behind its header.
+TEST_F(TextCloud, CountsArePromises) {
+  EXPECT_EQ(read("2\n512345.6789 4123456.7891 -1.5 -1200\n0.001 20 3 40\n", "a.pts"), kPoints);
+  EXPECT_EQ(read("1\n512345.6789 4123456.7891 -1.5\n1\n0.001 20 3\n", "b.pts"), kPoints);
+  EXPECT_EQ(read("//X Y Z\n2\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"), kPoints);
+  EXPECT_THAT(refusal("3\n1 2 3\n4 5 6\n"), HasSubstr("promises 3 points, the file holds 2"));
+  EXPECT_THAT(refusal("3\n1 2 3\n2\n4 5 6\n7 8 9\n"),
+              HasSubstr("cloud.txt:3: 3 points are promised before this line, 1 are there"));
+  // .ptx: columns, rows, the scanner's place
+  EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n"), HasSubstr("cloud.txt:2: 2 points are promised"));
+}
+
+TEST_F(TextCloud, WhatIsNotFiniteIsCounted) {
+  EXPECT_EQ(read("nan nan nan 0\n0 1 2 5\n"), (Positions{{0, 1, 2}}));
+  EXPECT_EQ(summary_.not_finite, 1u);
+}
+
+TEST_F(TextCloud, BrokenLinesAreNamed) {
+  EXPECT_THAT(refusal("x y z\n1 2 3\n4 5\n"),
+              HasSubstr("cloud.txt:3: has 2 values; the first point has 3"));
+  EXPECT_THAT(refusal("1 2 3\n\n# remark\n4 five 6\n"),
+              HasSubstr("cloud.txt:4: \"five\" is not a number"));
+  EXPECT_THAT(refusal("1 2 3\n4 5,5 6\n"), HasSubstr("decimals take a point"));
+  EXPECT_THAT(refusal("1,2,3\n4,,6\n"), HasSubstr("cloud.txt:2: \"\" is not a number"));
+  EXPECT_THAT(refusal("row,col,yield\n1,2,3\n"),
+              HasSubstr("cloud.txt:1: names the columns row, col, yield; x, y and z"));
+  EXPECT_THAT(refusal("id z x y\n1 2 3\n"), HasSubstr("names 4 columns; the first point has 3"));
+  EXPECT_THAT(refusal("a story\nwithout any points\n"), HasSubstr("is a point, x y z"));
+  EXPECT_THAT(refusal("x y z\n"), HasSubstr("is a point, x y z"));
+  EXPECT_THAT(refusal("1 2 3\n" + std::string(3 << 20, '7')),
+              HasSubstr(":2: the line is too long"));
+}
+
+// More than a block of text, cut at every place of a line.
+TEST_F(TextCloud, LongFilesAreReadWhole) {
+  std::string text;
+  Positions expected;
+  for (int i = 0; i < 200000; ++i) {
+    text += std::to_string(i) + " " + std::to_string(i % 977) + " 0.5\n";
+    expected.emplace_back(i, i % 977, 0.5);
+  }
+  EXPECT_EQ(read(text), expected);
+}
+
+TEST_F(TextCloud, NamedColumnsBecomeFieldsOfPoints) {
+  const auto file = folder_.write("cloud.csv",
+                                  "x,y,z,Intensity,return_number,number_of_returns\n"
+                                  "500000.25,4000000.5,7,12.5,1,2\n");
+  const CloudInfo info = read_cloud_info(file);
+  EXPECT_THAT(info.fields, ElementsAre("intensity", "return_number", "return_count"));
+  std::vector<LabelledPoint> points;
+  read_points(file, info, [&](auto piece) { points.assign(piece.begin(), piece.end()); });
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(info.origin_m, Eigen::Vector3d(500000, 4000000, 0));
+  EXPECT_EQ(points[0].x, 0.25f);
+  EXPECT_EQ(points[0].intensity, 12.5f);
+  EXPECT_EQ(points[0].return_count, 2);
+}
+
+}  // namespace
+}  // namespace plotscan::scan
