@@ -61,10 +61,28 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
   return heights;
 }
 
+// Fewer points than can show plots: those of soybeans were found from 85 a square metre on and not
+// at 42 (docs/real-clouds.md), and a field may fill its bounding rectangle by a quarter.
+bool is_too_sparse(const FieldCloud& cloud) {
+  constexpr double kLeast_m2 = 10;
+  const double area_m2 = (cloud.area[2] - cloud.area[0]) * (cloud.area[3] - cloud.area[1]);
+  return static_cast<double>(cloud.points.size()) < kLeast_m2 * area_m2;
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
+  if (is_too_sparse(cloud)) {
+    diagnostics["nothing"] = "too few points to show plots: about 85 a square metre are needed";
+    return {};
+  }
+  constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
+  if (noise_m > kMostNoise_m) {
+    diagnostics["nothing"] = formatted(
+        "heights scatter by %.1f m about the lowest: no ground that plots could stand on", noise_m);
+    return {};
+  }
   Stage stage("plots");
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, options.hints, options.threads);
@@ -177,7 +195,8 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   const ground::Surface surface = ground_of(cloud.points, options);
   report(progress, 0.6);
   const Points heights = above_ground(cloud.points, surface, options.threads);
-  if (heights.empty()) throw InputError("the cloud shows no ground");
+  if (heights.empty())
+    throw NothingToMeasure("the cloud shows no ground; cut it to the field with --crop-box");
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
   report(progress, 0.8);

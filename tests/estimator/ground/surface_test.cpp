@@ -156,6 +156,32 @@ TEST(FitSurface, GivesHonestStandardErrors) {
   EXPECT_LT(worst, 6);
 }
 
+// Airborne: one return on 2 square metres of long waves. Cells of 0.2 m were off by centimetres.
+TEST(FitSurface, HasWideCellsWherePointsAreFew) {
+  const Terrain hills = [](double x, double y) {
+    return 2 * std::sin(0.05 * x) + std::cos(0.04 * y);
+  };
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    RandomStream random(11, random_purpose("test/airborne"), i);
+    const double x = random.uniform(0, 100), y = random.uniform(0, 100);
+    points.emplace_back(x, y, hills(x, y) + 0.02 * random.normal());
+  }
+  const Surface surface = fit_surface(points, SurfaceOptions());
+  EXPECT_NEAR(surface.cell_m, 2, 0.3);
+  double squares = 0, bias = 0, count = 0;
+  for (double x = 4; x <= 96; x += 1.7) {
+    for (double y = 4; y <= 96; y += 1.7) {
+      const double off = surface.height({x, y}) - hills(x, y);
+      squares += off * off;
+      bias += off;
+      ++count;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 0.04);
+  EXPECT_NEAR(bias / count, 0, 0.01);
+}
+
 TEST(FitSurface, TakesTheNoiseThatIsGiven) {
   SurfaceOptions options;
   options.noise_m = 0.05;
