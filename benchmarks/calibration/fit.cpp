@@ -131,7 +131,9 @@ double likeliest_sharpness(const heights::Calibration& calibration) {
                     .scores(calibration.scaled(calibration.farms[i].features));
   });
   double best = 1, most = -INFINITY;
-  for (double sharpness = 1; sharpness < 50; sharpness *= 1.1) {
+  constexpr int kTried = 42;
+  for (int step = 0; step < kTried; ++step) {
+    const double sharpness = std::pow(1.1, step);
     double likelihood = 0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const auto own = static_cast<Eigen::Index>(calibration.index_of(calibration.farms[i].crop));
@@ -200,6 +202,7 @@ std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& cali
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
     by_name[group == Group::farm ? std::to_string(i) : calibration.farms[i].library].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(by_name.size());
   for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
   return groups;
 }

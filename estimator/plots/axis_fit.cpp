@@ -72,12 +72,14 @@ std::vector<BandShape> coarse_shapes(const Line& line) {
   const double most =
       std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
   std::vector<int> sizes;
-  for (double size = kLeastSide_m / line.cell_m; size <= most;
-       size = std::max(size + 1, size * kSizeStep))
+  double size = kLeastSide_m / line.cell_m;
+  while (size <= most) {
     sizes.push_back(static_cast<int>(size));
+    size = std::max(size + 1, size * kSizeStep);
+  }
   if (line.hint.side_m) sizes.push_back(cells(*line.hint.side_m, line.cell_m));
-  for (const int size : sizes)
-    if (may_be(size, line)) shapes.push_back({.size = size});
+  for (const int cells : sizes)
+    if (may_be(cells, line)) shapes.push_back({.size = cells});
   return shapes;
 }
 

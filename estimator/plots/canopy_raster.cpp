@@ -159,6 +159,7 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   Frame frame = axes;
   frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;
   std::vector<CanopyRaster> rasters;
+  rasters.reserve(returns.size());
   for (const std::vector<std::uint64_t>& sums : returns)
     rasters.emplace_back(frame, cell_m, a_cells, b_cells, sums);
   return rasters;

@@ -79,7 +79,7 @@ struct FieldCanopy::Block {
   explicit Block(double canopy_m) : heights(canopy_m) {}
   std::uint32_t count = 0;
   HeightCounts heights;
-  std::array<Patch, kPatches * kPatches> patches{};
+  std::array<Patch, static_cast<std::size_t>(kPatches) * kPatches> patches{};
 
   bool has_canopy() const { return heights.count() >= kLeastShare * count; }
   // Most of the patches that stand above the ground scatter no more than noise does.
@@ -170,9 +170,10 @@ double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, doubl
   double all = 0, surfaces = 0;
   for (std::size_t i = 0; i < stands_out_.size(); ++i) {
     if (stands_out_[i] == 0) continue;
+    const std::size_t along_x = i / blocks_along_y_, along_y = i % blocks_along_y_;
     const Eigen::Vector2d middle =
-        low_ + block_m_ * Eigen::Vector2d(static_cast<double>(i / blocks_along_y_) + 0.5,
-                                          static_cast<double>(i % blocks_along_y_) + 0.5);
+        low_ + block_m_ * Eigen::Vector2d(static_cast<double>(along_x) + 0.5,
+                                          static_cast<double>(along_y) + 0.5);
     const bool near = std::ranges::any_of(places, [&](const Eigen::Vector2d& place) {
       return (place - middle).squaredNorm() < reach_m * reach_m;
     });

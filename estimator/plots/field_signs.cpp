@@ -68,8 +68,11 @@ Patch pooled(const Lattice& lattice, double around_m) {
 template <class Inside>
 double best_misfit(const Patch& patch, const Inside& inside) {
   double best = std::numeric_limits<double>::infinity();
-  for (double r_scale = 0.6; r_scale <= 1.4; r_scale += 0.05) {
-    for (double c_scale = 0.6; c_scale <= 1.4; c_scale += 0.05) {
+  constexpr int kScales = 17;
+  const auto scale_of = [](int step) { return 0.6 + 0.05 * step; };
+  for (int i = 0; i < kScales; ++i) {
+    for (int k = 0; k < kScales; ++k) {
+      const double r_scale = scale_of(i), c_scale = scale_of(k);
       double n[2] = {}, sum[2] = {}, squares = 0;
       std::size_t at = 0;
       for (int r = 0; r < patch.r_cells; ++r) {

@@ -19,6 +19,7 @@ std::vector<Band> whole(int cells) { return {{0, cells}}; }
 
 std::vector<std::vector<Band>> each_alone(const std::vector<Band>& bands) {
   std::vector<std::vector<Band>> lists;
+  lists.reserve(bands.size());
   for (const Band& band : bands) lists.push_back({band});
   return lists;
 }

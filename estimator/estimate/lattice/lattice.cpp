@@ -114,6 +114,7 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
              const ground::Surface& surface, const LatticeOptions& options, json& diagnostics) {
   const Stage stage("plots' heights");
   std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
   for (const PlotEstimate& plot : plots) boxes.push_back(plot.box);
   const std::vector<Points> inside = points_in_boxes(heights, boxes);
   std::vector<heights::PlotPoints> clouds;
