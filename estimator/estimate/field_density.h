@@ -13,6 +13,11 @@
 
 namespace plotscan::estimate {
 
+// Points a square metre at which plots were found, and at which they were not any more
+// (docs/real-clouds.md).
+inline constexpr double kPlotsFound_m2 = 85;
+inline constexpr double kPlotsLost_m2 = 42;
+
 // Counts points by tile. Memory follows the area over which they lie.
 class TileCounter {
  public:

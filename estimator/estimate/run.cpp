@@ -45,7 +45,7 @@ json options_json(const LatticeOptions& options) {
 
 json options_json(const Dhami2020Options& options) {
   return {{"plots", options.plots},
-          {"learn_box_m", to_json(options.learn_box)},
+          {"learn_box", to_json(options.learn_box)},
           {"level", options.level},
           {"voxel_m", options.voxel_m},
           {"min_height_m", options.min_height_m},

@@ -24,7 +24,7 @@ constexpr int kDenseNeighbours = 3;      // of 8, that a dense square metre has,
 struct Raster {
   Eigen::Array2d low = Eigen::Array2d::Zero();
   double step_m = 1;
-  double points_a_count = 1;
+  double points_per_count = 1;
   int columns = 0;
   int rows = 0;
   std::vector<std::uint32_t> counts = {};
@@ -53,7 +53,7 @@ Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
   constexpr double kMostSquares = 4096;
   Raster raster{.low = low,
                 .step_m = std::max(1.0, (high - low).maxCoeff() / kMostSquares),
-                .points_a_count = static_cast<double>(every)};
+                .points_per_count = static_cast<double>(every)};
   raster.columns = static_cast<int>((high - low).x() / raster.step_m) + 1;
   raster.rows = static_cast<int>((high - low).y() / raster.step_m) + 1;
   raster.counts.resize(static_cast<std::size_t>(raster.columns) * raster.rows);
@@ -120,7 +120,7 @@ BasePlane base_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
 Raster coarser(const Raster& raster) {
   Raster coarse{.low = raster.low,
                 .step_m = 2 * raster.step_m,
-                .points_a_count = raster.points_a_count,
+                .points_per_count = raster.points_per_count,
                 .columns = (raster.columns + 1) / 2,
                 .rows = (raster.rows + 1) / 2};
   coarse.counts.resize(static_cast<std::size_t>(coarse.columns) * coarse.rows);
@@ -137,7 +137,7 @@ double usual_density(Raster raster) {
   constexpr double kSeveral = 16;
   while (usual_count(raster) < kSeveral && raster.columns * raster.rows > 1)
     raster = coarser(raster);
-  return raster.points_a_count * usual_count(raster) / (raster.step_m * raster.step_m);
+  return raster.points_per_count * usual_count(raster) / (raster.step_m * raster.step_m);
 }
 
 double cell_for(const Raster& raster) {

@@ -21,11 +21,11 @@ void judge_density(CloudReport& report) {
   const double density = report.density.median;
   const auto too_few = [&](const char* how) {
     return formatted("%s points/m2 %s too few: plots are found from about %.0f on",
-                     density_text(density).c_str(), how, kPlotsFound);
+                     density_text(density).c_str(), how, estimate::kPlotsFound_m2);
   };
-  if (density <= kPlotsLost) {
+  if (density <= estimate::kPlotsLost_m2) {
     report.obstacles.push_back(too_few("are"));
-  } else if (density < kPlotsFound) {
+  } else if (density < estimate::kPlotsFound_m2) {
     report.doubts.push_back(too_few("may be"));
   }
 }

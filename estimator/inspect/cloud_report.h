@@ -12,10 +12,7 @@
 
 namespace plotscan::inspect {
 
-// Points a square metre at which plots were found, and at which they were not any more
-// (docs/real-clouds.md).
-inline constexpr double kPlotsFound = 85;
-inline constexpr double kPlotsLost = 42;
+
 
 // A cloud before anything is measured in it.
 struct CloudReport {

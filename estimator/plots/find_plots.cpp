@@ -8,6 +8,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "core/text.h"
 #include "plots/canopy_raster.h"
 #include "plots/field_signs.h"
 #include "plots/heading.h"
@@ -92,6 +93,28 @@ PlotField plots_on(const Lattice& lattice, double field_confidence) {
   return field;
 }
 
+// "3 rows of 10 plots of 1.48 x 3.99 m".
+std::string text_of(const Layout& layout) {
+  std::size_t columns = 0;
+  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
+  std::size_t rows = layout.rows.size();
+  const double cell_m = layout.view.cell_m();
+  double length_m = layout.r_shape.size * cell_m, width_m = layout.c_shape.size * cell_m;
+  if (length_m < width_m) {
+    std::swap(length_m, width_m);
+    std::swap(rows, columns);
+  }
+  return formatted("%zu rows of %zu plots of %.2f x %.2f m", rows, columns, width_m, length_m);
+}
+
+// What the canopy shows more clearly than the layout that was told; "" where nothing.
+std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
+  constexpr double kClearly = 1.1;
+  const Layout shown = best_layout(canopy);
+  const bool clearer = !shown.rows.empty() && shown.evidence > kClearly * told.evidence;
+  return clearer ? text_of(shown) : "";
+}
+
 // What a pair of axes shows.
 struct Look {
   PlotField field;
@@ -107,10 +130,16 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
   Layout layout;
-  arena.execute([&] { layout = best_layout(canopy, hints); });
+  std::string rival;
+  arena.execute([&] {
+    layout = best_layout(canopy, hints);
+    if (hints.tell_layout()) rival = rival_of(layout, canopy);
+  });
   if (layout.rows.empty()) {
-    return {nothing(hints.tell_layout() ? "no plots as told lie in rows here"
-                                        : "no plots of one size lie in rows here")};
+    const std::string shown = rival.empty() ? "" : "; the canopy shows " + rival;
+    return {nothing((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
+                                         : "no plots of one size lie in rows here") +
+                    shown)};
   }
 
   layout.view.raster = &cover;
@@ -124,6 +153,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};
   if (because.empty()) look.evidence = layout.evidence;
   look.field.signs = signs;
+  look.field.rival = rival;
   return look;
 }
 

@@ -44,6 +44,8 @@ struct FieldFit {
 struct PlotField {
   std::vector<FoundPlot> plots = {};
   std::string nothing = {};  // why there are no plots here; "" when there are
+  // The layout that the canopy shows more clearly than the one that was told; "" where none.
+  std::string rival = {};
   std::optional<FieldFit> fit = std::nullopt;
   std::optional<FieldSigns> signs = std::nullopt;  // of the plots, or of what was taken for them
 };

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/stage.h"
 #include "core/text.h"
+#include "estimate/field_density.h"
 #include "estimate/given_boxes.h"
 #include "estimate/lattice/field_report.h"
 #include "estimate/points_in_boxes.h"
@@ -61,10 +62,9 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
   return heights;
 }
 
-// Fewer points than can show plots: those of soybeans were found from 85 a square metre on and not
-// at 42 (docs/real-clouds.md), and a field may fill its bounding rectangle by a quarter.
+// Fewer points than can show plots, even where a field fills a quarter of its bounding rectangle.
 bool is_too_sparse(const FieldCloud& cloud) {
-  constexpr double kLeast_m2 = 10;
+  constexpr double kLeast_m2 = kPlotsLost_m2 / 4;
   const double area_m2 = (cloud.area[2] - cloud.area[0]) * (cloud.area[3] - cloud.area[1]);
   return static_cast<double>(cloud.points.size()) < kLeast_m2 * area_m2;
 }
@@ -74,7 +74,8 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
   if (is_too_sparse(cloud)) {
-    diagnostics["nothing"] = "too few points to show plots: about 85 a square metre are needed";
+    diagnostics["nothing"] = formatted(
+        "too few points to show plots: about %.0f a square metre are needed", kPlotsFound_m2);
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
@@ -96,6 +97,8 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
                      .column = plot.column,
                      .box = plot.box});
     found.back().confidence = plot.confidence;
+    if (!field.rival.empty())
+      found.back().flags.push_back("the canopy shows " + field.rival + " more clearly");
     if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
   }
   return found;

@@ -6,12 +6,15 @@
 #include <numbers>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 
 namespace plotscan::plots {
 namespace {
+
+using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -135,8 +138,17 @@ TEST(FindPlots, TakesTheNumbersThatAreKnown) {
   EXPECT_EQ(found({.columns = 6}).plots.size(), 18U);
   EXPECT_EQ(found({.plots = 36}).plots.size(), 36U);
   EXPECT_EQ(found({.plots = 18}).plots.size(), 18U);
-  EXPECT_NE(found({.rows = 5}).nothing, "");
+  EXPECT_EQ(found({.rows = 3}).rival, "");
+  EXPECT_THAT(found({.rows = 5}).nothing, HasSubstr("the canopy shows 3 rows of 6 plots"));
   EXPECT_NE(found({.plots = 7}).nothing, "");
+}
+
+// What contradicts the canopy is taken all the same, and said.
+TEST(FindPlots, SaysWhatTheCanopyShowsMoreClearlyThanWhatWasTold) {
+  const std::vector<Eigen::Vector3f> points = points_over(Trial{}.boxes());
+  const PlotField told = find_plots(points, 0.02, {.width_m = 0.9, .length_m = 4}, 2);
+  EXPECT_THAT(told.rival, HasSubstr("3 rows of 6 plots of 1.5"));
+  EXPECT_EQ(find_plots(points, 0.02, {.width_m = 1.5, .length_m = 4}, 2).rival, "");
 }
 
 TEST(FindPlots, LeavesOutTheMissingOneOfTheNumberThatIsKnown) {

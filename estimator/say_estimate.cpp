@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "say_estimate.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/geodesy.h"
+#include "core/text.h"
+
+namespace plotscan {
+namespace {
+
+void say_votes(const Program& program, const nlohmann::json& diagnostics) {
+  const auto& plot = diagnostics["plot"];
+  const auto& votes = diagnostics["votes"];
+  program.say(formatted("plot size  %.2f x %.2f m, heading %.1f deg", plot["width_m"].get<double>(),
+                        plot["length_m"].get<double>(), plot["heading_deg"].get<double>()));
+  program.say(formatted("votes      of %zu clusters: width %zu, length %zu, heading %zu",
+                        votes["clusters"].get<std::size_t>(), votes["width"].get<std::size_t>(),
+                        votes["length"].get<std::size_t>(), votes["heading"].get<std::size_t>()));
+  const auto& grid = diagnostics["grid"];
+  std::string pitch;
+  if (grid.contains("column_step_m"))
+    pitch += formatted(", %.2f m along the width", grid["column_step_m"].get<double>());
+  if (grid.contains("row_step_m"))
+    pitch += formatted(", %.2f m along the length", grid["row_step_m"].get<double>());
+  program.say(formatted("grid       %zu clusters agree to %.2f m rms%s",
+                        grid["agreeing_clusters"].get<std::size_t>(), grid["rms_m"].get<double>(),
+                        pitch.c_str()));
+}
+
+void say_field(const Program& program, const nlohmann::json& diagnostics) {
+  if (diagnostics.contains("nothing")) return;
+  const auto& field = diagnostics["field"];
+  const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
+  program.say(formatted("plot size  %.2f x %.2f m, heading %.2f deg", number("width_m"),
+                        number("length_m"), number("heading_deg")));
+  program.say(formatted("lattice    %.0f rows, %.0f columns", number("rows"), number("columns")));
+}
+
+void say_crop(const Program& program, const nlohmann::json& crops) {
+  std::vector<std::string> likely;
+  for (const auto& [crop, probability] : crops.items()) {
+    constexpr double kLeast = 0.005;
+    if (probability.get<double>() >= kLeast)
+      likely.push_back(formatted("%s %.0f %%", crop.c_str(), 100 * probability.get<double>()));
+  }
+  program.say("crop       " + joined(likely, ", "));
+}
+
+// "EPSG:25832 (UTM 32N; ETRS89 is taken for WGS 84, within 2 m)", of a system that is UTM's.
+std::string described(const std::string& crs) {
+  const UtmSystem system = utm_system(crs).value();
+  std::string text =
+      crs + formatted(" (UTM %d%c", system.zone.number, system.zone.north ? 'N' : 'S');
+  if (system.datum != "WGS 84") text += "; " + system.datum + " is taken for WGS 84, within 2 m";
+  return text + ")";
+}
+
+void say_given(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("boxes")) return;
+  program.say(formatted("boxes      %zu plots given, %s %s to %s", estimate.plots.size(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (estimate.diagnostics["boxes"]["from_degrees"].get<bool>()) {
+    program.say("           longitude and latitude of the map converted to " +
+                described(estimate.crs));
+  }
+}
+
+// Whose names were given by row and column, and found no plot.
+void say_named(const Program& program, const estimate::Estimate& estimate) {
+  if (!estimate.diagnostics.contains("names")) return;
+  const auto& names = estimate.diagnostics["names"];
+  const auto& not_found = names["not_found"];
+  program.say(formatted("names      %zu of %zu named plots found, %s %s to %s",
+                        estimate.plots.size(), names["plots"].get<std::size_t>(),
+                        estimate.id_property.c_str(), estimate.plots.front().id.text().c_str(),
+                        estimate.plots.back().id.text().c_str()));
+  if (not_found.empty()) return;
+  std::vector<std::string> ids;
+  for (const auto& id : not_found) ids.push_back(id.get<std::string>());
+  program.say("           not found: " + joined(ids, ", "));
+}
+
+void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
+  for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
+    program.say("note       " + note.get<std::string>());
+  program.say(formatted("points     %zu read, %zu in the field",
+                        diagnostics["points_read"].get<std::size_t>(),
+                        diagnostics["points_in_area"].get<std::size_t>()));
+  const auto& area = diagnostics["area_m"];
+  const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
+  program.say(formatted("field      x %.1f to %.1f, y %.1f to %.1f (%s)", side(0), side(2), side(1),
+                        side(3), unit_name(unit_m).c_str()));
+  if (diagnostics.contains("ground")) {
+    const auto& ground = diagnostics["ground"];
+    program.say(formatted("ground     seen in %.0f %% of %.1f m cells, noise %.1f cm",
+                          100 * ground["seen_share"].get<double>(), ground["cell_m"].get<double>(),
+                          100 * ground["noise_m"].get<double>()));
+  }
+  if (diagnostics.contains("votes")) say_votes(program, diagnostics);
+  if (diagnostics.contains("field")) say_field(program, diagnostics);
+  if (diagnostics.contains("crops")) say_crop(program, diagnostics["crops"]);
+}
+
+void say_flags(const Program& program, const estimate::Estimate& estimate) {
+  constexpr std::size_t kNamed = 5;
+  std::map<std::string, std::vector<std::string>> ids_by_flag;
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    for (const std::string& flag : plot.flags) ids_by_flag[flag].push_back(plot.id.text());
+  }
+  for (const auto& [flag, ids] : ids_by_flag) {
+    const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
+    program.say(formatted("flagged    %zu of %zu plots: %s%s", ids.size(), estimate.plots.size(),
+                          flag.c_str(), named.c_str()));
+  }
+}
+
+void say_heights(const Program& program, const nlohmann::json& summary) {
+  for (const auto& [name, height] : summary.items()) {
+    program.say(formatted("%-10s median %.3f m, %.3f to %.3f m, %zu plots", name.c_str(),
+                          height["median_m"].get<double>(), height["min_m"].get<double>(),
+                          height["max_m"].get<double>(), height["plots"].get<std::size_t>()));
+  }
+}
+
+}  // namespace
+
+void say_estimate(const Program& program, const estimate::Estimate& estimate,
+                  const nlohmann::json& summary) {
+  say_how(program, estimate.diagnostics, estimate.units ? estimate.units->horizontal_m : 1);
+  say_given(program, estimate);
+  say_named(program, estimate);
+  say_heights(program, summary);
+  say_flags(program, estimate);
+}
+
+}  // namespace plotscan

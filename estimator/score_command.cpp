@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "score_command.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/text.h"
+#include "score/run.h"
+
+namespace plotscan {
+namespace {
+
+void say_boxes(const Program& program, const score::BoxScore& boxes) {
+  program.say(formatted("plots    %zu of %zu found, %zu missed, %zu extra", boxes.found,
+                        boxes.plots, boxes.missed, boxes.extra));
+  if (boxes.found == 0) return;
+  program.say(formatted(
+      "boxes    IoU mean %.3f, median %.3f, least %.3f; centre %.3f m rms, heading %.2f deg rms",
+      boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
+      boxes.heading_rmse_rad * 180 / std::numbers::pi));
+}
+
+void say_errors(const Program& program, const std::vector<score::HeightScore>& heights) {
+  program.say(formatted("%-12s %-15s %5s %7s %7s %7s %7s %7s %8s %5s", "height", "truth", "plots",
+                        "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
+  for (const score::HeightScore& height : heights) {
+    program.say(formatted("%-12s %-15s %5zu %7zu %7.2f %+7.2f %7.2f %7.2f %8.2f %5.2f",
+                          height.height.c_str(), height.truth.c_str(), height.plots, height.without,
+                          100 * height.rmse_m, 100 * height.bias_m, 100 * height.mae_m,
+                          100 * height.standard_error_m, height.r2, height.correlation2));
+  }
+  program.say(
+      "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
+      "found");
+}
+
+// What the estimate says of its own errors; nothing where it says nothing.
+void say_trust(const Program& program, const std::vector<score::HeightScore>& heights) {
+  std::vector<std::string> lines;
+  for (const score::HeightScore& height : heights) {
+    if (std::isnan(height.coverage95)) continue;
+    lines.push_back(formatted("%-12s %-15s %7.1f %% %9zu %16zu (%.2f %%)", height.height.c_str(),
+                              height.truth.c_str(), 100 * height.coverage95, height.flagged,
+                              height.large_unflagged, 100 * height.large_unflagged_share));
+  }
+  if (lines.empty()) return;
+  program.say("");
+  program.say(formatted("%-12s %-15s %9s %9s %16s", "height", "truth", "in 95 %", "flagged",
+                        "over 5 cm, none"));
+  for (const std::string& line : lines) program.say(line);
+  program.say(
+      "in 95 %: truths inside the estimate's own intervals; over 5 cm, none: plots in error by "
+      "more, unflagged");
+}
+
+void say_scores(const Program& program, const score::Scores& scores) {
+  say_boxes(program, scores.boxes);
+  if (scores.boxes.found == 0) return;
+  const std::set<std::string> heights = score::estimated_heights(scores.field);
+  std::vector<score::HeightScore> shown;
+  for (const score::HeightScore& height : scores.heights) {
+    if (program.common().verbosity > 0 ||
+        score::heights_beside(height.truth, heights).contains(height.height))
+      shown.push_back(height);
+  }
+  program.say("");
+  say_errors(program, shown);
+  say_trust(program, shown);
+  if (shown.size() < scores.heights.size())
+    program.say("Every height against every truth: -v, or scores.json");
+}
+
+void score_estimate(const Program& program, score::RunOptions options, const std::string& output) {
+  if (!output.empty()) options.output = output;
+  const score::Scores scores = score::run(options);
+  say_scores(program, scores);
+  if (options.output) program.say("written to " + options.output->string());
+  program.result(score::to_json(scores));
+}
+
+}  // namespace
+
+void declare_score(Program& program) {
+  struct Arguments {
+    score::RunOptions options;
+    std::string output;
+  };
+  const auto shared = std::make_shared<Arguments>();
+  auto& [options, output] = *shared;
+  CLI::App& score = program.command(
+      "score", "Compare an estimate with the truth.",
+      [&program, shared] { score_estimate(program, shared->options, shared->output); });
+  score
+      .add_option(
+          "EST", options.estimate,
+          "estimate folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+      ->required();
+  score
+      .add_option("--truth", options.truth,
+                  "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+      ->required();
+  score.add_option("-o,--output", output,
+                   "folder to write scores.json and plots.csv to (default: write nothing)");
+  score.add_option(
+      "--min-iou", options.score.min_iou,
+      "least overlap of a found plot's box with the true one, intersection over union");
+  score.add_flag("--force", options.replace, "replace a scores folder that exists");
+}
+
+}  // namespace plotscan
