@@ -12,8 +12,6 @@
 
 namespace plotscan::inspect {
 
-
-
 // A cloud before anything is measured in it.
 struct CloudReport {
   scan::CloudFacts facts;

@@ -109,7 +109,7 @@ TEST(Run, LeavesNothingBehindOnBadInput) {
   EXPECT_THAT(message(), HasSubstr("has no plots"));
   options.cloud = folder.path() / "missing.pcd";
   EXPECT_THAT(message(), HasSubstr("missing.pcd"));
-  for (const auto& entry : fs::directory_iterator(folder.path())) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     EXPECT_THAT(entry.path().filename().string(), ::testing::AnyOf("scan", "none.geojson"));
   }
 }
