@@ -29,6 +29,10 @@ struct Bounds {
     low = low.cwiseMin(place);
     high = high.cwiseMax(place);
   }
+  void add(const Bounds& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
 };
 
 Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
@@ -43,8 +47,7 @@ Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world)
         return bounds;
       },
       [](Bounds one, const Bounds& other) {
-        one.add(other.low);
-        one.add(other.high);
+        one.add(other);
         return one;
       });
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "plots/roughness.h"
 #include "plots/statistics.h"
 
 namespace plotscan::plots {
@@ -18,6 +19,8 @@ constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
 constexpr double kPiece_m = 1;            // of a plot, in which canopy is taken
 constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looked for
 constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
+constexpr double kLeastRoughness = 0.05;  // tables: up to 0.02; crops: 0.11 and more
+constexpr double kLeastGap_m = 0.1;       // no seeder leaves less, and leaves close it
 constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
@@ -109,6 +112,14 @@ double squareness_of(const Lattice& lattice) {
   return of_ellipse / std::max(1e-9, of_rectangle);
 }
 
+double least_gap_m(const Lattice& lattice) {
+  const auto gap = [](double pitch_m, double size_m) {
+    return pitch_m > 0 ? pitch_m - size_m : std::numeric_limits<double>::infinity();
+  };
+  return std::min(gap(lattice.r_pitch_m, lattice.r_size_m),
+                  gap(lattice.c_pitch_m, lattice.c_size_m));
+}
+
 double filled_share(const Lattice& lattice) {
   std::map<int, std::pair<int, int>> ends;  // by row: first and last column
   for (const Place& place : lattice.places) {
@@ -157,16 +168,19 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
 
 }  // namespace
 
-FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evidence) {
+FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
+                    double evidence) {
   const RowView& view = lattice.view;
   const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
   FieldSigns signs{.plots = lattice.places.size(),
                    .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
                    .squareness = squareness_of(lattice),
+                   .roughness = roughness(lattice, field.points(), noise_m),
                    .unevenness = unevenness_of(lattice),
                    .aspect = std::max(lattice.r_size_m, lattice.c_size_m) /
                              std::min(lattice.r_size_m, lattice.c_size_m),
+                   .least_gap_m = least_gap_m(lattice),
                    .evidence = evidence / static_cast<double>(lattice.places.size())};
   for (const Place& place : lattice.places)
     signs.held_share += canopy_in(view, cells_about(lattice, place, 0));
@@ -175,9 +189,10 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evi
 }
 
 std::string no_plots_because(const FieldSigns& signs) {
-  if (signs.surface_share > kMostSurface)
+  if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
-  if (signs.aspect > kMostAspect) return "rows of a crop or a vineyard lie here, not plots";
+  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGap_m)
+    return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
   if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";

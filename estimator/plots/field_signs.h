@@ -11,7 +11,8 @@
 namespace plotscan::plots {
 
 // `lattice` is on a raster of the field's canopy.
-FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double evidence);
+FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
+                    double evidence);
 
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);

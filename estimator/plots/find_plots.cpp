@@ -147,7 +147,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   if (lattice.places.empty()) return {nothing("no plots of one size lie in rows here")};
   refine(lattice, layout, hints);
   lattice.view.raster = &canopy;
-  const FieldSigns signs = signs_of(lattice, field, layout.evidence);
+  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
   lattice.view.raster = &cover;
   const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
   Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};

@@ -26,8 +26,10 @@ struct FieldSigns {
   double filled_share = 0;   // of the rows' places from their first plot to their last
   double surface_share = 0;  // of what stands on the field, that is smooth as walls and roofs are
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
+  double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
   double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
   double aspect = 0;         // length of a plot over its width
+  double least_gap_m = 0;    // between plots, along their length or their width
   double evidence = 0;       // for a plot, over one canopy without them: Schwarz's criterion, nats
 };
 

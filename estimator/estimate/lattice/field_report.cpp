@@ -36,6 +36,7 @@ json json_of(const plots::FieldSigns& signs) {
           {"surface_share", signs.surface_share},
           {"squareness", signs.squareness},
           {"aspect", signs.aspect},
+          {"roughness", signs.roughness},
           {"unevenness", signs.unevenness},
           {"evidence_per_plot", signs.evidence}};
 }

@@ -16,7 +16,7 @@ namespace {
 using Standing = std::function<double(double x, double y, RandomStream& random)>;
 
 // The same thing on every place of a lattice of 5 x 5 m steps, turned by 20 degrees, on 30 x 30 m.
-std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
+PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
   constexpr double kTurn_rad = 0.35, kHalf_m = 15, kNoise_m = 0.02;
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 300000; ++i) {
@@ -30,7 +30,11 @@ std::string why_none_of(const Standing& standing, double step_x_m = 5, double st
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
                         static_cast<float>(height + kNoise_m * random.normal()));
   }
-  return find_plots(points, kNoise_m, {}, 2).nothing;
+  return find_plots(points, kNoise_m, {}, 2);
+}
+
+std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
+  return field_of(standing, step_x_m, step_y_m).nothing;
 }
 
 bool in_box(double x, double y, double width_m, double length_m) {
@@ -56,6 +60,23 @@ TEST(FieldSigns, TellRoofs) {
   EXPECT_NE(
       why_none_of([](double x, double y, RandomStream&) { return in_box(x, y, 2, 4) ? 1.4 : 0; }),
       "");
+}
+
+TEST(FieldSigns, TellTables) {
+  EXPECT_THAT(why_none_of([](double x, double y,
+                             RandomStream&) { return in_box(x, y, 0.7, 1.5) ? 0.75 : 0; },
+                          2, 2.5),
+              ::testing::HasSubstr("smooth"));
+}
+
+// Heights drawn evenly from 0 to 1 m: the upper half of 0 to 0.95 m, the 95th percentile, is even
+// from 0.475 to 1 m.
+TEST(FieldSigns, MeasureRoughness) {
+  const PlotField field = field_of([](double x, double y, RandomStream& random) {
+    return in_box(x, y, 2, 4) ? random.uniform(0, 1) : 0;
+  });
+  ASSERT_TRUE(field.signs);
+  EXPECT_NEAR(field.signs->roughness, (1 - 0.475) / std::sqrt(12) / 0.95, 0.005);
 }
 
 TEST(FieldSigns, TellLongRows) {

@@ -189,6 +189,21 @@ TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
   }
 }
 
+// A task of the raster gets none but points that are left out.
+TEST(FindPlots, FindsPlotsBesideALargeRoof) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 140000; ++i) {
+    RandomStream random(8, random_purpose("test/roof"), i);
+    points.emplace_back(static_cast<float>(random.uniform(20, 35)),
+                        static_cast<float>(random.uniform(-7, 7)),
+                        static_cast<float>(4 + 0.02 * random.normal()));
+  }
+  EXPECT_NE(find_plots(points, 0.02, {}, 2).nothing, "");
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::ranges::copy(points_over(boxes), std::back_inserter(points));
+  EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
+}
+
 TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).nothing, ""); }
 
 TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
