@@ -9,7 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "plots/drill_rows.h"
-#include "plots/statistics.h"
+#include "plots/steps.h"
 
 namespace plotscan::plots {
 namespace {

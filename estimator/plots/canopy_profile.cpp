@@ -69,47 +69,62 @@ std::vector<double> smoothed(const std::vector<double>& values, const std::vecto
   return smooth;
 }
 
+// Canopy along the line in strips as wide as plants.
+struct Blocks {
+  std::vector<std::vector<double>> canopy, seen;  // by strip, then by cell
+  std::vector<double> sum, count;                 // over the strips that see a cell
+
+  explicit Blocks(std::size_t cells) : sum(cells), count(cells) {}
+
+  void add(const RowView& view, int low, int high) {
+    std::vector<double> block(sum.size()), sees(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const int r = static_cast<int>(i);
+      if (view.seen_cells(r, r + 1, low, high) == 0) continue;
+      sees[i] = 1;
+      block[i] = view.cover(r, r + 1, low, high);
+      sum[i] += block[i];
+      count[i] += 1;
+    }
+    canopy.push_back(std::move(block));
+    seen.push_back(std::move(sees));
+  }
+};
+
+Blocks blocks_of(const RowView& view, std::span<const Band> across, int width) {
+  Blocks blocks(static_cast<std::size_t>(view.r_cells()));
+  for (const Band& band : across) {
+    const int parts = std::max(1, band.size() / width);
+    for (int part = 0; part < parts; ++part)
+      blocks.add(view, band.begin + band.size() * part / parts,
+                 band.begin + band.size() * (part + 1) / parts);
+  }
+  return blocks;
+}
+
 }  // namespace
 
 CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across) {
-  const auto cells = static_cast<std::size_t>(view.r_cells());
   const auto in_cells = [&](double length_m) {
     return std::max(1, static_cast<int>(std::lround(length_m / view.cell_m())));
   };
-  const int width = in_cells(kBlock_m);
-  std::vector<std::vector<double>> blocks, seens;
-  CanopyProfile profile{.mean = std::vector<double>(cells), .weight = std::vector<double>(cells)};
-  std::vector<double> count(cells);
-  for (const Band& band : across) {
-    const int parts = std::max(1, (band.end - band.begin) / width);
-    for (int part = 0; part < parts; ++part) {
-      const int low = band.begin + (band.end - band.begin) * part / parts;
-      const int high = band.begin + (band.end - band.begin) * (part + 1) / parts;
-      std::vector<double> block(cells), seen(cells);
-      for (std::size_t i = 0; i < cells; ++i) {
-        const int r = static_cast<int>(i);
-        if (view.seen_cells(r, r + 1, low, high) == 0) continue;
-        seen[i] = 1;
-        block[i] = view.cover(r, r + 1, low, high);
-        profile.mean[i] += block[i];
-        count[i] += 1;
-      }
-      blocks.push_back(std::move(block));
-      seens.push_back(std::move(seen));
-    }
-  }
-  for (std::size_t i = 0; i < cells; ++i) profile.mean[i] /= std::max(1.0, count[i]);
+  Blocks blocks = blocks_of(view, across, in_cells(kBlock_m));
+  const std::size_t cells = blocks.sum.size();
+  CanopyProfile profile{.mean = blocks.sum, .weight = std::vector<double>(cells)};
+  for (std::size_t i = 0; i < cells; ++i) profile.mean[i] /= std::max(1.0, blocks.count[i]);
   std::vector<double> variance(cells);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    blocks[k] = noise_of(blocks[k], seens[k], profile.mean, in_cells(kTrend_m));
-    for (std::size_t i = 0; i < cells; ++i) variance[i] += blocks[k][i] * blocks[k][i];
+  for (std::size_t k = 0; k < blocks.canopy.size(); ++k) {
+    blocks.canopy[k] = noise_of(blocks.canopy[k], blocks.seen[k], profile.mean, in_cells(kTrend_m));
+    for (std::size_t i = 0; i < cells; ++i)
+      variance[i] += blocks.canopy[k][i] * blocks.canopy[k][i];
   }
-  variance = smoothed(variance, count, in_cells(kLeaf_m));
-  const double alike = likeness(blocks, in_cells(kLeaf_m));
+  variance = smoothed(variance, blocks.count, in_cells(kLeaf_m));
+  const double alike = likeness(blocks.canopy, in_cells(kLeaf_m));
   const double least = cells > 0 ? kLeastError * *std::ranges::max_element(profile.mean) : 0;
   for (std::size_t i = 0; i < cells; ++i) {
-    if (count[i] == 0) continue;
-    profile.weight[i] = 1 / (alike * (variance[i] / count[i] + std::max(1e-12, least * least)));
+    if (blocks.count[i] == 0) continue;
+    profile.weight[i] =
+        1 / (alike * (variance[i] / blocks.count[i] + std::max(1e-12, least * least)));
     profile.independent += 1 / alike;
   }
   return profile;

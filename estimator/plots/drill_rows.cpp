@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "plots/statistics.h"
+#include "plots/steps.h"
 
 namespace plotscan::plots {
 namespace {

@@ -12,7 +12,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "plots/statistics.h"
+#include "core/statistics.h"
 
 namespace plotscan::plots {
 namespace {
@@ -194,7 +194,7 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m
   std::vector<double> scanned, tops;
   for (const Block& block : field)
     if (block.count > 0) scanned.push_back(block.count);
-  const double least = kLeastDensity * median(std::move(scanned));
+  const double least = kLeastDensity * quantile(std::move(scanned), 0.5);
   for (const Block& block : field) {
     const bool canopy = block.count >= least && block.has_canopy();
     stands_out_.push_back(canopy);
@@ -203,7 +203,7 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m
     if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kTop));
   }
   leave_out_surfaces();
-  scale_.high_m = std::max(median(std::move(tops)), 2 * low_m);
+  if (!tops.empty()) scale_.high_m = std::max(quantile(std::move(tops), 0.5), 2 * low_m);
 }
 
 }  // namespace plotscan::plots

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/statistics.h"
 #include "plots/roughness.h"
-#include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
@@ -156,7 +156,7 @@ double unevenness_of(const Lattice& lattice) {
     spreads.push_back(std::sqrt(std::max(0.0, squares / pieces - mean * mean)) /
                       std::max(1e-9, mean));
   }
-  return median(std::move(spreads));
+  return quantile(std::move(spreads), 0.5);
 }
 
 std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {

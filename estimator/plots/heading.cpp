@@ -10,7 +10,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "plots/statistics.h"
+#include "core/statistics.h"
 
 namespace plotscan::plots {
 namespace {
@@ -56,47 +56,67 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
   return cells;
 }
 
-// Sum of the squared steps of the lines' mean cover, for lines in direction angle_rad.
-double sharpness(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m) {
-  const auto c = static_cast<float>(std::cos(angle_rad)),
-             s = static_cast<float>(std::sin(angle_rad));
-  float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
-  for (const Cell& cell : cells) {
-    const float along = c * cell.x + s * cell.y, across = c * cell.y - s * cell.x;
-    low_along = std::min(low_along, along);
-    high_along = std::max(high_along, along);
-    low_across = std::min(low_across, across);
-    high_across = std::max(high_across, across);
+// The cells in bins across lines of one direction, for each block along them.
+class Lines {
+ public:
+  Lines(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m)
+      : c_(static_cast<float>(std::cos(angle_rad))), s_(static_cast<float>(std::sin(angle_rad))) {
+    float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
+    for (const Cell& cell : cells) {
+      low_along = std::min(low_along, along(cell));
+      high_along = std::max(high_along, along(cell));
+      low_across = std::min(low_across, across(cell));
+      high_across = std::max(high_across, across(cell));
+    }
+    const auto per_bin = static_cast<float>(1 / bin_m), per_block = static_cast<float>(1 / block_m);
+    length_m_ = high_along - low_along;
+    bins_ = static_cast<std::size_t>((high_across - low_across) * per_bin) + 3;
+    blocks_ = static_cast<std::size_t>(length_m_ * per_block) + 1;
+    sums_.assign(2 * bins_ * blocks_, 0);
+    for (const Cell& cell : cells)
+      add(cell, (across(cell) - low_across) * per_bin, (along(cell) - low_along) * per_block);
   }
-  const auto per_bin = static_cast<float>(1 / bin_m), per_block = static_cast<float>(1 / block_m);
-  const auto bins = static_cast<std::size_t>((high_across - low_across) * per_bin) + 3;
-  const auto blocks = static_cast<std::size_t>((high_along - low_along) * per_block) + 1;
-  std::vector<float> sums(2 * bins * blocks, 0);
-  for (const Cell& cell : cells) {
-    const float across = (c * cell.y - s * cell.x - low_across) * per_bin;
-    const auto block = static_cast<std::size_t>((c * cell.x + s * cell.y - low_along) * per_block);
-    const auto bin = static_cast<std::size_t>(across);
-    const float share = across - static_cast<float>(bin);  // cloud in cell
-    float* at = &sums[2 * (block * bins + bin)];
+
+  // Sum of the squared steps of mean cover from line to line. Two bins on either side: single ones
+  // would be sharper where lines run along the cells. Bins of fewer cells tell nothing.
+  double steps(double least_cells) const {
+    double total = 0;
+    for (std::size_t block = 0; block < blocks_; ++block) {
+      for (std::size_t bin = 3; bin < bins_; ++bin) {
+        const float* at = &sums_[2 * (block * bins_ + bin - 3)];
+        const double low = at[1] + at[3], high = at[5] + at[7];
+        if (std::min(low, high) < 2 * least_cells) continue;
+        const double step = (at[4] + at[6]) / high - (at[0] + at[2]) / low;
+        total += std::min(low, high) * step * step;
+      }
+    }
+    return total;
+  }
+  float length_m() const { return length_m_; }
+
+ private:
+  float along(const Cell& cell) const { return c_ * cell.x + s_ * cell.y; }
+  float across(const Cell& cell) const { return c_ * cell.y - s_ * cell.x; }
+  // Cloud in cell.
+  void add(const Cell& cell, float bin_across, float block_along) {
+    const auto bin = static_cast<std::size_t>(bin_across);
+    const float share = bin_across - static_cast<float>(bin);
+    float* at = &sums_[2 * (static_cast<std::size_t>(block_along) * bins_ + bin)];
     at[0] += (1 - share) * cell.cover;
     at[1] += 1 - share;
     at[2] += share * cell.cover;
     at[3] += share;
   }
-  const double least =
-      0.25 * std::min(block_m, static_cast<double>(high_along - low_along)) / bin_m;
-  double total = 0;
-  for (std::size_t block = 0; block < blocks; ++block) {
-    for (std::size_t bin = 3; bin < bins; ++bin) {
-      // Two bins on either side: single ones would be sharper where lines run along the cells.
-      const float* at = &sums[2 * (block * bins + bin - 3)];
-      const double low = at[1] + at[3], high = at[5] + at[7];
-      if (std::min(low, high) < 2 * least) continue;
-      const double step = (at[4] + at[6]) / high - (at[0] + at[2]) / low;
-      total += std::min(low, high) * step * step;
-    }
-  }
-  return total;
+
+  float c_, s_, length_m_ = 0;
+  std::size_t bins_ = 0, blocks_ = 0;
+  std::vector<float> sums_;  // cover and cells, by bin
+};
+
+// Of the lines in direction angle_rad.
+double sharpness(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m) {
+  const Lines lines(cells, angle_rad, bin_m, block_m);
+  return lines.steps(0.25 * std::min(block_m, static_cast<double>(lines.length_m())) / bin_m);
 }
 
 std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vector<double>& angles,
@@ -160,7 +180,7 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
   for (const double block_m : {kLongBlock_m, kShortBlock_m}) {
     std::vector<double> sharp = sharpnesses(cells, angles, bin_m, block_m, threads);
-    const double usual = median(sharp);
+    const double usual = quantile(sharp, 0.5);
     values.resize(sharp.size());
     for (std::size_t i = 0; i < sharp.size(); ++i)
       values[i] = std::max(values[i], sharp[i] / std::max(1e-9, usual));

@@ -9,7 +9,8 @@
 
 #include <Eigen/LU>
 
-#include "plots/statistics.h"
+#include "core/statistics.h"
+#include "plots/steps.h"
 
 namespace plotscan::plots {
 namespace {
@@ -53,97 +54,121 @@ std::vector<double> columns_of(std::vector<double> positions, double pitch_m) {
   return columns;
 }
 
-void number(Lattice& lattice, const Layout& layout) {
-  const double cell_m = lattice.view.cell_m();
-  std::vector<double> steps, positions, row_steps;
+// The layout's plots as places, not numbered along their rows.
+void place_plots(const Layout& layout, Lattice& lattice) {
+  const auto middle_m = [&](const Band& band) { return band.middle() * lattice.view.cell_m(); };
+  std::vector<double> row_steps, steps;
   for (std::size_t i = 0; i < layout.rows.size(); ++i) {
     const Row& row = layout.rows[i];
-    const double r_m = (row.band.begin + row.band.end) * cell_m / 2;
-    if (i > 0) {
-      const Band& last = layout.rows[i - 1].band;
-      row_steps.push_back(r_m - (last.begin + last.end) * cell_m / 2);
-    }
+    const double r_m = middle_m(row.band);
+    if (i > 0) row_steps.push_back(r_m - middle_m(layout.rows[i - 1].band));
     for (std::size_t j = 0; j < row.plots.size(); ++j) {
-      const double c_m = (row.plots[j].begin + row.plots[j].end) * cell_m / 2;
-      if (j > 0) steps.push_back(c_m - positions.back());
-      positions.push_back(c_m);
+      const double c_m = middle_m(row.plots[j]);
+      if (j > 0) steps.push_back(c_m - middle_m(row.plots[j - 1]));
       lattice.places.push_back({.row = static_cast<int>(i), .r_m = r_m, .c_m = c_m, .full = true});
     }
   }
+  lattice.rows = static_cast<int>(layout.rows.size());
   lattice.r_pitch_m = usual_step(row_steps);
   lattice.c_pitch_m = usual_step(steps);
-  const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
-  const std::vector<double> columns =
-      layout.aligned ? columns_of(positions, pitch_m) : std::vector<double>{};
-  lattice.aligned = !columns.empty();
-  lattice.rows = static_cast<int>(layout.rows.size());
-  if (lattice.aligned) {
-    for (Place& place : lattice.places) {
-      const auto nearest = std::ranges::min_element(
-          columns, {}, [&](double column) { return std::abs(column - place.c_m); });
-      place.column = static_cast<int>(nearest - columns.begin());
-    }
-    lattice.columns = static_cast<int>(columns.size());
-    return;
+}
+
+// Every place has the nearest of the columns that run through all rows.
+void number_columns(const std::vector<double>& columns, Lattice& lattice) {
+  for (Place& place : lattice.places) {
+    const auto nearest = std::ranges::min_element(
+        columns, {}, [&](double column) { return std::abs(column - place.c_m); });
+    place.column = static_cast<int>(nearest - columns.begin());
   }
-  // Every row by itself, from the place nearest to the first of all plots.
-  const double start_m = *std::ranges::min_element(positions);
-  std::size_t next = 0;
-  for (int row = 0; row < lattice.rows; ++row) {
-    const std::size_t first = next;
-    while (next < lattice.places.size() && lattice.places[next].row == row) ++next;
-    int column = static_cast<int>(std::lround((lattice.places[first].c_m - start_m) / pitch_m));
-    for (std::size_t i = first; i < next; ++i) {
-      if (i > first) {
-        const double step_m = lattice.places[i].c_m - lattice.places[i - 1].c_m;
-        column += std::max(1, static_cast<int>(std::lround(step_m / pitch_m)));
-      }
-      lattice.places[i].column = column;
-      lattice.columns = std::max(lattice.columns, column + 1);
-    }
+  lattice.columns = static_cast<int>(columns.size());
+}
+
+// Every row by itself, from the place nearest to the first of all plots.
+void number_each_row(double pitch_m, Lattice& lattice) {
+  const double start_m = std::ranges::min(lattice.places, {}, &Place::c_m).c_m;
+  const Place* last = nullptr;
+  for (Place& place : lattice.places) {
+    const bool first = last == nullptr || last->row != place.row;
+    const double step_m = place.c_m - (first ? start_m : last->c_m);
+    const int steps = static_cast<int>(std::lround(step_m / pitch_m));
+    place.column = first ? steps : last->column + std::max(1, steps);
+    lattice.columns = std::max(lattice.columns, place.column + 1);
+    last = &place;
   }
 }
+
+void number(const Layout& layout, Lattice& lattice) {
+  place_plots(layout, lattice);
+  const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
+  std::vector<double> positions;
+  for (const Place& place : lattice.places) positions.push_back(place.c_m);
+  const std::vector<double> columns =
+      layout.aligned ? columns_of(std::move(positions), pitch_m) : std::vector<double>{};
+  lattice.aligned = !columns.empty();
+  if (lattice.aligned) {
+    number_columns(columns, lattice);
+  } else {
+    number_each_row(pitch_m, lattice);
+  }
+}
+
+// Places where a row may hold more plots.
+class MorePlaces {
+ public:
+  MorePlaces(const Lattice& lattice, int row) : lattice_(lattice) {
+    std::ranges::copy_if(lattice.places, std::back_inserter(present_),
+                         [&](const Place& place) { return place.row == row; });
+    std::ranges::sort(present_, {}, &Place::c_m);
+  }
+
+  void between_plots() {
+    for (std::size_t i = 1; i < present_.size(); ++i) {
+      const double gap_m = present_[i].c_m - present_[i - 1].c_m;
+      const int steps = static_cast<int>(std::lround(gap_m / lattice_.c_pitch_m));
+      for (int k = 1; k < steps; ++k)
+        add(present_[i - 1].c_m + gap_m * k / steps, present_[i - 1].column + k);
+    }
+  }
+  void in_columns_of_other_rows() {
+    for (const Place& other : lattice_.places) add(other.c_m, other.column);
+  }
+  void beyond_ends() {
+    if (present_.empty()) return;
+    add(present_.front().c_m - lattice_.c_pitch_m, present_.front().column - 1);
+    add(present_.back().c_m + lattice_.c_pitch_m, present_.back().column + 1);
+  }
+  const std::vector<Place>& added() const { return added_; }
+
+ private:
+  void add(double c_m, int column) {
+    const auto near = [&](const Place& place) {
+      return std::abs(place.c_m - c_m) < lattice_.c_size_m;
+    };
+    if (present_.empty() || std::ranges::any_of(present_, near) ||
+        std::ranges::any_of(added_, near))
+      return;
+    Place place = present_.front();
+    place.c_m = c_m;
+    place.column = column;
+    place.full = false;
+    added_.push_back(place);
+  }
+
+  const Lattice& lattice_;
+  std::vector<Place> present_, added_;
+};
 
 // Places between a row's plots, in columns that other rows have and, unless their number was told,
 // beyond its ends.
 void add_places(Lattice& lattice, bool beyond_ends) {
-  const double pitch_m = lattice.c_pitch_m;
-  if (pitch_m <= 0) return;
+  if (lattice.c_pitch_m <= 0) return;
   std::vector<Place> added;
   for (int row = 0; row < lattice.rows; ++row) {
-    std::vector<Place> present;
-    for (const Place& place : lattice.places) {
-      if (place.row == row) present.push_back(place);
-    }
-    if (present.empty()) continue;
-    std::ranges::sort(present, {}, &Place::c_m);
-    const auto free = [&](double c_m) {
-      const auto near = [&](const Place& place) {
-        return place.row == row && std::abs(place.c_m - c_m) < lattice.c_size_m;
-      };
-      return std::ranges::none_of(present, near) && std::ranges::none_of(added, near);
-    };
-    const auto add = [&](double c_m, int column) {
-      if (!free(c_m)) return;
-      Place place = present.front();
-      place.c_m = c_m;
-      place.column = column;
-      place.full = false;
-      added.push_back(place);
-    };
-    for (std::size_t i = 1; i < present.size(); ++i) {
-      const double gap_m = present[i].c_m - present[i - 1].c_m;
-      const int steps = static_cast<int>(std::lround(gap_m / pitch_m));
-      for (int k = 1; k < steps; ++k) {
-        add(present[i - 1].c_m + gap_m * k / steps, present[i - 1].column + k);
-      }
-    }
-    if (lattice.aligned) {
-      for (const Place& other : lattice.places) add(other.c_m, other.column);
-    }
-    if (!beyond_ends) continue;
-    add(present.front().c_m - pitch_m, present.front().column - 1);
-    add(present.back().c_m + pitch_m, present.back().column + 1);
+    MorePlaces more(lattice, row);
+    more.between_plots();
+    if (lattice.aligned) more.in_columns_of_other_rows();
+    if (beyond_ends) more.beyond_ends();
+    added.insert(added.end(), more.added().begin(), more.added().end());
   }
   lattice.places.insert(lattice.places.end(), added.begin(), added.end());
 }
@@ -157,8 +182,8 @@ void test_places(Lattice& lattice) {
     covers.push_back(place.share);
     contrasts.push_back(place.contrast);
   }
-  const double full_cover = median(covers);
-  lattice.contrast = median(contrasts);
+  const double full_cover = quantile(covers, 0.5);
+  lattice.contrast = quantile(contrasts, 0.5);
   for (Place& place : lattice.places) {
     place.share /= std::max(1e-6, full_cover);
     place.contrast /= std::max(1e-6, lattice.contrast);
@@ -209,7 +234,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
                   .c_size_m = layout.c_shape.size * layout.view.cell_m(),
                   .r_band_m = layout.r_shape.size * layout.view.cell_m(),
                   .c_band_m = layout.c_shape.size * layout.view.cell_m()};
-  number(lattice, layout);
+  number(layout, lattice);
   straighten(lattice);
   add_places(lattice, !hints.rows && !hints.columns);
   test_places(lattice);

@@ -27,10 +27,9 @@ struct Lattice {
   double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
   double r_pitch_m = 0, c_pitch_m = 0;    // 0 where there is one row or one column only
   int rows = 0, columns = 0;
-  bool aligned = true;        // columns run through all rows; else every row has its own offset
-  bool perpendicular = true;  // the axes are, as far as the plots tell
-  double r_per_c = 0;         // how far a row's plots move along r for every metre along c
-  double c_per_r = 0;         // how far a column's plots move along c for every metre along r
+  bool aligned = true;  // columns run through all rows; else every row has its own offset
+  double r_per_c = 0;   // how far a row's plots move along r for every metre along c
+  double c_per_r = 0;   // how far a column's plots move along c for every metre along r
   double r_rms_m = 0, c_rms_m = 0;  // plots' centres about the lattice
   double contrast = 0;              // median of the plots' sides
   std::vector<Place> places = {};

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/statistics.h"
 #include "plots/layout_criterion.h"
-#include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
@@ -32,7 +32,7 @@ void leave_out_missing(Layout& layout) {
   };
   for (const Row& row : layout.rows)
     for (const Band& plot : row.plots) covers.push_back(cover(row, plot));
-  const double least = kLeastShare * median(covers);
+  const double least = kLeastShare * quantile(covers, 0.5);
   for (Row& row : layout.rows)
     std::erase_if(row.plots, [&](const Band& plot) { return cover(row, plot) < least; });
   std::erase_if(layout.rows, [](const Row& row) { return row.plots.empty(); });

@@ -1,40 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/QR>
 
+#include "core/statistics.h"
 #include "plots/centers.h"
 #include "plots/lattice.h"
-#include "plots/statistics.h"
 
 namespace plotscan::plots {
 namespace {
 
-// One mean for each row (or column) and a common slope within them.
-std::vector<double> means_and_slope(const std::vector<int>& group, int groups,
-                                    const std::vector<double>& x, const std::vector<double>& y,
-                                    double& slope) {
-  std::vector<double> count(static_cast<std::size_t>(groups)), mean_x(count), mean_y(count);
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const auto g = static_cast<std::size_t>(group[i]);
-    count[g] += 1;
-    mean_x[g] += x[i];
-    mean_y[g] += y[i];
+constexpr double kLeastError_m = 0.005;  // of centres about the lattice, however few they are
+
+// Which row, or which column, each plot lies in.
+class Groups {
+ public:
+  Groups(std::vector<int> of_plots, int count)
+      : of_plots_(std::move(of_plots)), counts_(static_cast<std::size_t>(count)) {
+    for (const int group : of_plots_) counts_[static_cast<std::size_t>(group)] += 1;
   }
-  for (std::size_t g = 0; g < count.size(); ++g) {
-    mean_x[g] /= std::max(1.0, count[g]);
-    mean_y[g] /= std::max(1.0, count[g]);
+
+  std::size_t plots() const { return of_plots_.size(); }
+  std::size_t count() const { return counts_.size(); }
+  std::size_t of(std::size_t plot) const { return static_cast<std::size_t>(of_plots_[plot]); }
+  const std::vector<double>& counts() const { return counts_; }
+
+  std::vector<double> means(const std::vector<double>& values) const {
+    std::vector<double> sums(count());
+    for (std::size_t i = 0; i < plots(); ++i) sums[of(i)] += values[i];
+    for (std::size_t g = 0; g < count(); ++g) sums[g] /= std::max(1.0, counts_[g]);
+    return sums;
   }
-  double xx = 0, xy = 0;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const auto g = static_cast<std::size_t>(group[i]);
-    xx += (x[i] - mean_x[g]) * (x[i] - mean_x[g]);
-    xy += (x[i] - mean_x[g]) * (y[i] - mean_y[g]);
+  // The plots' values less those of their groups.
+  std::vector<double> less(const std::vector<double>& values,
+                           const std::vector<double>& of_groups) const {
+    std::vector<double> rest(values);
+    for (std::size_t i = 0; i < plots(); ++i) rest[i] -= of_groups[of(i)];
+    return rest;
   }
-  slope = xx > 0 ? xy / xx : 0;
-  for (std::size_t g = 0; g < count.size(); ++g) mean_y[g] -= slope * mean_x[g];
-  return mean_y;
+  // Each plot has its group's.
+  std::vector<double> spread_out(const std::vector<double>& of_groups) const {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < plots(); ++i) values.push_back(of_groups[of(i)]);
+    return values;
+  }
+
+ private:
+  std::vector<int> of_plots_;
+  std::vector<double> counts_;
+};
+
+double sum_of_squares(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return squares;
+}
+
+double spread_of(std::vector<double> values) {
+  const double middle = mean(values);
+  for (double& value : values) value -= middle;
+  return sum_of_squares(values);
+}
+
+// Of what is left of plots' values about one mean for each group and one slope.
+double rms_of(const std::vector<double>& rest, const Groups& groups) {
+  const double free = static_cast<double>(rest.size()) - static_cast<double>(groups.count()) - 1;
+  return std::sqrt(sum_of_squares(rest) / std::max(1.0, free));
+}
+
+// y = at[group] + slope * x.
+struct LinesOfGroups {
+  std::vector<double> at;
+  double slope = 0, rms_m = 0;
+};
+
+LinesOfGroups fit_lines(const Groups& groups, const std::vector<double>& x,
+                        const std::vector<double>& y) {
+  const std::vector<double> mean_x = groups.means(x), mean_y = groups.means(y);
+  const std::vector<double> from_x = groups.less(x, mean_x), from_y = groups.less(y, mean_y);
+  const double xx = sum_of_squares(from_x);
+  double xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) xy += from_x[i] * from_y[i];
+  LinesOfGroups lines{.at = mean_y, .slope = xx > 0 ? xy / xx : 0};
+  for (std::size_t g = 0; g < groups.count(); ++g) lines.at[g] -= lines.slope * mean_x[g];
+  std::vector<double> rest = groups.less(y, lines.at);
+  for (std::size_t i = 0; i < x.size(); ++i) rest[i] -= lines.slope * x[i];
+  lines.rms_m = rms_of(rest, groups);
+  return lines;
 }
 
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
@@ -46,7 +100,7 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
   std::vector<double> steps;
   for (std::size_t i = 1; i < positions.size(); ++i)
     steps.push_back(positions[i] - positions[i - 1]);
-  const double step_m = median(steps);
+  const double step_m = quantile(steps, 0.5);
   std::vector<std::size_t> alleys;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const double error_m = sigma_m * std::sqrt(1 / counts[i] + 1 / counts[i + 1]);
@@ -74,65 +128,27 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
   return smooth;
 }
 
-std::vector<double> counts_of(const std::vector<int>& group, int groups) {
-  std::vector<double> counts(static_cast<std::size_t>(groups));
-  for (const int g : group) counts[static_cast<std::size_t>(g)] += 1;
-  return counts;
-}
-
-double rms_about(const std::vector<int>& group, const std::vector<double>& at, double slope,
-                 const std::vector<double>& x, const std::vector<double>& y) {
-  double squares = 0;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const double rest = y[i] - at[static_cast<std::size_t>(group[i])] - slope * x[i];
-    squares += rest * rest;
-  }
-  // Each mean took a degree of freedom, and so did the slope.
-  const double free = static_cast<double>(y.size()) - static_cast<double>(at.size()) - 1;
-  return std::sqrt(squares / std::max(1.0, free));
-}
-
 // Centres as measured, and their rows and columns.
 struct Centers {
-  std::vector<int> row, column;
+  Groups row, column;
   std::vector<double> r, c;
 };
 
 Centers measured_centers(const Lattice& lattice) {
   const auto r_shifts = measured_shifts(lattice, true), c_shifts = measured_shifts(lattice, false);
-  Centers centers;
+  std::vector<int> rows, columns;
+  std::vector<double> r, c;
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     const Place& place = lattice.places[i];
-    centers.row.push_back(place.row);
-    centers.column.push_back(place.column);
-    centers.r.push_back(place.r_m + r_shifts[i].value_or(0));
-    centers.c.push_back(place.c_m + c_shifts[i].value_or(0));
+    rows.push_back(place.row);
+    columns.push_back(place.column);
+    r.push_back(place.r_m + r_shifts[i].value_or(0));
+    c.push_back(place.c_m + c_shifts[i].value_or(0));
   }
-  return centers;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
-double spread_of(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return squares;
-}
-
-// Means by group of values less what another grouping explains.
-std::vector<double> group_means(const std::vector<int>& group, int groups,
-                                const std::vector<double>& values) {
-  std::vector<double> sums(static_cast<std::size_t>(groups));
-  for (std::size_t i = 0; i < group.size(); ++i)
-    sums[static_cast<std::size_t>(group[i])] += values[i];
-  const std::vector<double> counts = counts_of(group, groups);
-  for (std::size_t g = 0; g < sums.size(); ++g) sums[g] /= std::max(1.0, counts[g]);
-  return sums;
+  return {.row = {std::move(rows), lattice.rows},
+          .column = {std::move(columns), lattice.columns},
+          .r = std::move(r),
+          .c = std::move(c)};
 }
 
 // c of a plot = its column's place + its row's offset.
@@ -141,33 +157,31 @@ struct Columns {
   double rms_m = 0;
 };
 
-Columns fit_columns(const Lattice& lattice, const Centers& centers) {
+// Of plots whose rows' offsets were taken out of c.
+std::vector<double> columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
+  if (aligned) {
+    std::vector<double> at = centers.column.means(c);
+    const double error_m = rms_of(centers.column.less(c, at), centers.column);
+    return with_equal_steps(at, centers.column.counts(), error_m);
+  }
+  std::vector<double> numbers(centers.column.count());
+  for (std::size_t column = 0; column < numbers.size(); ++column)
+    numbers[column] = static_cast<double>(column);
+  const double pitch_m = fit_lines(centers.row, centers.column.spread_out(numbers), c).slope;
+  for (double& number : numbers) number *= pitch_m;
+  return numbers;
+}
+
+// Columns and rows' offsets in turn.
+Columns fit_columns(const Centers& centers, bool aligned) {
   constexpr int kRounds = 8;
   Columns fit;
-  fit.row_offset.assign(static_cast<std::size_t>(lattice.rows), 0);
-  const std::vector<double> counts = counts_of(centers.column, lattice.columns);
+  fit.row_offset.assign(centers.row.count(), 0);
   for (int round = 0; round < kRounds; ++round) {
-    std::vector<double> rest(centers.c);
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      rest[i] -= fit.row_offset[static_cast<std::size_t>(centers.row[i])];
-    }
-    if (lattice.aligned) {
-      fit.column_at = group_means(centers.column, lattice.columns, rest);
-      const double error_m = rms_about(centers.column, fit.column_at, 0, rest, rest);
-      fit.column_at = with_equal_steps(fit.column_at, counts, error_m);
-    } else {
-      double pitch_m = 0;
-      const std::vector<double> index(centers.column.begin(), centers.column.end());
-      means_and_slope(centers.row, lattice.rows, index, rest, pitch_m);
-      fit.column_at.clear();
-      for (int column = 0; column < lattice.columns; ++column)
-        fit.column_at.push_back(pitch_m * column);
-    }
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      rest[i] = centers.c[i] - fit.column_at[static_cast<std::size_t>(centers.column[i])];
-    }
-    fit.row_offset = group_means(centers.row, lattice.rows, rest);
-    fit.rms_m = rms_about(centers.row, fit.row_offset, 0, rest, rest);
+    fit.column_at = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
+    const std::vector<double> rest = centers.column.less(centers.c, fit.column_at);
+    fit.row_offset = centers.row.means(rest);
+    fit.rms_m = rms_of(centers.row.less(rest, fit.row_offset), centers.row);
   }
   return fit;
 }
@@ -178,96 +192,88 @@ struct Skew {
   bool straight = false;
 };
 
-Skew fit_skew(const Lattice& lattice, const std::vector<double>& row_at, const Centers& centers,
-              const Columns& columns) {
-  std::vector<double> x, y;
-  for (const int row : centers.row) {
-    x.push_back(row_at[static_cast<std::size_t>(row)]);
-    y.push_back(columns.row_offset[static_cast<std::size_t>(row)]);
-  }
-  const double spread = spread_of(x), mean_x = mean_of(x), mean_y = mean_of(y);
+Skew fit_skew(const Centers& centers, const std::vector<double>& row_at, const Columns& columns) {
+  const std::vector<double> x = centers.row.spread_out(row_at);
+  const std::vector<double> y = centers.row.spread_out(columns.row_offset);
+  const double spread = spread_of(x), mean_x = mean(x), mean_y = mean(y);
   if (spread <= 0) return {};
-  Skew skew;
+  Skew skew{.error = std::max(kLeastError_m, columns.rms_m) / std::sqrt(spread), .straight = true};
   for (std::size_t i = 0; i < x.size(); ++i)
     skew.c_per_r += (x[i] - mean_x) * (y[i] - mean_y) / spread;
-  skew.error = std::max(0.005, columns.rms_m) / std::sqrt(spread);
-  skew.straight = true;
-  const std::vector<double> counts = counts_of(centers.row, lattice.rows);
   for (std::size_t row = 0; row < row_at.size(); ++row) {
     const double off_m = columns.row_offset[row] - mean_y - skew.c_per_r * (row_at[row] - mean_x);
-    skew.straight = skew.straight &&
-                    std::abs(off_m) < std::max(0.03, 3.5 * columns.rms_m / std::sqrt(counts[row]));
+    const double error_m = columns.rms_m / std::sqrt(centers.row.counts()[row]);
+    skew.straight = skew.straight && std::abs(off_m) < std::max(0.03, 3.5 * error_m);
   }
   return skew;
+}
+
+// How rows and columns run: slopes to the view's axes.
+struct Directions {
+  double r_per_c = 0, c_per_r = 0;
+  bool columns_straight = false;  // the rows' offsets are those of straight columns
+};
+
+// Axes are perpendicular unless the rows' offsets say otherwise beyond doubt. `between` is the
+// cosine between the view's axes.
+Directions directions_of(const Centers& centers, const LinesOfGroups& rows, const Skew& skew,
+                         double between) {
+  const double along_rows = spread_of(centers.row.less(centers.c, centers.row.means(centers.c)));
+  const double row_error =
+      along_rows > 0 ? std::max(kLeastError_m, rows.rms_m) / std::sqrt(along_rows) : 1;
+  const double off = skew.c_per_r + (between + rows.slope) / (1 + between * rows.slope);
+  const double error = std::hypot(skew.error, row_error);
+  const bool rows_tell = along_rows > 1;
+  const bool columns_tell = skew.straight && centers.row.count() >= 2;
+  const bool right_angle = std::abs(off) < std::max(0.001, 3 * error);
+  const bool skewed = columns_tell && rows_tell && !right_angle &&
+                      (centers.row.count() >= 3 || std::abs(off) <= 0.01);
+  const bool straight = columns_tell && (skewed || right_angle);
+  const double by_columns = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
+  if (!rows_tell) return {by_columns, skew.c_per_r, straight};
+  if (skewed) return {rows.slope, skew.c_per_r, straight};
+  if (!straight) return {rows.slope, skew.c_per_r - off, straight};
+  const double share = skew.error * skew.error / (error * error);
+  return {rows.slope - (1 - share) * off, skew.c_per_r - share * off, straight};
+}
+
+// The rows' offsets on one line along the columns.
+std::vector<double> offsets_on_line(const Centers& centers, const Columns& columns,
+                                    double c_per_r) {
+  std::vector<double> offsets = centers.row.spread_out(columns.row_offset);
+  for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] -= c_per_r * centers.r[i];
+  const double offset_m = mean(offsets);
+  std::vector<double> on_line = centers.row.means(centers.r);
+  for (double& row : on_line) row = offset_m + c_per_r * row;
+  return on_line;
 }
 
 }  // namespace
 
 void straighten(Lattice& lattice) {
   const Centers centers = measured_centers(lattice);
-  std::vector<double> row_at =
-      means_and_slope(centers.row, lattice.rows, centers.c, centers.r, lattice.r_per_c);
-  lattice.r_rms_m = rms_about(centers.row, row_at, lattice.r_per_c, centers.c, centers.r);
-  Columns columns = fit_columns(lattice, centers);
+  const LinesOfGroups rows = fit_lines(centers.row, centers.c, centers.r);
+  Columns columns = fit_columns(centers, lattice.aligned);
+  const Directions directions = directions_of(centers, rows, fit_skew(centers, rows.at, columns),
+                                              lattice.view.r_axis().dot(lattice.view.c_axis()));
+  lattice.r_per_c = directions.r_per_c;
+  lattice.c_per_r = directions.c_per_r;
+  lattice.r_rms_m = rows.rms_m;
   lattice.c_rms_m = columns.rms_m;
-  const Skew skew = fit_skew(lattice, row_at, centers, columns);
 
-  // Axes are perpendicular unless the rows' offsets say otherwise beyond doubt.
-  std::vector<double> within_rows(centers.c);
-  const std::vector<double> row_c = group_means(centers.row, lattice.rows, centers.c);
-  for (std::size_t i = 0; i < within_rows.size(); ++i) {
-    within_rows[i] -= row_c[static_cast<std::size_t>(centers.row[i])];
-  }
-  const double row_spread = spread_of(within_rows);
-  const double row_error =
-      row_spread > 0 ? std::max(0.005, lattice.r_rms_m) / std::sqrt(row_spread) : 1;
-  const double between = lattice.view.r_axis().dot(lattice.view.c_axis());
-  const double off = skew.c_per_r + (between + lattice.r_per_c) / (1 + between * lattice.r_per_c);
-  const double error = std::hypot(skew.error, row_error);
-  const bool rows_tell = row_spread > 1;
-  const bool columns_tell = skew.straight && lattice.rows >= 2;
-  lattice.perpendicular = !columns_tell || !rows_tell ||
-                          std::abs(off) < std::max(0.001, 3 * error) ||
-                          (lattice.rows < 3 && std::abs(off) > 0.01);
-  const bool straight =
-      columns_tell && (!lattice.perpendicular || std::abs(off) < std::max(0.001, 3 * error));
-  if (!rows_tell) {
-    lattice.c_per_r = skew.c_per_r;
-    lattice.r_per_c = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
-  } else if (!lattice.perpendicular) {
-    lattice.c_per_r = skew.c_per_r;
-  } else if (straight) {
-    const double share = skew.error * skew.error / (error * error);
-    lattice.c_per_r = skew.c_per_r - share * off;
-    lattice.r_per_c -= (1 - share) * off;
-  } else {
-    lattice.c_per_r = skew.c_per_r - off;
-  }
-
-  std::vector<double> rest(centers.r);
-  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= lattice.r_per_c * centers.c[i];
-  row_at = with_equal_steps(group_means(centers.row, lattice.rows, rest),
-                            counts_of(centers.row, lattice.rows), lattice.r_rms_m);
-  if (straight) {
-    std::vector<double> offsets;
-    for (std::size_t i = 0; i < centers.r.size(); ++i) {
-      offsets.push_back(columns.row_offset[static_cast<std::size_t>(centers.row[i])] -
-                        lattice.c_per_r * centers.r[i]);
-    }
-    const double offset = mean_of(offsets);
-    const std::vector<double> mean_r = group_means(centers.row, lattice.rows, centers.r);
-    for (std::size_t row = 0; row < row_at.size(); ++row) {
-      columns.row_offset[row] = offset + lattice.c_per_r * mean_r[row];
-    }
-  }
-  const std::vector<double> mean_r = group_means(centers.row, lattice.rows, centers.r);
+  std::vector<double> r_at_0 = centers.r;
+  for (std::size_t i = 0; i < r_at_0.size(); ++i) r_at_0[i] -= lattice.r_per_c * centers.c[i];
+  const std::vector<double> row_at =
+      with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r_rms_m);
+  if (directions.columns_straight)
+    columns.row_offset = offsets_on_line(centers, columns, lattice.c_per_r);
+  const std::vector<double> row_middle = centers.row.means(centers.r);
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     Place& place = lattice.places[i];
-    const auto row = static_cast<std::size_t>(place.row);
-    const double c =
-        columns.column_at[static_cast<std::size_t>(place.column)] + columns.row_offset[row];
-    place.r_m = row_at[row] + lattice.r_per_c * c;
-    place.c_m = c + lattice.c_per_r * (place.r_m - mean_r[row]);
+    const std::size_t row = centers.row.of(i);
+    const double c_m = columns.column_at[centers.column.of(i)] + columns.row_offset[row];
+    place.r_m = row_at[row] + lattice.r_per_c * c_m;
+    place.c_m = c_m + lattice.c_per_r * (place.r_m - row_middle[row]);
   }
 }
 
