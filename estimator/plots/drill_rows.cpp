@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 #include "plots/steps.h"
@@ -23,27 +24,26 @@ struct Steps {
   double spacing = 0;  // mean of those within
 };
 
-// Where the sorted steps jump by the greatest factor, with a tenth of them on either side at least.
-Steps steps_of(const Lines& middles) {
+// Where the sorted steps jump by the greatest factors, with a tenth of them on either side at
+// least: from row to row and from plot to plot, or from plot to plot and over missing plots.
+std::vector<Steps> steps_of(const Lines& middles) {
+  constexpr std::size_t kTried = 4;
   std::vector<double> steps;
   for (const std::vector<double>& line : middles)
     for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(line[i] - line[i - 1]);
   std::ranges::sort(steps);
   const std::size_t few = std::max<std::size_t>(1, steps.size() / 10);
-  Steps found;
-  double most = 1;
-  for (std::size_t i = few; i + few <= steps.size(); ++i) {
-    if (steps[i] < most * steps[i - 1]) continue;
-    most = steps[i] / steps[i - 1];
-    found = {.within = steps[i - 1], .between = steps[i]};
+  std::vector<Steps> found;
+  double sum = 0;
+  for (std::size_t i = 0; i + few <= steps.size(); ++i) {
+    if (i >= few && steps[i] > steps[i - 1])
+      found.push_back(
+          {.within = steps[i - 1], .between = steps[i], .spacing = sum / static_cast<double>(i)});
+    sum += steps[i];
   }
-  double count = 0;
-  for (const double step : steps) {
-    if (step > found.within) break;
-    found.spacing += step;
-    ++count;
-  }
-  found.spacing /= std::max(1.0, count);
+  std::ranges::stable_sort(found, std::ranges::greater(),
+                           [](const Steps& at) { return at.between / at.within; });
+  found.resize(std::min(found.size(), kTried));
   return found;
 }
 
@@ -107,15 +107,13 @@ void fill_in(std::vector<double>& places) {
   places = std::move(filled);
 }
 
-}  // namespace
+struct Grouped {
+  DrilledPlots plots;
+  double others = 1;  // share of the groups that are no whole plot
+};
 
-std::optional<DrilledPlots> drilled_plots(const Lines& middles, double most_spacing,
-                                          double least_gap) {
-  const Steps steps = steps_of(middles);
-  const double spacing = steps.spacing;
-  // Leaves move the rows that are seen towards the gap: half of it must be left.
-  const double least_break = spacing + 0.5 * std::max(least_gap, kLeastGapOfSpacing * spacing);
-  if (spacing <= 0 || spacing > most_spacing || steps.between < least_break) return std::nullopt;
+// The rows in groups between wider steps.
+std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
   std::vector<Groups> groups;
   std::vector<double> sizes;
   for (const std::vector<double>& line : middles) {
@@ -123,28 +121,47 @@ std::optional<DrilledPlots> drilled_plots(const Lines& middles, double most_spac
     for (const auto& [first, last] : groups.back())
       sizes.push_back(static_cast<double>(last - first + 1));
   }
-  DrilledPlots plots{.rows = static_cast<int>(most_frequent(sizes)), .spacing = spacing};
+  DrilledPlots plots{.rows = static_cast<int>(most_frequent(sizes)), .spacing = steps.spacing};
   if (plots.rows < 2 || plots.rows > kMostRows) return std::nullopt;
-  const double span = (plots.rows - 1) * spacing;
+  const double span = (plots.rows - 1) * steps.spacing;
   double all = 0, whole = 0, length = 0;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     const std::vector<double>& line = middles[i];
-    join_pieces(groups[i], line, span, spacing);
+    join_pieces(groups[i], line, span, steps.spacing);
     plots.begins.emplace_back();
     for (const auto& [first, last] : groups[i]) {
       ++all;
       const double found = line[last] - line[first];
-      if (std::abs(found - span) > 0.3 * spacing) continue;
+      if (std::abs(found - span) > 0.3 * steps.spacing) continue;
       ++whole;
       length += found;
       plots.begins.back().push_back(0.5 * (line[first] + line[last]));
     }
   }
-  if (all - whole > kMostOthers * all) return std::nullopt;
-  for (std::vector<double>& line : plots.begins) fill_in(line);
+  if (whole == 0) return std::nullopt;
   plots.spacing = length / (whole * (plots.rows - 1));
-  for (std::vector<double>& line : plots.begins)
+  return Grouped{.plots = std::move(plots), .others = 1 - whole / all};
+}
+
+}  // namespace
+
+std::optional<DrilledPlots> drilled_plots(const Lines& middles, double most_spacing,
+                                          double least_gap) {
+  std::optional<Grouped> best;
+  for (const Steps& steps : steps_of(middles)) {
+    // Leaves move the rows that are seen towards the gap: half of it must be left.
+    const double least_break =
+        steps.spacing + 0.5 * std::max(least_gap, kLeastGapOfSpacing * steps.spacing);
+    if (steps.spacing > most_spacing || steps.between < least_break) continue;
+    std::optional<Grouped> rows = grouped(middles, steps);
+    if (rows && (!best || rows->others < best->others)) best = std::move(rows);
+  }
+  if (!best || best->others > kMostOthers) return std::nullopt;
+  DrilledPlots plots = std::move(best->plots);
+  for (std::vector<double>& line : plots.begins) {
+    fill_in(line);
     for (double& begin : line) begin -= plots.width() / 2;
+  }
   return plots;
 }
 

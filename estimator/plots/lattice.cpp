@@ -200,19 +200,33 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
-// Lowest column and row become 0, columns without a plot are none.
+// Numbers from 0, without those that no plot has.
+int close_up(std::vector<Place>& places, int Place::*number) {
+  std::vector<int> used;
+  for (const Place& place : places) used.push_back(place.*number);
+  std::ranges::sort(used);
+  used.erase(std::ranges::unique(used).begin(), used.end());
+  for (Place& place : places)
+    place.*number = static_cast<int>(std::ranges::lower_bound(used, place.*number) - used.begin());
+  return static_cast<int>(used.size());
+}
+
+// Numbers from 0; they are steps along a row, so none is left out.
+int begin_at_0(std::vector<Place>& places, int Place::*number) {
+  if (places.empty()) return 0;
+  const auto [least, most] = std::ranges::minmax(places, {}, number);
+  const int first = least.*number, count = most.*number - first + 1;
+  for (Place& place : places) place.*number -= first;
+  return count;
+}
+
+// Of the places that hold a plot. Columns of their own in each row lie a pitch from number to
+// number.
 void renumber(Lattice& lattice) {
   std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
-  for (int Place::*index : {&Place::row, &Place::column}) {
-    std::vector<int> used;
-    for (const Place& place : lattice.places) used.push_back(place.*index);
-    std::ranges::sort(used);
-    used.erase(std::ranges::unique(used).begin(), used.end());
-    for (Place& place : lattice.places) {
-      place.*index = static_cast<int>(std::ranges::lower_bound(used, place.*index) - used.begin());
-    }
-    (index == &Place::row ? lattice.rows : lattice.columns) = static_cast<int>(used.size());
-  }
+  lattice.rows = close_up(lattice.places, &Place::row);
+  lattice.columns = lattice.aligned ? close_up(lattice.places, &Place::column)
+                                    : begin_at_0(lattice.places, &Place::column);
   std::ranges::sort(lattice.places, [](const Place& a, const Place& b) {
     return std::tuple(a.row, a.column, a.c_m) < std::tuple(b.row, b.column, b.c_m);
   });

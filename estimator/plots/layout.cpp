@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "core/statistics.h"
@@ -12,8 +13,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kOwnDoubt = 0.05;   // rows with offsets of their own must explain so much more
-constexpr double kLeastShare = 0.3;  // of the usual plot's canopy: less is a missing one
+constexpr double kSameColumn_m = 0.15;  // off which leaves do not move what is seen of a plot
+constexpr double kLeastShare = 0.3;     // of the usual plot's canopy: less is a missing one
 
 std::vector<Band> whole(int cells) { return {{0, cells}}; }
 
@@ -169,6 +170,35 @@ void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
   layouts = std::move(left);
 }
 
+// Median over a row's plots of how far the nearest of another row lies, cells.
+double shift_between(const Row& row, const Row& other) {
+  std::vector<double> shifts;
+  for (const Band& plot : row.plots) {
+    const auto after = std::ranges::lower_bound(other.plots, plot.begin, {}, &Band::begin);
+    double nearest = std::numeric_limits<double>::infinity();
+    if (after != other.plots.end()) nearest = after->begin - plot.begin;
+    if (after != other.plots.begin())
+      nearest = std::min<double>(nearest, plot.begin - std::prev(after)->begin);
+    shifts.push_back(nearest);
+  }
+  return quantile(std::move(shifts), 0.5);
+}
+
+// Whether plots that were sought row by row go on from row to row all the same.
+bool is_in_columns(const Layout& layout) {
+  const double most = kSameColumn_m / layout.view.cell_m();
+  for (std::size_t i = 1; i < layout.rows.size(); ++i)
+    if (shift_between(layout.rows[i - 1], layout.rows[i]) > most) return false;
+  return true;
+}
+
+// Columns through all rows say the same as rows of their own that stand in columns, with less.
+void leave_out_repeated_columns(std::vector<Layout>& layouts) {
+  if (std::ranges::none_of(layouts, &Layout::aligned)) return;
+  std::erase_if(layouts,
+                [](const Layout& layout) { return !layout.aligned && is_in_columns(layout); });
+}
+
 }  // namespace
 
 Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
@@ -176,15 +206,12 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
   std::vector<Layout> layouts = layouts_in(view, hints);
   leave_best_aligned(view, layouts);
+  leave_out_repeated_columns(layouts);
   const double without = criterion({.view = view});
   Layout best{.view = view};
-  double most = 0;
   for (Layout& layout : layouts) {
     layout.evidence = 0.5 * (without - criterion(layout));
-    const double doubted = layout.aligned ? layout.evidence : (1 - kOwnDoubt) * layout.evidence;
-    if (doubted <= most) continue;
-    most = doubted;
-    best = std::move(layout);
+    if (layout.evidence > best.evidence) best = std::move(layout);
   }
   return best;
 }

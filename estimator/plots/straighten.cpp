@@ -254,8 +254,10 @@ void straighten(Lattice& lattice) {
   const Centers centers = measured_centers(lattice);
   const LinesOfGroups rows = fit_lines(centers.row, centers.c, centers.r);
   Columns columns = fit_columns(centers, lattice.aligned);
-  const Directions directions = directions_of(centers, rows, fit_skew(centers, rows.at, columns),
-                                              lattice.view.r_axis().dot(lattice.view.c_axis()));
+  // Offsets of each row's own say nothing of the plots' sides, even where they lie on a line.
+  const Skew skew = lattice.aligned ? fit_skew(centers, rows.at, columns) : Skew{};
+  const Directions directions =
+      directions_of(centers, rows, skew, lattice.view.r_axis().dot(lattice.view.c_axis()));
   lattice.r_per_c = directions.r_per_c;
   lattice.c_per_r = directions.c_per_r;
   lattice.r_rms_m = rows.rms_m;

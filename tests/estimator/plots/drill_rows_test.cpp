@@ -52,6 +52,22 @@ TEST(DrilledPlots, AreFilledInWhereTwoRowsWereNotSeen) {
   EXPECT_NEAR(plots->begins.front()[2], 10 + 2 * 34, 1e-9);
 }
 
+// Steps over missing plots are wider than those to the next by more than these than those in a
+// plot.
+TEST(DrilledPlots, AreToldFromMissingOnes) {
+  std::vector<std::vector<double>> lines;
+  for (const std::size_t missing : {2U, 5U, 8U}) {
+    lines.push_back(rows_of(11, 3, 12, 6));
+    for (const std::size_t plot : {missing + 1, missing})
+      lines.back().erase(lines.back().begin() + static_cast<std::ptrdiff_t>(3 * plot),
+                         lines.back().begin() + static_cast<std::ptrdiff_t>(3 * plot + 3));
+  }
+  const auto plots = drilled_plots(lines, 22, 3);
+  ASSERT_TRUE(plots);
+  EXPECT_EQ(plots->rows, 3);
+  EXPECT_NEAR(plots->spacing, 12, 1e-9);
+}
+
 TEST(DrilledPlots, AreNoneOfPlotsOrOfRowsWithoutAlleys) {
   EXPECT_FALSE(drilled_plots({rows_of(8, 1, 30, 20)}, 22, 3)) << "wide plots";
   EXPECT_FALSE(drilled_plots({rows_of(1, 20, 8, 0)}, 22, 3)) << "rows of one field";

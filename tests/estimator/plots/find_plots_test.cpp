@@ -106,6 +106,13 @@ TEST(FindPlots, FindsPlotsWithNarrowGaps) { expect_found({.gap_m = 0.2, .row_gap
 TEST(FindPlots, FollowsRowsThatStartAtOffsets) { expect_found({.offsets_m = {0.6, -0.5, 0.1}}); }
 
 // The box reaches half a row's spacing beyond the outer rows, where there are no leaves.
+// The last row begins two plots before the others and lacks its second plot, so that no row has a
+// plot there; and the rows' offsets, less whole plots, lie on a line as those of tilted plots
+// would.
+TEST(FindPlots, KeepsAPlaceThatNoRowFills) {
+  expect_found({.offsets_m = {0.35, 0, -0.35 - 2 * 1.9}, .missing = 13});
+}
+
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
 TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_clumps, 0.8); }
 
