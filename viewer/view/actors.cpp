@@ -9,7 +9,6 @@
 #include <vtkClipPolyData.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3DMapper.h>
-#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -18,10 +17,9 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkScalarBarActor.h>
 #include <vtkSmartPointer.h>
-#include <vtkTextProperty.h>
 #include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "core/statistics.h"
 #include "scan/cloud_reader.h"
@@ -30,7 +28,6 @@
 namespace plotscan::view {
 namespace {
 
-constexpr double kBoxLift_m = 0.15;
 // The colour bar ends here: the share of points below, so that one stray point does not bleach all
 // others.
 constexpr double kTopShare = 0.999;
@@ -103,35 +100,6 @@ ColouredPoints points_in_field(const std::filesystem::path& cloud, const farm::T
   return points;
 }
 
-vtkNew<vtkLookupTable> height_colours(double top_m) {
-  vtkNew<vtkLookupTable> table;
-  table->SetHueRange(0.12, 0.38);  // straw, over green, to a dark leaf green
-  table->SetSaturationRange(0.45, 1.0);
-  table->SetValueRange(0.92, 0.30);
-  table->SetRange(0, top_m);
-  table->Build();
-  return table;
-}
-
-void add_colour_bar(vtkRenderer& renderer, vtkLookupTable& colours) {
-  vtkNew<vtkScalarBarActor> bar;
-  bar->SetLookupTable(&colours);
-  bar->SetTitle("height (m)");
-  bar->SetNumberOfLabels(5);
-  bar->SetLabelFormat("%.2f");
-  bar->UnconstrainedFontSizeOn();
-  for (vtkTextProperty* text : {bar->GetTitleTextProperty(), bar->GetLabelTextProperty()}) {
-    text->SetColor(0.1, 0.1, 0.1);
-    text->SetFontSize(14);
-    text->ItalicOff();
-    text->ShadowOff();
-  }
-  bar->SetPosition(0.90, 0.08);
-  bar->SetWidth(0.08);
-  bar->SetHeight(0.35);
-  renderer.AddActor2D(bar);
-}
-
 // The part of the surface on the inner side of one of the field's upright sides.
 vtkSmartPointer<vtkPolyData> behind_plane(vtkPolyData* surface, const Field& field, int axis,
                                           int side) {
@@ -187,7 +155,7 @@ void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Fiel
   mapper->SetInputData(shown);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.72, 0.62, 0.48);
+  actor->GetProperty()->SetColor(0.46, 0.35, 0.25);  // soil
   actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetAmbient(0.25);
   renderer.AddActor(actor);
@@ -211,61 +179,34 @@ void add_plants(vtkRenderer& renderer, const farm::Farm& farm) {
   }
 }
 
-void add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
-               const farm::Terrain& terrain, const Field& field, std::size_t max_points) {
+HeightColours add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
+                        const farm::Terrain& terrain, const Field& field, const CloudLook& look) {
   const ColouredPoints points = points_in_field(cloud, terrain, field);
-  const std::size_t stride = points.positions.size() / std::max<std::size_t>(1, max_points) + 1;
+  const HeightColours colours{.top_m = std::max(0.1, quantile(points.heights_m, kTopShare))};
+  const std::size_t stride =
+      points.positions.size() / std::max<std::size_t>(1, look.most_points) + 1;
   vtkNew<vtkPoints> positions;
-  vtkNew<vtkFloatArray> heights;
+  vtkNew<vtkUnsignedCharArray> colour;
+  colour->SetNumberOfComponents(3);
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i < points.positions.size(); i += stride) {
     const vtkIdType id = positions->InsertNextPoint(points.positions[i].data());
-    heights->InsertNextValue(static_cast<float>(points.heights_m[i]));
+    const Rgb rgb = colours.of(points.heights_m[i]);
+    colour->InsertNextTuple3(rgb.red, rgb.green, rgb.blue);
     cells->InsertNextCell({id});
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(positions);
   data->SetVerts(cells);
-  data->GetPointData()->SetScalars(heights);
-
-  const auto colours = height_colours(std::max(0.1, quantile(points.heights_m, kTopShare)));
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  mapper->SetLookupTable(colours);
-  mapper->UseLookupTableScalarRangeOn();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetPointSize(1);
-  actor->GetProperty()->LightingOff();
-  renderer.AddActor(actor);
-  add_colour_bar(renderer, *colours);
-}
-
-void add_boxes(vtkRenderer& renderer, const std::vector<PlotBox>& boxes,
-               const farm::Terrain& terrain) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
-  for (const PlotBox& box : boxes) {
-    const auto corners = box.corners();
-    lines->InsertNextCell(5);
-    const vtkIdType first = points->GetNumberOfPoints();
-    for (const Eigen::Vector2d& corner : corners) {
-      const double z = terrain.height(corner.x(), corner.y()).value_or(0.0) + kBoxLift_m;
-      points->InsertNextPoint(corner.x(), corner.y(), z);
-    }
-    for (const vtkIdType offset : {0, 1, 2, 3, 0}) lines->InsertCellPoint(first + offset);
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(lines);
+  data->GetPointData()->SetScalars(colour);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(0.80, 0.10, 0.15);
-  actor->GetProperty()->SetLineWidth(2.5F);
+  actor->GetProperty()->SetPointSize(look.point_px);
   actor->GetProperty()->LightingOff();
   renderer.AddActor(actor);
+  return colours;
 }
 
 }  // namespace plotscan::view

@@ -8,6 +8,7 @@
 
 #include "core/plot_box.h"
 #include "farm/farm.h"
+#include "view/height_colours.h"
 
 class vtkRenderer;
 
@@ -26,12 +27,14 @@ void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Fiel
 // reddish.
 void add_plants(vtkRenderer& renderer, const farm::Farm& farm);
 
-// The cloud's points within the field, coloured by height over the terrain, with a colour bar.
-void add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
-               const farm::Terrain& terrain, const Field& field, std::size_t max_points);
+// How a cloud is drawn.
+struct CloudLook {
+  std::size_t most_points = 0;  // evenly thinned beyond
+  float point_px = 1;           // of the window
+};
 
-// Outlines of the boxes, floating just over the terrain's highest point in each.
-void add_boxes(vtkRenderer& renderer, const std::vector<PlotBox>& boxes,
-               const farm::Terrain& terrain);
+// The cloud's points within the field, coloured by height over the terrain. Returns the colours.
+HeightColours add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
+                        const farm::Terrain& terrain, const Field& field, const CloudLook& look);
 
 }  // namespace plotscan::view

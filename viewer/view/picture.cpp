@@ -3,58 +3,101 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include <vtkCamera.h>
+#include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
 #include "view/actors.h"
+#include "view/camera.h"
 #include "view/display.h"
+#include "view/page.h"
+#include "view/panel.h"
 #include "view/window.h"
 
 namespace plotscan::view {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180;
-constexpr double kViewAngleDeg = 24;
-// Room left around the field.
-constexpr double kAir = 1.03;
+const Stroke kBoxLine{.colour = kVermilion, .width_px = 1.8};
+constexpr double kText_px = 15;
+constexpr double kLegend_px = 100;  // of the picture's width
+constexpr double kShade_m = 0.4;    // as far as leaves darken the soil and each other
+constexpr int kPlaces = 17;         // along either side of the field, of its ground that is shown
 
 void validate(const PictureOptions& options) {
-  require_range(options.width_px, kPictureSize_px, "picture width");
+  require_range(options.width_px, {256, kPictureSize_px.high}, "picture width");
   require_range(options.height_px, kPictureSize_px, "picture height");
   require_range(options.elevation_deg, {5, 90}, "camera elevation in degrees");
   require_range(options.azimuth_deg, {-360, 360}, "camera azimuth in degrees");
   require_range(options.margin_m, {0, 1e4}, "margin in metres");
 }
 
-// Looks at the field's centre from as near as shows all of it.
-void aim(vtkRenderer& renderer, const Field& field, const PictureOptions& options, double aspect) {
-  const double azimuth = options.azimuth_deg * kDegrees;
-  const double elevation = options.elevation_deg * kDegrees;
-  const Eigen::Vector3d back(std::cos(elevation) * std::cos(azimuth),
-                             std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0);
-  const Eigen::Vector3d up = back.cross(right);
-  const double up_slope = std::tan(kViewAngleDeg / 2 * kDegrees);
-  double distance = 0;
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d corner = field.corner(static_cast<Field::CornerType>(i)) - field.center();
-    const double wide = std::abs(corner.dot(right)) / (up_slope * aspect);
-    const double high = std::abs(corner.dot(up)) / up_slope;
-    distance = std::max(distance, corner.dot(back) + kAir * std::max(wide, high));
+// The field's ground and its plots as high as the tallest plant.
+std::vector<Eigen::Vector3d> outline_of(const farm::Farm& farm, const Field& field) {
+  std::vector<Eigen::Vector3d> places;
+  const auto add = [&](const Eigen::Vector2d& place, double above_m) {
+    const auto ground_m = farm.terrain.height(place.x(), place.y());
+    if (ground_m) places.emplace_back(place.x(), place.y(), *ground_m + above_m);
+  };
+  for (int i = 0; i < kPlaces; ++i) {
+    for (int j = 0; j < kPlaces; ++j) {
+      const Eigen::Vector2d share(i / (kPlaces - 1.0), j / (kPlaces - 1.0));
+      add(field.min().head<2>() + share.cwiseProduct(field.sizes().head<2>()), 0);
+    }
   }
-  const Eigen::Vector3d target = field.center();
-  const Eigen::Vector3d eye = target + distance * back;
-  vtkCamera& camera = *renderer.GetActiveCamera();
-  camera.SetFocalPoint(target.x(), target.y(), target.z());
-  camera.SetPosition(eye.x(), eye.y(), eye.z());
-  camera.SetViewUp(up.x(), up.y(), up.z());
-  camera.SetViewAngle(kViewAngleDeg);
-  renderer.ResetCameraClippingRange();
+  double tallest_m = 0;
+  for (const farm::Plant& plant : farm.plants) tallest_m = std::max(tallest_m, plant.height_m);
+  for (const farm::Plot& plot : farm.plots)
+    for (const Eigen::Vector2d& corner : plot.box.corners()) add(corner, tallest_m);
+  if (places.empty()) places = {field.min(), field.max()};
+  return places;
+}
+
+// The box on the ground, closed; pixels of a panel that begins at left_px.
+std::vector<Eigen::Vector2d> outline_in_picture(const PlotBox& box, const farm::Terrain& terrain,
+                                                const Camera& camera,
+                                                const Eigen::Vector2i& size_px, double left_px) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const Eigen::Vector2d& corner : box.corners()) {
+    const double z = terrain.height(corner.x(), corner.y()).value_or(0);
+    const Eigen::Vector2d place = camera.project({corner.x(), corner.y(), z});
+    outline.emplace_back(Eigen::Vector2d(left_px, 0) +
+                         (place.array() + 1).matrix().cwiseProduct(size_px.cast<double>()) / 2);
+  }
+  outline.push_back(outline.front());
+  return outline;
+}
+
+void add_light(vtkRenderer& renderer, const Eigen::Vector3d& from, double intensity) {
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(from.x(), from.y(), from.z());
+  light->SetFocalPoint(0, 0, 0);
+  light->SetIntensity(intensity);
+  renderer.AddLight(light);
+}
+
+// A high sun to the camera's left, and the sky.
+void light_up(vtkRenderer& renderer, const Camera& camera) {
+  add_light(renderer, camera.back - 1.5 * camera.right + 2 * Eigen::Vector3d::UnitZ(), 1.15);
+  add_light(renderer, camera.back + camera.right, 0.5);
+}
+
+vtkNew<vtkRenderer> white_renderer() {
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1, 1, 1);
+  return renderer;
+}
+
+Raster farm_panel(const farm::Farm& farm, const Field& field, const Camera& camera,
+                  const Eigen::Vector2i& size_px) {
+  const auto renderer = white_renderer();
+  add_terrain(*renderer, farm.terrain, field);
+  add_plants(*renderer, farm);
+  light_up(*renderer, camera);
+  aim(*renderer, camera);
+  return drawn_panel(*renderer, size_px, kShade_m);
 }
 
 }  // namespace
@@ -66,30 +109,30 @@ void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::p
   const Display display;
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
   const Field field = field_of(farm, options.margin_m);
-  const int panels = cloud ? 2 : 1;
-  const double aspect = static_cast<double>(options.width_px) / panels / options.height_px;
+  const int panel_px =
+      cloud ? static_cast<int>(options.width_px - kLegend_px) / 2 : options.width_px;
+  const Camera camera =
+      camera_that_sees(outline_of(farm, field), {options.azimuth_deg, options.elevation_deg},
+                       static_cast<double>(panel_px) / options.height_px);
+  const Eigen::Vector2i size_px(
+      panel_px, static_cast<int>(std::ceil(panel_px * camera.up_slope / camera.right_slope)));
 
-  vtkNew<vtkRenderer> farm_panel;
-  farm_panel->SetBackground(1, 1, 1);
-  farm_panel->SetViewport(0, 0, 1.0 / panels, 1);
-  add_terrain(*farm_panel, farm.terrain, field);
-  add_plants(*farm_panel, farm);
-  aim(*farm_panel, field, options, aspect);
-
-  vtkNew<vtkRenderWindow> window;
-  prepare_offscreen(*window, options.width_px, options.height_px);
-  window->AddRenderer(farm_panel);
-
-  vtkNew<vtkRenderer> cloud_panel;
+  Page page(Eigen::Vector2d(options.width_px, size_px.y()));
+  page.raster({0, 0}, farm_panel(farm, field, camera, size_px));
   if (cloud) {
-    cloud_panel->SetBackground(1, 1, 1);
-    cloud_panel->SetViewport(0.5, 0, 1, 1);
-    add_cloud(*cloud_panel, *cloud, farm.terrain, field, options.max_points);
-    add_boxes(*cloud_panel, boxes, farm.terrain);
-    aim(*cloud_panel, field, options, aspect);
-    window->AddRenderer(cloud_panel);
+    const auto renderer = white_renderer();
+    const HeightColours colours =
+        add_cloud(*renderer, *cloud, farm.terrain, field,
+                  {.most_points = options.max_points, .point_px = kPanelSamples + 1});
+    aim(*renderer, camera);
+    page.raster(Eigen::Vector2d(panel_px, 0), drawn_panel(*renderer, size_px, 0));
+    for (const PlotBox& box : boxes)
+      page.line(outline_in_picture(box, farm.terrain, camera, size_px, panel_px), kBoxLine);
+    const Eigen::Vector2d corner(2 * panel_px + kText_px, 0.15 * size_px.y());
+    draw_colour_bar(page, colours, {corner, corner + Eigen::Vector2d(kText_px, 0.7 * size_px.y())},
+                    "height (m)", kText_px);
   }
-  render_png(*window, png);
+  page.write(png);
 }
 
 }  // namespace plotscan::view

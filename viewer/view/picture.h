@@ -15,8 +15,8 @@ namespace plotscan::view {
 
 // What a picture of a farm shows. Every panel is seen from the same camera.
 struct PictureOptions {
-  int width_px = 1600;  // of the whole picture, 64 to 16384
-  int height_px = 560;
+  int width_px = 1600;  // of the whole picture, 256 to 16384
+  int height_px = 560;  // at most: it is lower where the field leaves room
   double azimuth_deg =
       -60;  // where the camera stands: counter-clockwise from east, seen from the field's centre
   double elevation_deg = 35;           // of the camera over the horizon, 5 to 90
