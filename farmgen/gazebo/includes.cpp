@@ -11,6 +11,7 @@
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "gazebo/quiet.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -182,9 +183,12 @@ class Follower {
 }  // namespace
 
 Includes follow_includes(const fs::path& file, const ResourceFinder& finder) {
+  const Quiet quiet;
   Follower follower(finder);
-  follower.follow(fs::absolute(file).lexically_normal());
-  return follower.take();
+  const std::uint64_t models = follower.follow(fs::absolute(file).lexically_normal());
+  Includes includes = follower.take();
+  includes.models = models;
+  return includes;
 }
 
 }  // namespace plotscan::gazebo
