@@ -35,7 +35,7 @@ void require_near(const Eigen::AlignedBox3d& box, const Eigen::Affine3d& world_f
 IsolationLimits limits_of(const Includes& includes) {
   constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{1} << 30;
   constexpr std::uint64_t kMemoryPerModel_bytes = 4'000'000;
-  constexpr std::uint64_t kMemoryPerByte = 64;
+  constexpr std::uint64_t kMemoryPerByte = 40;
   IsolationLimits limits{
       .memory_bytes = kLeastMemory_bytes + includes.models * kMemoryPerModel_bytes,
       .processor_s = 60 + static_cast<int>(includes.models)};
