@@ -9,8 +9,11 @@ void remove_tree(int folder, const char* name) {
   if (unlinkat(folder, name, 0) == 0) return;
   const int opened = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (opened < 0) return;
-  // Names may be passed over while others go: until nothing goes any more.
-  for (bool gone = true; gone;) {
+  // Names may be passed over while others go: until nothing goes any more. Somebody who keeps on
+  // writing is not waited for.
+  constexpr int kMostPasses = 100;
+  bool gone = true;
+  for (int pass = 0; gone && pass < kMostPasses; ++pass) {
     gone = false;
     lseek(opened, 0, SEEK_SET);
     for_each_name(opened, [&](const char* entry) {

@@ -56,9 +56,10 @@ TEST(TimeLeft, ASlowStartIsForgotten) {
     const double now_s = 0.1 * i;
     const double share = now_s < 1.5 ? 1e-4 * now_s : 1.5e-4 + (now_s - 1.5) / 13.51;
     const auto left_s = time.at(now_s, share);
-    if (now_s < TimeLeft::kSilent_s) EXPECT_EQ(left_s, std::nullopt);
-    if (left_s) EXPECT_LT(*left_s, 60) << now_s;
-    if (now_s > 6) EXPECT_NEAR(*left_s, 15 - now_s, 0.25 * (15 - now_s) + 0.5) << now_s;
+    EXPECT_EQ(left_s.has_value(), now_s >= TimeLeft::kSilent_s) << now_s;
+    EXPECT_LT(left_s.value_or(0), 60) << now_s;
+    const double allowed_s = now_s > 6 ? 0.25 * (15 - now_s) + 0.5 : 60;
+    EXPECT_NEAR(left_s.value_or(15 - now_s), 15 - now_s, allowed_s) << now_s;
   }
 }
 
