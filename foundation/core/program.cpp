@@ -118,8 +118,11 @@ int Program::run(int argc, char** argv) {
   errno = 0;
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  int error = errno;
+  // What was flushed before has told its reason to nobody; one more byte meets the same.
+  if (error == 0 && write(STDOUT_FILENO, "\n", 1) < 0) error = errno;
   say_error(name_, std::string("stdout cannot be written") +
-                       (errno != 0 ? ": " + std::generic_category().message(errno) : ""));
+                       (error != 0 ? ": " + std::generic_category().message(error) : ""));
   return kExitFailure;
 }
 

@@ -453,7 +453,7 @@ TEST_F(ReadWorld, ThirdPartyModelsStandAtTheirScale) {
   expect_vertices(world, 2, lying);
 }
 
-TEST(ReadWorld, AFileOfAMillionBoxesIsRefusedBeforeItIsParsed) {
+TEST_F(ReadWorld, AFileOfAMillionBoxesIsRefusedBeforeItIsParsed) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("w.sdf", "<sdf version='1.9'/>");
   fs::resize_file(file, 32'000'001);
