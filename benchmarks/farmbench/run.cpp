@@ -216,16 +216,19 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
 
 RunSummary report(const fs::path& output, std::uint64_t seed) {
   const fs::path file = output / "results.json";
+  const std::string text = read_text(file);
   RunSummary summary;
   try {
-    summary.result = suite_result_from_json(json::parse(read_text(file)));
+    summary.result = suite_result_from_json(json::parse(text));
+    require_known_methods(summary.result.methods);
     for (FarmResult& farm : summary.result.farms)
       read_times(output, farm.case_name + "-" + std::to_string(farm.seed), farm);
-    require_known_methods(summary.result.methods);
     summary.resumed = summary.result.farms.size();
     summary.table = make_table(summary.result, seed);
   } catch (const json::exception& error) {
     throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
   } catch (const std::logic_error& error) {  // what make_table takes for granted was edited away
     throw InputError(file, std::string("its parts do not fit together (") + error.what() +
                                "); farmbench run writes it anew");

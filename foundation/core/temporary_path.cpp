@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
+#include <fstream>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -44,7 +45,15 @@ std::optional<pid_t> number_between(std::string_view name, std::string_view begi
   return number;
 }
 
-bool is_gone(pid_t process) { return kill(process, 0) != 0 && errno == ESRCH; }
+// A process that has ended and that its parent has not asked after is gone, too.
+bool is_gone(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  // "PROCESS (NAME) STATE ..."; the name may hold anything.
+  std::string status;
+  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/stat"), status);
+  const std::size_t name_end = status.rfind(") ");
+  return name_end != std::string::npos && status.substr(name_end + 2).starts_with('Z');
+}
 
 // What processes that are gone left under the same name but for their number.
 void sweep(const std::filesystem::path& path) {

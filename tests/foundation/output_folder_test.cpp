@@ -163,6 +163,18 @@ TEST(TemporaryPath, SweepsWhatAKilledRunLeft) {
   EXPECT_EQ(entries(folder.path()), 4u);
 }
 
+TEST(TemporaryPath, SweepsWhatAProcessLeftThatNobodyHasAskedAfter) {
+  const testing::TemporaryFolder folder;
+  const pid_t process = fork();
+  if (process == 0) _exit(0);
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT), 0);
+  folder.write(".out.partial-" + std::to_string(process), "x");
+  { const OutputFolder output(folder.path() / "out", false, "farmgen generate"); }
+  EXPECT_EQ(entries(folder.path()), 0u);
+  waitpid(process, nullptr, 0);
+}
+
 TEST(OutputFile, AppearsWholeOrNotAtAll) {
   const testing::TemporaryFolder folder;
   const auto final_path = folder.path() / "cloud.las";
