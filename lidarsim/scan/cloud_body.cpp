@@ -84,7 +84,9 @@ void require_lengths(const std::filesystem::path& file, const Wanted& wanted, st
       if (length_m > kMost_m || (length_m > 0 && length_m < kLeast_m)) ++garbled;
     }
   }
-  if (10 * garbled <= coordinates || coordinates == 0) return;
+  // A handful of points proves nothing.
+  constexpr std::uint64_t kFewest = 300;
+  if (coordinates < kFewest || 10 * garbled <= coordinates) return;
   throw InputError(file,
                    std::to_string(100 * garbled / coordinates) +
                        " % of its coordinates are no lengths: below 1e-30 m or beyond 1e12 m; "
