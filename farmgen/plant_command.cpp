@@ -32,6 +32,8 @@ void require_free(const fs::path& path) {
 // The mesh, its materials and their pictures, written beside their places and renamed when they are
 // whole.
 void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
+  if (!fs::is_directory(fs::absolute(output).parent_path()))
+    throw InputError(output, "cannot be created: there is no such folder");
   const TemporaryPath partial(partial_path(output));
   std::error_code ignored;  // writing into the folder says what is wrong
   fs::create_directory(partial.path(), ignored);

@@ -67,7 +67,7 @@ void write_sample(const std::filesystem::path& file, const FieldSample& sample) 
     write_array(out, plot.points);
     write_array(out, plot.perfect);
   }
-  if (!out.flush()) throw InputError(file.string() + ": cannot be written");
+  if (!out.flush()) throw WriteError(file);
 }
 
 FieldSample read_sample(const std::filesystem::path& file) {

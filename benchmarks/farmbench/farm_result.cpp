@@ -11,7 +11,6 @@ json to_json(const FarmResult& result) {
   json methods = json::array();
   for (const MethodResult& method : result.methods) {
     methods.push_back({{"method", method.method},
-                       {"seconds", method.seconds},
                        {"failure", method.failure},
                        {"diagnostics", method.diagnostics},
                        {"score", score::to_json(method.score)}});
@@ -35,12 +34,24 @@ FarmResult farm_result_from_json(const json& document) {
                     .methods = {}};
   for (const json& method : document.at("methods")) {
     result.methods.push_back({.method = method.at("method"),
-                              .seconds = method.at("seconds"),
                               .failure = method.at("failure"),
                               .diagnostics = method.at("diagnostics"),
                               .score = score::field_from_json(method.at("score"))});
   }
   return result;
+}
+
+json times_of(const FarmResult& result) {
+  json times = json::object();
+  for (const MethodResult& method : result.methods) times[method.method] = method.seconds;
+  return times;
+}
+
+void set_times(FarmResult& result, const json& times) {
+  for (MethodResult& method : result.methods) {
+    const auto taken = times.find(method.method);
+    if (taken != times.end()) method.seconds = taken->get<double>();
+  }
 }
 
 }  // namespace plotscan::farmbench

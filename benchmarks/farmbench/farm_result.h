@@ -14,7 +14,7 @@ namespace plotscan::farmbench {
 // One method on one farm.
 struct MethodResult {
   std::string method;   // Method::name
-  double seconds = 0;   // from the map in memory to the heights
+  double seconds = 0;   // from the map in memory to the heights; 0: not known
   std::string failure;  // why the method gave up, "" when it did not; every plot is missed then
   nlohmann::json diagnostics = nlohmann::json::object();  // Estimate::diagnostics
   score::FieldScore score;
@@ -31,8 +31,15 @@ struct FarmResult {
   std::vector<MethodResult> methods;
 };
 
+// All but the times, which no two runs share.
 nlohmann::json to_json(const FarmResult& result);
 // Throws nlohmann::json::exception on anything that to_json does not write.
 FarmResult farm_result_from_json(const nlohmann::json& document);
+
+// The seconds of each method, by its name.
+nlohmann::json times_of(const FarmResult& result);
+// Takes over the seconds of the methods that are named. Throws nlohmann::json::exception where one
+// is no number.
+void set_times(FarmResult& result, const nlohmann::json& times);
 
 }  // namespace plotscan::farmbench

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include <unistd.h>
@@ -65,12 +66,23 @@ fs::path result_file(const RunOptions& options, const Task& task) {
   return options.output / "farms" / (task.name + ".json");
 }
 
+fs::path times_file(const fs::path& output, const std::string& farm) {
+  return output / "times" / (farm + ".json");
+}
+
+void read_times(const fs::path& output, const std::string& farm, FarmResult& result) {
+  const fs::path file = times_file(output, farm);
+  if (fs::exists(file)) set_times(result, json::parse(read_text(file)));
+}
+
 // The farm's result where there is one made from the same; a broken file is as good as none.
-std::optional<FarmResult> earlier_result(const fs::path& file, const json& made_from) {
+std::optional<FarmResult> earlier_result(const RunOptions& options, const Task& task) {
+  const fs::path file = result_file(options, task);
   if (!fs::exists(file)) return std::nullopt;
   try {
     FarmResult result = farm_result_from_json(json::parse(read_text(file)));
-    if (result.made_from == made_from) return result;
+    read_times(options.output, task.name, result);
+    if (result.made_from == task.made_from) return result;
   } catch (const json::exception&) {
     return std::nullopt;
   }
@@ -86,8 +98,7 @@ std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
                        .name = suite_case.name + "-" + std::to_string(seed),
                        .made_from = made_from(suite, suite_case, seed, options.build)});
       if (options.force) continue;
-      tasks.back().result =
-          earlier_result(result_file(options, tasks.back()), tasks.back().made_from);
+      tasks.back().result = earlier_result(options, tasks.back());
     }
   }
   return tasks;
@@ -118,6 +129,8 @@ void run_task(Task& task, const Suite& suite, const RunOptions& options, const f
   fs::create_directories(folder);
   FarmResult result = run_farm(suite, task.suite_case, task.seed, folder, threads, progress);
   result.made_from = task.made_from;
+  // The result last: it is what a later run looks for.
+  write_text(times_file(options.output, task.name), times_of(result).dump(1) + "\n");
   write_text(result_file(options, task), to_json(result).dump(1) + "\n");
   task.result = std::move(result);
   if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task.seed);
@@ -147,6 +160,24 @@ void run_tasks(std::vector<Task>& tasks, const Suite& suite, const RunOptions& o
   });
 }
 
+// A results folder that a run makes: it goes again where the run ends before its first farm.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path folder) : folder_(std::move(folder)), is_new_(!fs::exists(folder_)) {}
+  ~NewFolder() {
+    std::error_code ignored;
+    if (is_new_ && fs::is_empty(folder_ / "farms", ignored)) fs::remove_all(folder_, ignored);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  void keep() { is_new_ = false; }
+
+ private:
+  fs::path folder_;
+  bool is_new_;
+};
+
 // From its start a run's folder says whose it is, so that no other folder is ever taken for it.
 void write_run_manifest(const RunOptions& options, const std::vector<Task>& tasks, bool finished) {
   write_manifest(options.output, {.command = kCommand,
@@ -165,7 +196,8 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
   const auto resumed =
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
   require_places(options, tasks);
-  fs::create_directories(options.output / "farms");
+  NewFolder folder(options.output);
+  for (const char* part : {"farms", "times"}) fs::create_directories(options.output / part);
   write_run_manifest(options, tasks, false);
   run_tasks(tasks, suite, options, progress, finished);
   std::vector<FarmResult> farms;
@@ -175,6 +207,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
                      .table = {},
                      .resumed = static_cast<std::size_t>(resumed)};
   summary.table = make_table(summary.result, options.seed);
+  folder.keep();
   write_text(options.output / "results.json", to_json(summary.result).dump(1) + "\n");
   write_reports(options.output, summary.result, summary.table);
   write_run_manifest(options, tasks, true);
@@ -183,14 +216,23 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
 
 RunSummary report(const fs::path& output, std::uint64_t seed) {
   const fs::path file = output / "results.json";
+  const std::string text = read_text(file);
   RunSummary summary;
   try {
-    summary.result = suite_result_from_json(json::parse(read_text(file)));
+    summary.result = suite_result_from_json(json::parse(text));
+    require_known_methods(summary.result.methods);
+    for (FarmResult& farm : summary.result.farms)
+      read_times(output, farm.case_name + "-" + std::to_string(farm.seed), farm);
+    summary.resumed = summary.result.farms.size();
+    summary.table = make_table(summary.result, seed);
   } catch (const json::exception& error) {
     throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  } catch (const std::logic_error& error) {  // what make_table takes for granted was edited away
+    throw InputError(file, std::string("its parts do not fit together (") + error.what() +
+                               "); farmbench run writes it anew");
   }
-  summary.resumed = summary.result.farms.size();
-  summary.table = make_table(summary.result, seed);
   write_reports(output, summary.result, summary.table);
   return summary;
 }

@@ -33,7 +33,7 @@ CaseOfMethod collect(const SuiteResult& result, const std::string& case_name,
     for (const MethodResult& run : farm.methods) {
       if (run.method != method) continue;
       collected.fields.push_back(run.score);
-      collected.seconds.push_back(run.seconds);
+      if (run.seconds > 0) collected.seconds.push_back(run.seconds);
     }
   }
   return collected;
@@ -194,8 +194,7 @@ std::string table_csv(const std::vector<TableRow>& table) {
       "suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,"
       "iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,"
       "rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,"
-      "r2_within,rho_within,coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share,"
-      "seconds\n";
+      "r2_within,rho_within,coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share\n";
   for (const TableRow& row : table) {
     text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
     append_counts(text, {row.farms, row.plots, row.found, row.missed, row.extra});
@@ -221,7 +220,7 @@ std::string table_csv(const std::vector<TableRow>& table) {
                          row.within.rho,
                          row.coverage95});
     append_counts(text, {row.flagged, row.large_unflagged});
-    append_values(text, {row.large_unflagged_share, row.seconds});
+    append_values(text, {row.large_unflagged_share});
     text += "\n";
   }
   return text;

@@ -53,7 +53,7 @@ struct TableRow {
   std::size_t flagged = 0;          // found plots with this height and a flag
   std::size_t large_unflagged = 0;  // those without, in error by more than score::kLargeError_m
   double large_unflagged_share = std::numeric_limits<double>::quiet_NaN();  // of all with it
-  double seconds = 0;  // of the method, median over farms
+  double seconds = 0;  // of the method, median over farms; NaN: not known
 };
 
 // All rows: by case, by method, by truth; of a case without plots, one row a method. `seed` draws
@@ -66,8 +66,7 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
 // iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,
 // rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,r2_within,rho_within,
-// coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share,seconds; a field that is NaN is
-// empty.
+// coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share; a field that is NaN is empty.
 std::string table_csv(const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

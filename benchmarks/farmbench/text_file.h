@@ -7,7 +7,7 @@
 namespace plotscan::farmbench {
 
 // Writes the text beside the path and renames it, so that the file is whole or not there. Throws
-// InputError when it cannot be written.
+// WriteError when it cannot be written.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace plotscan::farmbench

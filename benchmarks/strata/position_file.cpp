@@ -3,8 +3,9 @@
 
 #include <bit>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "core/error.h"
 
 namespace plotscan::strata {
 
@@ -21,7 +22,7 @@ void write_positions(const std::filesystem::path& file,
   out.write(reinterpret_cast<const char*>(points.data()),
             static_cast<std::streamsize>(points.size() * sizeof(Eigen::Vector3f)));
   out.close();
-  if (!out) throw std::runtime_error(file.string() + " cannot be written");
+  if (!out) throw WriteError(file);
 }
 
 }  // namespace plotscan::strata

@@ -9,7 +9,7 @@
 namespace plotscan::strata {
 
 // A binary PCD 0.7 of x, y, z as floats, metres: a third of a simulated cloud's size, and all that
-// an estimator reads of it. Throws std::runtime_error when the file cannot be written.
+// an estimator reads of it. Throws WriteError when the file cannot be written.
 void write_positions(const std::filesystem::path& file, const std::vector<Eigen::Vector3f>& points);
 
 }  // namespace plotscan::strata

@@ -36,7 +36,7 @@ void write_grid(const fs::path& path, const ground::Surface& surface, double uni
     }
     out << '\n';
   }
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  if (!out.flush()) throw WriteError(path);
 }
 
 // To a tenth of a millimetre, in feet finer.

@@ -11,7 +11,7 @@ namespace plotscan::estimate {
 // Writes a surface as three ESRI ASCII grids, one node a cell, into an existing folder, for QGIS,
 // GDAL and R: ground.asc (height), ground_se.asc (its standard error), -9999 out of
 // reach, and ground_seen.asc (1 where ground returns show it, 0 where it is interpolated, -9999 out
-// of reach). Throws InputError when they cannot be written.
+// of reach). Throws WriteError when they cannot be written.
 // The files' numbers are in `units`, those of z for ground.asc and ground_se.asc.
 void write_ground(const std::filesystem::path& folder, const ground::Surface& surface,
                   const CoordinateUnits& units = {});

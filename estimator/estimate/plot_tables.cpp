@@ -149,7 +149,7 @@ void write_table(const fs::path& path, const std::vector<Column>& columns,
     }
     out << '\n';
   }
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  if (!out.flush()) throw WriteError(path);
 }
 
 }  // namespace

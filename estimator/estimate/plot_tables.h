@@ -9,7 +9,7 @@ namespace plotscan::estimate {
 
 // An estimate as tables (CSV, RFC 4180), a header line and a line a plot; heights in metres, empty
 // where not measured, each followed by its standard error and 95 % interval where it has them.
-// Throws InputError where they cannot be written.
+// Throws WriteError where they cannot be written.
 
 // heights.csv of an estimate folder (docs/estimate-format.md): id, place in the grid, box, points,
 // heights, confidence, flags, attributes.

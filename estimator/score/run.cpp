@@ -25,7 +25,7 @@ void write_scores(const Scores& scores, const RunOptions& options) {
   const fs::path file = folder.path() / "scores.json";
   std::ofstream out(file);
   out << to_json(scores).dump(1) << '\n';
-  if (!out.flush()) throw InputError(file, "cannot be written");
+  if (!out.flush()) throw WriteError(file);
   write_plot_table(folder.path() / "plots.csv", scores.field);
   write_manifest(folder.path(), {.command = "estimator score",
                                  .options = {{"min_iou", options.score.min_iou}},

@@ -205,7 +205,7 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
     if (!intervals.empty()) write_trust(out, plot, intervals);
     out << '\n';
   }
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  if (!out.flush()) throw WriteError(path);
 }
 
 }  // namespace plotscan::score

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t kMostModels = 1000;
 constexpr std::size_t kMostAssignments = 1000;
 constexpr std::int64_t kMostVariants = 1000;
+constexpr double kTallest_m = 120;                  // no tree is taller
 constexpr std::size_t kMostTriangles = 20'000'000;  // of all models, scan and light: about 1 GB
 
 std::map<std::string, float> read_reflectance(const YamlSection& section) {
@@ -170,6 +171,13 @@ PlantModel make_model(const ModelDescription& description, const std::filesystem
   }
   apply_reflectance(description, source, model);
   model.height_m = mesh::mesh_height(model.mesh);
+  if (model.height_m > kTallest_m) {
+    throw InputError(description.grown ? source : description.mesh,
+                     "model " + model.name + formatted(" is %.4g m tall", model.height_m) +
+                         formatted("; a plant has up to %.0f m (unit_m says what the file's "
+                                   "numbers are)",
+                                   kTallest_m));
+  }
   if (model.height_m > 0) return model;
   if (description.grown) throw InputError(source, "model " + model.name + ": has no height");
   throw InputError(description.mesh,

@@ -50,7 +50,7 @@ void write_terrain(const std::filesystem::path& path, const Terrain& terrain) {
   }
   std::ofstream out(path, std::ios::binary);
   out.write(data.data(), static_cast<std::streamsize>(data.size()));
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  if (!out.flush()) throw WriteError(path);
 }
 
 Terrain read_terrain(const std::filesystem::path& path) {

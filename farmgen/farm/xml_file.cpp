@@ -9,7 +9,7 @@ namespace plotscan::farm {
 
 XmlFile::XmlFile(const std::filesystem::path& path)
     : path_(path), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {
-  if (!file_) throw InputError(path_, "cannot be written");
+  if (!file_) throw WriteError(path_);
   printer_ = std::make_unique<tinyxml2::XMLPrinter>(file_.get());
   printer_->PushHeader(false, true);
 }
@@ -40,8 +40,7 @@ void XmlFile::text(const char* element, const std::string& value) {
 }
 
 void XmlFile::finish() {
-  if (std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0)
-    throw InputError(path_, "cannot be written");
+  if (std::fflush(file_.get()) != 0 || std::ferror(file_.get()) != 0) throw WriteError(path_);
 }
 
 }  // namespace plotscan::farm

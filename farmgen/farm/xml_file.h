@@ -15,7 +15,7 @@ namespace plotscan::farm {
 // An XML file written element by element, so that memory does not grow with the farm.
 class XmlFile {
  public:
-  // Throws InputError when the file cannot be written.
+  // Throws WriteError when the file cannot be written.
   explicit XmlFile(const std::filesystem::path& path);
   ~XmlFile();
   XmlFile(XmlFile&&) noexcept;
@@ -28,7 +28,7 @@ class XmlFile {
   // <element>value</element>
   void text(const char* element, const std::string& value);
 
-  // Throws InputError when anything could not be written.
+  // Throws WriteError when anything could not be written.
   void finish();
 
  private:

@@ -3,25 +3,17 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <sdf/Geometry.hh>
-#include <sdf/Mesh.hh>
-#include <sdf/Visual.hh>
 
+#include "gazebo/load_world.h"
 #include "gazebo/resources.h"
 #include "mesh/mesh.h"
 
-// Private to the library: libsdformat's headers are slow to compile.
+// Private to the library.
 namespace plotscan::gazebo {
-
-struct Shape {
-  std::uint32_t mesh = 0;  // index
-  Eigen::Affine3d visual_from_mesh = Eigen::Affine3d::Identity();
-};
 
 // The meshes of visuals, each file and primitive once.
 class ShapeCache {
@@ -29,10 +21,9 @@ class ShapeCache {
   ShapeCache(const std::filesystem::path& world, const ResourceFinder& finder)
       : world_(world), finder_(finder) {}
 
-  // The visual's geometry; absent where it has none. Throws InputError, naming the visual as
-  // `what`, when a mesh is missing or broken, a size is not positive and finite, or the geometry is
-  // of a kind that is not read.
-  std::optional<Shape> of(const sdf::Visual& visual, const std::string& what);
+  // The mesh of a visual's geometry: its index. Throws InputError, naming the visual as `what`,
+  // when a mesh is missing or broken, or a polyline encloses no area.
+  std::uint32_t of(const ShapeSpec& given, const std::string& what);
 
   // Of a shape's mesh, in its own frame.
   const Eigen::AlignedBox3d& bounds(std::uint32_t mesh) const { return bounds_[mesh]; }
@@ -43,8 +34,8 @@ class ShapeCache {
   std::vector<mesh::Mesh> take() { return std::move(meshes_); }
 
  private:
-  Shape of_mesh(const sdf::Mesh& given, const std::string& what);
-  std::optional<Shape> of_element(const sdf::Geometry& geometry, const std::string& what);
+  std::uint32_t of_mesh(const ShapeSpec& given, const std::string& what);
+  std::uint32_t of_polyline(const ShapeSpec& given, const std::string& what);
   template <class Make>
   std::uint32_t index(const std::string& key, Make&& make);
 

@@ -11,6 +11,7 @@
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "gazebo/quiet.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -26,6 +27,8 @@ std::string trimmed(const char* text) {
 
 // libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
 constexpr std::uint64_t kMostModels = 10000;
+// It takes some 25 bytes for one of the file.
+constexpr std::uint64_t kMostBytes = 32'000'000;
 
 // Whether it is made of whole numbers and dots, which is all that SemanticVersion survives.
 bool is_version(std::string_view text) {
@@ -97,6 +100,10 @@ class Follower {
   std::uint64_t follow(const fs::path& file) {
     if (const auto known = models_.find(file); known != models_.end()) return known->second;
     require_file(file);
+    if (fs::file_size(file) > kMostBytes) {
+      throw InputError(file, "has " + std::to_string(fs::file_size(file)) +
+                                 " bytes; SDF is read up to " + std::to_string(kMostBytes));
+    }
     tinyxml2::XMLDocument document;
     if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
       throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
@@ -182,9 +189,12 @@ class Follower {
 }  // namespace
 
 Includes follow_includes(const fs::path& file, const ResourceFinder& finder) {
+  const Quiet quiet;
   Follower follower(finder);
-  follower.follow(fs::absolute(file).lexically_normal());
-  return follower.take();
+  const std::uint64_t models = follower.follow(fs::absolute(file).lexically_normal());
+  Includes includes = follower.take();
+  includes.models = models;
+  return includes;
 }
 
 }  // namespace plotscan::gazebo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,6 +16,7 @@ struct Includes {
   std::map<std::string, std::filesystem::path> by_uri;  // a file, or the folder of a model
   // The file itself and all that are read by includes, each once and behind those it includes.
   std::vector<std::filesystem::path> files;
+  std::uint64_t models = 0;  // in the file with all that it includes
 };
 
 // Follows the includes of an SDF file, and of the files that it includes. libsdformat would follow

@@ -166,7 +166,7 @@ void ObjFile::add(const Surface& surface, const Eigen::Affine3d& file_from_surfa
 void ObjFile::close() {
   flush();
   out_.close();
-  if (!out_) throw InputError(path_, "cannot be written");
+  if (!out_) throw WriteError(path_);
 }
 
 }  // namespace plotscan::gazebo

@@ -40,7 +40,7 @@ class ObjFile {
   // The surface placed by `file_from_surface`; with `both_sides` its back faces as well, for
   // renderers that leave out triangles seen from behind.
   void add(const Surface& surface, const Eigen::Affine3d& file_from_surface, bool both_sides);
-  // Throws InputError when anything could not be written.
+  // Throws WriteError when anything could not be written.
   void close();
 
   std::uint64_t triangles() const { return triangles_; }

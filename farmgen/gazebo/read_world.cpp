@@ -1,98 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/read_world.h"
 
-#include <algorithm>
-
-#include <console_bridge/console.h>
-#include <sdf/Console.hh>
-#include <sdf/Link.hh>
-#include <sdf/Model.hh>
-#include <sdf/ParserConfig.hh>
-#include <sdf/Root.hh>
-#include <sdf/Sensor.hh>
-#include <sdf/Visual.hh>
-#include <sdf/World.hh>
+#include <stdexcept>
 
 #include "core/error.h"
+#include "core/isolated.h"
 #include "core/text.h"
 #include "gazebo/geometry.h"
 #include "gazebo/includes.h"
-#include "gazebo/naming.h"
+#include "gazebo/load_world.h"
 #include "gazebo/resources.h"
+#include "gazebo/world_bytes.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
 namespace {
-
-[[noreturn]] void refuse(const fs::path& file, const sdf::Errors& errors) {
-  const sdf::Error& first = errors.front();
-  // The first says what, those behind it often why.
-  constexpr std::size_t kShown = 3;
-  std::string message = first.Message();
-  for (std::size_t i = 1; i < std::min(kShown, errors.size()); ++i)
-    message += "; " + errors[i].Message();
-  const fs::path where = first.FilePath() ? fs::path(*first.FilePath()) : file;
-  if (first.LineNumber())
-    throw InputError(where, static_cast<std::size_t>(*first.LineNumber()), message);
-  throw InputError(where, message);
-}
-
-// Tells libsdformat where each include lies: a prefix of its URI, and the folder that stands for
-// it.
-sdf::ParserConfig parser_config(const Includes& includes, const ResourceFinder& finder) {
-  sdf::ParserConfig config;
-  for (const fs::path& folder : finder.folders()) {
-    for (const char* scheme : {"model://", "package://"})
-      config.AddURIPath(scheme, folder.string());
-  }
-  for (const auto& [uri, path] : includes.by_uri) {
-    const std::string name = uri.substr(0, uri.find_last_not_of('/') + 1);
-    const std::string prefix = name.substr(0, name.rfind('/') + 1);  // empty: no slash
-    config.AddURIPath(prefix, path.parent_path().string());
-  }
-  return config;
-}
-
-// libsdformat's errors come back as values: nothing is printed, neither by itself nor by the URDF
-// parser that it tries on what it cannot read.
-class Quiet {
- public:
-  Quiet() {
-    sdf::Console::Instance()->SetQuiet(true);
-    console_bridge::noOutputHandler();
-  }
-  ~Quiet() { console_bridge::restorePreviousOutputHandler(); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-};
-
-// To the files that it includes libsdformat gives the global configuration, whatever it was called
-// with.
-class Loading {
- public:
-  explicit Loading(const sdf::ParserConfig& config) : before_(sdf::ParserConfig::GlobalConfig()) {
-    sdf::ParserConfig::GlobalConfig() = config;
-  }
-  ~Loading() { sdf::ParserConfig::GlobalConfig() = before_; }
-  Loading(const Loading&) = delete;
-  Loading& operator=(const Loading&) = delete;
-
- private:
-  sdf::ParserConfig before_;
-};
-
-// Loads the files one by one, each behind those that it includes, and returns the last: of an
-// included file libsdformat would print the errors and go on.
-sdf::Root loaded(const std::vector<fs::path>& files, const sdf::ParserConfig& config) {
-  const Loading loading(config);
-  sdf::Root root;
-  for (const fs::path& file : files) {
-    root = sdf::Root();
-    const sdf::Errors errors = root.Load(file.string(), config);
-    if (!errors.empty()) refuse(file, errors);
-  }
-  return root;
-}
 
 // Beyond it neither single precision nor a flight makes sense, and Embree aborts at about 1e18.
 constexpr double kFarthest_m = 1e7;
@@ -109,180 +31,58 @@ void require_near(const Eigen::AlignedBox3d& box, const Eigen::Affine3d& world_f
   }
 }
 
-template <class Element>
-Eigen::Affine3d parent_from(const Element& element, const std::string& what, const fs::path& file) {
-  ignition::math::Pose3d pose;
-  const sdf::Errors errors = element.SemanticPose().Resolve(pose);
-  if (!errors.empty()) refuse(file, errors);
-  const auto& p = pose.Pos();
-  const auto& q = pose.Rot();
-  const Eigen::Affine3d transform = Eigen::Translation3d(p.X(), p.Y(), p.Z()) *
-                                    Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized();
-  if (!transform.matrix().allFinite())
-    throw InputError(file, what + " has a pose that is not finite");
-  return transform;
+// libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
+IsolationLimits limits_of(const Includes& includes) {
+  constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{1} << 30;
+  constexpr std::uint64_t kMemoryPerModel_bytes = 4'000'000;
+  constexpr std::uint64_t kMemoryPerByte = 40;
+  IsolationLimits limits{
+      .memory_bytes = kLeastMemory_bytes + includes.models * kMemoryPerModel_bytes,
+      .processor_s = 60 + static_cast<int>(includes.models)};
+  for (const fs::path& file : includes.files)
+    limits.memory_bytes += kMemoryPerByte * fs::file_size(file);
+  return limits;
 }
 
-// What the names of the models and the link around a visual say of it.
-struct Place {
-  std::string names;  // model "a", link "b"
-  std::uint32_t plot = 0;
-  std::uint32_t plant = 0;
-  bool ground = false;
-  bool crop = false;
-  bool weed = false;
-
-  Place inside(const std::string& kind, const std::string& name) const {
-    Place place = *this;
-    place.names += (names.empty() ? "" : ", ") + kind + " \"" + name + '"';
-    place.plot = plot_in_name(name).value_or(plot);
-    place.plant = plant_in_name(name).value_or(plant);
-    place.ground = ground || name.starts_with("ground_plane") || name.starts_with("terrain") ||
-                   name.starts_with("heightmap");
-    place.crop = crop || place.plot != 0 || place.plant != 0 || name.starts_with("plants_outside");
-    place.weed = weed || name.ends_with("_weeds");
-    return place;
+// The visuals as a process of its own has read them.
+WorldVisuals load_apart(const fs::path& file, const Includes& includes,
+                        const ResourceFinder& finder) {
+  const std::string what = file.string() + ": cannot be read as a world";
+  const std::string bytes = run_isolated(
+      what, limits_of(includes), [&] { return bytes_of(load_world(file, includes, finder)); });
+  try {
+    return world_visuals_of(bytes);
+  } catch (const std::runtime_error& error) {
+    throw InputError(what + ": its reader failed: " + error.what());
   }
-};
-
-SurfaceClass kind_of(const sdf::Visual& visual, const Place& place) {
-  if (visual.HasLaserRetro()) {
-    for (const SurfaceClass kind :
-         {SurfaceClass::ground, SurfaceClass::crop, SurfaceClass::weed, SurfaceClass::other}) {
-      if (visual.LaserRetro() == static_cast<double>(kind)) return kind;
-    }
-  }
-  const sdf::GeometryType type = visual.Geom()->Type();
-  const bool flat = type == sdf::GeometryType::PLANE || type == sdf::GeometryType::HEIGHTMAP;
-  if (place.ground || flat) return SurfaceClass::ground;
-  if (place.crop) return place.weed ? SurfaceClass::weed : SurfaceClass::crop;
-  return SurfaceClass::other;
 }
-
-bool carries_lidar(const sdf::Model& model) {
-  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-    const sdf::Link& link = *model.LinkByIndex(i);
-    for (std::uint64_t k = 0; k < link.SensorCount(); ++k) {
-      const sdf::SensorType type = link.SensorByIndex(k)->Type();
-      if (type == sdf::SensorType::LIDAR || type == sdf::SensorType::GPU_LIDAR) return true;
-    }
-  }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    if (carries_lidar(*model.ModelByIndex(i))) return true;
-  }
-  return false;
-}
-
-class WorldReader {
- public:
-  WorldReader(const fs::path& file, const ReadWorldOptions& options)
-      : file_(file), finder_(file, options.resource_paths), shapes_(file, finder_) {}
-
-  StaticWorld read() {
-    const Quiet quiet;
-    const Includes includes = follow_includes(file_, finder_);
-    const sdf::Root root = loaded(includes.files, parser_config(includes, finder_));
-    if (root.WorldCount() > 0) {
-      add_world(root);
-    } else if (root.Model() != nullptr) {
-      world_.name = root.Model()->Name();
-      add_model(*root.Model(), Eigen::Affine3d::Identity(), {});
-    } else {
-      throw InputError(file_, "holds no world and no model");
-    }
-    if (world_.surfaces.empty()) throw InputError(file_, "has nothing that a laser could meet");
-    finish(includes);
-    return std::move(world_);
-  }
-
- private:
-  void add_world(const sdf::Root& root) {
-    const sdf::World& world = *root.WorldByIndex(0);
-    world_.name = world.Name();
-    note(root.WorldCount() - 1, "world(s) behind the file's first one left out");
-    std::uint64_t scanners = 0;
-    for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-      const sdf::Model& model = *world.ModelByIndex(i);
-      // It would scan itself, or stand in the way of what flies in its place.
-      if (carries_lidar(model)) {
-        ++scanners;
-      } else {
-        add_model(model, Eigen::Affine3d::Identity(), {});
-      }
-    }
-    note(scanners, "model(s) with a lidar left out");
-    note(world.ActorCount(), "actor(s) left out");
-    note(world.LightCount(), "light(s) left out");
-  }
-
-  void add_model(const sdf::Model& model, const Eigen::Affine3d& world_from_parent,
-                 const Place& around) {
-    const Place place = around.inside("model", model.Name());
-    const Eigen::Affine3d world_from_model =
-        world_from_parent * parent_from(model, place.names, file_);
-    if (!model.Static() && around.names.empty()) ++moving_;
-    for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
-      const sdf::Link& link = *model.LinkByIndex(i);
-      const Place in_link = place.inside("link", link.Name());
-      const Eigen::Affine3d world_from_link =
-          world_from_model * parent_from(link, in_link.names, file_);
-      for (std::uint64_t k = 0; k < link.VisualCount(); ++k)
-        add_visual(*link.VisualByIndex(k), world_from_link, in_link);
-    }
-    for (std::uint64_t i = 0; i < model.ModelCount(); ++i)
-      add_model(*model.ModelByIndex(i), world_from_model, place);
-  }
-
-  void add_visual(const sdf::Visual& visual, const Eigen::Affine3d& world_from_link,
-                  const Place& in_link) {
-    if (visual.VisibilityFlags() == 0) {
-      ++invisible_;
-      return;
-    }
-    const Place place = in_link.inside("visual", visual.Name());
-    const std::optional<Shape> shape = shapes_.of(visual, place.names);
-    if (!shape) {
-      ++empty_;
-      return;
-    }
-    const Eigen::Affine3d world_from_mesh =
-        world_from_link * parent_from(visual, place.names, file_) * shape->visual_from_mesh;
-    require_near(shapes_.bounds(shape->mesh), world_from_mesh, place.names, file_);
-    world_.surfaces.push_back({.mesh = shape->mesh,
-                               .world_from_mesh = world_from_mesh,
-                               .kind = kind_of(visual, place),
-                               .plot = place.plot,
-                               .plant = place.plant});
-  }
-
-  void finish(const Includes& includes) {
-    note(moving_, "model(s) that may move taken as they stand at the start");
-    note(invisible_, "visual(s) with visibility_flags 0 left out");
-    note(empty_, "visual(s) without a shape left out");
-    world_.files.assign(includes.files.rbegin(), includes.files.rend());
-    world_.files.insert(world_.files.end(), shapes_.files().begin(), shapes_.files().end());
-    world_.notes.insert(world_.notes.end(), shapes_.notes().begin(), shapes_.notes().end());
-    world_.meshes = shapes_.take();
-  }
-
-  void note(std::uint64_t count, const std::string& what) {
-    if (count > 0) world_.notes.push_back(std::to_string(count) + " " + what);
-  }
-
-  fs::path file_;
-  ResourceFinder finder_;
-  ShapeCache shapes_;
-  StaticWorld world_;
-  std::uint64_t moving_ = 0;
-  std::uint64_t invisible_ = 0;
-  std::uint64_t empty_ = 0;
-};
 
 }  // namespace
 
 StaticWorld read_world(const fs::path& file, const ReadWorldOptions& options) {
   require_file(file);
-  return WorldReader(file, options).read();
+  const ResourceFinder finder(file, options.resource_paths);
+  const Includes includes = follow_includes(file, finder);
+  WorldVisuals read = load_apart(file, includes, finder);
+  ShapeCache shapes(file, finder);
+  StaticWorld world{.name = std::move(read.name), .meshes = {}, .surfaces = {}};
+  for (const PlacedVisual& visual : read.visuals) {
+    const std::uint32_t mesh = shapes.of(visual.shape, visual.what);
+    const Eigen::Affine3d world_from_mesh =
+        visual.world_from_visual * visual.shape.visual_from_mesh;
+    require_near(shapes.bounds(mesh), world_from_mesh, visual.what, file);
+    world.surfaces.push_back({.mesh = mesh,
+                              .world_from_mesh = world_from_mesh,
+                              .kind = visual.kind,
+                              .plot = visual.plot,
+                              .plant = visual.plant});
+  }
+  world.files.assign(includes.files.rbegin(), includes.files.rend());
+  world.files.insert(world.files.end(), shapes.files().begin(), shapes.files().end());
+  world.notes = std::move(read.notes);
+  world.notes.insert(world.notes.end(), shapes.notes().begin(), shapes.notes().end());
+  world.meshes = shapes.take();
+  return world;
 }
 
 }  // namespace plotscan::gazebo

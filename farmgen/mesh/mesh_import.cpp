@@ -2,31 +2,26 @@
 #include "mesh/mesh_import.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <string>
-#include <unordered_map>
-#include <utility>
-#include <vector>
+#include <stdexcept>
 
-#include <Eigen/Geometry>
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
+#include "core/bytes.h"
 #include "core/error.h"
-#include "mesh/import_materials.h"
+#include "core/isolated.h"
+#include "mesh/assimp_mesh.h"
+#include "mesh/mesh_bytes.h"
+#include "mesh/mesh_files.h"
 
 namespace plotscan::mesh {
 namespace {
 
 constexpr std::array<const char*, 6> kFormats = {".obj", ".dae", ".gltf", ".glb", ".ply", ".stl"};
-// Assimp hands out DAE and glTF with y up, in metres: what glTF prescribes, and what it converts a
-// DAE's stated axis and unit to.
-constexpr std::array<const char*, 3> kYUpFormats = {".dae", ".gltf", ".glb"};
+
+// Assimp takes up to some 40 bytes for one of a text file; what a file names besides (a glTF's
+// buffers, images) has the rest.
+constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMemoryPerByte = 64;
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -35,137 +30,44 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-// A vertex with its place in the texture.
-using Corner = Eigen::Matrix<float, 5, 1>;
-
-struct CornerHash {
-  std::size_t operator()(const Corner& corner) const {
-    std::array<std::uint32_t, 5> bits{};
-    std::memcpy(bits.data(), corner.data(), sizeof bits);
-    std::uint64_t hash = 0;
-    for (const std::uint32_t word : bits) hash = (hash ^ word) * 0x9E3779B97F4A7C15u + (hash >> 29);
-    return hash;
-  }
-};
-
-// Gathers triangles, sharing equal vertices.
-class MeshBuilder {
- public:
-  explicit MeshBuilder(std::vector<Material> materials) {
-    mesh_.materials = std::move(materials);
-    textured_ =
-        std::any_of(mesh_.materials.begin(), mesh_.materials.end(),
-                    [](const Material& material) { return material.texture || material.mask; });
-  }
-
-  bool textured() const { return textured_; }
-
-  void add(const std::array<Corner, 3>& corners, std::uint16_t material) {
-    const Eigen::Vector3d edge = (corners[1] - corners[0]).head<3>().cast<double>();
-    const Eigen::Vector3d other = (corners[2] - corners[0]).head<3>().cast<double>();
-    if (edge.cross(other).isZero(0)) return;
-    mesh_.triangles.push_back({index_of(corners[0]), index_of(corners[1]), index_of(corners[2])});
-    mesh_.triangle_material.push_back(material);
-  }
-
-  // Materials that no triangle has are left out.
-  Mesh take() {
-    std::vector<bool> used(mesh_.materials.size());
-    for (const std::uint16_t material : mesh_.triangle_material) used[material] = true;
-    std::vector<std::uint16_t> place(used.size());
-    std::vector<Material> kept;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      place[i] = static_cast<std::uint16_t>(kept.size());
-      if (used[i]) kept.push_back(mesh_.materials[i]);
-    }
-    for (std::uint16_t& material : mesh_.triangle_material) material = place[material];
-    mesh_.materials = std::move(kept);
-    return std::move(mesh_);
-  }
-
- private:
-  std::uint32_t index_of(const Corner& corner) {
-    // Adding zero turns -0 into 0, which compares equal to it but has other bits.
-    const Corner key = corner.array() + 0.0F;
-    const auto [place, is_new] =
-        index_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
-    if (is_new) {
-      mesh_.vertices.emplace_back(key.head<3>());
-      if (textured_) mesh_.texture_coordinates.emplace_back(key.tail<2>());
-    }
-    return place->second;
-  }
-
-  Mesh mesh_;
-  bool textured_ = false;
-  std::unordered_map<Corner, std::uint32_t, CornerHash> index_;
-};
-
-Eigen::Affine3d file_from_node(const aiMatrix4x4& m) {
-  Eigen::Affine3d transform;
-  transform.matrix() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4,
-      m.d1, m.d2, m.d3, m.d4;
-  return transform;
-}
-
-// Metres with z up from the coordinates that assimp hands out.
-Eigen::Affine3d model_from_file(const std::string& extension, const MeshImportOptions& options) {
-  const bool y_up_format =
-      std::find(kYUpFormats.begin(), kYUpFormats.end(), extension) != kYUpFormats.end();
-  const UpAxis up = options.up.value_or(y_up_format ? UpAxis::y : UpAxis::z);
-  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  if (up == UpAxis::y) transform.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
-  return transform * Eigen::Scaling(options.unit_m);
-}
-
-Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned vertex,
-                 const Eigen::Affine3d& model_from_node, bool textured) {
-  if (vertex >= part.mNumVertices) {
-    throw InputError(path, "a triangle names vertex " + std::to_string(vertex) + " of " +
-                               std::to_string(part.mNumVertices));
-  }
-  const aiVector3D& v = part.mVertices[vertex];
-  Corner corner = Corner::Zero();
-  corner.head<3>() = (model_from_node * Eigen::Vector3d(v.x, v.y, v.z)).cast<float>();
-  if (textured && part.HasTextureCoords(0)) {
-    const aiVector3D& uv = part.mTextureCoords[0][vertex];
-    corner.tail<2>() << uv.x, uv.y;
-  }
-  if (!corner.head<3>().allFinite()) throw InputError(path, "a vertex is not finite");
-  if (!corner.allFinite()) throw InputError(path, "a texture coordinate is not finite");
-  return corner;
-}
-
-// The triangles of a node's meshes and of the nodes below it; with an object's name, of those nodes
-// and meshes alone that have it.
-void add_node(const std::filesystem::path& path, const aiScene& scene, const aiNode& node,
-              const Eigen::Affine3d& model_from_parent, const std::string& object,
-              MeshBuilder& builder) {
-  const Eigen::Affine3d model_from_node = model_from_parent * file_from_node(node.mTransformation);
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
-    const bool wanted =
-        object.empty() || object == node.mName.C_Str() || object == part.mName.C_Str();
-    if (!wanted) continue;
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      std::array<Corner, 3> corners;
-      for (int k = 0; k < 3; ++k) {
-        corners[k] = corner_of(path, part, face.mIndices[k], model_from_node, builder.textured());
-      }
-      builder.add(corners, static_cast<std::uint16_t>(part.mMaterialIndex));
-    }
-  }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    add_node(path, scene, *node.mChildren[i], model_from_node, object, builder);
-  }
-}
-
 void put_lowest_at_zero(Mesh& mesh) {
   const auto below = [](const auto& a, const auto& b) { return a.z() < b.z(); };
   const float lowest = std::min_element(mesh.vertices.begin(), mesh.vertices.end(), below)->z();
   for (Eigen::Vector3f& vertex : mesh.vertices) vertex.z() -= lowest;
+}
+
+std::string bytes_of(const Mesh& mesh, const std::vector<std::string>& notes) {
+  ByteWriter bytes;
+  put_mesh(bytes, mesh);
+  bytes.put(static_cast<std::uint64_t>(notes.size()));
+  for (const std::string& note : notes) bytes.put_text(note);
+  return bytes.take();
+}
+
+// The mesh as a process of its own has read it.
+Mesh read_apart(const std::filesystem::path& path, const std::string& extension,
+                const MeshImportOptions& options, std::vector<std::string>* notes) {
+  const std::string what = path.string() + ": cannot be read as a mesh";
+  const IsolationLimits limits{.memory_bytes = kLeastMemory_bytes +
+                                               kMemoryPerByte * std::filesystem::file_size(path)};
+  const std::string received = run_isolated(what, limits, [&] {
+    std::vector<std::string> own_notes;
+    const Mesh mesh = read_with_assimp(path, extension, options, &own_notes);
+    return bytes_of(mesh, own_notes);
+  });
+  try {
+    ByteReader bytes(received);
+    Mesh mesh = get_mesh(bytes);
+    for (auto left = bytes.get<std::uint64_t>(); left > 0; --left) {
+      const std::string note = bytes.get_text();
+      if (notes != nullptr) notes->push_back(note);
+    }
+    return mesh;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw InputError(what + ": its reader failed: " + error.what());
+  }
 }
 
 }  // namespace
@@ -177,19 +79,8 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& opt
   if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
     throw InputError(path, "is not a mesh format that is read: OBJ, DAE, glTF, GLB, PLY, STL");
   }
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw InputError(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
-  }
-  if (scene->mNumMaterials > std::numeric_limits<std::uint16_t>::max()) {
-    throw InputError(path, "has more than 65535 materials");
-  }
-  MeshBuilder builder(materials_of(path, *scene, notes));
-  add_node(path, *scene, *scene->mRootNode, model_from_file(extension, options), options.object,
-           builder);
-  Mesh mesh = builder.take();
+  require_glb_length(path);
+  Mesh mesh = read_apart(path, extension, options, notes);
   if (mesh.triangles.empty()) {
     throw InputError(path, "has no triangle with an area" +
                                (options.object.empty() ? "" : " in an object " + options.object));

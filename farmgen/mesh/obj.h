@@ -14,7 +14,7 @@ namespace plotscan::mesh {
 // Writes the mesh as Wavefront OBJ, metres, z up, its triangles grouped by material. Where the mesh
 // has materials, NAME.mtl beside it holds them (Kd, map_Kd, map_d, and Pr and Pm for physically
 // based renderers; reflectances as comments, see write_optics) and their images lie beside it under
-// their own names. Throws InputError when a file cannot be written.
+// their own names. Throws WriteError when a file cannot be written.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
 // What a material of an MTL file says beside its look, for the file's writer: `map_d` with the

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -30,6 +31,13 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
     if (comma == std::string_view::npos) return;
     begin = comma + 1;
   }
+}
+
+// The whole text of a table, which is UTF-8: its values go into JSON.
+std::string table_text(const std::filesystem::path& file) {
+  std::string text = read_text(file);
+  require_utf8(text, file);
+  return text;
 }
 
 // For each wanted column its place in the file's header; kAbsent for a missing optional one.
@@ -100,7 +108,7 @@ long long CsvRow::integer(std::size_t column, long long low, long long high) con
 void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
               const std::vector<std::string>& optional_columns,
               const std::function<void(const CsvRow&)>& row) {
-  const std::string text = read_text(file);
+  const std::string text = table_text(file);
   std::vector<std::string> wanted = columns;
   wanted.insert(wanted.end(), optional_columns.begin(), optional_columns.end());
   std::vector<std::size_t> places;
@@ -198,7 +206,7 @@ class TableText {
 }  // namespace
 
 CsvTable read_csv_table(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+  const std::string text = table_text(file);
   TableText records(file, text);
   std::optional<CsvTable::Line> header = records.next();
   if (!header) throw InputError(file, "is empty; a header line is expected");

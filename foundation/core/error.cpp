@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <system_error>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace plotscan {
 
@@ -12,6 +18,38 @@ InputError::InputError(const std::filesystem::path& file, const std::string& mes
 InputError::InputError(const std::filesystem::path& file, std::size_t line,
                        const std::string& message)
     : InputError(file.string() + ":" + std::to_string(line) + ": " + message) {}
+
+namespace {
+
+// What stands in the way of writing, as in errno; 0: nothing does.
+int obstacle(const std::filesystem::path& file) {
+  const int opened = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  if (opened < 0) return errno;
+  // More than what the file's last block may still have room for.
+  const std::vector<char> bytes(std::size_t{1} << 17);
+  int error = 0;
+  for (std::size_t done = 0; error == 0 && done < bytes.size();) {
+    const ssize_t written = ::write(opened, bytes.data(), bytes.size() - done);
+    if (written < 0 && errno != EINTR) error = errno;
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  ::close(opened);
+  return error;
+}
+
+std::string write_message(const std::filesystem::path& file, int error) {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  if (full) return "no space left on " + file.string();
+  return file.string() + ": cannot be written" +
+         (error != 0 ? ": " + std::generic_category().message(error) : "");
+}
+
+}  // namespace
+
+WriteError::WriteError(const std::filesystem::path& file) : WriteError(file, obstacle(file)) {}
+
+WriteError::WriteError(const std::filesystem::path& file, int error)
+    : std::runtime_error(write_message(file, error)) {}
 
 void check(bool condition, const std::string& what) {
   if (!condition) throw std::logic_error("internal error: " + what);
@@ -26,6 +64,9 @@ void require_file(const std::filesystem::path& path) {
 
 std::string read_text(const std::filesystem::path& path) {
   require_file(path);
+  constexpr std::uintmax_t kMostBytes = 1'000'000'000;
+  if (std::filesystem::file_size(path) > kMostBytes)
+    throw InputError(path, "has more than 1 GB; as text it is read up to that");
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }

@@ -26,6 +26,16 @@ class NothingToMeasure : public InputError {
   using InputError::InputError;
 };
 
+// Output that cannot be written: "no space left on FILE", or "FILE: cannot be written" with the
+// reason. Programs end with exit code 1.
+class WriteError : public std::runtime_error {
+ public:
+  // Finds the reason by writing once more; the file is lost anyway.
+  explicit WriteError(const std::filesystem::path& file);
+  // `error` as in errno.
+  WriteError(const std::filesystem::path& file, int error);
+};
+
 // Throws std::logic_error with the text: a bug in Plotscan, never the user's fault.
 void check(bool condition, const std::string& what);
 

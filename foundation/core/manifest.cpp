@@ -70,8 +70,8 @@ void write_manifest(const fs::path& folder, const Manifest& manifest) {
         {{"file", file.generic_string()}, {"hash", file_hash(folder / file)}});
   }
   std::ofstream out(folder / "manifest.json");
-  out << document.dump(1) << '\n';
-  if (!out.flush()) throw InputError(folder / "manifest.json", "cannot be written");
+  out << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  if (!out.flush()) throw WriteError(folder / "manifest.json");
 }
 
 nlohmann::json read_manifest(const fs::path& folder) {

@@ -17,6 +17,9 @@ namespace {
 
 using nlohmann::json;
 
+// Some hundred thousand plots; parsed, they take about fifteen times as much memory.
+constexpr std::uintmax_t kMostBytes = 64'000'000;
+
 constexpr double kDegrees = std::numbers::pi / 180;
 // What write_plot_features_wgs84 calls its positions.
 constexpr std::string_view kDegreesStated = "WGS84 longitude, latitude";
@@ -70,7 +73,7 @@ json collection(const std::vector<PlotFeature>& plots, const std::string& coordi
 void write_document(const std::filesystem::path& path, const json& document) {
   std::ofstream out(path);
   out << document.dump(1) << '\n';
-  if (!out.flush()) throw InputError(path, "cannot be written");
+  if (!out.flush()) throw WriteError(path);
 }
 
 constexpr std::array<const char*, 5> kBoxProperties = {"center_x_m", "center_y_m", "width_m",
@@ -323,6 +326,11 @@ std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
 
 PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
                                double unit_m) {
+  require_file(path);
+  if (std::filesystem::file_size(path) > kMostBytes) {
+    throw InputError(path, "has " + std::to_string(std::filesystem::file_size(path)) +
+                               " bytes; plots are read from up to " + std::to_string(kMostBytes));
+  }
   try {
     return placed_plots(json::parse(read_text(path)), path, crs, unit_m);
   } catch (const json::exception& error) {

@@ -2,21 +2,29 @@
 #include "core/program.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <new>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "core/manifest.h"
-#include "core/temporary_path.h"
+#include "core/nearest_name.h"
+#include "core/printable.h"
+#include "core/progress_display.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -24,44 +32,6 @@ namespace {
 constexpr int kExitBadInput = 2;
 constexpr int kExitNothingToMeasure = 3;
 constexpr int kExitFailure = 1;
-constexpr int kBarWidth = 30;
-
-// Redraws one line on stderr, at most ten times a second; clears it when the work is done.
-class ProgressBar {
- public:
-  explicit ProgressBar(std::string label) : label_(std::move(label)) {}
-  // Work that ends early leaves no bar before its message.
-  ~ProgressBar() { clear(); }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void show(double share) {
-    const auto now = Clock::now();
-    if (share < 1 && now - drawn_ < std::chrono::milliseconds(100)) return;
-    drawn_ = now;
-    if (share >= 1) {
-      clear();
-      return;
-    }
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
-    const int filled = static_cast<int>(kBarWidth * std::clamp(share, 0.0, 1.0));
-    std::fprintf(stderr, "\r%s [%s%s] %3.0f %%", label_.c_str(), std::string(filled, '#').c_str(),
-                 std::string(kBarWidth - filled, '.').c_str(), 100 * share);
-    if (share > 0) std::fprintf(stderr, ", %.0f s left\033[K", elapsed_s * (1 - share) / share);
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-
-  void clear() {
-    if (drawn_ != Clock::time_point{}) std::fprintf(stderr, "\r\033[K");
-  }
-
-  std::string label_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point drawn_{};
-};
 
 void log_to_stderr(int verbosity, const std::string& name) {
   auto logger =
@@ -74,21 +44,34 @@ void log_to_stderr(int verbosity, const std::string& name) {
   spdlog::set_default_logger(logger);
 }
 
-// SIGINT and SIGTERM are taken by a thread of their own, which may do what a signal handler may
-// not: remove what the interrupted work has begun to write. The process then ends as interrupted
-// programs do, with 128 + signal.
-void remove_unfinished_work_on_interrupt() {
-  sigset_t interrupts;
-  sigemptyset(&interrupts);
-  sigaddset(&interrupts, SIGINT);
-  sigaddset(&interrupts, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &interrupts, nullptr);
-  std::thread([interrupts] {
-    int signal = 0;
-    sigwait(&interrupts, &signal);
-    TemporaryPath::remove_all();
-    _exit(128 + signal);
-  }).detach();
+// Errors come from files and arguments of others.
+void say_error(const std::string& program, const std::string& message) {
+  std::cerr << program << ": " << printable(message) << '\n';
+}
+
+// Of a plain decimal: CLI11's own conversion takes what is too large for the largest seed.
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (!text.empty() && error == std::errc() && end == text.data() + text.size()) return seed;
+  throw CLI::ValidationError("--seed",
+                             "\"" + text + "\" is not a whole number in [0, 18446744073709551615]");
+}
+
+bool is_full(const std::error_code& error) {
+  return error == std::errc::no_space_on_device || error == std::errc::file_too_large ||
+         error.value() == EDQUOT;
+}
+
+// The names that a program or command knows: commands, or options of the long kind.
+std::vector<std::string> names_of(const CLI::App& app, bool options) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (!options) names.push_back(command->get_name());
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      if (options) names.push_back("--" + name);
+  return names;
 }
 
 }  // namespace
@@ -105,8 +88,12 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
   command.option_defaults()->always_capture_default();
   command.set_version_flag("--version", name_ + " " + version());
   const CLI::Option* seed =
-      command.add_option("--seed", common_.seed, "seed of all random numbers, 0 and up")
-          ->check(CLI::NonNegativeNumber);
+      command
+          .add_option_function<std::string>(
+              "--seed", [this](const std::string& text) { common_.seed = seed_of(text); },
+              "seed of all random numbers, 0 and up")
+          ->type_name("UINT")
+          ->default_str(std::to_string(common_.seed));
   command.add_option("-j,--threads", common_.threads, "threads; 0 is one for each processor")
       ->check(CLI::Range(0, 1024));
   command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
@@ -124,20 +111,40 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
 }
 
 int Program::run(int argc, char** argv) {
+  // Else a file size limit would kill the process in place of telling it.
+  std::signal(SIGXFSZ, SIG_IGN);
   remove_unfinished_work_on_interrupt();
+  const int code = caught_run(argc, argv);
+  errno = 0;
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  int error = errno;
+  // What was flushed before has told its reason to nobody; one more byte meets the same.
+  if (error == 0 && write(STDOUT_FILENO, "\n", 1) < 0) error = errno;
+  say_error(name_, std::string("stdout cannot be written") +
+                       (error != 0 ? ": " + std::generic_category().message(error) : ""));
+  return kExitFailure;
+}
+
+int Program::caught_run(int argc, char** argv) {
   try {
     return guarded_run(argc, argv);
   } catch (const NothingToMeasure& error) {
-    std::cerr << name_ << ": " << error.what() << '\n';
+    say_error(name_, error.what());
     return kExitNothingToMeasure;
   } catch (const InputError& error) {
-    std::cerr << name_ << ": " << error.what() << '\n';
+    say_error(name_, error.what());
     return kExitBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << name_ << ": " << error.path1().string() << ": " << error.code().message() << '\n';
-    return kExitBadInput;
+    const bool full = is_full(error.code());
+    say_error(name_, full ? WriteError(error.path1(), error.code().value()).what()
+                          : error.path1().string() + ": " + error.code().message());
+    return full ? kExitFailure : kExitBadInput;
+  } catch (const std::bad_alloc&) {
+    say_error(name_, "there is not enough memory for this input");
+    return kExitFailure;
   } catch (const std::exception& error) {
-    std::cerr << name_ << ": " << error.what() << '\n';
+    say_error(name_, error.what());
     return kExitFailure;
   }
 }
@@ -147,27 +154,56 @@ int Program::guarded_run(int argc, char** argv) {
     app_.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError& error) {
-    const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    app_.exit(error);
-    return asked_for ? 0 : kExitBadInput;
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      app_.exit(error);
+      return 0;
+    }
+    say_error(name_, usage_error(error, {argv + std::min(argc, 1), argv + argc}));
+    return kExitBadInput;
   }
 }
 
+std::string Program::usage_error(const CLI::ParseError& error,
+                                 const std::vector<std::string>& arguments) const {
+  const std::string first = arguments.empty() ? "" : arguments.front();
+  const std::vector<std::string> commands = names_of(app_, false);
+  const bool known = std::ranges::find(commands, first) != commands.end();
+  const std::string help = "; " + name_ + (known ? " " + first : "") + " --help tells more";
+  if (!known && !first.empty() && !first.starts_with('-')) {
+    const auto meant = nearest_name(first, commands);
+    return "\"" + first + "\" is no command; " +
+           (meant ? "did you mean " + *meant + "?" : "there are " + joined(commands, ", ") + help);
+  }
+  std::string message = error.what();
+  if (known) {
+    const std::vector<std::string> options = names_of(*app_.get_subcommand(first), true);
+    for (const std::string& argument : arguments) {
+      const std::string given = argument.substr(0, argument.find('='));
+      if (!given.starts_with("--") || std::ranges::find(options, given) != options.end()) continue;
+      if (const auto meant = nearest_name(given, options))
+        return "there is no option " + given + "; did you mean " + *meant + "?";
+    }
+  }
+  return message + help;
+}
+
 void Program::say(const std::string& line) const {
-  if (!common_.json && common_.verbosity >= 0) std::cout << line << '\n';
+  if (!common_.json && common_.verbosity >= 0) std::cout << printable(line) << '\n';
 }
 
 void Program::log(const std::string& line) const {
-  if (common_.verbosity >= 0 && isatty(STDERR_FILENO) == 0) std::cerr << line << '\n';
+  if (common_.verbosity >= 0 && isatty(STDERR_FILENO) == 0) std::cerr << printable(line) << '\n';
 }
 
 void Program::result(const nlohmann::json& document) const {
-  if (common_.json) std::cout << document.dump(1) << '\n';
+  if (common_.json)
+    std::cout << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
 ProgressReport Program::progress(const std::string& label) const {
-  if (common_.json || common_.verbosity < 0 || isatty(STDERR_FILENO) == 0) return {};
-  return [bar = std::make_shared<ProgressBar>(label)](double share) { bar->show(share); };
+  if (common_.json || common_.verbosity < 0) return {};
+  return
+      [display = std::make_shared<ProgressDisplay>(label)](double share) { display->show(share); };
 }
 
 }  // namespace plotscan

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -33,7 +34,8 @@ struct CommonOptions {
 //   }
 //
 // Exit codes: 0 done, 2 bad input or usage (InputError, CLI11's parse errors), 3 nothing to measure
-// (NothingToMeasure), 1 anything else.
+// (NothingToMeasure), 1 anything else: output that cannot be written (stdout too), memory that does
+// not suffice.
 class Program {
  public:
   Program(std::string name, const std::string& description);
@@ -53,12 +55,16 @@ class Program {
   void log(const std::string& line) const;
   // What --json prints: the command's whole result. Call it once.
   void result(const nlohmann::json& document) const;
-  // A progress bar with the time left on stderr, when that is a terminal and -q and --json are
-  // absent; else an empty report.
+  // Progress with the time left on stderr: a bar on a terminal, elsewhere a line every ten seconds.
+  // With -q or --json an empty report.
   ProgressReport progress(const std::string& label) const;
 
  private:
+  int caught_run(int argc, char** argv);
   int guarded_run(int argc, char** argv);
+  // What is wrong with the arguments (without the program's name), and what was meant.
+  std::string usage_error(const CLI::ParseError& error,
+                          const std::vector<std::string>& arguments) const;
 
   std::string name_;
   CLI::App app_;

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/temporary_path.h"
 
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <fstream>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include <fcntl.h>
 #include <unistd.h>
+
+#include "core/raw_folder.h"
 
 namespace plotscan {
 namespace {
@@ -14,7 +23,7 @@ namespace {
 // An interrupt comes from outside and knows no object, so the living paths are kept here.
 struct LivingPaths {
   std::mutex mutex;
-  std::multiset<std::filesystem::path> paths;
+  std::multiset<std::string> paths;
 };
 
 LivingPaths& living() {
@@ -22,26 +31,65 @@ LivingPaths& living() {
   return paths;
 }
 
+// The number between a name's beginning and end; absent where the name is not made of these.
+std::optional<pid_t> number_between(std::string_view name, std::string_view begin,
+                                    std::string_view end) {
+  const bool framed =
+      name.size() > begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end);
+  if (!framed) return {};
+  name.remove_prefix(begin.size());
+  name.remove_suffix(end.size());
+  pid_t number = 0;
+  const auto parsed = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size() || number <= 0) return {};
+  return number;
+}
+
+// A process that has ended and that its parent has not asked after is gone, too.
+bool is_gone(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  // "PROCESS (NAME) STATE ..."; the name may hold anything.
+  std::string status;
+  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/stat"), status);
+  const std::size_t name_end = status.rfind(") ");
+  return name_end != std::string::npos && status.substr(name_end + 2).starts_with('Z');
+}
+
+// What processes that are gone left under the same name but for their number.
+void sweep(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  const std::string own = "-" + std::to_string(getpid());
+  const std::size_t number = name.rfind(own);
+  if (number == std::string::npos || !name.starts_with('.')) return;
+  const std::string begin = name.substr(0, number + 1);
+  const std::string end = name.substr(number + own.size());
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           path.has_parent_path() ? path.parent_path() : ".", error)) {
+    const auto process = number_between(entry.path().filename().string(), begin, end);
+    if (process && is_gone(*process)) remove_tree(AT_FDCWD, entry.path().c_str());
+  }
+}
+
 }  // namespace
 
 TemporaryPath::TemporaryPath(std::filesystem::path path) : path_(std::move(path)) {
+  sweep(path_);
   const std::lock_guard lock(living().mutex);
-  living().paths.insert(path_);
+  living().paths.insert(path_.string());
 }
 
 TemporaryPath::~TemporaryPath() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
   const std::lock_guard lock(living().mutex);
-  living().paths.erase(living().paths.find(path_));
+  living().paths.erase(living().paths.find(path_.string()));
 }
 
-void TemporaryPath::remove_all() {
+void TemporaryPath::remove_all(void (*halt)()) {
   const std::lock_guard lock(living().mutex);
-  for (const std::filesystem::path& path : living().paths) {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
+  halt();
+  for (const std::string& path : living().paths) remove_tree(AT_FDCWD, path.c_str());
 }
 
 std::filesystem::path partial_path(const std::filesystem::path& final_path) {

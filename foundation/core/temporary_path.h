@@ -9,7 +9,9 @@ namespace plotscan {
 // interrupted (Program watches for SIGINT and SIGTERM).
 class TemporaryPath {
  public:
-  // Creates nothing.
+  // Creates nothing. Where the path is hidden and has this process' number in its name, removes
+  // what a killed run left of the same work: what differs in that number alone, which is no living
+  // process' number.
   explicit TemporaryPath(std::filesystem::path path);
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
@@ -18,8 +20,9 @@ class TemporaryPath {
   const std::filesystem::path& path() const { return path_; }
 
   // Removes what every living TemporaryPath of the process names: the last thing before the process
-  // ends.
-  static void remove_all();
+  // ends. `halt` is called when no path comes or goes any more; it sees to it that no other thread
+  // runs on.
+  static void remove_all(void (*halt)());
 
  private:
   std::filesystem::path path_;

@@ -29,10 +29,10 @@ class TextFile {
     return *this << std::string_view(buffer.data(), end);
   }
 
-  // Throws InputError when anything could not be written.
+  // Throws WriteError when anything could not be written.
   void close() {
     out_.close();
-    if (!out_) throw InputError(path_, "cannot be written");
+    if (!out_) throw WriteError(path_);
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -66,9 +67,25 @@ void apply_override(const YAML::Node& root, const std::string& assignment) {
   }
 }
 
+// yaml-cpp takes some 70 bytes for one of the file.
+constexpr std::size_t kMostBytes = 4'000'000;
+
+void require_size(std::uintmax_t bytes, const std::filesystem::path& file) {
+  if (bytes <= kMostBytes) return;
+  throw InputError(file, "has " + std::to_string(bytes) + " bytes; YAML is read up to " +
+                             std::to_string(kMostBytes));
+}
+
 YAML::Node parse_map(const std::string& text, const std::filesystem::path& file) {
+  require_size(text.size(), file);
+  require_utf8(text, file);
   try {
-    YAML::Node root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw InputError(file, static_cast<std::size_t>(std::max(documents[1].Mark().line, 0) + 1),
+                       "begins a second YAML document (---); one is read");
+    }
+    YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
     if (!root.IsMap()) throw InputError(file, 1, "is not a map of keys to values");
     return root;
   } catch (const YAML::Exception& error) {
@@ -92,6 +109,8 @@ void YamlOrigin::fail(const YAML::Mark& mark, const std::string& path,
 
 YamlSection YamlSection::load(const std::filesystem::path& file,
                               const std::vector<std::string>& overrides) {
+  require_file(file);
+  require_size(std::filesystem::file_size(file), file);
   return parse(read_text(file), file, overrides);
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/error.h"
 #include "scan/laszip_file.h"
 
 namespace plotscan::scan {
@@ -37,7 +38,12 @@ LazWriter::LazWriter(const std::filesystem::path& path, LasOptions options)
 
 void LazWriter::close() {
   las_.close();
-  pack(unpacked_.path(), path_);
+  try {
+    pack(unpacked_.path(), path_);
+  } catch (const InputError&) {
+    // LASzip does not say why; of the file that was just written nothing else is to be expected.
+    throw WriteError(path_);
+  }
 }
 
 }  // namespace plotscan::scan

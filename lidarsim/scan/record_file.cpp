@@ -3,13 +3,13 @@
 
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
+
+#include "core/error.h"
 
 namespace plotscan::scan {
 namespace {
@@ -65,9 +65,6 @@ void RecordFile::write_bytes(std::span<const char> bytes) {
   }
 }
 
-void RecordFile::fail() const {
-  throw std::runtime_error(path_.string() +
-                           " cannot be written: " + std::generic_category().message(errno));
-}
+void RecordFile::fail() const { throw WriteError(path_, errno); }
 
 }  // namespace plotscan::scan

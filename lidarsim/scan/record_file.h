@@ -12,7 +12,7 @@ namespace plotscan::scan {
 // the number of records is known only then.
 class RecordFile {
  public:
-  // Throws std::runtime_error, here and below, when the file cannot be created or written.
+  // Throws WriteError, here and below, when the file cannot be created or written.
   explicit RecordFile(const std::filesystem::path& path);
   ~RecordFile();
   RecordFile(const RecordFile&) = delete;

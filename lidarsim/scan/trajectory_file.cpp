@@ -105,7 +105,7 @@ void write_poses(const std::filesystem::path& file, const Trajectory& trajectory
     for (std::size_t i = 0; i < kColumns; ++i)
       out << format_number(values[i]) << (i + 1 < kColumns ? separator : '\n');
   }
-  if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
+  if (!out.flush()) throw WriteError(file);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ constexpr Range kElevation_deg{-90, 90};
 constexpr Range kAzimuth_deg{-360, 360};
 constexpr Range kOffset_mm{-1000, 1000};
 constexpr Range kRange_m{0, 10'000};
+constexpr double kFinestStep_m = 1e-6;
 constexpr Range kSpin_hz{0.01, 1000};
 constexpr Range kSequence_us{0.1, 1e6};
 constexpr Range kDivergence_mrad{0, 100};
@@ -177,6 +178,8 @@ Sensor parse_sensor(const std::string& description, const std::filesystem::path&
   sensor.min_range_m = range.number("least_m", kRange_m);
   sensor.max_range_m = range.number("most_m", {sensor.min_range_m, kRange_m.high});
   sensor.range_step_m = range.number("step_m", {0, 1}, 0.0);
+  if (sensor.range_step_m > 0 && sensor.range_step_m < kFinestStep_m)
+    range.fail("step_m", "is to be 0, for none, or in [1e-06, 1]");
   if (root.has("sources")) {
     for (const YamlSection& source : root.list("sources", kMaxSources, "source"))
       source.text("source");

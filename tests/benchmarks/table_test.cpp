@@ -205,8 +205,7 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
                                             "coverage95",
                                             "flagged",
                                             "over_5cm_unflagged",
-                                            "over_5cm_unflagged_share",
-                                            "seconds"};
+                                            "over_5cm_unflagged_share"};
   std::string header = read_text(file);
   header.resize(header.find('\n'));
   std::string expected;

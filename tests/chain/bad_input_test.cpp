@@ -66,6 +66,9 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
                "y\nproperty float z\n"
                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "0 0 0\n1 0 0\n0 0 1\n3 0 1 7\n");
+  folder.write("tall.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1000\nf 1 2 3\n");
+  folder.write("latin.yaml", "name: M\xe4h\n");
+  folder.write("latin.csv", "plot_id,name\n1,M\xe4h\n");
   folder.write("broken.sdf", "<sdf version='1.9'>\n<world name='w'>\n");
   folder.write("fuel.sdf",
                "<sdf version='1.9'><world name='w'><include>"
@@ -134,6 +137,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{
             "farmgen generate " + kPaper + " -o out --set \"plants.models=[$PWD/index.ply]\"",
             "vertex 7"},
+        BadCommand{"farmgen generate " + kPaper + " -o out --set \"plants.models=[$PWD/tall.obj]\"",
+                   "tall.obj: model tall is 1000 m tall; a plant has up to 120 m"},
+        BadCommand{"farmgen generate latin.yaml -o out", "latin.yaml:1: is no UTF-8 text"},
+        BadCommand{"lidarsim fly box.sdf --sensor latin.yaml -o out", "latin.yaml:1: is no UTF-8"},
+        BadCommand{"estimator run index.ply -o out --plot-names latin.csv",
+                   "latin.csv:2: is no UTF-8"},
         BadCommand{"farmbench run no_seeds.yaml -o out", "seeds"},
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots 3",
                    "truncated.pcd"},

@@ -30,5 +30,13 @@ TEST(Check, ThrowsWhenFalse) {
   EXPECT_THROW(check(false, "broken"), std::logic_error);
 }
 
+TEST(ReadText, RefusesWhatIsTooLargeToHold) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("f.csv", "x");
+  std::filesystem::resize_file(file, 1'000'000'001);
+  EXPECT_EQ(testing::message_of<InputError>([&] { read_text(file); }),
+            file.string() + ": has more than 1 GB; as text it is read up to that");
+}
+
 }  // namespace
 }  // namespace plotscan

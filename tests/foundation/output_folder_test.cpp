@@ -3,6 +3,8 @@
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/output_file.h"
@@ -130,8 +132,47 @@ TEST(TemporaryPath, IsRemovedWithItsObjectOrAtOnce) {
   { const TemporaryPath kept_short(folder.write("a/file", "x").parent_path()); }
   EXPECT_FALSE(fs::exists(folder.path() / "a"));
   const TemporaryPath living(folder.write("b/file", "x").parent_path());
-  TemporaryPath::remove_all();
+  static bool halted = false;
+  TemporaryPath::remove_all([] { halted = true; });
+  EXPECT_TRUE(halted);
   EXPECT_FALSE(fs::exists(folder.path() / "b"));
+}
+
+// The number of a process that has ended.
+pid_t gone_process() {
+  const pid_t process = fork();
+  if (process == 0) _exit(0);
+  waitpid(process, nullptr, 0);
+  return process;
+}
+
+TEST(TemporaryPath, SweepsWhatAKilledRunLeft) {
+  const testing::TemporaryFolder folder;
+  const std::string gone = std::to_string(gone_process());
+  const auto left = folder.write(".out.partial-" + gone + "/truth/plots.csv", "x");
+  fs::create_symlink("/nowhere", left.parent_path() / "link");
+  folder.write(".other.partial-" + gone, "x");
+  folder.write(".out.partial-" + std::to_string(getppid()), "x");
+  folder.write(".out.partial-" + gone + "x", "x");
+  folder.write("out.partial-" + gone, "x");
+  { const OutputFolder output(folder.path() / "out", false, "farmgen generate"); }
+  EXPECT_FALSE(fs::exists(left.parent_path().parent_path()));
+  EXPECT_EQ(entries(folder.path()), 4u) << "what is another's, or a living process', stays";
+  folder.write(".cloud.partial-" + gone + ".las", "x");
+  { const OutputFile file(folder.path() / "cloud.las", true); }
+  EXPECT_EQ(entries(folder.path()), 4u);
+}
+
+TEST(TemporaryPath, SweepsWhatAProcessLeftThatNobodyHasAskedAfter) {
+  const testing::TemporaryFolder folder;
+  const pid_t process = fork();
+  if (process == 0) _exit(0);
+  siginfo_t ended{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT), 0);
+  folder.write(".out.partial-" + std::to_string(process), "x");
+  { const OutputFolder output(folder.path() / "out", false, "farmgen generate"); }
+  EXPECT_EQ(entries(folder.path()), 0u);
+  waitpid(process, nullptr, 0);
 }
 
 TEST(OutputFile, AppearsWholeOrNotAtAll) {

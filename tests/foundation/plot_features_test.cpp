@@ -202,5 +202,13 @@ TEST(PlotFeatures, RefusesWhatIsNoPlot) {
   EXPECT_THROW(read_plot_features(folder.path() / "absent.geojson"), InputError);
 }
 
+TEST(PlotFeatures, AMapOfAMillionPlotsIsRefusedBeforeItIsParsed) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("plots.geojson", "{}");
+  std::filesystem::resize_file(file, 64'000'001);
+  EXPECT_THAT(testing::message_of<InputError>([&] { read_plot_features(file); }),
+              ::testing::HasSubstr("has 64000001 bytes; plots are read from up to 64000000"));
+}
+
 }  // namespace
 }  // namespace plotscan

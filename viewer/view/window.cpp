@@ -8,7 +8,7 @@
 #include <vtkWindowToImageFilter.h>
 
 #include "core/error.h"
-#include "core/temporary_path.h"
+#include "core/output_file.h"
 
 namespace plotscan::view {
 
@@ -26,7 +26,7 @@ void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
 
 void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples) {
   window.Render();
-  const TemporaryPath partial(png.string() + ".partial");
+  OutputFile file(png, true);
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(&window);
   capture->ReadFrontBufferOff();
@@ -36,12 +36,11 @@ void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int s
   shrink->SetShrinkFactors(samples, samples, 1);
   shrink->AveragingOn();
   writer->SetInputConnection(shrink->GetOutputPort());
-  writer->SetFileName(partial.path().c_str());
+  writer->SetFileName(file.path().c_str());
   writer->SetCompressionLevel(9);
   writer->Write();
-  std::error_code error;
-  std::filesystem::rename(partial.path(), png, error);
-  if (writer->GetErrorCode() != 0 || error) throw InputError(png, "cannot be written");
+  if (writer->GetErrorCode() != 0) throw WriteError(png);
+  file.commit();
 }
 
 }  // namespace plotscan::view

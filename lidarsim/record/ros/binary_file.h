@@ -54,9 +54,7 @@ class BinaryOutput {
   }
 
  private:
-  [[noreturn]] void fail() const {
-    throw std::runtime_error(path_.string() + " cannot be written");
-  }
+  [[noreturn]] void fail() const { throw WriteError(path_); }
 
   std::filesystem::path path_;
   std::ofstream out_;

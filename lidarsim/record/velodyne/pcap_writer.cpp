@@ -2,10 +2,10 @@
 #include "record/velodyne/pcap_writer.h"
 
 #include <cerrno>
-#include <system_error>
 
 #include <pcap/pcap.h>
 
+#include "core/error.h"
 #include "record/velodyne/encoder.h"
 #include "record/velodyne/ethernet.h"
 #include "record/velodyne/position_packets.h"
@@ -51,10 +51,7 @@ class FrameFile {
   }
 
  private:
-  [[noreturn]] void fail() const {
-    throw std::system_error(errno != 0 ? errno : EIO, std::generic_category(),
-                            path_.string() + ": cannot be written");
-  }
+  [[noreturn]] void fail() const { throw WriteError(path_, errno != 0 ? errno : EIO); }
 
   std::filesystem::path path_;
   std::unique_ptr<pcap_t, ClosePcap> pcap_;

@@ -60,7 +60,7 @@ TEST(GroundGrids, AreInTheUnitsOfTheCloud) {
 
 TEST(GroundGrids, SayThatTheyCannotBeWritten) {
   const TemporaryFolder folder;
-  EXPECT_THAT(message_of<InputError>([&] { write_ground(folder.path() / "absent", surface()); }),
+  EXPECT_THAT(message_of<WriteError>([&] { write_ground(folder.path() / "absent", surface()); }),
               ::testing::HasSubstr("cannot be written"));
 }
 

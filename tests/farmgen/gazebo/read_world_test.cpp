@@ -453,5 +453,13 @@ TEST_F(ReadWorld, ThirdPartyModelsStandAtTheirScale) {
   expect_vertices(world, 2, lying);
 }
 
+TEST_F(ReadWorld, AFileOfAMillionBoxesIsRefusedBeforeItIsParsed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("w.sdf", "<sdf version='1.9'/>");
+  fs::resize_file(file, 32'000'001);
+  EXPECT_THAT(message_of<InputError>([&] { read_world(file); }),
+              HasSubstr("has 32000001 bytes; SDF is read up to 32000000"));
+}
+
 }  // namespace
 }  // namespace plotscan::gazebo

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/cloud_reader.h"
 
+#include <array>
+#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
 #include "core/csv.h"
+#include "core/error.h"
 
 namespace plotscan::scan {
 namespace {
@@ -54,6 +58,30 @@ void expect_same(const Read& read, const pcl::PointCloud<Point>& cloud, double t
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3d expected = cloud[i].getVector3fMap().template cast<double>();
     ASSERT_LE((read.positions[i] - expected).norm(), tolerance) << "point " << i;
+  }
+}
+
+// Three thousand points in the byte order that the header does not say.
+TEST(CloudReader, RefusesTheOtherByteOrder) {
+  const testing::TemporaryFolder folder;
+  std::string body;
+  for (int i = 0; i < 9000; ++i) {
+    const float number = 0.37F * static_cast<float>(i % 97) - 11.1F;
+    std::array<char, sizeof number> bytes{};
+    std::memcpy(bytes.data(), &number, sizeof number);
+    body.append(bytes.rbegin(), bytes.rend());
+  }
+  const std::string properties = "property float x\nproperty float y\nproperty float z\n";
+  const std::string element = "element vertex 3000\n" + properties + "end_header\n";
+  const auto wrong =
+      folder.write("w.ply", "ply\nformat binary_little_endian 1.0\n" + element + body);
+  const auto right = folder.write("r.ply", "ply\nformat binary_big_endian 1.0\n" + element + body);
+  const auto pcd = folder.write(
+      "w.pcd", "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 3000\nDATA binary\n" + body);
+  EXPECT_EQ(read(right).summary.points, 3000u);
+  for (const auto& file : {wrong, pcd}) {
+    EXPECT_THAT(testing::message_of<InputError>([&] { read(file); }),
+                ::testing::HasSubstr("is their byte order another than the header says?"));
   }
 }
 

@@ -147,6 +147,8 @@ TEST(SensorFile, RangesAreChecked) {
   EXPECT_THAT(with_range("{least_m: 1, most_m: inf}"), HasSubstr("range.most_m inf is not in"));
   EXPECT_THAT(with_range("{least_m: 1}"), HasSubstr("range.most_m is missing"));
   EXPECT_THAT(with_range("{least_m: 1, most_m: 4, step_m: -1}"), HasSubstr("range.step_m"));
+  EXPECT_THAT(with_range("{least_m: 1, most_m: 4, step_m: 1e-300}"),
+              HasSubstr("mine.yaml:4: range.step_m is to be 0, for none, or in [1e-06, 1]"));
   EXPECT_THAT(with_range("far"), HasSubstr("range is not a map"));
 }
 

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/isolated.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/text.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PLOTSCAN_SANITIZED 1
+#else
+#define PLOTSCAN_SANITIZED 0
+#endif
+
+namespace plotscan {
+namespace {
+
+constexpr int kWaitingFactor = 20;
+
+// The first byte of what the child sends; the rest is the result or a message.
+enum class Outcome : char { done = 'd', bad_input = 'i', no_memory = 'm', failed = 'f' };
+
+void limit(__rlimit_resource resource, rlim_t most) {
+  rlimit value{};
+  getrlimit(resource, &value);
+  value.rlim_cur = std::min(most, value.rlim_max);
+  setrlimit(resource, &value);
+}
+
+// The addresses that this process has taken, in bytes.
+std::uint64_t taken_bytes() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void confine(const IsolationLimits& limits, pid_t parent) {
+  // What interrupts the parent ends it, and with it the child.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, static_cast<rlim_t>(limits.processor_s));
+  if (PLOTSCAN_SANITIZED != 0) return;
+  limit(RLIMIT_AS, taken_bytes() + limits.memory_bytes);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+void send(int pipe, Outcome outcome, const std::string& text) {
+  const auto write_all = [pipe](const char* bytes, std::size_t count) {
+    while (count > 0) {
+      const ssize_t written = write(pipe, bytes, count);
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) _exit(1);
+      bytes += written;
+      count -= static_cast<std::size_t>(written);
+    }
+  };
+  write_all(reinterpret_cast<const char*>(&outcome), 1);
+  write_all(text.data(), text.size());
+}
+
+// In the child, to its end: nothing of the parent's is destroyed twice.
+[[noreturn]] void work_and_exit(int pipe, const std::function<std::string()>& work) {
+  try {
+    send(pipe, Outcome::done, work());
+  } catch (const InputError& error) {
+    send(pipe, Outcome::bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    send(pipe, Outcome::no_memory, "");
+  } catch (const std::exception& error) {
+    send(pipe, Outcome::failed, error.what());
+  } catch (...) {
+    send(pipe, Outcome::failed, "unknown exception");
+  }
+  _exit(0);
+}
+
+struct Child {
+  pid_t process = -1;
+  int pipe = -1;
+};
+
+// No two start at once: a child that inherits another's end of a pipe would keep it open.
+Child start(const IsolationLimits& limits, const std::function<std::string()>& work) {
+  static std::mutex starting;
+  const std::lock_guard lock(starting);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw std::system_error(errno, std::generic_category(), "no pipe can be made");
+  const pid_t parent = getpid();
+  const pid_t process = fork();
+  if (process == 0) {
+    close(ends[0]);
+    confine(limits, parent);
+    work_and_exit(ends[1], work);
+  }
+  const int error = errno;
+  close(ends[1]);
+  if (process < 0) {
+    close(ends[0]);
+    throw std::system_error(error, std::generic_category(), "no process can be started");
+  }
+  return {process, ends[0]};
+}
+
+// Everything that the child sends; false when it does not come to an end in time.
+bool receive(int pipe, std::chrono::seconds patience, std::string& received) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  std::string part(std::size_t{1} << 18, '\0');
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
+    pollfd waiting{.fd = pipe, .events = POLLIN, .revents = 0};
+    const int ready = poll(&waiting, 1, static_cast<int>(std::max<long long>(left.count(), 0)));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return false;
+    const ssize_t count = read(pipe, part.data(), part.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return true;
+    received.append(part.data(), static_cast<std::size_t>(count));
+  }
+}
+
+// How the child ended, -1 where the system does not tell.
+int reaped(pid_t process) {
+  int status = -1;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+std::string reason_of(int status, bool in_time, const IsolationLimits& limits) {
+  const bool killed = WIFSIGNALED(status);
+  if (!in_time) return "came to no end";
+  if (killed && WTERMSIG(status) == SIGXCPU)
+    return "takes more than " + std::to_string(limits.processor_s) + " s";
+  if (killed) {
+    return std::string("crashed (") + strsignal(WTERMSIG(status)) +
+           "); the file is broken, or nested too deeply";
+  }
+  return "ended without a word";
+}
+
+}  // namespace
+
+std::string run_isolated(const std::string& what, const IsolationLimits& limits,
+                         const std::function<std::string()>& work) {
+  const Child child = start(limits, work);
+  std::string received;
+  const bool in_time =
+      receive(child.pipe, std::chrono::seconds(kWaitingFactor * limits.processor_s), received);
+  close(child.pipe);
+  if (!in_time) kill(child.process, SIGKILL);
+  const int status = reaped(child.process);
+  const bool ended = in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0 && !received.empty();
+  if (!ended) throw InputError(what + ": its reader " + reason_of(status, in_time, limits));
+  const auto outcome = static_cast<Outcome>(received.front());
+  received.erase(0, 1);
+  switch (outcome) {
+    case Outcome::done:
+      return received;
+    case Outcome::bad_input:
+      throw InputError(received);
+    case Outcome::no_memory:
+      throw InputError(what + ": its reader needs more than " +
+                       formatted("%.1f", static_cast<double>(limits.memory_bytes) / 1e9) +
+                       " GB of memory");
+    default:
+      throw InputError(what + ": its reader failed: " + received);
+  }
+}
+
+}  // namespace plotscan
