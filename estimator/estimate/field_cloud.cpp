@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/stage.h"
 #include "core/statistics.h"
+#include "estimate/field_density.h"
 #include "estimate/field_hull.h"
 #include "estimate/outliers.h"
 #include "scan/cloud_reader.h"
@@ -59,9 +60,15 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   Stage stage("field");
   FieldCloud field;
   std::optional<FieldHull> hull;
-  if (!options.area) hull = find_field(store.tile_counts());
+  std::vector<TileCount> tile_counts = store.tile_counts();
+  if (!options.area) hull = find_field(tile_counts);
   field.area = options.area ? *options.area : hull->bounds();
   require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
+  if (options.area) {
+    std::erase_if(tile_counts,
+                  [&](const TileCount& count) { return !overlap(count.tile, field.area); });
+  }
+  if (!tile_counts.empty()) field.density_m2 = field_density(tile_counts).median;
   TiledKeys tiles =
       store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
   const TileStore::Counts& counts = store.counts();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -45,5 +46,8 @@ struct FieldDensity {
 
 // At least one tile.
 FieldDensity field_density(std::span<const TileCount> counts);
+
+// Points a square metre, as people read them: "3040", "12.5", "0.6".
+std::string density_text(double per_m2);
 
 }  // namespace plotscan::estimate

@@ -15,6 +15,7 @@
 #include "estimate/field_density.h"
 #include "estimate/given_boxes.h"
 #include "estimate/lattice/field_report.h"
+#include "estimate/point_account.h"
 #include "estimate/points_in_boxes.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
@@ -62,12 +63,8 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
   return heights;
 }
 
-// Fewer points than can show plots, even where a field fills a quarter of its bounding rectangle.
-bool is_too_sparse(const FieldCloud& cloud) {
-  constexpr double kLeast_m2 = kPlotsLost_m2 / 4;
-  const double area_m2 = (cloud.area[2] - cloud.area[0]) * (cloud.area[3] - cloud.area[1]);
-  return static_cast<double>(cloud.points.size()) < kLeast_m2 * area_m2;
-}
+// Fewer points than can show plots, even ones much larger than those that they were lost on.
+bool is_too_sparse(const FieldCloud& cloud) { return cloud.density_m2 < kPlotsLost_m2 / 4; }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
@@ -131,11 +128,12 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
 
 json describe(const FieldCloud& cloud) {
   const FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},      {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite}, {"marked", counts.marked},
-          {"left_out", counts.left_out},     {"outside", counts.outside},
-          {"repeated", counts.repeated},     {"thinned", counts.thinned},
-          {"outliers", counts.outliers},     {"area_m", cloud.area}};
+  return {{"points_read", counts.read},        {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite},   {"marked", counts.marked},
+          {"left_out", counts.left_out},       {"outside", counts.outside},
+          {"repeated", counts.repeated},       {"thinned", counts.thinned},
+          {"outliers", counts.outliers},       {"area_m", cloud.area},
+          {"density_per_m2", cloud.density_m2}};
 }
 
 json describe(const ground::Surface& surface) {
@@ -145,10 +143,12 @@ json describe(const ground::Surface& surface) {
     within += std::isfinite(surface.z_m[node]);
     seen += std::isfinite(surface.z_m[node]) && surface.seen[node];
   }
-  return {{"cell_m", surface.cell_m},
-          {"nodes", within},
-          {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
-          {"noise_m", surface.noise_m}};
+  return {
+      {"cell_m", surface.cell_m},
+      {"nodes", within},
+      {"unknown_share", 1 - static_cast<double>(within) / static_cast<double>(surface.z_m.size())},
+      {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
+      {"noise_m", surface.noise_m}};
 }
 
 ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
@@ -200,7 +200,9 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   report(progress, 0.6);
   const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty())
-    throw NothingToMeasure("the cloud shows no ground; cut it to the field with --crop-box");
+    throw NothingToMeasure("the cloud shows no ground (" + point_account(estimate.diagnostics) +
+                           "; " + density_text(cloud.density_m2) +
+                           " points/m2); cut it to the field with --crop-box");
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
   report(progress, 0.8);
