@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/field_cloud.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -92,10 +93,18 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud) {
+// Reports up to `done` of the whole work.
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double done,
+                             const ProgressReport& progress) {
   const Stage stage("reading");
-  return scan::read_positions(cloud, [&](auto points) { store.add(points); },
-                              {.leave_out_marked = true});
+  const double expected = scan::expected_points(cloud);
+  double read = 0;
+  const auto add = [&](std::span<const Eigen::Vector3d> points) {
+    store.add(points);
+    read += static_cast<double>(points.size());
+    if (progress) progress(done * std::min(1.0, read / expected));
+  };
+  return scan::read_positions(cloud, add, {.leave_out_marked = true});
 }
 
 }  // namespace
@@ -104,14 +113,14 @@ FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
-  const scan::CloudSummary summary = read_into(store, cloud);
-  if (progress) progress(0.2);
+  constexpr double kRead = 0.5;  // of the time
+  const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);
   FieldCloud field = take_field(store, options, cloud.name());
   field.counts.read += summary.not_finite + summary.marked + summary.left_out;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;
   field.counts.left_out = summary.left_out;
-  if (progress) progress(0.3);
+  if (progress) progress(1);
   return field;
 }
 

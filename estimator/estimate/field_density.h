@@ -18,6 +18,8 @@ namespace plotscan::estimate {
 // (docs/real-clouds.md).
 inline constexpr double kPlotsFound_m2 = 85;
 inline constexpr double kPlotsLost_m2 = 42;
+// Plots are not searched below, even ones much larger than those.
+inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 4;
 
 // Counts points by tile. Memory follows the area over which they lie.
 class TileCounter {

@@ -97,6 +97,9 @@ std::vector<std::uint8_t> poorly_supported(const Evidence& evidence) {
   return poor;
 }
 
+constexpr int kFirstRounds = 3;
+constexpr int kRounds = 6;
+
 // What is known of the ground and the surface that it makes.
 struct Ground {
   Field z_m;  // above the columns' base
@@ -121,24 +124,41 @@ void doubt_the_unsupported(const Grid& grid, const Field& layers, double noise_m
   }
 }
 
-Ground find_ground(const Columns& low, double noise_m) {
+// Tells how much of the fit is done, step by step of about the same length.
+class Steps {
+ public:
+  explicit Steps(const ProgressReport& progress) : progress_(progress) {}
+  void done() {
+    ++done_;
+    if (progress_) progress_(std::min(1.0, done_ / kSteps));
+  }
+
+ private:
+  static constexpr double kSteps = 3 + kFirstRounds + kRounds;  // two first surfaces, the draws
+  const ProgressReport& progress_;
+  int done_ = 0;
+};
+
+Ground find_ground(const Columns& low, double noise_m, Steps& steps) {
   const Grid& grid = low.grid;
   Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}, .layer = {}};
+  steps.done();
   LayerSurface layers = layer_surface(low, noise_m);
+  steps.done();
   const Evidence by_layers = weigh(low, layers.z_m, noise_m);
-  constexpr int kFirstRounds = 3;
   for (int round = 0; round < kFirstRounds; ++round) {
     ground.evidence = weigh(low, ground.z_m, noise_m);
     take_better(by_layers, ground.evidence);
     step(grid, ground.evidence, true, ground.z_m);
+    steps.done();
   }
   const auto noise = static_cast<float>(noise_m);
   const Columns near = near_part(low, ground.z_m, -kBelow * noise, kAbove * noise + 0.1f,
                                  poorly_supported(ground.evidence));
-  constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
     step(grid, ground.evidence, false, ground.z_m);
+    steps.done();
   }
   doubt_the_unsupported(grid, layers.z_m, noise_m, ground);
   ground.layer = std::move(layers.layer);
@@ -156,7 +176,8 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
       options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
   const double spread_m = std::max(noise_m, kLeastSpread_m);
   const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * spread_m));
-  const Ground ground = find_ground(low, spread_m);
+  Steps steps(options.progress);
+  const Ground ground = find_ground(low, spread_m, steps);
   const Grid& grid = columns.grid;
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
@@ -168,6 +189,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
                   .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
+  steps.done();
   surface.sd_m = spread_of(grid, surface.errors);
   surface.misfit_m = misfit(grid, ground.layer,
                             {.z_m = ground.z_m, .evidence = ground.evidence, .sd_m = surface.sd_m});

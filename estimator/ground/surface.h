@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "core/progress.h"
 
 namespace plotscan::ground {
 
@@ -55,6 +56,7 @@ struct SurfaceOptions {
   std::optional<double> noise_m = std::nullopt;  // sigma of heights; estimated where absent
   double reach_m = 4;  // farther from any ground return, and than 4 cells, there is no ground
   int threads = 1;
+  ProgressReport progress = {};
 };
 
 // The ground under the points (x, y, z up, metres; any order), under canopy too: docs/ground.md.

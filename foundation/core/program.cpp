@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/temporary_path.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -25,6 +26,18 @@ constexpr int kExitBadInput = 2;
 constexpr int kExitNothingToMeasure = 3;
 constexpr int kExitFailure = 1;
 constexpr int kBarWidth = 30;
+
+constexpr std::chrono::seconds kShort{2};   // work that needs no bar
+constexpr std::chrono::seconds kPause{10};  // between lines where there is no terminal
+
+using Clock = std::chrono::steady_clock;
+
+// ", 12 s left", at the pace so far.
+std::string time_left(Clock::time_point start, double share) {
+  if (share <= 0) return "";
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
+  return formatted(", %.0f s left", elapsed_s * (1 - share) / share);
+}
 
 // Redraws one line on stderr, at most ten times a second; clears it when the work is done.
 class ProgressBar {
@@ -37,23 +50,21 @@ class ProgressBar {
 
   void show(double share) {
     const auto now = Clock::now();
+    if (now - start_ < kShort) return;
     if (share < 1 && now - drawn_ < std::chrono::milliseconds(100)) return;
     drawn_ = now;
     if (share >= 1) {
       clear();
       return;
     }
-    const double elapsed_s = std::chrono::duration<double>(now - start_).count();
     const int filled = static_cast<int>(kBarWidth * std::clamp(share, 0.0, 1.0));
-    std::fprintf(stderr, "\r%s [%s%s] %3.0f %%", label_.c_str(), std::string(filled, '#').c_str(),
-                 std::string(kBarWidth - filled, '.').c_str(), 100 * share);
-    if (share > 0) std::fprintf(stderr, ", %.0f s left\033[K", elapsed_s * (1 - share) / share);
+    std::fprintf(stderr, "\r%s [%s%s] %3.0f %%%s\033[K", label_.c_str(),
+                 std::string(filled, '#').c_str(), std::string(kBarWidth - filled, '.').c_str(),
+                 100 * share, time_left(start_, share).c_str());
     std::fflush(stderr);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void clear() {
     if (drawn_ != Clock::time_point{}) std::fprintf(stderr, "\r\033[K");
   }
@@ -61,6 +72,25 @@ class ProgressBar {
   std::string label_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_{};
+};
+
+// A line on stderr every 10 s.
+class ProgressLines {
+ public:
+  explicit ProgressLines(std::string label) : label_(std::move(label)) {}
+
+  void show(double share) {
+    const auto now = Clock::now();
+    if (share >= 1 || now - shown_ < kPause) return;
+    shown_ = now;
+    std::fprintf(stderr, "%s: %.0f %%%s\n", label_.c_str(), 100 * share,
+                 time_left(start_, share).c_str());
+  }
+
+ private:
+  std::string label_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_ = start_;
 };
 
 void log_to_stderr(int verbosity, const std::string& name) {
@@ -165,8 +195,17 @@ void Program::result(const nlohmann::json& document) const {
   if (common_.json) std::cout << document.dump(1) << '\n';
 }
 
-ProgressReport Program::progress(const std::string& label) const {
-  if (common_.json || common_.verbosity < 0 || isatty(STDERR_FILENO) == 0) return {};
+void Program::announce(const std::string& line) const {
+  if (!common_.json && common_.verbosity >= 0)
+    std::cerr << (isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "") << line << '\n';
+}
+
+ProgressReport Program::progress(const std::string& label, OffTerminal off_terminal) const {
+  if (common_.json || common_.verbosity < 0) return {};
+  if (isatty(STDERR_FILENO) == 0) {
+    if (off_terminal == OffTerminal::nothing) return {};
+    return [lines = std::make_shared<ProgressLines>(label)](double share) { lines->show(share); };
+  }
   return [bar = std::make_shared<ProgressBar>(label)](double share) { bar->show(share); };
 }
 

@@ -53,9 +53,14 @@ class Program {
   void log(const std::string& line) const;
   // What --json prints: the command's whole result. Call it once.
   void result(const nlohmann::json& document) const;
+  // A line about work to come on stderr, terminal or not; silent with -q and --json.
+  void announce(const std::string& line) const;
   // A progress bar with the time left on stderr, when that is a terminal and -q and --json are
-  // absent; else an empty report.
-  ProgressReport progress(const std::string& label) const;
+  // absent, once the work takes longer than 2 s; else an empty report, or, where `off_terminal`
+  // asks for them, a line every 10 s.
+  enum class OffTerminal { nothing, lines };
+  ProgressReport progress(const std::string& label,
+                          OffTerminal off_terminal = OffTerminal::nothing) const;
 
  private:
   int guarded_run(int argc, char** argv);
