@@ -54,8 +54,8 @@ void say_density(const Program& program, const estimate::FieldDensity& density) 
                         field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
   program.say(
       formatted("density    %s points/m2 (median), %s in the thinnest 5 %%, in squares of %d m",
-                inspect::density_text(density.median).c_str(),
-                inspect::density_text(density.least5).c_str(), density.square_m));
+                estimate::density_text(density.median).c_str(),
+                estimate::density_text(density.least5).c_str(), density.square_m));
 }
 
 // "1 62.5 %, 2 37.5 %"

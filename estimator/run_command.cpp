@@ -70,6 +70,14 @@ estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
   return numbering;
 }
 
+// Small runs stay quiet.
+void say_ahead(const Program& program, const estimate::WorkEstimate& work) {
+  constexpr double kQuick_s = 2;
+  if (work.seconds < kQuick_s) return;
+  program.announce(
+      formatted("ahead      about %.2g s and %.2g GB of memory", work.seconds, work.gigabytes));
+}
+
 void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
@@ -92,6 +100,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   if (options.method == "dhami2020" && arguments.boxes.empty() && !arguments.plots) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
+  options.lattice.tell = [&](const estimate::WorkEstimate& work) { say_ahead(program, work); };
   const auto start = std::chrono::steady_clock::now();
   const estimate::Estimate estimate = estimate::run(options, program.progress("estimating"));
   const double seconds =

@@ -8,6 +8,8 @@
 
 #include "core/geodesy.h"
 #include "core/text.h"
+#include "estimate/field_density.h"
+#include "estimate/point_account.h"
 
 namespace plotscan {
 namespace {
@@ -88,18 +90,24 @@ void say_named(const Program& program, const estimate::Estimate& estimate) {
 void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
   for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
     program.say("note       " + note.get<std::string>());
-  program.say(formatted("points     %zu read, %zu in the field",
-                        diagnostics["points_read"].get<std::size_t>(),
-                        diagnostics["points_in_area"].get<std::size_t>()));
+  program.say("points     " + estimate::point_account(diagnostics));
   const auto& area = diagnostics["area_m"];
   const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
   program.say(formatted("field      x %.1f to %.1f, y %.1f to %.1f (%s)", side(0), side(2), side(1),
                         side(3), unit_name(unit_m).c_str()));
+  if (diagnostics.contains("density_per_m2")) {
+    program.say("density    " +
+                estimate::density_text(diagnostics["density_per_m2"].get<double>()) +
+                " points/m2 (median)");
+  }
   if (diagnostics.contains("ground")) {
     const auto& ground = diagnostics["ground"];
-    program.say(formatted("ground     seen in %.0f %% of %.1f m cells, noise %.1f cm",
-                          100 * ground["seen_share"].get<double>(), ground["cell_m"].get<double>(),
-                          100 * ground["noise_m"].get<double>()));
+    const double unknown = 100 * ground.value("unknown_share", 0.0);
+    program.say(formatted(
+        "ground     seen in %.0f %% of %.1f m cells%s, noise %.1f cm",
+        100 * ground["seen_share"].get<double>(), ground["cell_m"].get<double>(),
+        unknown >= 0.5 ? formatted(", unknown in %.0f %% of the grid", unknown).c_str() : "",
+        100 * ground["noise_m"].get<double>()));
   }
   if (diagnostics.contains("votes")) say_votes(program, diagnostics);
   if (diagnostics.contains("field")) say_field(program, diagnostics);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/field_cloud.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "core/error.h"
 #include "core/stage.h"
 #include "core/statistics.h"
+#include "estimate/field_density.h"
 #include "estimate/field_hull.h"
 #include "estimate/outliers.h"
 #include "scan/cloud_reader.h"
@@ -59,9 +61,15 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   Stage stage("field");
   FieldCloud field;
   std::optional<FieldHull> hull;
-  if (!options.area) hull = find_field(store.tile_counts());
+  std::vector<TileCount> tile_counts = store.tile_counts();
+  if (!options.area) hull = find_field(tile_counts);
   field.area = options.area ? *options.area : hull->bounds();
   require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
+  if (options.area) {
+    std::erase_if(tile_counts,
+                  [&](const TileCount& count) { return !overlap(count.tile, field.area); });
+  }
+  if (!tile_counts.empty()) field.density_m2 = field_density(tile_counts).median;
   TiledKeys tiles =
       store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
   const TileStore::Counts& counts = store.counts();
@@ -85,10 +93,18 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud) {
+// Reports up to `done` of the whole work.
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double done,
+                             const ProgressReport& progress) {
   const Stage stage("reading");
-  return scan::read_positions(cloud, [&](auto points) { store.add(points); },
-                              {.leave_out_marked = true});
+  const double expected = scan::expected_points(cloud);
+  double read = 0;
+  const auto add = [&](std::span<const Eigen::Vector3d> points) {
+    store.add(points);
+    read += static_cast<double>(points.size());
+    if (progress) progress(done * std::min(1.0, read / expected));
+  };
+  return scan::read_positions(cloud, add, {.leave_out_marked = true});
 }
 
 }  // namespace
@@ -97,14 +113,14 @@ FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {
   if (options.area) require_area(*options.area, "crop box");
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
-  const scan::CloudSummary summary = read_into(store, cloud);
-  if (progress) progress(0.2);
+  constexpr double kRead = 0.5;  // of the time
+  const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);
   FieldCloud field = take_field(store, options, cloud.name());
   field.counts.read += summary.not_finite + summary.marked + summary.left_out;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;
   field.counts.left_out = summary.left_out;
-  if (progress) progress(0.3);
+  if (progress) progress(1);
   return field;
 }
 

@@ -50,6 +50,7 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
+  double density_m2 = 0;  // points in the median square metre (field_density)
 };
 
 // Streams a cloud once, in memory bounded by the area over which it lies

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/statistics.h"
+#include "core/text.h"
 #include "estimate/field_hull.h"
 
 namespace plotscan::estimate {
@@ -125,6 +126,10 @@ FieldDensity field_density(std::span<const TileCount> counts) {
     density.least5 = inside.empty() ? mean : quantile(std::move(inside), 0.05) / square_m2;
     return density;
   }
+}
+
+std::string density_text(double per_m2) {
+  return formatted(per_m2 < 100 ? "%.3g" : "%.0f", per_m2);
 }
 
 }  // namespace plotscan::estimate

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace plotscan::estimate {
 // (docs/real-clouds.md).
 inline constexpr double kPlotsFound_m2 = 85;
 inline constexpr double kPlotsLost_m2 = 42;
+// Plots are not searched below, even ones much larger than those.
+inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 4;
 
 // Counts points by tile. Memory follows the area over which they lie.
 class TileCounter {
@@ -45,5 +48,8 @@ struct FieldDensity {
 
 // At least one tile.
 FieldDensity field_density(std::span<const TileCount> counts);
+
+// Points a square metre, as people read them: "3040", "12.5", "0.6".
+std::string density_text(double per_m2);
 
 }  // namespace plotscan::estimate

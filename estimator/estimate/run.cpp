@@ -13,6 +13,7 @@
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "estimate/field_density.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
 #include "scan/cloud_reader.h"
@@ -212,10 +213,9 @@ void require_measured(const Estimate& estimate) {
       estimate.plots, [](const PlotEstimate& plot) { return !plot.heights_m.empty(); });
   if (measured) return;
   const json& diagnostics = estimate.diagnostics;
-  const Area area = diagnostics.at("area_m").get<Area>();
-  const double density =
-      diagnostics.at("points_in_area").get<double>() / ((area[2] - area[0]) * (area[3] - area[1]));
-  const std::string found = formatted(" (%.3g points/m2)", density);
+  std::string found;
+  if (diagnostics.contains("density_per_m2"))
+    found = " (" + density_text(diagnostics["density_per_m2"].get<double>()) + " points/m2)";
   if (!estimate.plots.empty()) {
     throw NothingToMeasure("no plot has enough points for a height" + found +
                            "; check that the boxes and the cloud are of one field, and fly lower "

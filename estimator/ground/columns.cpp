@@ -140,16 +140,16 @@ double usual_density(Raster raster) {
   return raster.points_per_count * usual_count(raster) / (raster.step_m * raster.step_m);
 }
 
-double cell_for(const Raster& raster) {
-  constexpr double kPointsOfCell = 2, kNarrowest_m = 0.2, kWidest_m = 10;
-  return std::clamp(std::sqrt(kPointsOfCell / usual_density(raster)), kNarrowest_m, kWidest_m);
-}
-
 }  // namespace
+
+double cell_for(double density_m2) {
+  constexpr double kPointsOfCell = 2, kNarrowest_m = 0.2, kWidest_m = 10;
+  return std::clamp(std::sqrt(kPointsOfCell / density_m2), kNarrowest_m, kWidest_m);
+}
 
 Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> step_m) {
   const Raster raster = raster_of(points);
-  const double cell_m = step_m.value_or(cell_for(raster));
+  const double cell_m = step_m.value_or(cell_for(usual_density(raster)));
   const double least = std::max(1.0, kSparse * usual_count(raster));
   const auto dense = [&](int column, int row) { return raster.count(column, row) >= least; };
   std::array<int, 4> box = {raster.columns, raster.rows, -1, -1};

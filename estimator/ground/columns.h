@@ -41,8 +41,12 @@ struct Columns {
   }
 };
 
+// The width of the grid's cells where most points lie as densely, points a square metre: usually
+// holds a few points, and no less than 0.2 m.
+double cell_for(double density_m2);
+
 // The grid that covers what was surveyed densely: sparse surroundings and stray points lie outside.
-// Without a step, cells are as wide as usually holds a few points, and no narrower than 0.2 m.
+// Without a step, cells are as wide as cell_for says.
 Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> cell_m);
 
 // The points on the grid. Those that are not finite or outside of it are left out.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -16,12 +15,6 @@ namespace plotscan::ground {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
-
-// The lowest layer of returns in each column: its height at the node, and how much it is worth.
-struct Layer {
-  Field z_m;     // kNone where there is no return
-  Field weight;  // 0 to 1
-};
 
 // Sigma about the least-squares plane by which its 20th percentile over columns is unbiased;
 // negative where that is not defined.
@@ -61,11 +54,18 @@ double usual_count(const Columns& columns) {
   return 0;
 }
 
+struct OneLayer {
+  float z_m = kNone;
+  float weight = 0;
+  float returns = 0;
+  float scatter_m2 = 0;
+};
+
 // The layer at the bottom of one column: the mean of what lies about it, from the lowest hundredth
 // upward, and the share that it has of what lies about and right above it.
-std::pair<float, float> layer_of(std::span<const Return> returns, const Eigen::Vector2f& tilt,
-                                 float noise, std::vector<float>& z) {
-  if (returns.empty()) return {kNone, 0};
+OneLayer layer_of(std::span<const Return> returns, const Eigen::Vector2f& tilt, float noise,
+                  std::vector<float>& z) {
+  if (returns.empty()) return {};
   z.clear();
   for (const Return& r : returns) {
     z.push_back(r.z_m - tilt.x() * r.east() - tilt.y() * r.north());
@@ -85,12 +85,20 @@ std::pair<float, float> layer_of(std::span<const Return> returns, const Eigen::V
   }
   int about = 0;
   int above = 0;
+  float squares = 0;
   for (const float value : z) {
-    about += std::abs(value - middle) <= 3 * noise;
-    above += value - middle > 3 * noise && value - middle <= 9 * noise;
+    const float off = value - middle;
+    if (std::abs(off) <= 3 * noise) {
+      ++about;
+      squares += off * off;
+    }
+    above += off > 3 * noise && off <= 9 * noise;
   }
   const float share = static_cast<float>(about) / static_cast<float>(about + above + 1);
-  return {middle, share * share};
+  return {.z_m = middle,
+          .weight = share * share,
+          .returns = static_cast<float>(about),
+          .scatter_m2 = squares / static_cast<float>(std::max(1, about))};
 }
 
 // Rise of a surface along a column of the grid, metres a cell.
@@ -106,13 +114,19 @@ Eigen::Vector2f tilt_at(const Grid& grid, const Field& s, int column, int row) {
 
 Layer lowest_layer(const Columns& columns, const Field& surface, float noise) {
   const Grid& grid = columns.grid;
-  Layer layer{.z_m = Field(grid.nodes()), .weight = Field(grid.nodes())};
+  Layer layer{.z_m = Field(grid.nodes()),
+              .weight = Field(grid.nodes()),
+              .returns = Field(grid.nodes()),
+              .scatter = Field(grid.nodes())};
   for_rows(grid, [&](int row) {
     std::vector<float> z;
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
-      std::tie(layer.z_m[i], layer.weight[i]) =
-          layer_of(columns.at(i), tilt_at(grid, surface, column, row), noise, z);
+      const OneLayer here = layer_of(columns.at(i), tilt_at(grid, surface, column, row), noise, z);
+      layer.z_m[i] = here.z_m;
+      layer.weight[i] = here.weight;
+      layer.returns[i] = here.returns;
+      layer.scatter[i] = here.scatter_m2;
     }
   });
   return layer;
@@ -270,7 +284,7 @@ Field lower_surface(const Columns& columns, double noise_m) {
   return surface;
 }
 
-Field layer_surface(const Columns& columns, double noise_m) {
+LayerSurface layer_surface(const Columns& columns, double noise_m) {
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
   Layer layer = lowest_layer(columns, Field(grid.nodes(), 0), noise);
@@ -285,7 +299,7 @@ Field layer_surface(const Columns& columns, double noise_m) {
       solve(grid, fit, {.most_iterations = 100, .tolerance_m = 0.002}, surface);
     }
   }
-  return surface;
+  return {.z_m = std::move(surface), .layer = std::move(layer)};
 }
 
 }  // namespace plotscan::ground

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "ground/pool.h"
+
 namespace plotscan::ground {
 namespace {
 
@@ -70,28 +72,6 @@ struct Patch {
   float z, rise_west, rise_east, rise_south, rise_north;
 };
 
-void pool(const Grid& grid, Field& field) {
-  Field along(field.size());
-  for_rows(grid, [&](int row) {
-    for (int c = 0; c < grid.columns; ++c) {
-      float sum = 0;
-      for (int k = std::max(0, c - kAround); k <= std::min(grid.columns - 1, c + kAround); ++k) {
-        sum += field[grid.index(k, row)];
-      }
-      along[grid.index(c, row)] = sum;
-    }
-  });
-  for_rows(grid, [&](int row) {
-    for (int c = 0; c < grid.columns; ++c) {
-      float sum = 0;
-      for (int k = std::max(0, row - kAround); k <= std::min(grid.rows - 1, row + kAround); ++k) {
-        sum += along[grid.index(c, k)];
-      }
-      field[grid.index(c, row)] = sum;
-    }
-  });
-}
-
 Counts count(const Columns& columns, const Field& surface, float noise) {
   const Grid& grid = columns.grid;
   Counts counts{.below = Field(grid.nodes()),
@@ -119,7 +99,7 @@ Counts count(const Columns& columns, const Field& surface, float noise) {
     }
   });
   for (Field* field : {&counts.below, &counts.about, &counts.low, &counts.mid, &counts.all}) {
-    pool(grid, *field);
+    pool(grid, kAround, *field);
   }
   return counts;
 }

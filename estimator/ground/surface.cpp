@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "ground/columns.h"
 #include "ground/lower_surface.h"
+#include "ground/misfit.h"
 #include "ground/mixture.h"
 #include "ground/solver.h"
 #include "ground/uncertainty.h"
@@ -55,6 +56,7 @@ void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Su
     if (distance_m[i] <= static_cast<float>(reach_m)) continue;
     surface.z_m[i] = kNaN;
     surface.sd_m[i] = kNaN;
+    surface.misfit_m[i] = kNaN;
     surface.seen[i] = 0;
   }
 }
@@ -95,10 +97,14 @@ std::vector<std::uint8_t> poorly_supported(const Evidence& evidence) {
   return poor;
 }
 
+constexpr int kFirstRounds = 3;
+constexpr int kRounds = 6;
+
 // What is known of the ground and the surface that it makes.
 struct Ground {
   Field z_m;  // above the columns' base
   Evidence evidence;
+  Layer layer;
 };
 
 // Where the surface is supported by nothing, it may have cut a ridge off, whose returns it then
@@ -118,26 +124,44 @@ void doubt_the_unsupported(const Grid& grid, const Field& layers, double noise_m
   }
 }
 
-Ground find_ground(const Columns& low, double noise_m) {
+// Tells how much of the fit is done, step by step of about the same length.
+class Steps {
+ public:
+  explicit Steps(const ProgressReport& progress) : progress_(progress) {}
+  void done() {
+    ++done_;
+    if (progress_) progress_(std::min(1.0, done_ / kSteps));
+  }
+
+ private:
+  static constexpr double kSteps = 3 + kFirstRounds + kRounds;  // two first surfaces, the draws
+  const ProgressReport& progress_;
+  int done_ = 0;
+};
+
+Ground find_ground(const Columns& low, double noise_m, Steps& steps) {
   const Grid& grid = low.grid;
-  Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}};
-  const Field layers = layer_surface(low, noise_m);
-  const Evidence by_layers = weigh(low, layers, noise_m);
-  constexpr int kFirstRounds = 3;
+  Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}, .layer = {}};
+  steps.done();
+  LayerSurface layers = layer_surface(low, noise_m);
+  steps.done();
+  const Evidence by_layers = weigh(low, layers.z_m, noise_m);
   for (int round = 0; round < kFirstRounds; ++round) {
     ground.evidence = weigh(low, ground.z_m, noise_m);
     take_better(by_layers, ground.evidence);
     step(grid, ground.evidence, true, ground.z_m);
+    steps.done();
   }
   const auto noise = static_cast<float>(noise_m);
   const Columns near = near_part(low, ground.z_m, -kBelow * noise, kAbove * noise + 0.1f,
                                  poorly_supported(ground.evidence));
-  constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
     step(grid, ground.evidence, false, ground.z_m);
+    steps.done();
   }
-  doubt_the_unsupported(grid, layers, noise_m, ground);
+  doubt_the_unsupported(grid, layers.z_m, noise_m, ground);
+  ground.layer = std::move(layers.layer);
   return ground;
 }
 
@@ -152,7 +176,8 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
       options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
   const double spread_m = std::max(noise_m, kLeastSpread_m);
   const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * spread_m));
-  const Ground ground = find_ground(low, spread_m);
+  Steps steps(options.progress);
+  const Ground ground = find_ground(low, spread_m, steps);
   const Grid& grid = columns.grid;
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
@@ -160,11 +185,16 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .rows = grid.rows,
                   .z_m = ground.z_m,
                   .sd_m = {},
+                  .misfit_m = {},
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
                   .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
+  steps.done();
   surface.sd_m = spread_of(grid, surface.errors);
+  surface.misfit_m = misfit(grid, ground.layer,
+                            {.z_m = ground.z_m, .evidence = ground.evidence, .sd_m = surface.sd_m});
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
+    surface.sd_m[i] = std::hypot(surface.sd_m[i], surface.misfit_m[i]);
     const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
                                 static_cast<double>(i / grid.columns));
     surface.z_m[i] +=
@@ -212,6 +242,10 @@ double Surface::standard_error(const Eigen::Vector2d& place) const {
   return bilinear(*this, sd_m, place);
 }
 
+double Surface::misfit(const Eigen::Vector2d& place) const {
+  return misfit_m.empty() ? 0 : bilinear(*this, misfit_m, place);
+}
+
 double Surface::mean_standard_error(const PlotBox& box) const {
   if (!std::isfinite(standard_error(box.center))) return kNaN;
   constexpr double kStep_m = 0.2;
@@ -235,7 +269,9 @@ double Surface::mean_standard_error(const PlotBox& box) const {
       }
     }
   }
-  double squares = doubt * doubt;
+  const double cells = std::max(1.0, box.length_m * box.width_m / (cell_m * cell_m));
+  const double missed = misfit(box.center);
+  double squares = doubt * doubt + missed * missed / cells;
   for (const double mean : means) squares += mean * mean / errors.draws;
   return std::sqrt(squares);
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "core/progress.h"
 
 namespace plotscan::ground {
 
@@ -31,8 +32,9 @@ struct Surface {
   double cell_m = 0;
   int columns = 0;
   int rows = 0;
-  std::vector<float> z_m = {};          // NaN where no ground is within reach
-  std::vector<float> sd_m = {};         // standard error of z_m; NaN where that is
+  std::vector<float> z_m = {};       // NaN where no ground is within reach
+  std::vector<float> sd_m = {};      // standard error of z_m; NaN where that is
+  std::vector<float> misfit_m = {};  // the part of it that each cell has for itself, see misfit.h
   std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
   double noise_m = 0;                   // sigma of the returns' heights about bare ground
   ErrorDraws errors = {};               // what the standard errors come from
@@ -40,8 +42,10 @@ struct Surface {
   // NaN outside of the grid, and where a node of the cell is NaN.
   double height(const Eigen::Vector2d& place) const;
   double standard_error(const Eigen::Vector2d& place) const;
-  // Of the mean of z_m over the box: errors of near places are alike. NaN where the box's centre
-  // has no ground.
+  // The part of it that each cell has for itself; 0 for a surface that does not know.
+  double misfit(const Eigen::Vector2d& place) const;
+  // Of the mean of z_m over the box: errors of near places are alike, but for the misfit. NaN where
+  // the box's centre has no ground.
   double mean_standard_error(const PlotBox& box) const;
   // Of the cell's bilinear patch: (dz/dx, dz/dy).
   Eigen::Vector2d slope(const Eigen::Vector2d& place) const;
@@ -52,6 +56,7 @@ struct SurfaceOptions {
   std::optional<double> noise_m = std::nullopt;  // sigma of heights; estimated where absent
   double reach_m = 4;  // farther from any ground return, and than 4 cells, there is no ground
   int threads = 1;
+  ProgressReport progress = {};
 };
 
 // The ground under the points (x, y, z up, metres; any order), under canopy too: docs/ground.md.

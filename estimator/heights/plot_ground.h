@@ -8,11 +8,12 @@ namespace plotscan::heights {
 
 // What is known of the ground under a plot.
 struct PlotGround {
-  double standard_error_m = 0;  // of its mean height: mean over the plot, as errors go together
-  double worst_error_m = 0;     // the largest standard error of a place in the plot
-  double reached_share = 0;     // of the plot that has a ground
-  double seen_share = 0;        // of the surface's nodes there: from returns of the ground
-  double slope = 0;             // of the plane through the plot, rise over run
+  // Of its mean height: mean over the plot, as errors go together, but for each cell's own.
+  double standard_error_m = 0;
+  double worst_error_m = 0;  // the same about the worst place in the plot
+  double reached_share = 0;  // of the plot that has a ground
+  double seen_share = 0;     // of the surface's nodes there: from returns of the ground
+  double slope = 0;          // of the plane through the plot, rise over run
 };
 
 PlotGround ground_under(const PlotBox& box, const ground::Surface& surface);

@@ -21,7 +21,7 @@ void judge_density(CloudReport& report) {
   const double density = report.density.median;
   const auto too_few = [&](const char* how) {
     return formatted("%s points/m2 %s too few: plots are found from about %.0f on",
-                     density_text(density).c_str(), how, estimate::kPlotsFound_m2);
+                     estimate::density_text(density).c_str(), how, estimate::kPlotsFound_m2);
   };
   if (density <= estimate::kPlotsLost_m2) {
     report.obstacles.push_back(too_few("are"));
@@ -103,10 +103,6 @@ std::string class_name(std::size_t number) {
                                                          "bridge deck",
                                                          "high noise"};
   return number < kNames.size() ? kNames[number] : "";
-}
-
-std::string density_text(double per_m2) {
-  return formatted(per_m2 < 100 ? "%.3g" : "%.0f", per_m2);
 }
 
 json to_json(const CloudReport& report) {

@@ -28,9 +28,6 @@ CloudReport inspect_cloud(const CloudFiles& cloud);
 // "" for those that are reserved or a user's.
 std::string class_name(std::size_t number);
 
-// Points a square metre, as people read them: "3040", "12.5", "0.6".
-std::string density_text(double per_m2);
-
 nlohmann::json to_json(const CloudReport& report);
 
 }  // namespace plotscan::inspect

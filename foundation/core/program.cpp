@@ -200,6 +200,11 @@ void Program::result(const nlohmann::json& document) const {
     std::cout << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
+void Program::announce(const std::string& line) const {
+  if (!common_.json && common_.verbosity >= 0)
+    std::cerr << (isatty(STDERR_FILENO) != 0 ? "\r\033[K" : "") << line << '\n';
+}
+
 ProgressReport Program::progress(const std::string& label) const {
   if (common_.json || common_.verbosity < 0) return {};
   return

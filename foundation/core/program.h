@@ -55,6 +55,8 @@ class Program {
   void log(const std::string& line) const;
   // What --json prints: the command's whole result. Call it once.
   void result(const nlohmann::json& document) const;
+  // A line about work to come on stderr, terminal or not; silent with -q and --json.
+  void announce(const std::string& line) const;
   // Progress with the time left on stderr: a bar on a terminal, elsewhere a line every ten seconds.
   // With -q or --json an empty report.
   ProgressReport progress(const std::string& label) const;

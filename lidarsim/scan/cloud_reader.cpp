@@ -250,6 +250,18 @@ CloudLayout read_cloud_header(const std::filesystem::path& file) {
   return layout;
 }
 
+double expected_points(const CloudFiles& cloud) {
+  constexpr double kBytesOfLine = 40;
+  double points = 0;
+  for (const std::filesystem::path& file : cloud.files) {
+    const CloudLayout layout = read_cloud_header(file);
+    points += layout.points < kMaxPoints
+                  ? static_cast<double>(layout.points)
+                  : static_cast<double>(std::filesystem::file_size(file)) / kBytesOfLine;
+  }
+  return points;
+}
+
 CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options) {
   CloudSummary summary{.system = read_cloud_system(cloud)};

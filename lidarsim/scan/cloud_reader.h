@@ -40,4 +40,8 @@ struct PositionOptions {
 CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 
+// About how many points a cloud's files hold, from their headers; of text, from its length. Throws
+// InputError as read_positions does on what it reads of them.
+double expected_points(const CloudFiles& cloud);
+
 }  // namespace plotscan::scan

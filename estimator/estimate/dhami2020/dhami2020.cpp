@@ -200,6 +200,7 @@ Estimate dhami2020(const CloudMap& map, const Dhami2020Options& options,
   const Points voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
   estimate.diagnostics = {{"points_read", map.points_read()},
                           {"points_in_area", map.points().size()},
+                          {"outside", map.points_read() - map.points().size()},
                           {"area_m", map.area()},
                           {"voxels", voxels.size()}};
   if (progress) progress(0.6);

@@ -15,7 +15,9 @@
 #include "estimate/field_density.h"
 #include "estimate/given_boxes.h"
 #include "estimate/lattice/field_report.h"
+#include "estimate/point_account.h"
 #include "estimate/points_in_boxes.h"
+#include "estimate/work_estimate.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
 
@@ -33,9 +35,25 @@ void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
 
-ground::Surface ground_of(const Points& points, const LatticeOptions& options) {
+// Shares of the whole work done after its stages, as on a flight of 7.7 million points.
+constexpr double kField = 0.2, kGround = 0.7, kAbove = 0.72, kPlots = 0.95;
+
+ground::Surface ground_of(const Points& points, const LatticeOptions& options,
+                          const ProgressReport& progress) {
   const Stage stage("ground");
-  return ground::fit_surface(points, {.noise_m = options.noise_m, .threads = options.threads});
+  const auto so_far = [&](double share) { report(progress, kField + share * (kGround - kField)); };
+  return ground::fit_surface(
+      points, {.noise_m = options.noise_m, .threads = options.threads, .progress = so_far});
+}
+
+// What is ahead, for whoever wants to know.
+void tell_work(const FieldCloud& cloud, const LatticeOptions& options) {
+  if (!options.tell) return;
+  const Area& area = cloud.area;
+  options.tell(estimate_work({.points = cloud.counts.read,
+                              .rectangle_m2 = (area[2] - area[0]) * (area[3] - area[1]),
+                              .density_m2 = cloud.density_m2},
+                             options.threads));
 }
 
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
@@ -62,18 +80,11 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
   return heights;
 }
 
-// Fewer points than can show plots, even where a field fills a quarter of its bounding rectangle.
-bool is_too_sparse(const FieldCloud& cloud) {
-  constexpr double kLeast_m2 = kPlotsLost_m2 / 4;
-  const double area_m2 = (cloud.area[2] - cloud.area[0]) * (cloud.area[3] - cloud.area[1]);
-  return static_cast<double>(cloud.points.size()) < kLeast_m2 * area_m2;
-}
-
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
-  if (is_too_sparse(cloud)) {
+  if (cloud.density_m2 < kLeastSearched_m2) {
     diagnostics["nothing"] = formatted(
         "too few points to show plots: about %.0f a square metre are needed", kPlotsFound_m2);
     return {};
@@ -131,11 +142,12 @@ void measure(std::vector<PlotEstimate>& plots, const Points& heights,
 
 json describe(const FieldCloud& cloud) {
   const FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},      {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite}, {"marked", counts.marked},
-          {"left_out", counts.left_out},     {"outside", counts.outside},
-          {"repeated", counts.repeated},     {"thinned", counts.thinned},
-          {"outliers", counts.outliers},     {"area_m", cloud.area}};
+  return {{"points_read", counts.read},        {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite},   {"marked", counts.marked},
+          {"left_out", counts.left_out},       {"outside", counts.outside},
+          {"repeated", counts.repeated},       {"thinned", counts.thinned},
+          {"outliers", counts.outliers},       {"area_m", cloud.area},
+          {"density_per_m2", cloud.density_m2}};
 }
 
 json describe(const ground::Surface& surface) {
@@ -145,10 +157,12 @@ json describe(const ground::Surface& surface) {
     within += std::isfinite(surface.z_m[node]);
     seen += std::isfinite(surface.z_m[node]) && surface.seen[node];
   }
-  return {{"cell_m", surface.cell_m},
-          {"nodes", within},
-          {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
-          {"noise_m", surface.noise_m}};
+  return {
+      {"cell_m", surface.cell_m},
+      {"nodes", within},
+      {"unknown_share", 1 - static_cast<double>(within) / static_cast<double>(surface.z_m.size())},
+      {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
+      {"noise_m", surface.noise_m}};
 }
 
 ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
@@ -196,14 +210,17 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   require_sound(options);
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
-  const ground::Surface surface = ground_of(cloud.points, options);
-  report(progress, 0.6);
+  tell_work(cloud, options);
+  const ground::Surface surface = ground_of(cloud.points, options, progress);
   const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty())
-    throw NothingToMeasure("the cloud shows no ground; cut it to the field with --crop-box");
+    throw NothingToMeasure("the cloud shows no ground (" + point_account(estimate.diagnostics) +
+                           "; " + density_text(cloud.density_m2) +
+                           " points/m2); cut it to the field with --crop-box");
+  report(progress, kAbove);
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
-  report(progress, 0.8);
+  report(progress, kPlots);
   measure(estimate.plots, heights, surface, options, estimate.diagnostics);
   for (PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();
   estimate.ground = moved(surface, cloud.origin);
@@ -215,7 +232,7 @@ Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
   return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
-                            [&](double share) { report(progress, 0.4 * share); }),
+                            [&](double share) { report(progress, kField * share); }),
                  options, progress);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
 #include "estimate/field_cloud.h"
+#include "estimate/work_estimate.h"
 #include "plots/find_plots.h"
 
 namespace plotscan::estimate {
@@ -23,6 +25,8 @@ struct LatticeOptions {
   bool calibrated = true;                // plants' heights from the canopy's (docs/methods.md)
   std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
   int threads = 1;
+  // Told once the field is read, before the work of it.
+  std::function<void(const WorkEstimate&)> tell = {};
 };
 
 // Throws InputError when an option is out of its range.

@@ -82,10 +82,8 @@ TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
 }
 
 TEST(Run, KnowsWhenNothingWasMeasured) {
-  Estimate estimate{
-      .method = "lattice",
-      .diagnostics = {
-          {"points_in_area", 300}, {"area_m", {0, 0, 10, 20}}, {"nothing", "a reason"}}};
+  Estimate estimate{.method = "lattice",
+                    .diagnostics = {{"density_per_m2", 1.5}, {"nothing", "a reason"}}};
   const auto message = [&] {
     return message_of<NothingToMeasure>([&] { require_measured(estimate); });
   };

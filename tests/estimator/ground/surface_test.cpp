@@ -182,6 +182,68 @@ TEST(FitSurface, HasWideCellsWherePointsAreFew) {
   EXPECT_NEAR(bias / count, 0, 0.01);
 }
 
+// Waves of all lengths from 2 to 40 m in all directions, the longer the higher, on a slope.
+Terrain rough_terrain(std::uint64_t seed, double steepness, double slope) {
+  struct Wave {
+    double x, y, height, at;
+  };
+  std::vector<Wave> waves;
+  RandomStream random(seed, random_purpose("test/ground/rough"), 0);
+  for (int i = 0; i < 40; ++i) {
+    const double per_m = M_PI * std::pow(20, -random.uniform());
+    const double towards = random.uniform(0, 2 * M_PI);
+    waves.push_back({per_m * std::cos(towards), per_m * std::sin(towards), steepness / per_m,
+                     random.uniform(0, 2 * M_PI)});
+  }
+  return [=](double x, double y) {
+    double z = slope * x;
+    for (const Wave& wave : waves) z += wave.height * std::sin(wave.x * x + wave.y * y + wave.at);
+    return z;
+  };
+}
+
+// Of the places 4 m from the edge of a square field and farther.
+struct Coverage {
+  double places = 0;
+  double known = 0;   // with a ground
+  double inside = 0;  // whose true ground lies within 1.96 standard errors
+
+  void add(const Surface& surface, const Terrain& terrain, double side_m) {
+    for (double x = 4 - 0.5 * side_m; x <= 0.5 * side_m - 4; x += 0.37) {
+      for (double y = 4 - 0.5 * side_m; y <= 0.5 * side_m - 4; y += 0.43) {
+        const double off = surface.height({x, y}) - terrain(x, y);
+        ++places;
+        known += std::isfinite(off);
+        inside += std::abs(off) < 1.96 * surface.standard_error({x, y});
+      }
+    }
+  }
+};
+
+// Airborne, a return a square metre or three: the ground between them is most of the error. Slopes
+// of the waves are 0.09 and 0.18 rms, on a plain and on a hillside.
+TEST(FitSurface, GivesHonestStandardErrorsWherePointsAreFew) {
+  struct Case {
+    int returns_m2;
+    double most_inside;  // intervals that hold everything say nothing
+  };
+  for (const auto& [returns_m2, most_inside] : {Case{1, 0.98}, Case{3, 0.995}}) {
+    Coverage coverage;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      const Terrain terrain = rough_terrain(seed, seed % 2 == 0 ? 0.02 : 0.04, seed < 4 ? 0 : 0.3);
+      const SyntheticField field = {.terrain = terrain,
+                                    .side_m = 60,
+                                    .returns_m2 = returns_m2,
+                                    .noise_m = 0.02,
+                                    .seed = 40 + seed};
+      coverage.add(fit_surface(returns_of(field), SurfaceOptions()), terrain, field.side_m);
+    }
+    EXPECT_GT(coverage.known, 0.85 * coverage.places) << returns_m2 << " returns a m2";
+    EXPECT_GT(coverage.inside, 0.90 * coverage.known) << returns_m2 << " returns a m2";
+    EXPECT_LT(coverage.inside, most_inside * coverage.known) << returns_m2 << " returns a m2";
+  }
+}
+
 TEST(FitSurface, TakesTheNoiseThatIsGiven) {
   SurfaceOptions options;
   options.noise_m = 0.05;

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/work_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/field_density.h"
+#include "ground/columns.h"
+
+namespace plotscan::estimate {
+namespace {
+
+// Seconds of one core: for a point and a node of the ground; plots of a hectare, which grow faster.
+constexpr double kSecondsOfPoint = 0.3e-6;
+constexpr double kSecondsOfNode = 7e-6;
+constexpr double kSecondsOfPlots_ha = 4;
+constexpr double kPlotsPower = 1.7;
+// As much of each further thread's time is gained.
+constexpr double kThreadGain = 0.5;
+constexpr int kMostGain = 8;
+// Bytes: of the program, of a point while it is read, and of the first of them while they are
+// merged (tile_store.h); of the ground's points and nodes; of the search's points and area.
+constexpr double kProgram = 60e6;
+constexpr double kReadPoint = 16, kMergedPoint = 20, kMostMerged = 16.8e6;
+constexpr double kGroundPoint = 14, kGroundNode = 390;
+constexpr double kSearchPoint = 24, kSearch_ha = 190e6;
+
+}  // namespace
+
+WorkEstimate estimate_work(const FieldSize& field, int threads) {
+  const auto points = static_cast<double>(field.points);
+  const double cell_m = ground::cell_for(std::max(field.density_m2, 1e-9));
+  const double nodes = field.rectangle_m2 / (cell_m * cell_m);
+  const bool searched = field.density_m2 >= kLeastSearched_m2;
+  const double searched_ha = searched ? field.rectangle_m2 / 1e4 : 0;
+  const double seconds = kSecondsOfPoint * points + kSecondsOfNode * nodes +
+                         kSecondsOfPlots_ha * std::pow(searched_ha, kPlotsPower);
+  const double bytes = std::max({kReadPoint * points + kMergedPoint * std::min(points, kMostMerged),
+                                 kGroundPoint * points + kGroundNode * nodes,
+                                 searched ? kSearchPoint * points + kSearch_ha * searched_ha : 0});
+  const double gain = 1 + kThreadGain * (std::clamp(threads, 1, kMostGain) - 1);
+  return {.seconds = seconds / gain, .gigabytes = (kProgram + bytes) / 1e9};
+}
+
+}  // namespace plotscan::estimate
