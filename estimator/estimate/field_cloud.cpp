@@ -12,7 +12,7 @@
 #include "core/statistics.h"
 #include "estimate/field_hull.h"
 #include "estimate/outliers.h"
-#include "scan/cloud_reader.h"
+#include "record/positions.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -87,8 +87,8 @@ namespace {
 
 scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud) {
   const Stage stage("reading");
-  return scan::read_positions(cloud, [&](auto points) { store.add(points); },
-                              {.leave_out_marked = true});
+  return record::read_positions(cloud, [&](auto points) { store.add(points); },
+                                {.leave_out_marked = true});
 }
 
 }  // namespace
@@ -99,7 +99,9 @@ FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   const scan::CloudSummary summary = read_into(store, cloud);
   if (progress) progress(0.2);
-  FieldCloud field = take_field(store, options, cloud.name());
+  const std::string name =
+      cloud.only_classes.empty() ? cloud.name() : cloud.name() + ", points of the given classes";
+  FieldCloud field = take_field(store, options, name);
   field.counts.read += summary.not_finite + summary.marked + summary.left_out;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;

@@ -50,6 +50,8 @@ struct FieldCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
+  // Where the user says which points may carry the ground: these, relative to origin; else empty.
+  std::vector<Eigen::Vector3f> ground_points = {};
 };
 
 // Streams a cloud once, in memory bounded by the area over which it lies

@@ -196,15 +196,6 @@ std::string stated_crs(const json& document) {
   return is_epsg ? "EPSG:" + name.substr(code + 1) : name;
 }
 
-// Longitude and latitude on WGS 84 or a datum that is taken for it (utm_system).
-bool is_geographic(const std::string& crs) {
-  for (const char* geographic :
-       {"EPSG:4326", "EPSG:4258", "EPSG:4269", "EPSG:6318", "EPSG:4283", "EPSG:7844"}) {
-    if (crs == geographic) return true;
-  }
-  return crs.find("CRS84") != std::string::npos;
-}
-
 bool within_degrees(const json& coordinates) {
   if (coordinates.is_array() && !coordinates.empty() && coordinates[0].is_number()) {
     return std::abs(coordinates.at(0).get<double>()) <= 180 &&
@@ -216,7 +207,7 @@ bool within_degrees(const json& coordinates) {
 // Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
 bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
-  if (!stated.empty()) return is_geographic(stated);
+  if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;
   if (document.contains("coordinate_system") && document["coordinate_system"].is_string()) {
     return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
   }

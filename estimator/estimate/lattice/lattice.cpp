@@ -33,9 +33,21 @@ void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
 
-ground::Surface ground_of(const Points& points, const LatticeOptions& options) {
+ground::Surface ground_of(const FieldCloud& cloud, const LatticeOptions& options) {
   const Stage stage("ground");
+  const Points& points = cloud.ground_points.empty() ? cloud.points : cloud.ground_points;
   return ground::fit_surface(points, {.noise_m = options.noise_m, .threads = options.threads});
+}
+
+// The points of the field that are of the ground's classes, in its frame.
+Points ground_told(const CloudFiles& cloud, const FieldCloud& field,
+                   const LatticeOptions& options) {
+  CloudFiles of_classes = cloud;
+  of_classes.only_classes = options.ground_classes;
+  FieldCloud told = read_field(of_classes, {.area = field.area, .threads = options.threads});
+  const Eigen::Vector3f moved = (told.origin - field.origin).cast<float>();
+  for (Eigen::Vector3f& point : told.points) point += moved;
+  return std::move(told.points);
 }
 
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
@@ -187,6 +199,8 @@ void require_sound(const LatticeOptions& options) {
   require_between(options.hints.columns, 1, kMostPlots, "the number of columns");
   require_between(options.hints.plots, 1, kMostPlots, "the number of plots");
   require_between(options.noise_m, 0, 0.5, "the noise's sigma in metres");
+  for (const int number : options.ground_classes)
+    require_between(number, 0, 255, "a class of the ground");
   require_known(options.crop);
   require_between(options.threads, 1, kMostThreads, "the number of threads");
 }
@@ -196,7 +210,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   require_sound(options);
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
-  const ground::Surface surface = ground_of(cloud.points, options);
+  const ground::Surface surface = ground_of(cloud, options);
   report(progress, 0.6);
   const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty())
@@ -214,9 +228,10 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
 Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
-  return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
-                            [&](double share) { report(progress, 0.4 * share); }),
-                 options, progress);
+  FieldCloud field = read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+                                [&](double share) { report(progress, 0.4 * share); });
+  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
+  return lattice(field, options, progress);
 }
 
 }  // namespace plotscan::estimate
