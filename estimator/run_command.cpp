@@ -224,7 +224,8 @@ void declare_run(Program& program) {
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
   run.add_option("--boxes", arguments.boxes,
-                 "map of the plots (GeoJSON), in the cloud's units, or in longitude and latitude "
+                 "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
+                 "longitude and latitude "
                  "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
                  "and attributes, search none");
   declare_names(run, arguments);

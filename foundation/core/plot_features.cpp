@@ -267,6 +267,11 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
   return placed;
 }
 
+[[noreturn]] void fail_foreign(const std::filesystem::path& path, const json::exception& error) {
+  throw InputError(path,
+                   std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+}
+
 }  // namespace
 
 bool is_box_property(const std::string& name) {
@@ -315,10 +320,18 @@ std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
 PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
                                double unit_m) {
   try {
-    return placed_plots(json::parse(read_text(path)), path, crs, unit_m);
+    return plot_features_of(json::parse(read_text(path)), path, crs, unit_m);
   } catch (const json::exception& error) {
-    throw InputError(path,
-                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+    fail_foreign(path, error);
+  }
+}
+
+PlacedPlots plot_features_of(const json& document, const std::filesystem::path& path,
+                             const std::string& crs, double unit_m) {
+  try {
+    return placed_plots(document, path, crs, unit_m);
+  } catch (const json::exception& error) {
+    fail_foreign(path, error);
   }
 }
 
