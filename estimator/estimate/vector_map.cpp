@@ -14,6 +14,7 @@
 #include <gdal.h>
 #include <ogrsf_frmts.h>
 
+#include "core/geodesy.h"
 #include "core/text.h"
 #endif
 
@@ -42,28 +43,25 @@ class QuietGdal {
 };
 
 std::unique_ptr<GDALDataset> open_map(const fs::path& file) {
-  static const bool registered = [] {
-    GDALAllRegister();
-    return true;
-  }();
-  check(registered, "GDAL knows its formats");
   require_file(file);
+  GDALAllRegister();
   std::unique_ptr<GDALDataset> map(
       GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
   if (!map) throw InputError(file, std::string("cannot be read: ") + CPLGetLastErrorMsg());
   return map;
 }
 
-bool is_polygon(OGRwkbGeometryType type) {
+// A layer of any geometry may hold them, too.
+bool may_be_polygons(OGRwkbGeometryType type) {
   const OGRwkbGeometryType flat = wkbFlatten(type);
-  return flat == wkbPolygon || flat == wkbMultiPolygon;
+  return flat == wkbPolygon || flat == wkbMultiPolygon || flat == wkbUnknown;
 }
 
 OGRLayer& layer_of_plots(const fs::path& file, GDALDataset& map) {
   std::vector<OGRLayer*> layers;
   std::vector<std::string> names;
   for (OGRLayer* layer : map.GetLayers()) {
-    if (!is_polygon(layer->GetGeomType())) continue;
+    if (!may_be_polygons(layer->GetGeomType())) continue;
     layers.push_back(layer);
     names.emplace_back(layer->GetName());
   }
@@ -81,14 +79,15 @@ std::string crs_of(const fs::path& file, const OGRSpatialReference* system) {
   const char* const node = system->IsGeographic() ? "GEOGCS" : "PROJCS";
   const char* const authority = system->GetAuthorityName(node);
   const char* const code = system->GetAuthorityCode(node);
-  if (authority != nullptr && code != nullptr && std::string(authority) == "EPSG")
-    return std::string("urn:ogc:def:crs:EPSG::") + code;
+  const bool has_code = authority != nullptr && code != nullptr && authority == std::string("EPSG");
+  const std::string epsg = has_code ? std::string("EPSG:") + code : "";
   const std::string name = system->GetName() == nullptr ? "unnamed" : system->GetName();
-  if (system->IsGeographic()) {
-    throw InputError(file, "is in longitude and latitude of the system \"" + name +
-                               "\", which has no EPSG code; save it in the cloud's system");
+  if (system->IsGeographic() && !is_geographic(epsg)) {
+    throw InputError(file, "is in longitude and latitude of the system \"" + name + "\"" +
+                               (has_code ? " (" + epsg + ")" : "") +
+                               ", which is not known here; save it in the cloud's system");
   }
-  return name;
+  return has_code ? std::string("urn:ogc:def:crs:EPSG::") + code : name;
 }
 
 json ring_of(const OGRLinearRing& ring) {
@@ -120,6 +119,13 @@ std::string date_of(const OGRFeature& feature, int field) {
   return formatted("%04d-%02d-%02d", year, month, day);
 }
 
+std::string text_of(const OGRFeature& feature, int field) {
+  std::string text = feature.GetFieldAsString(field);
+  if (CPLIsUTF8(text.c_str(), -1) != 0) return text;
+  throw InputError(std::string("its attribute \"") + feature.GetFieldDefnRef(field)->GetNameRef() +
+                   "\" has letters in another encoding than the file states; save it in UTF-8");
+}
+
 json value_of(const OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return nullptr;
   const OGRFieldDefn& definition = *feature.GetFieldDefnRef(field);
@@ -133,7 +139,7 @@ json value_of(const OGRFeature& feature, int field) {
     case OFTDate:
       return date_of(feature, field);
     default:
-      return feature.GetFieldAsString(field);
+      return text_of(feature, field);
   }
 }
 
@@ -157,7 +163,11 @@ json read_vector_map(const fs::path& file) {
   const std::string crs = crs_of(file, layer.GetSpatialRef());
   if (!crs.empty()) document["crs"] = {{"type", "name"}, {"properties", {{"name", crs}}}};
   const std::string key = layer.GetFIDColumn();
-  for (const auto& feature : layer) document["features"].push_back(feature_of(*feature, key));
+  try {
+    for (const auto& feature : layer) document["features"].push_back(feature_of(*feature, key));
+  } catch (const InputError& error) {
+    throw InputError(file, error.what());
+  }
   return document;
 }
 #else

@@ -200,10 +200,29 @@ TEST(VectorMap, WhatIsNoMapOfPlotsIsRefused) {
     Map two(folder.path() / "two.gpkg", "GPKG");
     two.layer("north", 32617);
     two.layer("south", 32617);
+    Map old(folder.path() / "old.gpkg", "GPKG");
+    old.layer("nad27", 4267);
   }
   EXPECT_THAT(refusal(folder.path() / "points.gpkg"), HasSubstr("no layer of polygons"));
   EXPECT_THAT(refusal(folder.path() / "two.gpkg"),
               HasSubstr("several layers of polygons: north, south"));
+  EXPECT_THAT(refusal(folder.path() / "old.gpkg"),
+              HasSubstr("NAD27\" (EPSG:4267), which is not known"));
+  // Bytes of ISO 8859-1 in a file that says UTF-8.
+  const fs::path shp = folder.path() / "latin.shp";
+  {
+    Map map(shp, "ESRI Shapefile");
+    OGRLayer& layer = map.layer("latin", 32617);
+    add_fields(layer, {{"entry", OFTString}});
+    OGRFeature feature(layer.GetLayerDefn());
+    feature.SetField("entry", "Grxner");
+    add(layer, feature, polygon_of(corners_of(kFarm.box(0, 0), kUtm)));
+  }
+  std::string table = read_text(folder.path() / "latin.dbf");
+  table.at(table.find("Grxner") + 2) = '\xFC';
+  folder.write("latin.dbf", table);
+  folder.write("latin.cpg", "UTF-8");
+  EXPECT_THAT(refusal(shp), HasSubstr("latin.shp: its attribute \"entry\" has letters"));
   EXPECT_TRUE(is_vector_map("a/B.SHP"));
   EXPECT_FALSE(is_vector_map("plots.geojson"));
 }
