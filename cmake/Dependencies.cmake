@@ -42,6 +42,8 @@ if(LASZIP_INCLUDE_DIR AND LASZIP_LIBRARY)
   set_target_properties(laszip PROPERTIES IMPORTED_LOCATION ${LASZIP_LIBRARY})
   target_include_directories(laszip SYSTEM INTERFACE ${LASZIP_INCLUDE_DIR})
 endif()
+# Without it maps of plots are GeoJSON only.
+find_package(GDAL 3 QUIET)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 

@@ -4,17 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "cloud_options.h"
 #include "inspect/cloud_report.h"
 
 #include "core/text.h"
 
 namespace plotscan {
 namespace {
-
-struct InfoArguments {
-  std::vector<std::filesystem::path> clouds;
-  std::string units;
-};
 
 void say_points(const Program& program, const scan::CloudFacts& facts) {
   std::string left_out;
@@ -33,18 +29,10 @@ void say_extent(const Program& program, const scan::CloudFacts& facts) {
   }
 }
 
-// A code, or the name at the head of well-known text.
-std::string name_of(const std::string& crs) {
-  if (crs.empty()) return "not stated";
-  const std::size_t begin = crs.find('"');
-  const std::size_t end = begin == std::string::npos ? begin : crs.find('"', begin + 1);
-  return end == std::string::npos ? crs : crs.substr(begin + 1, end - begin - 1);
-}
-
 void say_system(const Program& program, const scan::CloudSystem& system) {
   const std::string x_y = system.zone ? "degrees" : unit_name(system.units.horizontal_m);
   program.say("units      " + x_y + ", z in " + unit_name(system.units.vertical_m));
-  program.say("system     " + name_of(system.crs));
+  program.say("system     " + (system.crs.empty() ? "not stated" : scan::crs_name(system.crs)));
   for (const std::string& note : system.notes) program.say("note       " + note);
 }
 
@@ -91,9 +79,9 @@ void say_verdict(const Program& program, const inspect::CloudReport& report) {
   for (const std::string& why : report.doubts) program.say("           " + why);
 }
 
-void run_info(const Program& program, const InfoArguments& arguments) {
-  CloudFiles cloud(cloud_files_of(arguments.clouds));
-  if (const auto unit_m = unit_named(arguments.units)) cloud.units = {*unit_m, *unit_m};
+void run_info(const Program& program, const CloudArguments& arguments) {
+  CloudFiles cloud = cloud_of(arguments);
+  cloud.files = cloud_files_of(cloud.files);
   const inspect::CloudReport report = inspect::inspect_cloud(cloud);
   if (cloud.files.size() > 1) program.say(formatted("files      %zu", cloud.files.size()));
   say_points(program, report.facts);
@@ -108,15 +96,10 @@ void run_info(const Program& program, const InfoArguments& arguments) {
 }  // namespace
 
 void declare_info(Program& program) {
-  const auto arguments = std::make_shared<InfoArguments>();
+  const auto arguments = std::make_shared<CloudArguments>();
   CLI::App& info = program.command("info", "Say what a cloud is, and whether it can carry plots.",
                                    [&program, arguments] { run_info(program, *arguments); });
-  info.add_option("CLOUD", arguments->clouds,
-                  "clouds or folders, several of them as one cloud, as run takes them")
-      ->required();
-  info.add_option("--units", arguments->units,
-                  "of the cloud's coordinates, whatever its file states: m, ft, us-ft")
-      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
+  declare_cloud(info, *arguments);
 }
 
 }  // namespace plotscan

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cloud_options.h"
 #include "say_estimate.h"
 
 #include "core/error.h"
@@ -24,11 +25,11 @@ constexpr const char* kDhamiGroup = "dhami2020";
 
 struct RunArguments {
   const CLI::App* command = nullptr;
+  CloudArguments cloud;
   estimate::RunOptions options;
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
-  std::string units;
   std::string id;
   std::string plot_names;
   std::string numbering;
@@ -82,7 +83,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
   estimate::RunOptions& options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
-  if (const auto unit_m = unit_named(arguments.units)) options.cloud.units = {*unit_m, *unit_m};
+  options.cloud = cloud_of(arguments.cloud);
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   options.dhami2020.learn_box = area_of(arguments.learn_box);
@@ -136,6 +137,13 @@ void declare_lattice(CLI::App& run, RunArguments& arguments) {
       ->group(group);
   run.add_option("--noise", method.noise_m,
                  "sigma of the points' heights (metres; default: estimated from bare ground)")
+      ->group(group);
+  run.add_option("--ground-class", method.ground_classes,
+                 "ASPRS classes that alone may carry the ground, with commas, where the surveyor's "
+                 "filter is trusted: 2 is ground (default: every point may)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255))
       ->group(group);
   run.add_flag("--no-calibration", arguments.no_calibration,
                "give the canopy's own mean and percentiles for the plants'")
@@ -206,10 +214,7 @@ void declare_run(Program& program) {
                       [&program, shared] { run_estimate(program, *shared); });
   arguments.command = &run;
   auto& options = arguments.options;
-  run.add_option("CLOUD", options.cloud.files,
-                 "PCD, PLY, LAS or text clouds, a scan folder (its cloud.pcd), or a folder of "
-                 "tiles; several are read as one")
-      ->required();
+  declare_cloud(run, arguments.cloud);
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,
                  "lattice: needs nothing but the cloud; dhami2020: the paper's pipeline, needs "
@@ -222,18 +227,14 @@ void declare_run(Program& program) {
       ->delimiter(',')
       ->expected(4);
   run.add_option(
-         "--leave-out-class", options.cloud.leave_out_classes,
+         "--leave-out-class", arguments.cloud.cloud.leave_out_classes,
          "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
-  run.add_option(
-         "--units", arguments.units,
-         "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: what "
-         "the file states, else metres)")
-      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
   run.add_option("--boxes", arguments.boxes,
-                 "map of the plots (GeoJSON), in the cloud's units, or in longitude and latitude "
+                 "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
+                 "longitude and latitude "
                  "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
                  "and attributes, search none");
   declare_names(run, arguments);

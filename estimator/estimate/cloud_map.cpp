@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "estimate/field_finder.h"
-#include "scan/cloud_reader.h"
+#include "record/positions.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -70,13 +70,13 @@ CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
     field = *area;
   } else {
     FieldFinder finder;
-    scan::read_positions(cloud, [&](auto points) { finder.add(points); });
+    record::read_positions(cloud, [&](auto points) { finder.add(points); });
     field = finder.field();
     require_area(field, cloud.name() + ": the scanned field");
   }
   if (progress) progress(0.2);
   CloudMap map(field);
-  scan::read_positions(cloud, [&](auto points) { map.add(points); });
+  record::read_positions(cloud, [&](auto points) { map.add(points); });
   if (map.points().empty()) {
     throw InputError(cloud.name() + ": none of its " + std::to_string(map.points_read()) +
                      " points lies in the crop box " + text_of(field));

@@ -14,7 +14,7 @@
 #include "estimate/field_density.h"
 #include "estimate/field_hull.h"
 #include "estimate/outliers.h"
-#include "scan/cloud_reader.h"
+#include "record/positions.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -97,14 +97,14 @@ namespace {
 scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double done,
                              const ProgressReport& progress) {
   const Stage stage("reading");
-  const double expected = scan::expected_points(cloud);
+  const double expected = record::expected_points(cloud);
   double read = 0;
   const auto add = [&](std::span<const Eigen::Vector3d> points) {
     store.add(points);
     read += static_cast<double>(points.size());
     if (progress) progress(done * std::min(1.0, read / expected));
   };
-  return scan::read_positions(cloud, add, {.leave_out_marked = true});
+  return record::read_positions(cloud, add, {.leave_out_marked = true});
 }
 
 }  // namespace
@@ -115,7 +115,9 @@ FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   constexpr double kRead = 0.5;  // of the time
   const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);
-  FieldCloud field = take_field(store, options, cloud.name());
+  const std::string name =
+      cloud.only_classes.empty() ? cloud.name() : cloud.name() + ", points of the given classes";
+  FieldCloud field = take_field(store, options, name);
   field.counts.read += summary.not_finite + summary.marked + summary.left_out;
   field.counts.not_finite = summary.not_finite;
   field.counts.marked = summary.marked;

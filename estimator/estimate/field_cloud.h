@@ -51,6 +51,8 @@ struct FieldCloud {
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
   double density_m2 = 0;  // points in the median square metre (field_density)
+  // Where the user says which points may carry the ground: these, relative to origin; else empty.
+  std::vector<Eigen::Vector3f> ground_points = {};
 };
 
 // Streams a cloud once, in memory bounded by the area over which it lies

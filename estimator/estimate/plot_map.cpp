@@ -8,6 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "estimate/vector_map.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -123,7 +124,9 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
 
 PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property) {
-  PlacedPlots placed = read_plot_features(file, crs, unit_m);
+  PlacedPlots placed = is_vector_map(file)
+                           ? plot_features_of(read_vector_map(file), file, crs, unit_m)
+                           : read_plot_features(file, crs, unit_m);
   PlotMap map{.plots = std::move(placed.plots), .from_degrees = placed.from_degrees};
   if (map.plots.empty()) throw InputError(file, "has no plots");
   if (const auto property = id_property_of(file, map.plots, id_property)) {

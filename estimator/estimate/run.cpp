@@ -16,7 +16,7 @@
 #include "estimate/field_density.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
-#include "scan/cloud_reader.h"
+#include "record/positions.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -41,6 +41,7 @@ json options_json(const LatticeOptions& options) {
           {"plots", to_json(options.hints.plots)},
           {"crop", to_json(options.crop)},
           {"noise_m", to_json(options.noise_m)},
+          {"ground_classes", options.ground_classes},
           {"calibrated", options.calibrated}};
 }
 
@@ -68,6 +69,15 @@ json options_json(const NumberingOptions& options) {
   return document;
 }
 
+json options_json(const RecordingOptions& options) {
+  json document = {{"sensor", to_json(options.sensor)}};
+  if (options.trajectory) document["trajectory"] = options.trajectory->filename().string();
+  if (const auto& mount = options.mount_rpy_deg)
+    document["mount_rpy_deg"] = {mount->x(), mount->y(), mount->z()};
+  if (!options.topic.empty()) document["topic"] = options.topic;
+  return document;
+}
+
 json options_json(const RunOptions& options) {
   json document =
       options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
@@ -75,6 +85,8 @@ json options_json(const RunOptions& options) {
   document["crop_box"] = to_json(options.crop_box);
   const CloudFiles& cloud = options.cloud;
   document["unit_m"] = cloud.units ? json(cloud.units->horizontal_m) : json(nullptr);
+  document["crs"] = to_json(cloud.crs);
+  if (cloud.recording.any()) document["recording"] = options_json(cloud.recording);
   document["leave_out_classes"] = cloud.leave_out_classes;
   document["given_boxes"] = options.boxes.has_value();
   document["id"] = to_json(options.id);
@@ -114,8 +126,9 @@ void require_sound(const RunOptions& options) {
     throw InputError("an id is a property of given boxes or a column of plot names; give either");
 }
 
-// The cloud's files and the others that the user gives.
+// These files and the others that the user gives.
 std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions& options) {
+  if (options.cloud.recording.trajectory) files.push_back(*options.cloud.recording.trajectory);
   if (options.boxes) files.push_back(*options.boxes);
   if (options.numbering.names) files.push_back(*options.numbering.names);
   return files;
@@ -188,7 +201,7 @@ Estimate run(const RunOptions& options, const ProgressReport& progress) {
     require_own_place(*options.csv, options.output, manifest.inputs);
     table.emplace(*options.csv, options.replace);
   }
-  const scan::CloudSystem system = scan::read_cloud_system(cloud);
+  const scan::CloudSystem system = record::read_cloud_system(cloud);
   const double unit_m = system.units.horizontal_m;
   PlotMap map;
   if (options.boxes) map = read_plot_map(*options.boxes, system.crs, unit_m, options.id);

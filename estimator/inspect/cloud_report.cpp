@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/utc_time.h"
+#include "record/positions.h"
 
 namespace plotscan::inspect {
 namespace {
@@ -71,7 +72,7 @@ json time_json(const scan::CloudFacts& facts) {
 CloudReport inspect_cloud(const CloudFiles& cloud) {
   estimate::TileCounter tiles;
   CloudReport report{
-      .facts = scan::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
+      .facts = record::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
       .density = {}};
   const std::vector<estimate::TileCount> counts = tiles.counts();
   if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");

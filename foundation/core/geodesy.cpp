@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geodesy.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -95,6 +96,12 @@ std::optional<UtmSystem> utm_system(const std::string& crs) {
     return UtmSystem{.zone = {.number = zone, .north = codes.north}, .datum = codes.datum};
   }
   return std::nullopt;
+}
+
+bool is_geographic(const std::string& crs) {
+  constexpr std::array kGeographic = {"EPSG:4326", "EPSG:4258", "EPSG:4269",
+                                      "EPSG:6318", "EPSG:4283", "EPSG:7844"};
+  return std::ranges::find(kGeographic, crs) != kGeographic.end();
 }
 
 }  // namespace plotscan

@@ -51,4 +51,7 @@ struct UtmSystem {
 // PROJ's registry); nothing for any other system.
 std::optional<UtmSystem> utm_system(const std::string& crs);
 
+// Whether "EPSG:<code>" is longitude and latitude on one of these datums.
+bool is_geographic(const std::string& crs);
+
 }  // namespace plotscan

@@ -199,15 +199,6 @@ std::string stated_crs(const json& document) {
   return is_epsg ? "EPSG:" + name.substr(code + 1) : name;
 }
 
-// Longitude and latitude on WGS 84 or a datum that is taken for it (utm_system).
-bool is_geographic(const std::string& crs) {
-  for (const char* geographic :
-       {"EPSG:4326", "EPSG:4258", "EPSG:4269", "EPSG:6318", "EPSG:4283", "EPSG:7844"}) {
-    if (crs == geographic) return true;
-  }
-  return crs.find("CRS84") != std::string::npos;
-}
-
 bool within_degrees(const json& coordinates) {
   if (coordinates.is_array() && !coordinates.empty() && coordinates[0].is_number()) {
     return std::abs(coordinates.at(0).get<double>()) <= 180 &&
@@ -219,7 +210,7 @@ bool within_degrees(const json& coordinates) {
 // Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
 bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
-  if (!stated.empty()) return is_geographic(stated);
+  if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;
   if (document.contains("coordinate_system") && document["coordinate_system"].is_string()) {
     return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
   }
@@ -279,6 +270,11 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
   return placed;
 }
 
+[[noreturn]] void fail_foreign(const std::filesystem::path& path, const json::exception& error) {
+  throw InputError(path,
+                   std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+}
+
 }  // namespace
 
 bool is_box_property(const std::string& name) {
@@ -332,10 +328,18 @@ PlacedPlots read_plot_features(const std::filesystem::path& path, const std::str
                                " bytes; plots are read from up to " + std::to_string(kMostBytes));
   }
   try {
-    return placed_plots(json::parse(read_text(path)), path, crs, unit_m);
+    return plot_features_of(json::parse(read_text(path)), path, crs, unit_m);
   } catch (const json::exception& error) {
-    throw InputError(path,
-                     std::string("not a GeoJSON FeatureCollection of polygons: ") + error.what());
+    fail_foreign(path, error);
+  }
+}
+
+PlacedPlots plot_features_of(const json& document, const std::filesystem::path& path,
+                             const std::string& crs, double unit_m) {
+  try {
+    return placed_plots(document, path, crs, unit_m);
+  } catch (const json::exception& error) {
+    fail_foreign(path, error);
   }
 }
 

@@ -75,4 +75,8 @@ struct PlacedPlots {
 PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
                                double unit_m = 1);
 
+// The same of a document that is in memory; `path` names it in messages.
+PlacedPlots plot_features_of(const nlohmann::json& document, const std::filesystem::path& path,
+                             const std::string& crs, double unit_m = 1);
+
 }  // namespace plotscan

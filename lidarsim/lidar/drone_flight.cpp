@@ -16,6 +16,8 @@ namespace plotscan::lidar {
 namespace {
 
 constexpr double kMaxFlight_s = 24 * 3600;
+// Beyond, the cloud's float32 positions are coarser than a centimetre.
+constexpr double kFarthest_m = 1e5;
 
 flight::Pattern pattern_of(const FlyOptions& options) {
   if (options.pattern == "crosshatch") return flight::Pattern::crosshatch;
@@ -76,7 +78,12 @@ scan::Trajectory read_flight(const std::filesystem::path& file) {
                                " s; at most " + format_number(kMaxFlight_s) + " s are allowed");
   }
   std::vector<scan::StampedPose> poses = read.poses();
-  for (scan::StampedPose& pose : poses) pose.time_s -= read.start_s();
+  for (scan::StampedPose& pose : poses) {
+    if (pose.position_m.cwiseAbs().maxCoeff() > kFarthest_m)
+      throw InputError(file, "the flight leads more than " + format_number(kFarthest_m) +
+                                 " m from the origin; it is in the farm's local metres");
+    pose.time_s -= read.start_s();
+  }
   return scan::Trajectory(std::move(poses));
 }
 

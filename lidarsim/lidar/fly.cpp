@@ -68,6 +68,11 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
   return manifest;
 }
 
+sensor::SpinJitter spin_jitter(const sensor::Sensor& sensor, const FlyOptions& options) {
+  if (options.spin_jitter == "none") return {};
+  return {.sd_rad = sensor.spin_jitter_rad, .seed = options.seed};
+}
+
 // The scene in the wind of the flight; null where nothing sways.
 std::unique_ptr<const Scene> swaying_scene(const SceneContent* plants, const FlyOptions& options,
                                            double duration_s) {
@@ -90,8 +95,10 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
   const DroneFlight flight = fly_drone(site, scene, errors, options);
   const Eigen::Isometry3d mount =
       record::mount_pose(options.mount_rpy_deg * std::numbers::pi / 180);
-  const sensor::ShotPlan fired(sensor, spin_hz, flight::true_mount(mount, errors), flight.truth);
-  const sensor::ShotPlan placed(sensor, spin_hz, mount, flight.reported);
+  const sensor::SpinJitter jitter = spin_jitter(sensor, options);
+  const sensor::ShotPlan fired(sensor, spin_hz, flight::true_mount(mount, errors), flight.truth,
+                               jitter);
+  const sensor::ShotPlan placed(sensor, spin_hz, mount, flight.reported, jitter);
 
   const auto swaying = swaying_scene(plants, options, flight.truth.end_s());
   scan::PcdWriter cloud(output.path() / "cloud.pcd");

@@ -89,6 +89,12 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--noise",
        .help = "standard deviation of the range noise, metres, 0 to 1",
        .value = NumberSetting{{0, 1}, [](FlyOptions& o) -> double& { return o.range_noise_m; }}},
+      {.key = "spin_jitter",
+       .flag = "--spin-jitter",
+       .help = "of the sensor's azimuth: none, or sensor, as the sensor's file states "
+               "(docs/sensors.md)",
+       .value = TextSetting{{"none", "sensor"},
+                            [](FlyOptions& o) -> std::string& { return o.spin_jitter; }}},
       {.key = "wind_m_s",
        .flag = "--wind",
        .help = "mean wind, metres a second, 0 to 30",

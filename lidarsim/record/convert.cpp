@@ -2,13 +2,11 @@
 #include "record/convert.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/text.h"
-#include "core/utc_time.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::record {
@@ -29,61 +27,8 @@ std::string writable_extensions() {
   return joined(extensions, ", ");
 }
 
-FlightRecord flight_record(const FlightOptions& options) {
-  const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
-  const auto start = parse_utc(options.start_utc);
-  if (!start)
-    throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
-  return {.sensor = sensor,
-          .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
-          .body_from_lidar = mount_pose(options.mount_rpy_deg * std::numbers::pi / 180),
-          .reported = scan::read_trajectory(*options.trajectory),
-          .start = *start};
-}
-
-std::optional<FlightRecord> told_flight(const ConvertOptions& options) {
-  if (!options.flight) return std::nullopt;
-  if (!options.flight->trajectory)
-    throw InputError(
-        "--sensor, --spin, --mount and --start tell of a flight only with --trajectory");
-  return flight_record(*options.flight);
-}
-
-Source open_scan_folder(const fs::path& folder, const ConvertOptions& options) {
-  if (options.flight)
-    throw InputError(folder,
-                     "is a scan folder, which says by itself what --trajectory, --sensor, "
-                     "--spin, --mount and --start are for");
-  if (!options.topic.empty())
-    throw InputError(folder, "--topic is for bags and MCAP files; a scan folder has no topics");
-  const FlightRecord flight = read_flight_record(folder);
-  Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", {.flight = flight});
-  source.path = folder;
-  source.info.start = flight.start;
-  return source;
-}
-
-// The trajectory in the frame of the points.
-void make_relative(Source& source) {
-  if (!source.flight || source.info.origin_m.isZero()) return;
-  std::vector<scan::StampedPose> poses = source.flight->reported.poses();
-  for (scan::StampedPose& pose : poses) pose.position_m -= source.info.origin_m;
-  source.flight->reported = scan::Trajectory(std::move(poses));
-}
-
-Source open_source(const fs::path& in, const ConvertOptions& options) {
-  if (fs::is_directory(in)) return open_scan_folder(in, options);
-  require_file(in);
-  const Format* format = find_format(in);
-  // A cloud is known by its content, whatever its name.
-  if (format == nullptr) format = find_format("cloud.pcd");
-  if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
-  if (!options.topic.empty() && !format->has_topics)
-    throw InputError(in,
-                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
-  Source source = format->open(in, {.flight = told_flight(options), .topic = options.topic});
-  make_relative(source);
-  return source;
+Source open(const fs::path& in, const ConvertOptions& options) {
+  return open_source(in, {.flight = options.flight, .topic = options.topic});
 }
 
 ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& out) {
@@ -99,8 +44,8 @@ ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& o
 scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options) {
   if (fs::is_directory(in)) return read_flight_record(in).reported;
   if (is_trajectory(in)) return scan::read_trajectory(in);
-  const Source source = open_source(in, options);
-  if (source.flight) return source.flight->reported;
+  const Source source = open(in, options);
+  if (source.flight) return scan::moved(source.flight->reported, source.info.origin_m);
   if (source.trajectory) return *source.trajectory;
   throw InputError(in, "holds points but no trajectory");
 }
@@ -168,7 +113,7 @@ ConvertSummary convert_within(const fs::path& in, const fs::path& out,
   } else if (is_trajectory(in)) {
     throw InputError(in, "is a trajectory; it is converted to .tum, .txt or .csv");
   } else {
-    summary = write_points(open_source(in, options), file.path(), options.write, progress);
+    summary = write_points(open(in, options), file.path(), options.write, progress);
   }
   file.commit();
   return summary;

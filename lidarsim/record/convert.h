@@ -6,22 +6,11 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Core>
-
 #include "core/progress.h"
 #include "record/formats.h"
+#include "record/open_source.h"
 
 namespace plotscan::record {
-
-// What a bare cloud does not say of its flight; all but the trajectory has lidarsim fly's defaults.
-struct FlightOptions {
-  std::optional<std::filesystem::path> trajectory =
-      {};                              // of the body, in the points' frame and time
-  std::string sensor = "vlp16";        // as sensor::load_sensor takes it
-  std::optional<double> spin_hz = {};  // else the sensor's own
-  Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
-  std::string start_utc = "2026-06-01T10:00:00Z";
-};
 
 struct ConvertOptions {
   std::optional<FlightOptions> flight = {};  // for a source that is no scan folder

@@ -45,6 +45,7 @@ Source open_ros(const path& file, const ReadOptions& options) {
   const auto recorded = std::make_shared<RosPoints>(file, options.topic);
   return {.path = file,
           .info = {.points = recorded->points(),
+                   .origin_m = recorded->origin_m(),
                    .start = recorded->start(),
                    .fields = recorded->fields()},
           .flight = options.flight,
@@ -92,6 +93,7 @@ const std::vector<Format>& formats() {
 #endif
       {.name = "ROS 1 bag",
        .extensions = {".bag"},
+       .is_recording = true,
        .has_topics = true,
        .needs_flight = true,
        .open = open_ros,
@@ -101,6 +103,7 @@ const std::vector<Format>& formats() {
            }},
       {.name = "ROS 2 MCAP",
        .extensions = {".mcap"},
+       .is_recording = true,
        .has_topics = true,
        .needs_flight = true,
        .open = open_ros,

@@ -19,7 +19,7 @@ struct Source {
   std::filesystem::path path;  // for messages
   scan::CloudInfo info;
   std::optional<FlightRecord> flight;  // relative to info.origin_m, as the points are
-  // Of the body, in the points' frame and time, where the file itself tells of it.
+  // Of the body, in the world frame and the points' time, where the file itself tells of it.
   std::optional<scan::Trajectory> trajectory = {};
   // Streams the points in the order of firing; may be called once.
   std::function<void(const scan::PointSink&)> stream;
@@ -30,7 +30,8 @@ struct ReadOptions {
   // What the user tells of the flight; a recording that is not self-contained throws InputError
   // without it.
   std::optional<FlightRecord> flight = {};
-  std::string topic = {};  // of the clouds in a bag or MCAP file; empty: as RosPoints chooses
+  bool sensor_told = true;  // whether flight.sensor is the user's word, not a default
+  std::string topic = {};   // of the clouds in a bag or MCAP file; empty: as RosPoints chooses
 };
 
 // How a file is written.
@@ -45,8 +46,9 @@ struct Format {
   std::vector<std::string> extensions;  // with their dot, in lower case
   // The ways of writing it, the first by default; empty where there is but one.
   std::vector<std::string> encodings = {};
-  bool has_crs = false;     // whether options.crs means something
-  bool has_topics = false;  // whether ReadOptions::topic means something
+  bool has_crs = false;       // whether options.crs means something
+  bool is_recording = false;  // of a flight, by a sensor or a robot; others are clouds
+  bool has_topics = false;    // whether ReadOptions::topic means something
   // Whether only a flight's record turns points into this format; where it is set, source.flight is
   // there when `create` is called.
   bool needs_flight = false;

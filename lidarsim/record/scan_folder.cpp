@@ -55,13 +55,18 @@ FlightRecord read_flight_record(const std::filesystem::path& scan_folder) {
   const json manifest = read_manifest(scan_folder);
   try {
     const json& options = manifest.at("options");
-    return {.sensor = sensor::load_sensor(scan_folder / "sensor.yaml"),
+    const sensor::Sensor sensor = sensor::load_sensor(scan_folder / "sensor.yaml");
+    sensor::SpinJitter jitter;
+    if (options.value("spin_jitter", "none") == "sensor")
+      jitter = {.sd_rad = sensor.spin_jitter_rad, .seed = manifest.at("seed")};
+    return {.sensor = sensor,
             .spin_hz = options.value("spin_hz", 0.0),
             .body_from_lidar = mount_of(options),
             .reported = scan::read_trajectory(scan_folder / "poses.csv"),
             .start = start_of(options),
             .anchor = anchor_of(options),
-            .returns = returns_of(options)};
+            .returns = returns_of(options),
+            .spin_jitter = jitter};
   } catch (const json::exception&) {
     throw InputError(scan_folder, "is no scan folder (its manifest.json is not lidarsim fly's)");
   }

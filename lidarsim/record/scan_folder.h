@@ -25,9 +25,12 @@ struct FlightRecord {
   UtcTime start;                               // at time 0 of the points and the trajectory
   std::optional<Anchor> anchor = {};           // of the world frame's origin
   ReturnMode returns = ReturnMode::strongest;  // what the sensor reports of a shot
+  sensor::SpinJitter spin_jitter = {};
 
   // The shots as the points were placed.
-  sensor::ShotPlan placed() const { return {sensor, spin_hz, body_from_lidar, reported}; }
+  sensor::ShotPlan placed() const {
+    return {sensor, spin_hz, body_from_lidar, reported, spin_jitter};
+  }
 };
 
 // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of (roll, pitch, yaw).

@@ -122,10 +122,6 @@ CloudLayout read_text_header(const std::filesystem::path& file);
 // By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
 CloudLayout read_cloud_header(const std::filesystem::path& file);
 
-// read_cloud_system of a file whose header was read.
-CloudSystem system_of(const std::filesystem::path& cloud, const CloudLayout& layout,
-                      const std::optional<CoordinateUnits>& given);
-
 // Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
 // header's last line unless each is one float.
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout);

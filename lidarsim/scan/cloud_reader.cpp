@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scan/cloud_layout.h"
 #include "scan/las_crs.h"
 #include "scan/las_format.h"
@@ -97,15 +98,19 @@ class PointFilter {
   PointFilter(const std::filesystem::path& file, const CloudLayout& layout, const CloudFiles& cloud,
               const PositionOptions& options, std::vector<ScalarField>& fields) {
     marks_ = options.leave_out_marked && layout.is_las;
+    only_ = !cloud.only_classes.empty();
+    left_out_.fill(only_);
+    for (const int number : cloud.only_classes)
+      left_out_.at(static_cast<std::size_t>(number)) = false;
     for (const int number : cloud.leave_out_classes)
       left_out_.at(static_cast<std::size_t>(number)) = true;
     if (marks_) add(layout.find(las::kWithheld), withheld_, fields);
-    has_class_ = marks_ || !cloud.leave_out_classes.empty();
+    has_class_ = marks_ || !cloud.leave_out_classes.empty() || !cloud.only_classes.empty();
     if (!has_class_) return;
     const ScalarField* classification = find_field(layout, {std::string(las::kClassification)});
     if (classification == nullptr)
-      throw InputError(file,
-                       "has no field \"classification\": its points have no class to leave out");
+      throw InputError(
+          file, "has no field \"classification\": its points have no class to choose them by");
     add(classification, class_, fields);
   }
 
@@ -114,8 +119,8 @@ class PointFilter {
     const double number = row[class_];
     if (marks_ && (row[withheld_] != 0 || number == las::kLowNoise || number == las::kHighNoise))
       return Fate::marked;
-    const bool left_out = number >= 0 && number < static_cast<double>(left_out_.size()) &&
-                          left_out_[static_cast<std::size_t>(number)];
+    const bool is_class = number >= 0 && number < static_cast<double>(left_out_.size());
+    const bool left_out = is_class ? left_out_[static_cast<std::size_t>(number)] : only_;
     return left_out ? Fate::left_out : Fate::kept;
   }
 
@@ -127,10 +132,18 @@ class PointFilter {
 
   bool marks_ = false;
   bool has_class_ = false;
+  bool only_ = false;         // some classes are read, whatever else there is is not
   std::size_t withheld_ = 0;  // places in a row
   std::size_t class_ = 0;
   std::array<bool, 256> left_out_{};
 };
+
+// "2, 9".
+std::string numbers_text(const std::vector<int>& numbers) {
+  std::vector<std::string> texts;
+  for (const int number : numbers) texts.push_back(std::to_string(number));
+  return joined(texts, ", ");
+}
 
 // Adds one file to the sink and the summary, whose system it has.
 void read_file(const std::filesystem::path& file, const CloudFiles& cloud,
@@ -269,6 +282,9 @@ CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
     read_file(file, cloud, options, sink, summary);
   if (summary.points + summary.marked + summary.left_out == 0)
     throw InputError(cloud.name() + ": no point of the cloud has finite x, y and z");
+  if (summary.points == 0 && !cloud.only_classes.empty())
+    throw InputError(cloud.name() + ": no point is of the classes that are to be read: " +
+                     numbers_text(cloud.only_classes));
   if (summary.points == 0) {
     throw InputError(cloud.name() + ": all points of the cloud are marked as withheld or noise" +
                      (summary.left_out > 0 ? ", or of a class to leave out" : ""));

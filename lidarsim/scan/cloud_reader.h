@@ -20,7 +20,7 @@ struct CloudSummary {
   std::size_t points = 0;      // handed to the sink
   std::size_t not_finite = 0;  // left out: a coordinate was no number, or no place
   std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  std::size_t left_out = 0;    // left out: of a class to leave out (CloudFiles)
+  std::size_t left_out = 0;    // left out: of a class not to be read (CloudFiles)
   CloudSystem system = {};     // of the files
 };
 
@@ -35,8 +35,8 @@ struct PositionOptions {
 // 1.4) or text cloud (a line a point), file after file, whatever other fields it has. Nothing but
 // positions is handed on, so that an estimator cannot see labels. All but compressed PCD is read in
 // constant memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or
-// empty cloud, as read_cloud_system does, and on a file without classes where some are to be left
-// out.
+// empty cloud, as read_cloud_system does, and on a file without classes where only some are to be
+// read.
 CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 

@@ -28,9 +28,18 @@ struct CloudSystem {
   Eigen::Vector3d metres_of(const Eigen::Vector3d& point) const;
 };
 
-// By the files' headers and first points; the zone is the first file's. Throws InputError on a
-// missing, foreign or empty cloud, on degrees that are no place on Earth with a UTM zone, and on
-// files that state other systems or units than the first.
+// By the files' headers and first points, and what the user says against them (CloudFiles); the
+// zone is the first file's. Throws InputError on a missing, foreign or empty cloud, on degrees that
+// are no place on Earth with a UTM zone, on files that state other systems or units than the first,
+// on a user's system that is unknown, and where the first point is out of its range.
 CloudSystem read_cloud_system(const CloudFiles& cloud);
+
+// Of positions in metres that no file says more of: the user's word, checked against `first`, one
+// of them, where there is any. Throws InputError as above; `name` stands for them in messages.
+CloudSystem told_system(const CloudFiles& cloud, const std::filesystem::path& name,
+                        const std::optional<Eigen::Vector3d>& first);
+
+// For people: a code as it is, of well-known text the name at its head.
+std::string crs_name(const std::string& crs);
 
 }  // namespace plotscan::scan

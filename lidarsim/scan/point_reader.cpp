@@ -182,6 +182,10 @@ std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s) {
   return later(epoch, second_s);
 }
 
+Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m) {
+  return (point_m / kOriginStep_m).array().round() * kOriginStep_m;
+}
+
 CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   const CloudLayout layout = read_cloud_header(cloud);
   const Selection selection = select(layout);
@@ -190,7 +194,7 @@ CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
                  .crs_wkt = layout.crs_wkt};
   if (!has_float_coordinates(layout)) {
     const FirstPoint first = first_point(cloud, layout);
-    info.origin_m = (first.position_m / kOriginStep_m).array().round() * kOriginStep_m;
+    info.origin_m = origin_near(first.position_m);
     if (layout.adjusted_gps_time && !info.start) info.start = second_of(first.time_s);
   }
   for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);

@@ -29,6 +29,9 @@ struct CloudInfo {
   std::vector<std::string> fields = {};  // of LabelledPoint, by the names of docs/formats.md
 };
 
+// The origin that points near this one count from: in each coordinate its whole kilometres.
+Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m);
+
 // Reads a cloud's header and the beginning of its points. Throws InputError as read_points does.
 CloudInfo read_cloud_info(const std::filesystem::path& cloud);
 

@@ -11,8 +11,8 @@
 namespace plotscan::scan {
 namespace {
 
-// Beyond, float32 positions are coarser than a centimetre.
-constexpr double kFarthest_m = 1e5;
+// Farther than any northing of a projected coordinate system.
+constexpr double kFarthest_m = 2e7;
 // Files carry quaternions of four decimals and more; further from 1 it is no attitude.
 constexpr double kNormTolerance = 0.01;
 
@@ -24,7 +24,7 @@ std::string pose_error(const StampedPose& pose, double previous_s) {
     return "a number is not finite";
   if (pose.position_m.cwiseAbs().maxCoeff() > kFarthest_m) {
     return "the position is more than " + format_number(kFarthest_m) +
-           " m from the origin; the world frame is local metres";
+           " m from the origin; metres are expected";
   }
   if (pose.time_s <= previous_s) {
     return "time " + format_number(pose.time_s) + " s is not after the previous pose's " +
@@ -63,6 +63,12 @@ Eigen::Isometry3d Trajectory::world_from_body(double time_s) const {
   Eigen::Isometry3d pose(a.attitude.slerp(share, b.attitude));
   pose.pretranslate(a.position_m + share * (b.position_m - a.position_m));
   return pose;
+}
+
+Trajectory moved(const Trajectory& trajectory, const Eigen::Vector3d& by_m) {
+  std::vector<StampedPose> poses = trajectory.poses();
+  for (StampedPose& pose : poses) pose.position_m += by_m;
+  return Trajectory(std::move(poses));
 }
 
 }  // namespace plotscan::scan

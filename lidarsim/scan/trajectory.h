@@ -36,6 +36,9 @@ class Trajectory {
   std::vector<StampedPose> poses_;
 };
 
+// The same motion, every position moved by `by_m`.
+Trajectory moved(const Trajectory& trajectory, const Eigen::Vector3d& by_m);
+
 // What is wrong with a pose that follows one at `previous_s` (-infinity for the first); "" when
 // nothing is.
 std::string pose_error(const StampedPose& pose, double previous_s);

@@ -22,6 +22,7 @@ constexpr Range kOffset_mm{-1000, 1000};
 constexpr Range kRange_m{0, 10'000};
 constexpr double kFinestStep_m = 1e-6;
 constexpr Range kSpin_hz{0.01, 1000};
+constexpr Range kSpinJitter_deg{0, 1};
 constexpr Range kSequence_us{0.1, 1e6};
 constexpr Range kDivergence_mrad{0, 100};
 constexpr Range kPulse_ns{0.01, 1000};
@@ -39,8 +40,8 @@ constexpr int kMaxColumns = 1'000'000;
 // full, and so few that the drone turns little meanwhile.
 constexpr int kRisleyShots = 32;
 
-const std::vector<std::string> kSpinningKeys = {"spin_hz", "firing_sequence_us", "columns_per_turn",
-                                                "lasers", "packets"};
+const std::vector<std::string> kSpinningKeys = {
+    "spin_hz", "firing_sequence_us", "columns_per_turn", "lasers", "packets", "spin_jitter_deg"};
 const std::vector<std::string> kRisleyKeys = {"shot_period_us", "prisms"};
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
@@ -122,6 +123,10 @@ void read_spinning(const YamlSection& root, Sensor& sensor) {
   read_spin(root, sensor);
   read_sequence(root, sensor);
   sensor.lasers = read_lasers(root, 1e6 * sequence_time_s(sensor, sensor.max_spin_hz));
+  sensor.spin_jitter_rad = radians(root.number("spin_jitter_deg", kSpinJitter_deg, 0.0));
+  if (sensor.spin_jitter_rad > 0 && sensor.columns_per_turn > 0)
+    root.fail("spin_jitter_deg",
+              "needs firing_sequence_us: a sensor that fires by its azimuth is always on it");
 }
 
 void read_risley(const YamlSection& root, Sensor& sensor) {

@@ -67,6 +67,9 @@ struct Sensor {
   double min_spin_hz = 0;   // 0 of what does not spin
   double max_spin_hz = 0;
   double default_spin_hz = 0;
+  // How far the head's azimuth at each block of firings is off its steady spin (SpinJitter), where
+  // a flight asks for that.
+  double spin_jitter_rad = 0;
   std::optional<Beam> beam = {};             // where the file states one
   std::optional<PacketFormat> packets = {};  // none: it sends others
   std::string description;  // the text of the file that says all this, kept with a scan

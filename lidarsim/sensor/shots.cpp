@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/random.h"
 
 namespace plotscan::sensor {
 namespace {
@@ -50,8 +51,11 @@ VectorPerLaser turned(const VectorPerLaser& vectors, const Eigen::Vector3d& rate
 }  // namespace
 
 ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
-                   const scan::Trajectory& trajectory)
-    : sequence_s_(sequence_time_s(sensor, spin_hz)), spin_hz_(spin_hz) {
+                   const scan::Trajectory& trajectory, const SpinJitter& jitter)
+    : sequence_s_(sequence_time_s(sensor, spin_hz)),
+      spin_hz_(spin_hz),
+      jitter_(jitter),
+      jitter_sequences_(std::max<std::uint64_t>(1, kJitterFirings / sensor.lasers.size())) {
   check(sensor.lasers.size() <= kMaxLasers, "the sensor has too many lasers");
   const auto lasers = static_cast<Eigen::Index>(sensor.lasers.size());
   const auto of_each = [&](auto&& value) {
@@ -111,11 +115,27 @@ void ShotPlan::fire(std::uint64_t sequence, SequenceShots& shots) const {
     shots.direction[axis].resize(lasers);
   }
   if (is_steady) {
-    fire_lasers(motion, time_s, 0, lasers, shots);
+    fire_lasers(motion, sequence, 0, lasers, shots);
     return;
   }
   for (Eigen::Index k = 0; k < lasers; ++k)
-    fire_lasers(segment(time_s + fires_s_[k]), time_s, k, 1, shots);
+    fire_lasers(segment(time_s + fires_s_[k]), sequence, k, 1, shots);
+}
+
+double ShotPlan::jitter_turns(std::uint64_t sequence) const {
+  const std::uint64_t block = sequence / jitter_sequences_;
+  const auto at = [this](std::uint64_t index) {
+    return RandomStream(jitter_.seed, random_purpose("sensor/spin jitter"), index).normal();
+  };
+  const double share =
+      static_cast<double>(sequence % jitter_sequences_) / static_cast<double>(jitter_sequences_);
+  return jitter_.sd_rad / (2 * std::numbers::pi) * std::lerp(at(block), at(block + 1), share);
+}
+
+double ShotPlan::head_turns(std::uint64_t sequence) const {
+  double turns = spin_hz_ * (static_cast<double>(sequence) * sequence_s_);
+  if (jitter_.sd_rad > 0) turns += jitter_turns(sequence);
+  return turns - std::floor(turns);
 }
 
 // Where the lasers point when the head is at an azimuth as their sequence starts.
@@ -136,10 +156,11 @@ Eigen::Vector3d ShotPlan::spin_axis(std::uint64_t sequence) const {
          Eigen::Vector3d::UnitZ();
 }
 
-// `count` lasers of the sequence that starts at time_s, all within one segment. The attitude is
+// `count` lasers of the sequence, all within one segment. The attitude is
 // exact when the first of them fires and turned on from there to second order.
-void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index begin,
+void ShotPlan::fire_lasers(const Segment& motion, std::uint64_t sequence, Eigen::Index begin,
                            Eigen::Index count, SequenceShots& shots) const {
+  const double time_s = static_cast<double>(sequence) * sequence_s_;
   const auto these = [begin, count](const PerLaser& all) { return all.segment(begin, count); };
   const double in_segment_s = time_s + fires_s_[begin] - motion.start_s;
   const Eigen::Matrix3d world_from_lidar =
@@ -147,8 +168,7 @@ void ShotPlan::fire_lasers(const Segment& motion, double time_s, Eigen::Index be
   const Eigen::Vector3d position = motion.position_m + motion.velocity_m_s * in_segment_s;
   const PerLaser later_s = these(fires_s_) - fires_s_[begin];
 
-  const double turns = spin_hz_ * time_s;
-  const double azimuth = 2 * std::numbers::pi * (turns - std::floor(turns));
+  const double azimuth = 2 * std::numbers::pi * head_turns(sequence);
   const double cosine = std::cos(azimuth);
   const double sine = std::sin(azimuth);
   const VectorPerLaser direction = turned(risley_ ? risley_->directions(time_s, begin, count)

@@ -20,14 +20,24 @@ struct SequenceShots {
   VectorPerLaser direction;  // unit vectors
 };
 
+// A head that does not spin steadily: at the beginning of each block of firings, kJitterFirings of
+// them, it is off its steady azimuth by a normal number of its own, and between two beginnings by
+// what lies between the two numbers. docs/sensors.md tells what was measured.
+struct SpinJitter {
+  double sd_rad = 0;
+  std::uint64_t seed = 0;
+};
+inline constexpr std::size_t kJitterFirings = 32;  // a block of Velodyne's packets
+
 // Every shot of a flight: laser k of firing sequence n is fired n * sequence time + fires_s(k)
 // seconds after the trajectory's start, from where the sensor is at that instant. The head is then
-// at the azimuth 360 degrees * spin * time, the beam at that and the laser's own azimuth; a Risley
-// scanner's beam is where its prisms send it at that instant.
+// at the azimuth 360 degrees * spin * time and its jitter's (of the sequence's start), the beam at
+// that and the laser's own azimuth; a Risley scanner's beam is where its prisms send it at that
+// instant.
 class ShotPlan {
  public:
   ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
-           const scan::Trajectory& trajectory);
+           const scan::Trajectory& trajectory, const SpinJitter& jitter = {});
 
   // Whole firing sequences within the trajectory.
   std::uint64_t sequences() const { return sequences_; }
@@ -37,6 +47,8 @@ class ShotPlan {
     return static_cast<double>(sequence) * sequence_s_ + fires_s_[static_cast<Eigen::Index>(laser)];
   }
   void fire(std::uint64_t sequence, SequenceShots& shots) const;
+  // The head's azimuth when the sequence starts, in turns, 0 to 1.
+  double head_turns(std::uint64_t sequence) const;
   // The lidar's z axis in the world when the sequence starts.
   Eigen::Vector3d spin_axis(std::uint64_t sequence) const;
 
@@ -53,8 +65,9 @@ class ShotPlan {
   const Segment& segment(double time_s) const;
   VectorPerLaser spun_directions(double cos_azimuth, double sin_azimuth, Eigen::Index begin,
                                  Eigen::Index count) const;
-  void fire_lasers(const Segment& motion, double time_s, Eigen::Index begin, Eigen::Index count,
-                   SequenceShots& shots) const;
+  void fire_lasers(const Segment& motion, std::uint64_t sequence, Eigen::Index begin,
+                   Eigen::Index count, SequenceShots& shots) const;
+  double jitter_turns(std::uint64_t sequence) const;
 
   // What does not change from sequence to sequence: of each laser, when it fires after the
   // sequence's start, its direction at azimuth 0, how far ahead its beam's azimuth then is, and the
@@ -74,6 +87,8 @@ class ShotPlan {
   std::vector<Segment> segments_;
   double sequence_s_ = 0;
   double spin_hz_ = 0;
+  SpinJitter jitter_;
+  std::uint64_t jitter_sequences_ = 1;  // of a block
   std::uint64_t sequences_ = 0;
 };
 

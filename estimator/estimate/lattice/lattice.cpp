@@ -38,9 +38,10 @@ void report(const ProgressReport& progress, double share) {
 // Shares of the whole work done after its stages, as on a flight of 7.7 million points.
 constexpr double kField = 0.2, kGround = 0.7, kAbove = 0.72, kPlots = 0.95;
 
-ground::Surface ground_of(const Points& points, const LatticeOptions& options,
+ground::Surface ground_of(const FieldCloud& cloud, const LatticeOptions& options,
                           const ProgressReport& progress) {
   const Stage stage("ground");
+  const Points& points = cloud.ground_points.empty() ? cloud.points : cloud.ground_points;
   const auto so_far = [&](double share) { report(progress, kField + share * (kGround - kField)); };
   return ground::fit_surface(
       points, {.noise_m = options.noise_m, .threads = options.threads, .progress = so_far});
@@ -54,6 +55,17 @@ void tell_work(const FieldCloud& cloud, const LatticeOptions& options) {
                               .rectangle_m2 = (area[2] - area[0]) * (area[3] - area[1]),
                               .density_m2 = cloud.density_m2},
                              options.threads));
+}
+
+// The points of the field that are of the ground's classes, in its frame.
+Points ground_told(const CloudFiles& cloud, const FieldCloud& field,
+                   const LatticeOptions& options) {
+  CloudFiles of_classes = cloud;
+  of_classes.only_classes = options.ground_classes;
+  FieldCloud told = read_field(of_classes, {.area = field.area, .threads = options.threads});
+  const Eigen::Vector3f moved = (told.origin - field.origin).cast<float>();
+  for (Eigen::Vector3f& point : told.points) point += moved;
+  return std::move(told.points);
 }
 
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
@@ -201,6 +213,8 @@ void require_sound(const LatticeOptions& options) {
   require_between(options.hints.columns, 1, kMostPlots, "the number of columns");
   require_between(options.hints.plots, 1, kMostPlots, "the number of plots");
   require_between(options.noise_m, 0, 0.5, "the noise's sigma in metres");
+  for (const int number : options.ground_classes)
+    require_between(number, 0, 255, "a class of the ground");
   require_known(options.crop);
   require_between(options.threads, 1, kMostThreads, "the number of threads");
 }
@@ -211,7 +225,7 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
   tell_work(cloud, options);
-  const ground::Surface surface = ground_of(cloud.points, options, progress);
+  const ground::Surface surface = ground_of(cloud, options, progress);
   const Points heights = above_ground(cloud.points, surface, options.threads);
   if (heights.empty())
     throw NothingToMeasure("the cloud shows no ground (" + point_account(estimate.diagnostics) +
@@ -231,9 +245,10 @@ Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
 Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
-  return lattice(read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
-                            [&](double share) { report(progress, kField * share); }),
-                 options, progress);
+  FieldCloud field = read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+                                [&](double share) { report(progress, kField * share); });
+  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
+  return lattice(field, options, progress);
 }
 
 }  // namespace plotscan::estimate

@@ -23,6 +23,7 @@ struct LatticeOptions {
   std::vector<PlotBox> boxes = {};       // given boxes: no detection, heights only
   std::optional<double> noise_m = {};    // sigma of the points' heights, else estimated
   bool calibrated = true;                // plants' heights from the canopy's (docs/methods.md)
+  std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
   std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
   int threads = 1;
   // Told once the field is read, before the work of it.

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "record/ros/cloud.h"
 #include "record/ros/file.h"
+#include "scan/point_reader.h"
 
 namespace plotscan::record {
 namespace {
@@ -35,14 +36,13 @@ std::string choose(const std::map<std::string, CloudTopic>& topics, const std::s
   return topics.begin()->first;
 }
 
-// The point in the world, its time from the recording's start; nothing where it has no place.
-std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, double stamp_s,
-                                          const FramePath& path) {
-  point.time += stamp_s;
+// The point in the world less its origin, its time as it is; nothing where it has no place.
+std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, const FramePath& path,
+                                          const Eigen::Vector3d& origin_m) {
   const Eigen::Vector3d position(point.x, point.y, point.z);
   const auto top_from_frame = path.top_from_frame(point.time);
   if (!top_from_frame || !position.allFinite()) return std::nullopt;
-  const Eigen::Vector3f world = (*top_from_frame * position).cast<float>();
+  const Eigen::Vector3f world = (*top_from_frame * position - origin_m).cast<float>();
   point.x = world.x();
   point.y = world.y();
   point.z = world.z();
@@ -74,6 +74,8 @@ RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic
     points_ = clouds.at(topic_).points;
     fields_ = clouds.at(topic_).fields;
     path_ = transforms.path(clouds.at(topic_).frame);
+    if (const auto motion = path_.motion())
+      origin_m_ = scan::origin_near(motion->poses().front().position_m);
   } catch (const InputError& error) {
     throw InputError(file, error.what());
   }
@@ -92,8 +94,11 @@ scan::CloudSummary RosPoints::stream(const scan::PointSink& sink) const {
     const double stamp_s = 1e-9 * static_cast<double>(cloud.header.stamp.ns - start_.ns);
     const CloudPoints points(cloud);
     sweep.clear();
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (const auto point = placed(points.point(i), stamp_s, path_)) sweep.push_back(*point);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      scan::LabelledPoint read = points.point(i);
+      read.time += stamp_s;
+      if (const auto point = placed(read, path_, origin_m_)) sweep.push_back(*point);
+    }
     summary.points += sweep.size();
     summary.not_finite += points.size() - sweep.size();
     if (!sweep.empty()) sink(sweep);

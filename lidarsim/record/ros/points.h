@@ -36,8 +36,11 @@ class RosPoints {
   // Of LabelledPoint, that the clouds have.
   const std::vector<std::string>& fields() const { return fields_; }
 
-  // Points in the order of the file. Those that are not finite or that no transform is known for
-  // (recorded before the first or after the last) are left out, and counted.
+  // That points count from: of the body's first place, where it moves (scan::CloudInfo).
+  const Eigen::Vector3d& origin_m() const { return origin_m_; }
+
+  // Points in the order of the file, relative to origin_m. Those that are not finite or that no
+  // transform is known for (recorded before the first or after the last) are left out, and counted.
   scan::CloudSummary stream(const scan::PointSink& sink) const;
 
  private:
@@ -47,6 +50,7 @@ class RosPoints {
   std::uint64_t points_ = 0;
   std::vector<std::string> fields_;
   FramePath path_;
+  Eigen::Vector3d origin_m_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace plotscan::record

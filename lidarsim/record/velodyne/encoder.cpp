@@ -27,7 +27,6 @@ std::uint32_t past_hour_us(UtcTime time) {
 VelodyneEncoder::VelodyneEncoder(const FlightRecord& flight, Sink sink)
     : plan_(flight.placed()),
       start_(flight.start),
-      spin_hz_(flight.spin_hz),
       sequence_s_(plan_.time_s(1, 0) - plan_.time_s(0, 0)),
       mode_(flight.returns),
       sink_(std::move(sink)) {
@@ -137,8 +136,7 @@ void VelodyneEncoder::start_packet() {
   for (std::size_t block = 0; block < kPacketBlocks; ++block) {
     const std::uint64_t sequence =
         first_sequence_ + block / blocks_a_shot * (kBlockReturns / lasers());
-    const double turns = spin_hz_ * plan_.time_s(sequence, 0);
-    const auto steps = std::lround(kAzimuthSteps * (turns - std::floor(turns)));
+    const auto steps = std::lround(kAzimuthSteps * plan_.head_turns(sequence));
     packet_.data.blocks[block].azimuth = static_cast<std::uint16_t>(steps % kAzimuthSteps);
   }
 }

@@ -65,7 +65,6 @@ class VelodyneEncoder {
   sensor::PacketFormat format_;
   std::vector<std::uint16_t> rings_;
   UtcTime start_;
-  double spin_hz_ = 0;
   double sequence_s_ = 0;
   ReturnMode mode_;
   Sink sink_;

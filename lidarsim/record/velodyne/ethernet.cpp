@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/velodyne/ethernet.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace plotscan::record {
@@ -27,9 +29,9 @@ std::uint16_t get16(Bytes bytes, std::size_t at) {
 }
 
 // The Internet checksum of 16-bit words (RFC 1071), before its complement.
-std::uint32_t word_sum(Bytes bytes, std::uint32_t sum = 0) {
+std::uint32_t word_sum(Bytes bytes) {
+  std::uint32_t sum = 0;
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) sum += get16(bytes, i);
-  if (bytes.size() % 2 == 1) sum += static_cast<std::uint32_t>(bytes.back()) << 8;
   while (sum > 0xFFFF) sum = (sum & 0xFFFF) + (sum >> 16);
   return sum;
 }
@@ -71,15 +73,8 @@ std::vector<std::uint8_t> broadcast_frame(std::uint16_t port, Bytes payload) {
   put16(frame, port);
   put16(frame, port);
   put16(frame, kUdpSize + payload.size());
-  put16(frame, 0);
+  put16(frame, 0);  // no checksum
   frame.insert(frame.end(), payload.begin(), payload.end());
-  // The pseudo header: addresses, protocol, length.
-  const Bytes addresses = Bytes(frame).subspan(kEthernetSize + 12, 8);
-  const std::uint32_t sum =
-      word_sum(Bytes(frame).subspan(kEthernetSize + kIpSize),
-               word_sum(addresses) + kUdp + static_cast<std::uint32_t>(kUdpSize + payload.size()));
-  // A sum of 0 would mean that there is none; it is sent as its other form.
-  put_checksum(frame, kUdpHeaders - 2, sum == 0xFFFF ? 0 : sum);
   return frame;
 }
 
@@ -88,10 +83,10 @@ std::optional<UdpDatagram> udp_datagram(FrameKind kind, Bytes frame) {
   if (!found || found->size() < kIpSize || (*found)[0] >> 4 != 4) return std::nullopt;
   const Bytes ip = *found;
   const std::size_t header = std::size_t{4} * (ip[0] & 0x0F);
-  const std::size_t length = get16(ip, 2);
+  // A VLP-16's position packets say 1234, the length of its data packets: UDP's own length counts.
+  const std::size_t length = std::min<std::size_t>(get16(ip, 2), ip.size());
   const bool is_fragment = (get16(ip, 6) & 0x3FFF) != 0;
-  if (ip[9] != kUdp || is_fragment || header < kIpSize || length > ip.size() ||
-      length < header + kUdpSize)
+  if (ip[9] != kUdp || is_fragment || header < kIpSize || length < header + kUdpSize)
     return std::nullopt;
   const Bytes udp = ip.subspan(header, length - header);
   const std::size_t udp_length = get16(udp, 4);

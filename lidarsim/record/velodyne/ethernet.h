@@ -13,7 +13,8 @@ namespace plotscan::record {
 inline constexpr std::size_t kUdpHeaders = 42;
 
 // A datagram as a Velodyne sensor broadcasts it from its factory settings: from 192.168.1.201 to
-// 255.255.255.255, the port both times the same, both checksums right (RFC 791, RFC 768).
+// 255.255.255.255, the port both times the same, without a UDP checksum (RFC 768: 0), as a VLP-16
+// sends.
 std::vector<std::uint8_t> broadcast_frame(std::uint16_t port,
                                           std::span<const std::uint8_t> payload);
 
@@ -27,7 +28,7 @@ struct UdpDatagram {
 enum class FrameKind { ethernet, linux_cooked, ip };
 
 // The whole UDP datagram in a frame, through VLAN tags (IEEE 802.1Q); nothing where there is none:
-// another protocol, a fragment, or fewer bytes than the headers promise.
+// another protocol, a fragment, or fewer bytes than UDP's header promises.
 std::optional<UdpDatagram> udp_datagram(FrameKind kind, std::span<const std::uint8_t> frame);
 
 }  // namespace plotscan::record

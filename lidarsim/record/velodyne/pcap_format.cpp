@@ -12,16 +12,20 @@ using std::filesystem::path;
 Source open_pcap(const path& file, const ReadOptions& options) {
   const std::optional<FlightRecord>& told = options.flight;
   const PcapInfo info = read_pcap_info(file);
-  const sensor::Sensor sensor = told ? told->sensor : sensor_of_product(info.product, file);
+  const sensor::Sensor sensor =
+      told && options.sensor_told ? told->sensor : sensor_of_product(info.product, file);
   Source source{.path = file, .info = {}, .flight = told, .stream = {}};
   source.info.start = info.start;
   source.info.fields = {"x",           "y", "z", "intensity", "ring", "time", "return_number",
                         "return_count"};
   std::optional<Placement> placement;
   if (told) {
+    source.flight->sensor = sensor;
     source.flight->start = info.start;
     source.flight->returns = info.mode;
-    placement = {.world_from_body = told->reported, .body_from_lidar = told->body_from_lidar};
+    source.info.origin_m = scan::origin_near(told->reported.poses().front().position_m);
+    placement = {.world_from_body = scan::moved(told->reported, -source.info.origin_m),
+                 .body_from_lidar = told->body_from_lidar};
   }
   source.stream = [=](const scan::PointSink& sink) { read_pcap(file, sensor, placement, sink); };
   return source;
@@ -32,6 +36,7 @@ Source open_pcap(const path& file, const ReadOptions& options) {
 Format pcap_format() {
   return {.name = "Velodyne recording",
           .extensions = {".pcap"},
+          .is_recording = true,
           .needs_flight = true,
           .needs_packets = true,
           .open = open_pcap,
@@ -41,7 +46,10 @@ Format pcap_format() {
 }
 
 Format pcapng_format() {
-  return {.name = "pcapng recording", .extensions = {".pcapng"}, .open = open_pcap};
+  return {.name = "pcapng recording",
+          .extensions = {".pcapng"},
+          .is_recording = true,
+          .open = open_pcap};
 }
 
 }  // namespace plotscan::record

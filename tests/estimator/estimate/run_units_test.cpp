@@ -161,5 +161,35 @@ TEST(Run, DegreesAreProjectedToUtm) {
   }
 }
 
+// A silent cloud on the meridian of zone 31, 1 km north of the equator: latitudes are metres over
+// the meridian's radius of curvature there and 0.9996.
+TEST(Run, AGivenSystemGoesIntoTheResults) {
+  const TemporaryFolder folder;
+  std::string text;
+  const Eigen::Vector3d moved(500000, 1000, 0);
+  for (const Eigen::Vector3d& point : kFarm.points()) {
+    const Eigen::Vector3d utm = point + moved;
+    text +=
+        format_number(utm.x()) + " " + format_number(utm.y()) + " " + format_number(utm.z()) + "\n";
+  }
+  RunOptions options = small_run(folder, kFarm);
+  options.cloud = folder.write("utm.xyz", text);
+  options.cloud.crs = "EPSG:32631";
+  const Estimate estimate = run(options);
+  const auto named = nlohmann::json::parse(read_text(options.output / "plots.geojson"));
+  EXPECT_EQ(named["crs"]["properties"]["name"], "urn:ogc:def:crs:EPSG::32631");
+  EXPECT_EQ(read_manifest(options.output)["options"]["crs"], "EPSG:32631");
+  const auto degrees = nlohmann::json::parse(read_text(options.output / "plots.wgs84.geojson"));
+  constexpr double kSemiMajor_m = 6378137;
+  constexpr double kEccentricity2 = 0.00669437999014;
+  const Eigen::Vector2d corner = first_corner(options.output);
+  const auto& lonlat = degrees["features"][0]["geometry"]["coordinates"][0][0];
+  constexpr double kDegree = std::numbers::pi / 180;
+  EXPECT_NEAR(lonlat[0].get<double>(), 3 + (corner.x() - 500000) / 0.9996 / kSemiMajor_m / kDegree,
+              1e-9);
+  EXPECT_NEAR(lonlat[1].get<double>(),
+              corner.y() / 0.9996 / (kSemiMajor_m * (1 - kEccentricity2)) / kDegree, 1e-9);
+}
+
 }  // namespace
 }  // namespace plotscan::estimate

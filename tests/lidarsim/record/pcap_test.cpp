@@ -125,14 +125,15 @@ struct TsharkPacket {
   std::string source, destination, payload;
 };
 
-// Every packet with both checksums verified, or nothing where there is no tshark.
+// Every packet with a right IP checksum and, as a sensor sends, no UDP one, or nothing where there
+// is no tshark.
 std::vector<TsharkPacket> tshark_packets(const std::filesystem::path& file) {
-  const auto text = output_of(
-      "tshark -r '" + file.string() +
-      "' -o udp.check_checksum:TRUE -o ip.check_checksum:TRUE -Y "
-      "'udp.checksum.status == 1 && ip.checksum.status == 1 && udp.srcport == udp.dstport' "
-      "-T fields -e udp.dstport -e udp.length -e frame.time_epoch -e ip.src -e ip.dst -e "
-      "udp.payload");
+  const auto text =
+      output_of("tshark -r '" + file.string() +
+                "' -o ip.check_checksum:TRUE -Y "
+                "'udp.checksum == 0 && ip.checksum.status == 1 && udp.srcport == udp.dstport' "
+                "-T fields -e udp.dstport -e udp.length -e frame.time_epoch -e ip.src -e ip.dst -e "
+                "udp.payload");
   std::vector<TsharkPacket> packets;
   if (!text) return packets;
   std::istringstream lines(*text);

@@ -169,6 +169,13 @@ TEST(SensorFile, SpinAndFiringAreChecked) {
   EXPECT_THAT(
       refusal(kSpinning, "firing_sequence_us: 100", "firing_sequence_us: 100\ncolumns_per_turn: 9"),
       HasSubstr("mine.yaml:7: columns_per_turn give either firing_sequence_us"));
+  const auto jitter = [](const std::string& sequence) {
+    return refusal(kSpinning, "firing_sequence_us: 100", sequence);
+  };
+  EXPECT_THAT(jitter("firing_sequence_us: 100\nspin_jitter_deg: 1.5"),
+              HasSubstr("spin_jitter_deg 1.5 is not in [0, 1]"));
+  EXPECT_THAT(jitter("columns_per_turn: 9\nspin_jitter_deg: 0.1"),
+              HasSubstr("spin_jitter_deg needs firing_sequence_us"));
   EXPECT_THAT(refusal(kSpinning, "firing_sequence_us: 100", "columns_per_turn: 2.5"),
               HasSubstr("columns_per_turn \"2.5\" is not a whole number"));
   EXPECT_THAT(refusal(kSpinning, "firing_sequence_us: 100", "columns_per_turn: 0"),

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/open_source.h"
+
+#include <numbers>
+
+#include "core/error.h"
+#include "core/utc_time.h"
+#include "scan/trajectory.h"
+
+namespace plotscan::record {
+namespace fs = std::filesystem;
+namespace {
+
+FlightRecord flight_record(const FlightOptions& options) {
+  const sensor::Sensor sensor = sensor::load_sensor(options.sensor.value_or("vlp16"));
+  const auto start = parse_utc(options.start_utc);
+  if (!start)
+    throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
+  return {.sensor = sensor,
+          .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
+          .body_from_lidar = mount_pose(options.mount_rpy_deg * std::numbers::pi / 180),
+          .reported = scan::read_trajectory(*options.trajectory),
+          .start = *start};
+}
+
+std::optional<FlightRecord> told_flight(const SourceOptions& options) {
+  if (!options.flight) return std::nullopt;
+  if (!options.flight->trajectory)
+    throw InputError(
+        "--sensor, --spin, --mount and --start tell of a flight only with --trajectory");
+  return flight_record(*options.flight);
+}
+
+Source open_scan_folder(const fs::path& folder, const SourceOptions& options) {
+  if (options.flight)
+    throw InputError(folder,
+                     "is a scan folder, which says by itself what --trajectory, --sensor, "
+                     "--spin, --mount and --start are for");
+  if (!options.topic.empty())
+    throw InputError(folder, "--topic is for bags and MCAP files; a scan folder has no topics");
+  const FlightRecord flight = read_flight_record(folder);
+  Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", {.flight = flight});
+  source.path = folder;
+  source.info.start = flight.start;
+  return source;
+}
+
+// The trajectory in the frame of the points.
+void make_relative(Source& source) {
+  if (!source.flight || source.info.origin_m.isZero()) return;
+  source.flight->reported = scan::moved(source.flight->reported, -source.info.origin_m);
+}
+
+}  // namespace
+
+Source open_source(const fs::path& in, const SourceOptions& options) {
+  if (fs::is_directory(in)) return open_scan_folder(in, options);
+  require_file(in);
+  const Format* format = find_format(in);
+  // A cloud is known by its content, whatever its name.
+  if (format == nullptr) format = find_format("cloud.pcd");
+  if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
+  if (!options.topic.empty() && !format->has_topics)
+    throw InputError(in,
+                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
+  Source source =
+      format->open(in, {.flight = told_flight(options),
+                        .sensor_told = options.flight && options.flight->sensor.has_value(),
+                        .topic = options.topic});
+  make_relative(source);
+  return source;
+}
+
+}  // namespace plotscan::record

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flight's recordings, into the estimator as they are.
+#include <map>
+#include <string>
+
+#include "programs.h"
+#include "temporary_folder.h"
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+using nlohmann::json;
+using testing::Finished;
+using testing::run;
+using testing::TemporaryFolder;
+
+const std::string kFarm =
+    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
+    " --set terrain.side_m=30 --set plots.rows.0.plots=3 --set plots.rows.1.plots=3" +
+    " --set plots.rows.2.plots=3 --set plants.count=40";
+
+class Recordings : public ::testing::Test {
+ protected:
+  Finished succeed(const std::string& command) {
+    Finished finished = run(command, folder_.path().string());
+    EXPECT_EQ(finished.exit_code, 0) << command << '\n' << finished.output << finished.errors;
+    return finished;
+  }
+  json plots_of(const std::string& estimate) const {
+    return json::parse(read_text(folder_.path() / estimate / "plots.geojson"))["features"];
+  }
+
+  TemporaryFolder folder_;
+};
+
+// The same plots and heights, within what the formats round: transforms and floats to micrometres;
+// packets to 0.01 degrees (2 mm at 8 m) and 2 mm of range.
+TEST_F(Recordings, GiveThePlotsOfTheScan) {
+  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("lidarsim fly farm -o scan --format pcap,bag,mcap");
+  succeed("estimator run scan -o scanned");
+  const json truth = plots_of("scanned");
+  ASSERT_EQ(truth.size(), 9u);
+  const std::map<std::string, std::string> files = {
+      {"scan/flight.bag", ""},
+      {"scan/flight.mcap", ""},
+      {"scan/flight.pcap", " --trajectory scan/poses.csv"}};
+  for (const auto& [file, options] : files) {
+    const std::string output = "of_" + file.substr(file.find('.') + 1);
+    succeed("estimator run " + file + options + " -o " + output);
+    const json plots = plots_of(output);
+    ASSERT_EQ(plots.size(), truth.size()) << file;
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+      for (const char* side : {"center_x_m", "center_y_m", "width_m", "length_m"}) {
+        EXPECT_NEAR(plots[i]["properties"][side].get<double>(),
+                    truth[i]["properties"][side].get<double>(), 0.02)
+            << file << ' ' << i << ' ' << side;
+      }
+      for (const char* height : {"height_max_m", "height_mean_m", "canopy_p95_m"}) {
+        EXPECT_NEAR(plots[i]["properties"][height].get<double>(),
+                    truth[i]["properties"][height].get<double>(), 0.004)
+            << file << ' ' << i << ' ' << height;
+      }
+    }
+    const json info = json::parse(succeed("estimator info --json " + file + options).output);
+    EXPECT_EQ(info["can_carry_plots"], true) << file;
+    EXPECT_EQ(info["time"]["first_utc"], "2026-06-01T10:00:00Z") << file;
+    EXPECT_GT(info["points"], 2'000'000) << file;
+  }
+}
+
+}  // namespace
+}  // namespace plotscan

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/vector_map.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "run_on_farm.h"
+#include <gdal.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
+
+#include "core/error.h"
+#include "core/geodesy.h"
+#include "core/plot_features.h"
+
+namespace plotscan::estimate {
+namespace {
+
+namespace fs = std::filesystem;
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using testing::kFarm;
+using testing::write_cloud;
+
+// A map written by GDAL, as QGIS writes it.
+class Map {
+ public:
+  Map(const fs::path& file, const char* driver) {
+    GDALAllRegister();
+    data_.reset(GetGDALDriverManager()->GetDriverByName(driver)->Create(file.c_str(), 0, 0, 0,
+                                                                        GDT_Unknown, nullptr));
+  }
+  OGRLayer& layer(const char* name, int epsg, OGRwkbGeometryType type = wkbPolygon) {
+    OGRSpatialReference system;
+    if (epsg > 0) system.importFromEPSG(epsg);
+    system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return *data_->CreateLayer(name, epsg > 0 ? &system : nullptr, type, nullptr);
+  }
+
+ private:
+  std::unique_ptr<GDALDataset> data_;
+};
+
+OGRPolygon polygon_of(const std::vector<Eigen::Vector2d>& corners) {
+  OGRLinearRing ring;
+  for (const Eigen::Vector2d& corner : corners) ring.addPoint(corner.x(), corner.y());
+  ring.closeRings();
+  OGRPolygon polygon;
+  polygon.addRing(&ring);
+  return polygon;
+}
+
+std::vector<Eigen::Vector2d> corners_of(const PlotBox& box, const Eigen::Vector2d& moved) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const Eigen::Vector2d& corner : box.corners()) corners.push_back(corner + moved);
+  return corners;
+}
+
+struct Field {
+  const char* name;
+  OGRFieldType type;
+};
+
+void add_fields(OGRLayer& layer, const std::vector<Field>& fields) {
+  for (const Field& field : fields) {
+    OGRFieldDefn definition(field.name, field.type);
+    ASSERT_EQ(layer.CreateField(&definition), OGRERR_NONE);
+  }
+}
+
+void add(OGRLayer& layer, OGRFeature& feature, const OGRPolygon& polygon) {
+  feature.SetGeometry(&polygon);
+  ASSERT_EQ(layer.CreateFeature(&feature), OGRERR_NONE);
+}
+
+const Eigen::Vector2d kUtm(512'000, 4'123'000);
+
+// The farm in zone 17, a cloud whose file is silent.
+RunOptions run_over_utm(const TemporaryFolder& folder) {
+  std::string text;
+  for (Eigen::Vector3d point : kFarm.points()) {
+    point.head<2>() += kUtm;
+    for (int axis = 0; axis < 3; ++axis) text += std::to_string(point[axis]) + ' ';
+    text += '\n';
+  }
+  RunOptions options{.cloud = folder.write("utm.xyz", text), .output = folder.path() / "estimate"};
+  options.cloud.crs = "EPSG:32617";
+  options.method = "dhami2020";
+  return options;
+}
+
+nlohmann::json properties_of(const RunOptions& options, std::size_t feature) {
+  const auto written = nlohmann::json::parse(read_text(options.output / "plots.geojson"));
+  return written["features"][feature]["properties"];
+}
+
+// Ids and attributes of every type come back, the plots lie where the map has them.
+TEST(VectorMap, AGeoPackageComesBackWithHeights) {
+  const TemporaryFolder folder;
+  RunOptions options = run_over_utm(folder);
+  options.boxes = folder.path() / "plots.gpkg";
+  {
+    Map map(*options.boxes, "GPKG");
+    OGRLayer& layer = map.layer("trial", 32617);
+    add_fields(layer, {{"plot_id", OFTString},
+                       {"cultivar", OFTString},
+                       {"barcode", OFTInteger64},
+                       {"density", OFTReal},
+                       {"sown", OFTDate}});
+    OGRFeature first(layer.GetLayerDefn());
+    first.SetField("plot_id", "A-12");
+    first.SetField("cultivar", "Gr\u00fcner");
+    first.SetField("barcode", GIntBig{8000000000123});
+    first.SetField("density", 30.5);
+    first.SetField("sown", 2026, 5, 3);
+    add(layer, first, polygon_of(corners_of(kFarm.box(1, 2), kUtm)));
+    OGRFeature second(layer.GetLayerDefn());
+    second.SetField("plot_id", "0101");
+    add(layer, second, polygon_of(corners_of(kFarm.box(0, 0), kUtm)));
+  }
+  const Estimate estimate = run(options);
+  ASSERT_EQ(estimate.plots.size(), 2u);
+  EXPECT_EQ(estimate.plots[0].id, PlotId("A-12"));
+  EXPECT_EQ(estimate.plots[1].id, PlotId("0101"));
+  EXPECT_EQ(estimate.id_property, "plot_id");
+  EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-3);
+  EXPECT_NEAR(estimate.plots[1].heights_m.at("raw-max"), kFarm.height_m(0, 0), 1e-3);
+  const auto properties = properties_of(options, 0);
+  EXPECT_EQ(properties["cultivar"], "Gr\u00fcner");
+  EXPECT_EQ(properties["barcode"], 8000000000123);
+  EXPECT_EQ(properties["density"], 30.5);
+  EXPECT_EQ(properties["sown"], "2026-05-03");
+  EXPECT_EQ(properties["fid"], 1);
+  EXPECT_EQ(properties_of(options, 1)["cultivar"], nullptr);
+}
+
+// A shapefile knows its system by the .prj alone, and numbers by their digits.
+TEST(VectorMap, AShapefileIsRead) {
+  const TemporaryFolder folder;
+  RunOptions options = run_over_utm(folder);
+  options.boxes = folder.path() / "plots.shp";
+  const auto write = [&](int epsg) {
+    Map map(*options.boxes, "ESRI Shapefile");
+    OGRLayer& layer = map.layer("plots", epsg);
+    add_fields(layer, {{"plot_id", OFTInteger}, {"entry", OFTString}});
+    OGRFeature feature(layer.GetLayerDefn());
+    feature.SetField("plot_id", 207);
+    feature.SetField("entry", "Rock");
+    add(layer, feature, polygon_of(corners_of(kFarm.box(1, 3), kUtm)));
+  };
+  write(32617);
+  const Estimate estimate = run(options);
+  ASSERT_EQ(estimate.plots.size(), 1u);
+  EXPECT_EQ(estimate.plots[0].id, 207u);
+  EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 3), 1e-3);
+  EXPECT_EQ(properties_of(options, 0)["entry"], "Rock");
+  fs::remove(*options.boxes);
+  write(32618);
+  options.replace = true;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+              HasSubstr("is in the coordinate system EPSG:32618, and the cloud is in EPSG:32617"));
+}
+
+// Longitude comes first in the files, whatever EPSG's axes say.
+TEST(VectorMap, DegreesAreConverted) {
+  const TemporaryFolder folder;
+  RunOptions options = run_over_utm(folder);
+  options.boxes = folder.path() / "degrees.gpkg";
+  {
+    Map map(*options.boxes, "GPKG");
+    OGRLayer& layer = map.layer("trial", 4326);
+    std::vector<Eigen::Vector2d> lonlat;
+    for (const Eigen::Vector2d& corner : corners_of(kFarm.box(1, 2), kUtm)) {
+      const GeodeticPoint place =
+          geodetic_from_utm({.number = 17, .north = true}, {corner.x(), corner.y(), 0});
+      lonlat.emplace_back(place.longitude_deg, place.latitude_deg);
+    }
+    OGRFeature feature(layer.GetLayerDefn());
+    add(layer, feature, polygon_of(lonlat));
+  }
+  const Estimate estimate = run(options);
+  EXPECT_EQ(estimate.diagnostics["boxes"]["from_degrees"], true);
+  ASSERT_EQ(estimate.plots.size(), 1u);
+  EXPECT_LT((estimate.plots[0].box.center - kFarm.box(1, 2).center - kUtm).norm(), 1e-3);
+}
+
+TEST(VectorMap, WhatIsNoMapOfPlotsIsRefused) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const fs::path& file) {
+    return message_of<InputError>([&] { read_vector_map(file); });
+  };
+  EXPECT_THAT(refusal(folder.path() / "none.gpkg"), HasSubstr("none.gpkg: no such file"));
+  EXPECT_THAT(refusal(folder.write("text.gpkg", "hello")), HasSubstr("text.gpkg: cannot be read"));
+  {
+    Map map(folder.path() / "points.gpkg", "GPKG");
+    map.layer("points", 32617, wkbPoint);
+    Map two(folder.path() / "two.gpkg", "GPKG");
+    two.layer("north", 32617);
+    two.layer("south", 32617);
+    Map old(folder.path() / "old.gpkg", "GPKG");
+    old.layer("nad27", 4267);
+  }
+  EXPECT_THAT(refusal(folder.path() / "points.gpkg"), HasSubstr("no layer of polygons"));
+  EXPECT_THAT(refusal(folder.path() / "two.gpkg"),
+              HasSubstr("several layers of polygons: north, south"));
+  EXPECT_THAT(refusal(folder.path() / "old.gpkg"),
+              HasSubstr("NAD27\" (EPSG:4267), which is not known"));
+  // Bytes of ISO 8859-1 in a file that says UTF-8.
+  const fs::path shp = folder.path() / "latin.shp";
+  {
+    Map map(shp, "ESRI Shapefile");
+    OGRLayer& layer = map.layer("latin", 32617);
+    add_fields(layer, {{"entry", OFTString}});
+    OGRFeature feature(layer.GetLayerDefn());
+    feature.SetField("entry", "Grxner");
+    add(layer, feature, polygon_of(corners_of(kFarm.box(0, 0), kUtm)));
+  }
+  std::string table = read_text(folder.path() / "latin.dbf");
+  table.at(table.find("Grxner") + 2) = '\xFC';
+  folder.write("latin.dbf", table);
+  folder.write("latin.cpg", "UTF-8");
+  EXPECT_THAT(refusal(shp), HasSubstr("latin.shp: its attribute \"entry\" has letters"));
+  EXPECT_TRUE(is_vector_map("a/B.SHP"));
+  EXPECT_FALSE(is_vector_map("plots.geojson"));
+}
+
+}  // namespace
+}  // namespace plotscan::estimate
