@@ -64,14 +64,15 @@ class ProgressBar {
 };
 
 void log_to_stderr(int verbosity, const std::string& name) {
-  auto logger =
-      std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("%n: %v");
+  auto logger = std::make_shared<spdlog::logger>("plotscan",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern(name + ": %v");
   logger->set_level(verbosity < 0    ? spdlog::level::err
                     : verbosity == 0 ? spdlog::level::warn
                     : verbosity == 1 ? spdlog::level::info
                                      : spdlog::level::debug);
-  spdlog::set_default_logger(logger);
+  spdlog::drop(logger->name());  // of an earlier run in the same process
+  spdlog::register_logger(logger);
 }
 
 // SIGINT and SIGTERM are taken by a thread of their own, which may do what a signal handler may

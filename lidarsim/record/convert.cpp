@@ -71,21 +71,6 @@ void make_relative(Source& source) {
   source.flight->reported = scan::Trajectory(std::move(poses));
 }
 
-Source open_source(const fs::path& in, const ConvertOptions& options) {
-  if (fs::is_directory(in)) return open_scan_folder(in, options);
-  require_file(in);
-  const Format* format = find_format(in);
-  // A cloud is known by its content, whatever its name.
-  if (format == nullptr) format = find_format("cloud.pcd");
-  if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
-  if (!options.topic.empty() && !format->has_topics)
-    throw InputError(in,
-                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
-  Source source = format->open(in, {.flight = told_flight(options), .topic = options.topic});
-  make_relative(source);
-  return source;
-}
-
 ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& out) {
   if (out.extension() == ".csv") {
     scan::write_trajectory(out, trajectory);
@@ -128,6 +113,21 @@ void require_options(const Format& format, const fs::path& out, const WriteOptio
 }
 
 }  // namespace
+
+Source open_source(const fs::path& in, const ConvertOptions& options) {
+  if (fs::is_directory(in)) return open_scan_folder(in, options);
+  require_file(in);
+  const Format* format = find_format(in);
+  // A cloud is known by its content, whatever its name.
+  if (format == nullptr) format = find_format("cloud.pcd");
+  if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
+  if (!options.topic.empty() && !format->has_topics)
+    throw InputError(in,
+                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
+  Source source = format->open(in, {.flight = told_flight(options), .topic = options.topic});
+  make_relative(source);
+  return source;
+}
 
 ConvertSummary write_points(const Source& source, const fs::path& out, const WriteOptions& options,
                             const ProgressReport& progress) {

@@ -47,6 +47,10 @@ ConvertSummary convert(const std::filesystem::path& in, const std::filesystem::p
 ConvertSummary convert_within(const std::filesystem::path& in, const std::filesystem::path& out,
                               const ConvertOptions& options, const ProgressReport& progress = {});
 
+// The first half of convert: opens a scan folder, a cloud or a recording, whose trajectory is in
+// the frame of the points then. Throws InputError as convert does.
+Source open_source(const std::filesystem::path& in, const ConvertOptions& options);
+
 // The second half of convert: the points of an open source to a file of `out`'s extension, which
 // may not appear whole.
 ConvertSummary write_points(const Source& source, const std::filesystem::path& out,
