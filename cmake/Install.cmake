@@ -3,9 +3,25 @@
 include(GNUInstallDirs)
 set(PLOTSCAN_DATA_DIR ${CMAKE_INSTALL_DATADIR}/plotscan)
 
-install(TARGETS farmgen lidarsim estimator farmbench plotview COMPONENT programs)
+set(programs farmgen lidarsim estimator farmbench plotview)
+install(TARGETS ${programs} COMPONENT programs)
+# Each program makes its manual page and its completion from its own declarations.
+find_program(GZIP gzip REQUIRED)
+foreach(program IN LISTS programs)
+  set(manual ${PROJECT_BINARY_DIR}/manual/${program}.1.gz)
+  set(completion ${PROJECT_BINARY_DIR}/completion/${program})
+  add_custom_command(OUTPUT ${manual} ${completion}
+    COMMAND ${program} --print-manual | ${GZIP} -9n > ${manual}
+    COMMAND ${program} --print-bash-completion > ${completion}
+    DEPENDS ${program} VERBATIM)
+  list(APPEND pages ${manual} ${completion})
+  install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+endforeach()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/manual ${PROJECT_BINARY_DIR}/completion)
+add_custom_target(pages ALL DEPENDS ${pages})
 # Paths between the files of the data are relative: it keeps the folders of the sources.
-install(DIRECTORY worlds models DESTINATION ${PLOTSCAN_DATA_DIR} COMPONENT data)
+install(DIRECTORY worlds models DESTINATION ${PLOTSCAN_DATA_DIR} COMPONENT data USE_SOURCE_PERMISSIONS)
 install(DIRECTORY benchmarks/suites DESTINATION ${PLOTSCAN_DATA_DIR}/benchmarks COMPONENT data)
 
 install(TARGETS plotscan_estimate plotscan_simulate EXPORT plotscan

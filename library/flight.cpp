@@ -73,6 +73,7 @@ const lidar::FlySetting& setting_of(const std::string& key) {
   const auto found = std::ranges::find(settings, key, &lidar::FlySetting::key);
   if (found != settings.end()) return *found;
   std::vector<std::string> keys;
+  keys.reserve(settings.size());
   for (const lidar::FlySetting& setting : settings) keys.push_back(setting.key);
   throw InputError("a flight has no \"" + key + "\"; it has " + joined(keys, ", "));
 }

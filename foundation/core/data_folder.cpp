@@ -27,8 +27,7 @@ fs::path own_file() {
   const fs::path file = known && info.dli_fname != nullptr ? info.dli_fname : "";
   // Of a program, dladdr tells what it was called by, which may be a name on PATH.
   std::error_code ignored;
-  const fs::path real = fs::canonical(file.is_absolute() ? file : "/proc/self/exe", ignored);
-  return real;
+  return fs::canonical(file.is_absolute() ? file : "/proc/self/exe", ignored);
 }
 
 std::optional<fs::path> told_folder() {

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/program_pages.h"
 #include "core/temporary_path.h"
 
 namespace plotscan {
@@ -98,6 +99,17 @@ Program::Program(std::string name, const std::string& description)
     : name_(std::move(name)), app_(description, name_) {
   app_.set_version_flag("--version", name_ + " " + version());
   app_.require_subcommand(1);
+  // For whoever packages the programs: no group, so that --help does not show them.
+  add_page("--print-manual", &manual_page);
+  add_page("--print-bash-completion", &bash_completion);
+}
+
+void Program::add_page(const std::string& flag, std::string (*page)(const CLI::App&)) {
+  const auto print = [this, page] {
+    std::cout << page(app_);
+    throw CLI::Success();
+  };
+  app_.add_flag_callback(flag, print)->group("");
 }
 
 CLI::App& Program::command(const std::string& name, const std::string& description,

@@ -59,6 +59,8 @@ class Program {
 
  private:
   int guarded_run(int argc, char** argv);
+  // A hidden flag that prints a page of the program, and ends.
+  void add_page(const std::string& flag, std::string (*page)(const CLI::App&));
 
   std::string name_;
   CLI::App app_;

@@ -94,15 +94,15 @@ class Estimate(ExampleScan):
 
     def test_points_are_not_copied(self):
         most = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024  # noqa: E731
-        # Twenty million points: the estimator keeps at most a handful of them, all in one square metre.
+        # Twenty million points, all in one square metre: the estimator keeps few of them.
         points = numpy.random.default_rng(1).random((20_000_000, 3), dtype=numpy.float32)
         before = most()
         try:
             plotscan.estimate_field(points, crop_box=(0, 0, 0.01, 0.01))
         except plotscan.BadInput:
             pass
-        kept = 340e6 + 20e6 * 16  # the buffer of new points, and what is kept (tile_store.h)
-        self.assertLess(most() - before, kept)
+        # The buffer of new points (tile_store.h) takes 340 MB; a copy would take another 240.
+        self.assertLess(most() - before, 450e6)
 
 
 if __name__ == "__main__":
