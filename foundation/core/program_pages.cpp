@@ -86,10 +86,37 @@ std::string section(const CLI::App& command) {
   return page;
 }
 
+// What bash_completion offers, as the branches of its `case`.
+struct Completions {
+  std::string commands;  // every command
+  std::string choices;   // by command and option
+  std::string flags;     // by command
+};
+
+Completions completions_of(const CLI::App& program) {
+  Completions offered;
+  for (const CLI::App* command : commands_of(program)) {
+    const std::string& name = command->get_name();
+    offered.commands += name + " ";
+    offered.flags += "    " + name + ",-*) words='";
+    for (const CLI::Option* option : options_of(*command)) {
+      const std::string values = choices_of(*option);
+      for (const std::string& flag : flags_of(*option)) {
+        offered.flags.append(flag).append(" ");
+        if (values.empty()) continue;
+        offered.choices.append("    ").append(name).append(",").append(flag);
+        offered.choices.append(") words='").append(values).append("' ;;\n");
+      }
+    }
+    offered.flags += "' ;;\n";
+  }
+  return offered;
+}
+
 }  // namespace
 
 std::string manual_page(const CLI::App& program) {
-  const std::string name = program.get_name();
+  const std::string& name = program.get_name();
   std::string page = ".TH " + name + " 1 \"\" \"Plotscan " + version() + "\" \"Plotscan\"\n";
   std::string about = program.get_description();
   if (about.ends_with('.')) about.pop_back();
@@ -112,33 +139,17 @@ std::string manual_page(const CLI::App& program) {
 }
 
 std::string bash_completion(const CLI::App& program) {
-  const std::string name = program.get_name();
-  std::string names;
-  std::string choices;
-  std::string flags;
-  for (const CLI::App* command : commands_of(program)) {
-    names += command->get_name() + " ";
-    std::string own;
-    for (const CLI::Option* option : options_of(*command)) {
-      for (const std::string& flag : flags_of(*option)) {
-        own += flag + " ";
-        const std::string values = choices_of(*option);
-        if (values.empty()) continue;
-        choices += "    " + command->get_name() + ",";
-        choices += flag + ") words='" + values + "' ;;\n";
-      }
-    }
-    flags += "    " + command->get_name() + ",-*) words='" + own + "' ;;\n";
-  }
+  const std::string& name = program.get_name();
+  const Completions offered = completions_of(program);
   // Words that nothing is known of are completed as files.
   return "# Completes " + name + " in bash; made from its declarations.\n_" + name +
          "() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} words=''\n"
          "  if ((COMP_CWORD == 1)); then\n    words='" +
-         names +
+         offered.commands +
          "--help --version'\n"
          "  else\n    case ${COMP_WORDS[1]},$before in\n" +
-         choices + "    *) case ${COMP_WORDS[1]},$word in\n" + flags +
+         offered.choices + "    *) case ${COMP_WORDS[1]},$word in\n" + offered.flags +
          "    esac ;;\n    esac\n  fi\n"
          "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n}\n"
          "complete -o default -F _" +
