@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "export_command.h"
 #include "plant_command.h"
 
+#include "core/data_folder.h"
 #include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
@@ -14,8 +16,7 @@
 #include "farm/generate.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
-#include "farm/write_farm.h"
-#include "lidar/canopy_height.h"
+#include "lidar/make_farm.h"
 
 namespace {
 
@@ -122,9 +123,9 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
   if (!summary.cultivars.empty()) say_cultivars(program, summary.cultivars);
 }
 
-farm::Farm generate_from(const Program& program, const Arguments& arguments,
-                         farm::FarmDescription& description) {
-  description = farm::load_description(arguments.input, arguments.assignments);
+farm::Farm generate_from(const Program& program, const Arguments& arguments) {
+  const farm::FarmDescription description =
+      farm::load_description(found_file(arguments.input, "worlds"), arguments.assignments);
   const CommonOptions& common = program.common();
   return farm::generate(description,
                         common.seed_given ? common.seed : description.seed.value_or(common.seed));
@@ -138,15 +139,14 @@ void say_notes(const Program& program, const farm::Farm& made) {
 
 void run_generate(const Program& program, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  farm::FarmDescription description;
-  farm::Farm made = generate_from(program, arguments, description);
-  lidar::measure_canopies(made, program.common().threads);
-  farm::write_farm(made, arguments.output, arguments.force,
-                   {.command = "farmgen generate",
-                    .options = {{"description", description.source.filename().string()},
-                                {"set", arguments.assignments}},
-                    .inputs = farm::input_files(description)},
-                   program.progress("writing"));
+  const CommonOptions& common = program.common();
+  const farm::Farm made =
+      lidar::make_farm(found_file(arguments.input, "worlds"), arguments.output,
+                       {.overrides = arguments.assignments,
+                        .seed = common.seed_given ? std::optional(common.seed) : std::nullopt,
+                        .threads = common.threads,
+                        .replace = arguments.force},
+                       program.progress("writing"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const farm::FarmSummary summary = farm::summarise(made);
   nlohmann::json document = json_of(made, summary);
@@ -168,8 +168,7 @@ void run_info(const Program& program, const Arguments& arguments) {
 }
 
 void run_check(const Program& program, const Arguments& arguments) {
-  farm::FarmDescription description;
-  const farm::Farm made = generate_from(program, arguments, description);
+  const farm::Farm made = generate_from(program, arguments);
   const farm::FarmSummary summary = farm::summarise(made);
   program.result(json_of(made, summary));
   program.say(arguments.input + " is sound; it makes");
@@ -179,8 +178,10 @@ void run_check(const Program& program, const Arguments& arguments) {
 
 void add_farm_options(CLI::App& command, Arguments& arguments) {
   command
-      .add_option("FARM", arguments.input,
-                  "farm description (YAML); its seed counts where --seed is absent")
+      .add_option(
+          "FARM", arguments.input,
+          "farm description (YAML), or the name of a shipped one, such as paper_half; its seed "
+          "counts where --seed is absent")
       ->required();
   command
       .add_option("--set", arguments.assignments,

@@ -8,11 +8,10 @@
 #include "convert_command.h"
 #include "sensors_command.h"
 
+#include "core/data_folder.h"
 #include "core/program.h"
 #include "core/text.h"
-#include "farm/farm.h"
-#include "gazebo/read_world.h"
-#include "lidar/fly.h"
+#include "lidar/fly_place.h"
 #include "lidar/fly_settings.h"
 
 namespace {
@@ -24,13 +23,12 @@ struct Arguments {
   std::string scan;
   std::string flight;
   std::string waypoints;
-  std::vector<std::string> resource_paths;
-  lidar::FlyOptions options;
-  bool force = false;
+  lidar::FlyPlaceOptions options;
 };
 
-void report(const Program& program, const Arguments& arguments, const lidar::FlySummary& summary,
-            const std::vector<std::string>& notes, double elapsed_s) {
+void report(const Program& program, const Arguments& arguments, const lidar::PlaceScan& scanned,
+            double elapsed_s) {
+  const auto& [summary, notes] = scanned;
   const auto bytes =
       std::filesystem::file_size(std::filesystem::path(arguments.scan) / "cloud.pcd");
   const double shots_a_second = static_cast<double>(summary.shots) / elapsed_s;
@@ -51,39 +49,18 @@ void report(const Program& program, const Arguments& arguments, const lidar::Fly
                         1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
-lidar::FlySummary fly_farm(const Program& program, Arguments& arguments) {
-  const farm::Farm farm = farm::read_farm(arguments.place);
-  // The farm's manifest holds the hashes of its other files.
-  arguments.options.inputs = {std::filesystem::path(arguments.place) / "manifest.json"};
-  return lidar::fly(farm, arguments.scan, arguments.options, arguments.force,
-                    program.progress("scanning"));
-}
-
-lidar::FlySummary fly_world(const Program& program, Arguments& arguments,
-                            std::vector<std::string>& notes) {
-  gazebo::ReadWorldOptions options;
-  options.resource_paths.assign(arguments.resource_paths.begin(), arguments.resource_paths.end());
-  const gazebo::StaticWorld world = gazebo::read_world(arguments.place, options);
-  notes = world.notes;
-  arguments.options.inputs = world.files;
-  const lidar::SceneContent content = lidar::scene_content(world);
-  return lidar::fly(lidar::site_of(world.name, content), lidar::Scene(content), arguments.scan,
-                    arguments.options, arguments.force, program.progress("scanning"));
-}
-
 void run_fly(const Program& program, Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  lidar::FlyOptions& options = arguments.options;
+  arguments.place = found_file(arguments.place, "worlds");
+  lidar::FlyOptions& options = arguments.options.flight;
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   if (!arguments.flight.empty()) options.flight = arguments.flight;
   if (!arguments.waypoints.empty()) options.waypoints = arguments.waypoints;
-  std::vector<std::string> notes;
-  const lidar::FlySummary summary = std::filesystem::is_directory(arguments.place)
-                                        ? fly_farm(program, arguments)
-                                        : fly_world(program, arguments, notes);
+  const lidar::PlaceScan scanned = lidar::fly_place(
+      arguments.place, arguments.scan, arguments.options, program.progress("scanning"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  report(program, arguments, summary, notes, elapsed.count());
+  report(program, arguments, scanned, elapsed.count());
 }
 
 template <class Setting>
@@ -120,12 +97,12 @@ void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight
 }
 
 void add_options(CLI::App& fly, Arguments& arguments) {
-  lidar::FlyOptions& options = arguments.options;
+  lidar::FlyOptions& options = arguments.options.flight;
   fly.add_option("FARM|WORLD.sdf", arguments.place,
                  "farm folder, as farmgen writes it, or the file of any SDF world or model")
       ->required();
   fly.add_option("-o,--output", arguments.scan, "scan folder to write")->required();
-  fly.add_option("--resource-path", arguments.resource_paths,
+  fly.add_option("--resource-path", arguments.options.resource_paths,
                  "folder that holds models of the world, searched before the world's own and those "
                  "of GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; may be repeated");
   auto* flight =
@@ -144,7 +121,7 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                  "cloud.pcd; several with commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);
-  fly.add_flag("--force", arguments.force, "replace an existing scan folder");
+  fly.add_flag("--force", arguments.options.replace, "replace an existing scan folder");
 }
 
 }  // namespace

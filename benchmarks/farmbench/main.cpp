@@ -2,6 +2,7 @@
 #include <chrono>
 #include <string>
 
+#include "core/data_folder.h"
 #include "core/manifest.h"
 #include "core/program.h"
 #include "core/text.h"
@@ -62,6 +63,7 @@ void say_summary(const Program& program, const farmbench::RunSummary& summary,
 }
 
 void run_suite(const Program& program, farmbench::RunOptions options) {
+  options.suite = found_file(options.suite, "benchmarks/suites");
   options.threads = program.common().threads;
   options.seed = program.common().seed;
   options.build = file_hash("/proc/self/exe");
@@ -84,7 +86,8 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
 void declare_run(Program& program, farmbench::RunOptions& options) {
   CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
                                   [&program, &options] { run_suite(program, options); });
-  run.add_option("SUITE", options.suite, "suite (YAML), such as benchmarks/suites/paper.yaml")
+  run.add_option("SUITE", options.suite,
+                 "suite (YAML), or the name of a shipped one, such as paper")
       ->required();
   run.add_option("-o,--output", options.output,
                  "results folder; farms whose results it holds are not run again")

@@ -116,10 +116,15 @@ json given_attributes(const PlotFeature& feature) {
   return attributes;
 }
 
-void write_estimate(const fs::path& folder, const Estimate& estimate) {
+std::vector<PlotFeature> features_of(const Estimate& estimate) {
   std::vector<PlotFeature> features;
   for (const PlotEstimate& plot : estimate.plots)
     features.push_back(feature_of(plot, estimate.id_property));
+  return features;
+}
+
+void write_estimate(const fs::path& folder, const Estimate& estimate) {
+  const std::vector<PlotFeature> features = features_of(estimate);
   const CoordinateUnits units = estimate.units.value_or(CoordinateUnits{});
   write_plot_features(folder / "plots.geojson", features, estimate.crs, estimate.units);
   const std::optional<UtmSystem> utm = utm_system(estimate.crs);

@@ -52,6 +52,9 @@ struct Estimate {
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
 };
 
+// The plots as write_estimate writes them.
+std::vector<PlotFeature> features_of(const Estimate& estimate);
+
 // Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system) in
 // metres, heights.csv and, where the method models it, the ground's grids
 // (docs/estimate-format.md) into an existing folder.

@@ -43,12 +43,18 @@ json to_json(const Scores& scores) {
   return {{"boxes", to_json(scores.boxes)}, {"heights", heights}, {"field", to_json(scores.field)}};
 }
 
-Scores run(const RunOptions& options) {
+Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
+             const ScoreOptions& options) {
   Scores scores;
-  scores.field = score_field(read_truth(options.truth), estimate::read_estimate(options.estimate),
-                             options.score);
+  scores.field = score_field(truth, estimate, options);
   scores.boxes = score_boxes({&scores.field, 1});
   scores.heights = score_heights(scores.field);
+  return scores;
+}
+
+Scores run(const RunOptions& options) {
+  const Scores scores =
+      score(read_truth(options.truth), estimate::read_estimate(options.estimate), options.score);
   if (options.output) write_scores(scores, options);
   return scores;
 }

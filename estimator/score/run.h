@@ -27,6 +27,10 @@ struct Scores {
 
 nlohmann::json to_json(const Scores& scores);
 
+// Scores an estimate of a field. Throws InputError as match_plots does.
+Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
+             const ScoreOptions& options);
+
 // Scores the estimate; writes scores.json, plots.csv and manifest.json (docs/benchmark.md) where an
 // output is asked for. Throws InputError on bad input; nothing is left behind then.
 Scores run(const RunOptions& options);

@@ -281,8 +281,8 @@ bool is_box_property(const std::string& name) {
   return std::ranges::find(kBoxProperties, name) != kBoxProperties.end();
 }
 
-void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
-                         const std::string& crs, const std::optional<CoordinateUnits>& units) {
+json plot_collection(const std::vector<PlotFeature>& plots, const std::string& crs,
+                     const std::optional<CoordinateUnits>& units) {
   const double unit_m = units ? units->horizontal_m : 1;
   const std::string unit = unit_name(unit_m);
   json document =
@@ -292,7 +292,12 @@ void write_plot_features(const std::filesystem::path& path, const std::vector<Pl
                  [unit_m](const Eigen::Vector2d& corner) { return corner / unit_m; });
   if (!crs.empty()) document["crs"] = crs_member(crs);
   if (units) document[kUnits] = {{"x_y", units->horizontal_m}, {"z", units->vertical_m}};
-  write_document(path, document);
+  return document;
+}
+
+void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
+                         const std::string& crs, const std::optional<CoordinateUnits>& units) {
+  write_document(path, plot_collection(plots, crs, units));
 }
 
 void write_plot_features_wgs84(const std::filesystem::path& path,

@@ -36,6 +36,10 @@ void write_plot_features(const std::filesystem::path& path, const std::vector<Pl
                          const std::string& crs = "",
                          const std::optional<CoordinateUnits>& units = {});
 
+// What write_plot_features writes.
+nlohmann::json plot_collection(const std::vector<PlotFeature>& plots, const std::string& crs = "",
+                               const std::optional<CoordinateUnits>& units = {});
+
 // The same with each corner as WGS84 longitude and latitude, degrees, as RFC 7946 wants them:
 // `lonlat_deg_from_world` gives them. The box among the attributes stays in local metres.
 void write_plot_features_wgs84(

@@ -23,6 +23,7 @@
 #include "core/manifest.h"
 #include "core/nearest_name.h"
 #include "core/printable.h"
+#include "core/program_pages.h"
 #include "core/progress_display.h"
 #include "core/text.h"
 
@@ -34,14 +35,15 @@ constexpr int kExitNothingToMeasure = 3;
 constexpr int kExitFailure = 1;
 
 void log_to_stderr(int verbosity, const std::string& name) {
-  auto logger =
-      std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("%n: %v");
+  auto logger = std::make_shared<spdlog::logger>("plotscan",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern(name + ": %v");
   logger->set_level(verbosity < 0    ? spdlog::level::err
                     : verbosity == 0 ? spdlog::level::warn
                     : verbosity == 1 ? spdlog::level::info
                                      : spdlog::level::debug);
-  spdlog::set_default_logger(logger);
+  spdlog::drop(logger->name());  // of an earlier run in the same process
+  spdlog::register_logger(logger);
 }
 
 // Errors come from files and arguments of others.
@@ -80,6 +82,17 @@ Program::Program(std::string name, const std::string& description)
     : name_(std::move(name)), app_(description, name_) {
   app_.set_version_flag("--version", name_ + " " + version());
   app_.require_subcommand(1);
+  // For whoever packages the programs: no group, so that --help does not show them.
+  add_page("--print-manual", &manual_page);
+  add_page("--print-bash-completion", &bash_completion);
+}
+
+void Program::add_page(const std::string& flag, std::string (*page)(const CLI::App&)) {
+  const auto print = [this, page] {
+    std::cout << page(app_);
+    throw CLI::Success();
+  };
+  app_.add_flag_callback(flag, print)->group("");
 }
 
 CLI::App& Program::command(const std::string& name, const std::string& description,

@@ -67,6 +67,8 @@ class Program {
   // What is wrong with the arguments (without the program's name), and what was meant.
   std::string usage_error(const CLI::ParseError& error,
                           const std::vector<std::string>& arguments) const;
+  // A hidden flag that prints a page of the program, and ends.
+  void add_page(const std::string& flag, std::string (*page)(const CLI::App&));
 
   std::string name_;
   CLI::App app_;

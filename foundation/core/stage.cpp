@@ -11,7 +11,8 @@ Stage::Stage(std::string name) : name_(std::move(name)) {}
 
 Stage::~Stage() {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  spdlog::info("{:<24} {:6.2f} s  {}", name_, seconds.count(), found_);
+  if (const auto logger = spdlog::get("plotscan"))
+    logger->info("{:<24} {:6.2f} s  {}", name_, seconds.count(), found_);
 }
 
 }  // namespace plotscan

@@ -6,7 +6,8 @@
 
 namespace plotscan {
 
-// A stage of long work. Where it ends, -v tells its name, the seconds it took and what it counted.
+// A stage of long work. Where it ends, -v tells its name, the seconds it took and what it counted:
+// spdlog's logger "plotscan" does, which programs register; where there is none, nothing is said.
 class Stage {
  public:
   explicit Stage(std::string name);

@@ -36,8 +36,8 @@ ConvertSummary convert(const std::filesystem::path& in, const std::filesystem::p
 ConvertSummary convert_within(const std::filesystem::path& in, const std::filesystem::path& out,
                               const ConvertOptions& options, const ProgressReport& progress = {});
 
-// The second half of convert: the points of an open source to a file of `out`'s extension, which
-// may not appear whole.
+// The second half of convert, after open_source: the points of an open source to a file of `out`'s
+// extension, which may not appear whole.
 ConvertSummary write_points(const Source& source, const std::filesystem::path& out,
                             const WriteOptions& options, const ProgressReport& progress = {});
 

@@ -183,13 +183,6 @@ ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
   return surface;
 }
 
-std::optional<Area> area_to_read(const LatticeOptions& options) {
-  if (options.crop_box || options.boxes.empty()) return options.crop_box;
-  const Area boxes = surroundings(options.boxes, 0);
-  return Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m, boxes[2] + kGroundAround_m,
-              boxes[3] + kGroundAround_m};
-}
-
 void require_known(const std::optional<std::string>& crop) {
   const std::vector<std::string>& crops = heights::crop_names();
   if (!crop || std::ranges::find(crops, *crop) != crops.end()) return;
@@ -217,6 +210,13 @@ void require_sound(const LatticeOptions& options) {
     require_between(number, 0, 255, "a class of the ground");
   require_known(options.crop);
   require_between(options.threads, 1, kMostThreads, "the number of threads");
+}
+
+std::optional<Area> area_to_read(const LatticeOptions& options) {
+  if (options.crop_box || options.boxes.empty()) return options.crop_box;
+  const Area boxes = surroundings(options.boxes, 0);
+  return Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m, boxes[2] + kGroundAround_m,
+              boxes[3] + kGroundAround_m};
 }
 
 Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,

@@ -41,8 +41,11 @@ void require_sound(const LatticeOptions& options);
 Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
-// The same from a cloud: of the crop box; else of the given boxes and the ground
-// around them; else of the scanned field. Throws InputError on a broken cloud, and as above.
+// The part of a cloud that the method looks at: the crop box; else the given boxes and the ground
+// around them; else nothing, which is the scanned field.
+std::optional<Area> area_to_read(const LatticeOptions& options);
+
+// The same from a cloud, of area_to_read. Throws InputError on a broken cloud, and as above.
 Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of read_world.cpp where there was no libsdformat to build with.
+#include "core/error.h"
+#include "gazebo/read_world.h"
+
+namespace plotscan::gazebo {
+
+StaticWorld read_world(const std::filesystem::path& file, const ReadWorldOptions& /*options*/) {
+  throw InputError(file,
+                   "no SDF world can be read: Plotscan was built without libsdformat, which Debian "
+                   "12 has and Debian 13 has not");
+}
+
+}  // namespace plotscan::gazebo

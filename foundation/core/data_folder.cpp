@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data_folder.h"
+
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+
+#include <dlfcn.h>
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace fs = std::filesystem;
+namespace {
+
+// Every room of the data has some file of its own here.
+bool holds_data(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder / "worlds", ignored) &&
+         fs::is_directory(folder / "models", ignored);
+}
+
+// The shared library that holds this code, else the program.
+fs::path own_file() {
+  Dl_info info = {};
+  const bool known = dladdr(reinterpret_cast<const void*>(&holds_data), &info) != 0;  // NOLINT
+  const fs::path file = known && info.dli_fname != nullptr ? info.dli_fname : "";
+  // Of a program, dladdr tells what it was called by, which may be a name on PATH.
+  std::error_code ignored;
+  return fs::canonical(file.is_absolute() ? file : "/proc/self/exe", ignored);
+}
+
+std::optional<fs::path> told_folder() {
+  const char* told = std::getenv("PLOTSCAN_DATA");
+  if (told == nullptr || *told == '\0') return std::nullopt;
+  if (!holds_data(told))
+    throw InputError(told, "named by PLOTSCAN_DATA, is not Plotscan's data: worlds and models");
+  return told;
+}
+
+std::optional<fs::path> installed_folder() {
+  constexpr int kMostAbove = 4;  // python3/dist-packages/plotscan/ lies below lib/
+  fs::path above = own_file().parent_path();
+  for (int i = 0; i < kMostAbove && above.has_relative_path(); ++i) {
+    if (holds_data(above / "share/plotscan")) return above / "share/plotscan";
+    above = above.parent_path();
+  }
+  return std::nullopt;
+}
+
+std::optional<fs::path> known_folder() {
+  if (auto told = told_folder()) return told;
+  return installed_folder();
+}
+
+}  // namespace
+
+fs::path data_folder() {
+  if (const auto folder = known_folder()) return *folder;
+  throw InputError("Plotscan's data (worlds, models) lie nowhere near " + own_file().string() +
+                   "; set PLOTSCAN_DATA to their folder, share/plotscan of the installation");
+}
+
+fs::path found_file(const fs::path& name, const fs::path& room) {
+  std::error_code ignored;
+  if (fs::exists(name, ignored) || name.is_absolute()) return name;
+  const auto folder = known_folder();
+  if (!folder) return name;
+  for (const fs::path& place : {*folder, *folder / room}) {
+    for (const char* extension : {"", ".yaml"}) {
+      fs::path file = place / name;
+      file += extension;
+      if (fs::is_regular_file(file, ignored)) return file;
+    }
+  }
+  return name;
+}
+
+}  // namespace plotscan

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "boundary/field_estimate.h"
+
+#include <cmath>
+
+#include "boundary/values.h"
+
+#include "core/plot_features.h"
+
+namespace plotscan::boundary {
+namespace {
+
+Plot outer(const estimate::PlotEstimate& plot) {
+  Plot made{.id = plot.id.text(),
+            .row = plot.row,
+            .column = plot.column,
+            .box = boundary::outer(plot.box),
+            .points = plot.points,
+            .heights = {},
+            .confidence = plot.confidence,
+            .flags = plot.flags};
+  for (const auto& [name, value_m] : plot.heights_m) made.heights[name].value_m = value_m;
+  for (const auto& [name, error] : plot.errors) {
+    made.heights[name].standard_error_m = error.standard_error_m;
+    made.heights[name].low95_m = error.low95_m;
+    made.heights[name].high95_m = error.high95_m;
+  }
+  return made;
+}
+
+estimate::PlotEstimate inner(const Plot& plot) {
+  estimate::PlotEstimate made{.id = PlotId(plot.id),
+                              .row = plot.row,
+                              .column = plot.column,
+                              .box = boundary::inner(plot.box),
+                              .points = plot.points};
+  for (const auto& [name, height] : plot.heights) {
+    made.heights_m[name] = height.value_m;
+    if (std::isnan(height.low95_m) || std::isnan(height.high95_m)) continue;
+    made.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
+  }
+  made.confidence = plot.confidence;
+  made.flags = plot.flags;
+  return made;
+}
+
+GroundGrid outer(const ground::Surface& surface) {
+  return {.x_m = surface.origin.x(),
+          .y_m = surface.origin.y(),
+          .cell_m = surface.cell_m,
+          .columns = surface.columns,
+          .rows = surface.rows,
+          .z_m = surface.z_m,
+          .sd_m = surface.sd_m};
+}
+
+}  // namespace
+
+FieldEstimate outer(const estimate::Estimate& estimate) {
+  FieldEstimate made{.method = estimate.method};
+  for (const estimate::PlotEstimate& plot : estimate.plots) made.plots.push_back(outer(plot));
+  if (made.plots.empty()) made.nothing = estimate.diagnostics.value("nothing", "none were found");
+  if (estimate.ground) made.ground = outer(*estimate.ground);
+  made.crs = estimate.crs;
+  made.geojson =
+      plot_collection(features_of(estimate), estimate.crs, estimate.units).dump(1) + "\n";
+  made.diagnostics = estimate.diagnostics.dump();
+  return made;
+}
+
+estimate::Estimate inner(const FieldEstimate& estimate) {
+  estimate::Estimate made{.method = estimate.method};
+  for (const Plot& plot : estimate.plots) made.plots.push_back(inner(plot));
+  return made;
+}
+
+}  // namespace plotscan::boundary

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plotscan/estimate.h"
+
+#include "estimate/estimate.h"
+
+namespace plotscan::boundary {
+
+FieldEstimate outer(const estimate::Estimate& estimate);
+
+// What scores need of an estimate: its method, and its plots' boxes, heights and flags.
+estimate::Estimate inner(const FieldEstimate& estimate);
+
+}  // namespace plotscan::boundary

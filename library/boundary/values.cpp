@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "boundary/values.h"
+
+#include <algorithm>
+#include <numbers>
+#include <thread>
+
+namespace plotscan::boundary {
+namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180;
+
+}  // namespace
+
+PlotBox inner(const Box& box) {
+  return {.center = {box.center_x_m, box.center_y_m},
+          .width_m = box.width_m,
+          .length_m = box.length_m,
+          .heading_rad = box.heading_deg * kDegrees};
+}
+
+Box outer(const PlotBox& box) {
+  return {.center_x_m = box.center.x(),
+          .center_y_m = box.center.y(),
+          .width_m = box.width_m,
+          .length_m = box.length_m,
+          .heading_deg = wrap_heading(box.heading_rad) / kDegrees};
+}
+
+int threads_of(int threads) {
+  if (threads != 0) return threads;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace plotscan::boundary

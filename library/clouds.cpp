@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plotscan/clouds.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "boundary/guarded.h"
+
+#include "core/output_file.h"
+#include "record/convert.h"
+#include "record/formats.h"
+#include "record/open_source.h"
+
+namespace plotscan {
+namespace {
+
+constexpr std::size_t kPiece = 1 << 16;  // points that are converted at a time
+
+Point outer(const scan::LabelledPoint& point) {
+  return {.x = point.x,
+          .y = point.y,
+          .z = point.z,
+          .intensity = point.intensity,
+          .ring = point.ring,
+          .time = point.time,
+          .return_number = point.return_number,
+          .return_count = point.return_count,
+          .label = static_cast<std::uint8_t>(point.label),
+          .plot = point.plot,
+          .plant = point.plant};
+}
+
+scan::LabelledPoint inner(const Point& point) {
+  return {.x = point.x,
+          .y = point.y,
+          .z = point.z,
+          .intensity = point.intensity,
+          .ring = point.ring,
+          .time = point.time,
+          .return_number = point.return_number,
+          .return_count = point.return_count,
+          .label = static_cast<scan::PointClass>(point.label),
+          .plot = point.plot,
+          .plant = point.plant};
+}
+
+// The points as what record writes; they must outlive the source.
+record::Source source_of(std::span<const Point> points, const WriteCloudOptions& options) {
+  record::Source source{.path = "the cloud", .info = {.points = points.size()}, .flight = {}};
+  source.info.origin_m = Eigen::Vector3d(options.origin_m.data());
+  source.info.crs_wkt = options.crs_wkt;
+  source.stream = [points](const scan::PointSink& sink) {
+    std::vector<scan::LabelledPoint> piece;
+    for (std::size_t first = 0; first < points.size(); first += kPiece) {
+      const auto part = points.subspan(first, std::min(kPiece, points.size() - first));
+      piece.clear();
+      std::ranges::transform(part, std::back_inserter(piece), inner);
+      sink(piece);
+    }
+  };
+  return source;
+}
+
+}  // namespace
+
+PointsView Cloud::positions() const {
+  return {points.empty() ? nullptr : &points.front().x, points.size(), sizeof(Point), origin_m};
+}
+
+Cloud read_cloud(const std::filesystem::path& file, const Progress& progress) {
+  return boundary::guarded([&] {
+    const record::Source source = record::open_source(file, {});
+    const scan::CloudInfo& info = source.info;
+    Cloud cloud{.origin_m = {info.origin_m.x(), info.origin_m.y(), info.origin_m.z()},
+                .points = {},
+                .fields = info.fields,
+                .crs_wkt = info.crs_wkt};
+    cloud.points.reserve(info.points);
+    source.stream([&](std::span<const scan::LabelledPoint> points) {
+      std::ranges::transform(points, std::back_inserter(cloud.points), outer);
+      if (progress && info.points > 0)
+        progress(std::min(
+            1.0, static_cast<double>(cloud.points.size()) / static_cast<double>(info.points)));
+    });
+    return cloud;
+  });
+}
+
+void write_cloud(const std::filesystem::path& file, std::span<const Point> points,
+                 const WriteCloudOptions& options, const Progress& progress) {
+  boundary::guarded([&] {
+    OutputFile out(file, options.replace);
+    record::write_points(source_of(points, options), out.path(), {.encoding = options.encoding},
+                         progress);
+    out.commit();
+  });
+}
+
+std::uint64_t convert_cloud(const std::filesystem::path& in, const std::filesystem::path& out,
+                            const ConvertCloudOptions& options, const Progress& progress) {
+  return boundary::guarded([&] {
+    const record::ConvertSummary summary =
+        record::convert(in, out,
+                        {.topic = options.topic,
+                         .write = {.encoding = options.encoding, .crs = options.crs},
+                         .replace = options.replace},
+                        progress);
+    return std::max(summary.points, summary.poses);
+  });
+}
+
+}  // namespace plotscan

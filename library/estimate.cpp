@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plotscan/estimate.h"
+
+#include <numbers>
+
+#include "boundary/field_estimate.h"
+#include "boundary/guarded.h"
+#include "boundary/values.h"
+
+#include "core/coordinate_units.h"
+#include "core/error.h"
+#include "estimate/field_cloud.h"
+#include "estimate/lattice/lattice.h"
+#include "estimate/run.h"
+#include "estimate/tile_store.h"
+
+namespace plotscan {
+namespace {
+
+estimate::LatticeOptions inner(const EstimateOptions& options) {
+  estimate::LatticeOptions made{.crop_box = options.crop_box};
+  if (options.heading_deg) made.hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  made.hints.width_m = options.plot_width_m;
+  made.hints.length_m = options.plot_length_m;
+  made.hints.rows = options.rows;
+  made.hints.columns = options.columns;
+  made.hints.plots = options.plots;
+  for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
+  made.noise_m = options.noise_m;
+  made.calibrated = options.calibrated;
+  made.crop = options.crop;
+  made.threads = boundary::threads_of(options.threads);
+  return made;
+}
+
+// Hands the finite points on, piece by piece; returns how many were not.
+std::size_t feed(const PointsView& points, estimate::TileStore& store) {
+  constexpr std::size_t kPiece = 1 << 16;
+  std::vector<Eigen::Vector3d> piece;
+  piece.reserve(kPiece);
+  std::size_t not_finite = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    piece.emplace_back(points[i].data());
+    if (!piece.back().allFinite()) {
+      piece.pop_back();
+      ++not_finite;
+    }
+    if (piece.size() < kPiece && i + 1 < points.size()) continue;
+    store.add(piece);
+    piece.clear();
+  }
+  return not_finite;
+}
+
+estimate::FieldCloud field_of(const PointsView& points, const estimate::LatticeOptions& options,
+                              const Progress& progress) {
+  const estimate::FieldOptions field_options{.area = area_to_read(options),
+                                             .threads = options.threads};
+  estimate::TileStore store(
+      {.points_per_cell = field_options.points_per_cell, .threads = options.threads});
+  const std::size_t not_finite = feed(points, store);
+  if (not_finite == points.size()) throw InputError("the cloud has no point that is finite");
+  if (progress) progress(0.1);
+  estimate::FieldCloud field = take_field(store, field_options, "the cloud");
+  field.counts.read += not_finite;
+  field.counts.not_finite = not_finite;
+  if (progress) progress(0.2);
+  return field;
+}
+
+estimate::RunOptions inner(const EstimateFilesOptions& options) {
+  estimate::RunOptions run{.method = options.method, .boxes = options.boxes};
+  if (const auto unit_m = unit_named(options.units.value_or("")))
+    run.cloud.units = {*unit_m, *unit_m};
+  if (options.units && !run.cloud.units)
+    throw InputError("units are m, ft or us-ft, not \"" + *options.units + "\"");
+  run.cloud.leave_out_classes = options.leave_out_classes;
+  run.id = options.id;
+  run.csv = options.csv;
+  run.replace = options.replace;
+  run.crop_box = options.field.crop_box;
+  run.lattice = inner(options.field);
+  run.dhami2020.plots = options.field.plots.value_or(0);
+  run.seed = options.seed;
+  run.threads = run.lattice.threads;
+  return run;
+}
+
+}  // namespace
+
+FieldEstimate estimate_field(const PointsView& points, const EstimateOptions& options,
+                             const Progress& progress) {
+  return boundary::guarded([&] {
+    const estimate::LatticeOptions method = inner(options);
+    require_sound(method);
+    return boundary::outer(lattice(field_of(points, method, progress), method, progress));
+  });
+}
+
+FieldEstimate estimate_files(const std::vector<std::filesystem::path>& clouds,
+                             const std::filesystem::path& folder,
+                             const EstimateFilesOptions& options, const Progress& progress) {
+  return boundary::guarded([&] {
+    estimate::RunOptions run = inner(options);
+    run.cloud.files = clouds;
+    run.output = folder;
+    return boundary::outer(estimate::run(run, progress));
+  });
+}
+
+}  // namespace plotscan

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+#include "plotscan/export.h"
+
+namespace plotscan {
+
+// Bad input: a file, a line of it, a value, an option. what() says which one, what is wrong and
+// what would be right, in the words in which the programs print it.
+class PLOTSCAN_API BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Input that is sound and shows nothing of what is to be measured. what() says why, and what to do.
+class PLOTSCAN_API NothingMeasured : public BadInput {
+ public:
+  using BadInput::BadInput;
+};
+
+}  // namespace plotscan

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plotscan/error.h"
+#include "plotscan/export.h"
+#include "plotscan/plots.h"
+#include "plotscan/points.h"
+#include "plotscan/progress.h"
+
+namespace plotscan {
+
+// What may be told of a field; the method needs none of it (docs/methods.md).
+struct EstimateOptions {
+  // Use only the points in here: x0, y0, x1, y1, in the cloud's units; else the densely scanned
+  // field is found.
+  std::optional<std::array<double, 4>> crop_box = {};
+  std::vector<Box> boxes = {};               // given plots: heights only, none is searched
+  std::optional<double> heading_deg = {};    // of the plots' length, counter-clockwise from x
+  std::optional<double> plot_width_m = {};   // of every plot, 0.1 to 100
+  std::optional<double> plot_length_m = {};  // of every plot, 0.1 to 100
+  std::optional<int> rows = {};              // of plots; they follow each other along the length
+  std::optional<int> columns = {};           // of plots; along the width
+  std::optional<int> plots = {};             // how many there are
+  std::optional<std::string> crop = {};      // soybean, wheat or maize; else told from the canopy
+  std::optional<double> noise_m = {};        // sigma of the points' heights; else estimated
+  bool calibrated = true;                    // plants' heights from the canopy's
+  int threads = 0;                           // 0: one for each processor; results are the same
+};
+
+// The ground under a field as heights of a square grid's nodes: node (column, row) lies at
+// (x_m, y_m) + cell_m * (column, row) and has index row * columns + column.
+struct GroundGrid {
+  double x_m = 0;
+  double y_m = 0;
+  double cell_m = 0;
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> z_m = {};   // NaN where no ground is within reach
+  std::vector<float> sd_m = {};  // standard error of z_m; NaN where that is
+};
+
+// What a method says of a whole field, in the cloud's frame, metres.
+struct FieldEstimate {
+  std::string method;
+  std::vector<Plot> plots = {};
+  std::string nothing = {};               // why there are no plots; "" where there are some
+  std::optional<GroundGrid> ground = {};  // where the method models it
+  std::string crs = {};                   // of the cloud, "EPSG:<code>"; "" where unknown
+  std::string geojson = {};               // plots.geojson as the program writes it
+  std::string diagnostics = {};           // what the method learnt on its way, JSON
+};
+
+// Finds the plots of a cloud held in memory and measures their heights, by the method `lattice`:
+// what `estimator run` does with the same points in a file. A field without plots has an estimate
+// without plots, which says why. Points stay where they are: what is kept of them takes 8 to 16
+// bytes each (docs/library.md). Throws BadInput on options out of their range and when no point is
+// finite or lies in the area, NothingMeasured when the points show no ground.
+PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
+                                          const EstimateOptions& options = {},
+                                          const Progress& progress = {});
+
+// How clouds in files become an estimate folder; beside the options above, those that
+// `estimator run --help` explains.
+struct EstimateFilesOptions {
+  EstimateOptions field = {};      // its boxes are not used: `boxes` names their file
+  std::string method = "lattice";  // or "dhami2020", which needs field.plots
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots, GeoJSON
+  std::optional<std::string> id = {};               // property of the map that holds the plots' ids
+  std::optional<std::string> units = {};    // of the coordinates, m, ft or us-ft; else the file's
+  std::vector<int> leave_out_classes = {};  // ASPRS classes, 0 to 255
+  std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
+  std::uint64_t seed = 1;
+  bool replace = false;  // an estimate folder, a table that exists
+};
+
+// What `estimator run` does: reads the clouds as one (PCD, PLY, LAS, text, scan folders, folders of
+// tiles), writes the estimate folder (docs/estimate-format.md) and returns what it holds. Throws
+// BadInput on bad input, and leaves nothing behind then.
+PLOTSCAN_API FieldEstimate estimate_files(const std::vector<std::filesystem::path>& clouds,
+                                          const std::filesystem::path& folder,
+                                          const EstimateFilesOptions& options = {},
+                                          const Progress& progress = {});
+
+}  // namespace plotscan

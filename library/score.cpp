@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plotscan/score.h"
+
+#include <numbers>
+
+#include "boundary/field_estimate.h"
+#include "boundary/guarded.h"
+
+#include "score/run.h"
+#include "score/score_files.h"
+
+namespace plotscan {
+namespace {
+
+Scores outer(const score::Scores& scores) {
+  const score::BoxScore& boxes = scores.boxes;
+  Scores made{.plots = boxes.plots,
+              .found = boxes.found,
+              .missed = boxes.missed,
+              .extra = boxes.extra,
+              .iou_mean = boxes.iou_mean,
+              .center_rmse_m = boxes.center_rmse_m,
+              .heading_rmse_deg = boxes.heading_rmse_rad * 180 / std::numbers::pi};
+  for (const score::HeightScore& height : scores.heights) {
+    made.heights.push_back({.height = height.height,
+                            .truth = height.truth,
+                            .plots = height.plots,
+                            .rmse_m = height.rmse_m,
+                            .bias_m = height.bias_m,
+                            .mae_m = height.mae_m,
+                            .r2 = height.r2,
+                            .coverage95 = height.coverage95});
+  }
+  made.json = score::to_json(scores).dump(1) + "\n";
+  return made;
+}
+
+}  // namespace
+
+Scores score_estimate(const std::filesystem::path& estimate, const std::filesystem::path& truth,
+                      double min_iou) {
+  return boundary::guarded([&] {
+    return outer(score::run(
+        {.estimate = estimate, .truth = truth, .output = {}, .score = {.min_iou = min_iou}}));
+  });
+}
+
+Scores score_estimate(const FieldEstimate& estimate, const std::filesystem::path& truth,
+                      double min_iou) {
+  return boundary::guarded([&] {
+    return outer(
+        score::score(score::read_truth(truth), boundary::inner(estimate), {.min_iou = min_iou}));
+  });
+}
+
+}  // namespace plotscan

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "lidar/fly.h"
+
+namespace plotscan::lidar {
+
+struct FlyPlaceOptions {
+  FlyOptions flight = {};
+  std::vector<std::filesystem::path> resource_paths = {};  // of a world's models, searched first
+  bool replace = false;                                    // a scan that is there
+};
+
+struct PlaceScan {
+  FlySummary summary;
+  std::vector<std::string> notes;  // what of a world is not scanned, one line each
+};
+
+// Scans a place by its path: a farm's folder, or the file of any SDF world or model, and writes the
+// scan folder as fly does. Throws InputError as farm::read_farm, gazebo::read_world and fly do.
+PlaceScan fly_place(const std::filesystem::path& place, const std::filesystem::path& scan_folder,
+                    FlyPlaceOptions options, const ProgressReport& progress = {});
+
+}  // namespace plotscan::lidar

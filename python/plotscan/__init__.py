@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Virtual phenotyping farms, simulated LiDAR flights, and plots and crop heights from clouds.
+
+Each function does what a command of the programs does, with the same options, the same files and the
+same text in its errors (docs/python.md). Frames are east, north, up; metres, seconds, degrees. The same
+input gives the same result for any number of threads.
+
+Long work can be interrupted with Ctrl-C, and takes `progress`, a callable that is given the share done,
+0 to 1, in the calling thread. What it raises ends the work. Nothing half-written is left behind.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy
+
+from . import _plotscan
+from ._plotscan import (
+    BadInput,
+    Box,
+    Cloud,
+    FarmSummary,
+    FieldEstimate,
+    FlightSetting,
+    FlightSummary,
+    GroundGrid,
+    Height,
+    HeightScore,
+    NothingMeasured,
+    Plot,
+    Scores,
+    TruePlot,
+    point_dtype,
+)
+
+__all__ = [
+    "BadInput", "Box", "Cloud", "FarmSummary", "FieldEstimate", "FlightSetting", "FlightSummary", "GroundGrid",
+    "Height", "HeightScore", "NothingMeasured", "Plot", "Scores", "TruePlot", "convert_cloud", "data_folder",
+    "estimate_field", "estimate_files", "flight_settings", "fly", "generate_farm", "plot_table", "point_dtype",
+    "read_cloud", "read_truth", "score_estimate", "write_cloud",
+]  # fmt: skip
+
+__version__ = _plotscan.version()
+
+Path = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[float], Any]]
+
+
+def data_folder() -> str:
+    """The folder of the data that Plotscan ships: worlds/, models/, benchmarks/suites/.
+
+    It is what the environment variable PLOTSCAN_DATA names, else what was installed with the module.
+    Raises BadInput where there is none.
+    """
+    return str(_plotscan.data_folder())
+
+
+def generate_farm(
+    description: Path,
+    folder: Path,
+    *,
+    set: Optional[Mapping[str, Any]] = None,
+    seed: Optional[int] = None,
+    threads: int = 0,
+    replace: bool = False,
+    progress: Progress = None,
+) -> FarmSummary:
+    """Make a farm from its description and write its folder, as `farmgen generate` does.
+
+    description: a YAML file (docs/farm-format.md), or the name of a shipped one, "paper_half".
+    set: values in place of the description's by dotted keys, {"terrain.relief_m": 0.5}.
+    seed: of all that is drawn; else the description's, else 1.
+    threads: 0 is one for each processor.
+    replace: a farm that is there.
+
+    Raises BadInput on a description that does not hold, a mesh that cannot be read, a folder that exists.
+    """
+    assignments = [f"{key}={_text(value)}" for key, value in (set or {}).items()]
+    return _plotscan.generate_farm(description, folder, assignments, seed, threads, replace, progress)
+
+
+def read_truth(farm: Path) -> List[TruePlot]:
+    """The plots of a farm folder as they are, or of a GeoJSON file with numbers height_<name>_m.
+
+    Raises BadInput where there is no plot.
+    """
+    return _plotscan.read_truth(farm)
+
+
+def flight_settings() -> List[FlightSetting]:
+    """Every setting that `fly` takes, with its help and its usual value."""
+    return _plotscan.flight_settings()
+
+
+def fly(
+    place: Path,
+    folder: Path,
+    *,
+    trajectory: Optional[Path] = None,
+    waypoints: Optional[Path] = None,
+    formats: Sequence[str] = (),
+    resource_paths: Sequence[Path] = (),
+    seed: int = 1,
+    threads: int = 0,
+    replace: bool = False,
+    progress: Progress = None,
+    **settings: Union[float, str, Sequence[float]],
+) -> FlightSummary:
+    """Fly the drone over a farm or an SDF world and write the scan folder, as `lidarsim fly` does.
+
+    place: a farm folder, or the file of an SDF world or model.
+    trajectory, waypoints: files to fly in place of planned strips (docs/flight.md).
+    formats: "ply", "las", "pcap", "bag", "mcap": written beside cloud.pcd.
+    resource_paths: folders of an SDF world's models.
+    settings: by the keys of `flight_settings()`: sensor="os1_64", altitude_m=12, wind_m_s=4.
+
+    Raises BadInput on settings out of their range, a place that cannot be read, a folder that exists.
+    """
+    options = _plotscan.FlightOptions()
+    options.settings = settings
+    options.trajectory = trajectory
+    options.waypoints = waypoints
+    options.formats = list(formats)
+    options.resource_paths = list(resource_paths)
+    options.seed = seed
+    options.threads = threads
+    options.replace = replace
+    return _plotscan.fly(place, folder, options, progress)
+
+
+def read_cloud(file: Path, *, progress: Progress = None) -> Cloud:
+    """Read a PCD, PLY, LAS or text cloud, a recording (bag, MCAP) or a scan folder (its cloud.pcd).
+
+    The cloud's `points` are an array (N,) of `point_dtype`, in the file's order, that shares the cloud's
+    memory: x, y, z in metres from `origin_m`, intensity 0 to 255, ring from 0, time in seconds,
+    return_number, return_count, label (0 unlabelled, 1 ground, 2 crop, 3 weed, 4 other), plot, plant.
+    `fields` are those that the file has. Points that are not finite are left out.
+
+    Raises BadInput on a missing, foreign, truncated or empty file.
+    """
+    return _plotscan.read_cloud(file, progress)
+
+
+def write_cloud(
+    file: Path,
+    points: Union[Cloud, numpy.ndarray],
+    *,
+    origin_m: Tuple[float, float, float] = (0.0, 0.0, 0.0),
+    encoding: str = "",
+    replace: bool = False,
+    progress: Progress = None,
+) -> None:
+    """Write points as PCD, PLY or LAS, by the file's extension; the file appears whole or not at all.
+
+    points: a cloud, which brings its own origin, or an array (N,) of `point_dtype`; it is not copied.
+    origin_m: what the points' x, y, z count from, metres.
+    encoding: one of the format's (docs/formats.md): "ascii", "binary", ...; "" is its first.
+
+    Raises BadInput on an extension or encoding that there is not, and on a file that exists.
+    """
+    crs_wkt = ""
+    if isinstance(points, Cloud):
+        origin_m, crs_wkt, points = points.origin_m, points.crs_wkt, points.points
+    _plotscan.write_cloud(file, points, origin_m, crs_wkt, encoding, replace, progress)
+
+
+def convert_cloud(
+    source: Path,
+    file: Path,
+    *,
+    encoding: str = "",
+    crs: str = "",
+    topic: str = "",
+    replace: bool = False,
+    progress: Progress = None,
+) -> int:
+    """Convert a scan folder, cloud, recording or trajectory to the format of the file's extension.
+
+    It is what `lidarsim convert` does; points stream.
+
+    encoding: one of the format's (docs/formats.md); "" is its first.
+    crs: of LAS, "local" or "utm".
+    topic: of the clouds in a bag or MCAP file, where there are several.
+
+    Returns how many points, or poses of a trajectory, were written.
+
+    Raises BadInput on broken input, and where the file needs what the source does not say.
+    """
+    return _plotscan.convert_cloud(source, file, encoding, crs, topic, replace, progress)
+
+
+def estimate_field(
+    points: Union[Cloud, numpy.ndarray],
+    *,
+    origin_m: Tuple[float, float, float] = (0.0, 0.0, 0.0),
+    crop_box: Optional[Tuple[float, float, float, float]] = None,
+    boxes: Sequence[Box] = (),
+    heading_deg: Optional[float] = None,
+    plot_width_m: Optional[float] = None,
+    plot_length_m: Optional[float] = None,
+    rows: Optional[int] = None,
+    columns: Optional[int] = None,
+    plots: Optional[int] = None,
+    crop: Optional[str] = None,
+    noise_m: Optional[float] = None,
+    calibrated: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FieldEstimate:
+    """Find the plots of a cloud held in memory and measure their heights, by the method `lattice`.
+
+    points: an array (N, 3) of float32 or float64, or more columns of which x, y, z are the first, metres,
+        z up; or a cloud, or its points. The array is read where it lies. Points that are not finite are
+        left out.
+    origin_m: what positions in float32 count from, metres; a cloud brings its own.
+    crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
+    boxes: given plots: heights only, none is searched.
+    heading_deg, plot_width_m, plot_length_m, rows, columns, plots: what is known of the plots.
+    crop: "soybean", "wheat" or "maize"; else told from the canopy.
+    noise_m: sigma of the points' heights; else estimated from bare ground.
+    calibrated: plants' heights from the canopy's (docs/plot-heights.md).
+
+    A field without plots has an estimate without plots; `nothing` says why. Raises BadInput on options out
+    of their range, on an array that would have to be copied, and when no point lies in the area;
+    NothingMeasured when the points show no ground.
+
+    Method: docs/methods.md, of this project.
+    """
+    known = dict(crop_box=crop_box, boxes=list(boxes), heading_deg=heading_deg, plot_width_m=plot_width_m,
+                 plot_length_m=plot_length_m, rows=rows, columns=columns, plots=plots, crop=crop,
+                 noise_m=noise_m, calibrated=calibrated, threads=threads)  # fmt: skip
+    return _plotscan.estimate_field(points, _field_options(known), origin_m, progress)
+
+
+def estimate_files(
+    clouds: Union[Path, Sequence[Path]],
+    folder: Path,
+    *,
+    method: str = "lattice",
+    boxes: Optional[Path] = None,
+    id: Optional[str] = None,
+    units: Optional[str] = None,
+    leave_out_classes: Sequence[int] = (),
+    csv: Optional[Path] = None,
+    seed: int = 1,
+    replace: bool = False,
+    progress: Progress = None,
+    **field: Any,
+) -> FieldEstimate:
+    """Read clouds as one and write the estimate folder, as `estimator run` does.
+
+    clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles; one or several.
+    method: "lattice", or "dhami2020", which needs `plots`.
+    boxes: a map of the plots (GeoJSON): heights in its boxes, its ids and attributes kept.
+    id: property of the map that holds the plots' ids.
+    units: of the coordinates, "m", "ft" or "us-ft"; else what the file states.
+    leave_out_classes: ASPRS classes of points to leave out.
+    csv: a table for breeding databases to write as well.
+    field: crop_box, heading_deg, plot_width_m, plot_length_m, rows, columns, plots, crop, noise_m,
+        calibrated, threads, as `estimate_field` takes them.
+
+    Raises BadInput on bad input; nothing is left behind then.
+    """
+    options = _plotscan.EstimateFilesOptions()
+    options.field = _field_options(field)
+    options.method = method
+    options.boxes = boxes
+    options.id = id
+    options.units = units
+    options.leave_out_classes = list(leave_out_classes)
+    options.csv = csv
+    options.seed = seed
+    options.replace = replace
+    several = [clouds] if isinstance(clouds, (str, os.PathLike)) else list(clouds)
+    return _plotscan.estimate_files(several, folder, options, progress)
+
+
+def score_estimate(estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou: float = 0.5) -> Scores:
+    """Compare an estimate with the truth, as `estimator score` does.
+
+    estimate: what `estimate_field` or `estimate_files` returned, an estimate folder, or a GeoJSON file.
+    truth: a farm folder, or a GeoJSON file of plots with heights.
+    min_iou: least intersection over union for a plot to count as found, over 0 and at most 1.
+
+    Errors are estimate minus truth, metres; what cannot be computed is NaN. Raises BadInput on bad input.
+    """
+    return _plotscan.score_estimate(estimate, truth, min_iou)
+
+
+def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:
+    """The plots as columns, arrays (plots,), from which pandas and polars make a table.
+
+    id, row, column, center_x_m, center_y_m, width_m, length_m, heading_deg, points, and for each height by
+    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known.
+    """
+    box_columns = ("center_x_m", "center_y_m", "width_m", "length_m", "heading_deg")
+    table = {name: numpy.array([getattr(plot, name) for plot in plots]) for name in ("id", "row", "column")}
+    for name in box_columns:
+        table[name] = numpy.array([getattr(plot.box, name) for plot in plots])
+    table["points"] = numpy.array([plot.points for plot in plots])
+    for height in sorted({name for plot in plots for name in plot.heights}):
+        found = [plot.heights.get(height) for plot in plots]
+        for value in ("value_m", "standard_error_m", "low95_m", "high95_m"):
+            name = f"{height}_m" if value == "value_m" else f"{height}_{value}"
+            table[name] = numpy.array([getattr(one, value) if one else numpy.nan for one in found])
+    return table
+
+
+def _text(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _field_options(known: Mapping[str, Any]) -> _plotscan.EstimateOptions:
+    options = _plotscan.EstimateOptions()
+    for name, value in known.items():
+        if not hasattr(options, name):
+            raise TypeError(f"estimate takes no {name!r}")
+        setattr(options, name, value)
+    return options

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import resource
+import unittest
+
+import numpy
+import plotscan
+from example_scan import ExampleScan
+
+
+class Estimate(ExampleScan):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.cloud = plotscan.read_cloud(cls.scan)
+        cls.field = plotscan.estimate_field(cls.cloud)
+
+    def test_every_plot_is_found(self):
+        scores = plotscan.score_estimate(self.field, self.farm)
+        self.assertEqual((scores.plots, scores.found, scores.extra), (9, 9, 0))
+        rmse = {(s.height, s.truth): s.rmse_m for s in scores.heights}
+        self.assertLess(rmse["max", "height_max_m"], 0.06)
+
+    def test_memory_gives_what_files_give(self):
+        files = plotscan.estimate_files(self.scan, self.folder / "files")
+        self.assertEqual(files.geojson, self.field.geojson)
+        written = json.loads((self.folder / "files" / "plots.geojson").read_text())
+        self.assertEqual(written, self.field.geojson)
+
+    def test_arrays_of_any_layout_give_the_same(self):
+        records = self.cloud.points
+        columns = numpy.column_stack([records[axis] for axis in "xyz"])
+        self.assertEqual(columns.dtype, numpy.float32)
+        wide = numpy.zeros((len(records), 7))
+        wide[:, :3] = columns
+        for points in (records, columns, columns.astype(float), wide, wide[::1, :3]):
+            self.assertEqual(plotscan.estimate_field(points, threads=1).geojson, self.field.geojson)
+
+    def test_origin_moves_float32(self):
+        moved = plotscan.estimate_field(self.cloud.points, origin_m=(1000, 2000, 0))
+        before, after = self.field.plots[4].box, moved.plots[4].box
+        self.assertAlmostEqual(after.center_x_m - before.center_x_m, 1000, 3)
+        self.assertAlmostEqual(after.center_y_m - before.center_y_m, 2000, 3)
+
+    def test_given_boxes_are_kept(self):
+        truth = plotscan.read_truth(self.farm)
+        given = plotscan.estimate_field(self.cloud, boxes=[plot.box for plot in truth])
+        self.assertEqual(
+            [(p.box.center_x_m, p.box.width_m) for p in given.plots],
+            [(p.box.center_x_m, p.box.width_m) for p in truth],
+        )
+
+    def test_table_has_a_row_a_plot(self):
+        table = plotscan.plot_table(self.field.plots)
+        self.assertEqual({len(column) for column in table.values()}, {9})
+        self.assertEqual(table["max_m"][3], self.field.plots[3].heights["max"].value_m)
+        self.assertTrue((table["max_low95_m"] < table["max_high95_m"]).all())
+        self.assertEqual(sorted(set(table["row"])), [1, 2, 3])
+
+    def test_ground_is_a_grid(self):
+        ground = self.field.ground
+        self.assertEqual(ground.z_m.ndim, 2)
+        self.assertEqual(ground.z_m.shape, ground.sd_m.shape)
+        view = ground.z_m[20:-20, 20:-20]  # beside the farm there is no ground
+        self.assertLess(numpy.abs(view).max(), 0.1)  # the farm is flat
+        del ground
+        self.assertLess(numpy.abs(view).max(), 0.1)  # the view outlives what it came from
+
+    def test_nothing_is_said(self):
+        x, y = numpy.meshgrid(numpy.arange(0, 30, 0.1), numpy.arange(0, 30, 0.1))
+        bare = plotscan.estimate_field(numpy.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]))
+        self.assertEqual(bare.plots, [])
+        self.assertNotEqual(bare.nothing, "")
+
+    def test_bad_arrays_are_refused(self):
+        columns = numpy.zeros((100, 3))
+        for points in (columns[:, :2], columns.T[:2], numpy.asfortranarray(columns), columns.astype(int),
+                       columns[0], columns[::-1], numpy.zeros(5, [("x", "f8"), ("y", "f8")])):  # fmt: skip
+            with self.assertRaisesRegex(plotscan.BadInput, r"points are an array of shape \(N, 3\)"):
+                plotscan.estimate_field(points)
+        with self.assertRaisesRegex(plotscan.BadInput, "no point that is finite"):
+            plotscan.estimate_field(numpy.full((5, 3), numpy.nan))
+        with self.assertRaises(plotscan.BadInput):
+            plotscan.estimate_field(numpy.zeros((0, 3)))
+
+    def test_bad_options_are_refused(self):
+        with self.assertRaisesRegex(ValueError, 'no crop "rice"; there is maize'):
+            plotscan.estimate_field(self.cloud, crop="rice")
+        with self.assertRaisesRegex(TypeError, "widht"):
+            plotscan.estimate_files(self.scan, self.folder / "x", widht=3)
+        with self.assertRaisesRegex(plotscan.BadInput, "none.pcd"):
+            plotscan.estimate_files("none.pcd", self.folder / "x")
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_points_are_not_copied(self):
+        most = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024  # noqa: E731
+        # Twenty million points, all in one square metre: the estimator keeps few of them.
+        points = numpy.random.default_rng(1).random((20_000_000, 3), dtype=numpy.float32)
+        before = most()
+        try:
+            plotscan.estimate_field(points, crop_box=(0, 0, 0.01, 0.01))
+        except plotscan.BadInput:
+            pass
+        # The buffer of new points (tile_store.h) takes 340 MB; a copy would take another 240.
+        self.assertLess(most() - before, 450e6)
+
+
+if __name__ == "__main__":
+    unittest.main()
