@@ -192,13 +192,6 @@ bool is_in_columns(const Layout& layout) {
   return true;
 }
 
-// Columns through all rows say the same as rows of their own that stand in columns, with less.
-void leave_out_repeated_columns(std::vector<Layout>& layouts) {
-  if (std::ranges::none_of(layouts, &Layout::aligned)) return;
-  std::erase_if(layouts,
-                [](const Layout& layout) { return !layout.aligned && is_in_columns(layout); });
-}
-
 }  // namespace
 
 Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
@@ -206,7 +199,7 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
   std::vector<Layout> layouts = layouts_in(view, hints);
   leave_best_aligned(view, layouts);
-  leave_out_repeated_columns(layouts);
+  for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   const double without = criterion({.view = view});
   Layout best{.view = view};
   for (Layout& layout : layouts) {

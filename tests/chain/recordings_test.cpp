@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flight's recordings, into the estimator as they are.
-#include <map>
 #include <string>
+#include <vector>
 
 #include "programs.h"
 #include "temporary_folder.h"
@@ -37,18 +37,23 @@ class Recordings : public ::testing::Test {
 };
 
 // The same plots and heights, within what the formats round: transforms and floats to micrometres;
-// packets to 0.01 degrees (2 mm at 8 m) and 2 mm of range.
+// packets to 0.01 degrees (2 mm at 8 m) and 2 mm of range. A box that moves by a centimetre takes
+// other leaves in, and the mean height with them.
 TEST_F(Recordings, GiveThePlotsOfTheScan) {
   succeed("farmgen generate " + kFarm + " -o farm --seed 101");
   succeed("lidarsim fly farm -o scan --format pcap,bag,mcap");
   succeed("estimator run scan -o scanned");
   const json truth = plots_of("scanned");
   ASSERT_EQ(truth.size(), 9u);
-  const std::map<std::string, std::string> files = {
-      {"scan/flight.bag", ""},
-      {"scan/flight.mcap", ""},
-      {"scan/flight.pcap", " --trajectory scan/poses.csv"}};
-  for (const auto& [file, options] : files) {
+  struct Recording {
+    std::string file, options;
+    double most_m;  // what plots and heights may differ by
+  };
+  const std::vector<Recording> recordings = {
+      {"scan/flight.bag", "", 0.002},
+      {"scan/flight.mcap", "", 0.002},
+      {"scan/flight.pcap", " --trajectory scan/poses.csv", 0.02}};
+  for (const auto& [file, options, most_m] : recordings) {
     const std::string output = "of_" + file.substr(file.find('.') + 1);
     succeed("estimator run " + file + options + " -o " + output);
     const json plots = plots_of(output);
@@ -56,12 +61,12 @@ TEST_F(Recordings, GiveThePlotsOfTheScan) {
     for (std::size_t i = 0; i < plots.size(); ++i) {
       for (const char* side : {"center_x_m", "center_y_m", "width_m", "length_m"}) {
         EXPECT_NEAR(plots[i]["properties"][side].get<double>(),
-                    truth[i]["properties"][side].get<double>(), 0.02)
+                    truth[i]["properties"][side].get<double>(), most_m)
             << file << ' ' << i << ' ' << side;
       }
       for (const char* height : {"height_max_m", "height_mean_m", "canopy_p95_m"}) {
         EXPECT_NEAR(plots[i]["properties"][height].get<double>(),
-                    truth[i]["properties"][height].get<double>(), 0.004)
+                    truth[i]["properties"][height].get<double>(), most_m)
             << file << ' ' << i << ' ' << height;
       }
     }
