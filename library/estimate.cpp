@@ -69,7 +69,9 @@ estimate::FieldCloud field_of(const PointsView& points, const estimate::LatticeO
 }
 
 estimate::RunOptions inner(const EstimateFilesOptions& options) {
-  estimate::RunOptions run{.method = options.method, .boxes = options.boxes};
+  estimate::RunOptions run;
+  run.method = options.method;
+  run.boxes = options.boxes;
   if (const auto unit_m = unit_named(options.units.value_or("")))
     run.cloud.units = {*unit_m, *unit_m};
   if (options.units && !run.cloud.units)

@@ -22,7 +22,7 @@ struct Source {
   // Of the body, in the world frame and the points' time, where the file itself tells of it.
   std::optional<scan::Trajectory> trajectory = {};
   // Streams the points in the order of firing; may be called once.
-  std::function<void(const scan::PointSink&)> stream;
+  std::function<void(const scan::PointSink&)> stream = {};
 };
 
 // How a file is read.
