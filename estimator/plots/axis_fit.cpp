@@ -17,7 +17,8 @@ namespace {
 constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot, or of a drill row's leaves
 constexpr double kMostSpacing_m = 1.05;                 // of drill rows
 constexpr double kLeastGap_m = 0.15;                    // between plots
-constexpr double kMostIrregular = 0.34;                 // of the steps from plot to plot
+constexpr double kMostIrregular = 0.34;                 // of the steps from plot to plot,
+constexpr double kAlleys = 1;                           // but one at least
 constexpr double kSizeStep = 1.05;                      // from one size that is tried to the next
 constexpr std::size_t kRefined = 4;    // best shapes of which others like them are tried
 constexpr std::size_t kRowsTried = 3;  // in each of which all shapes are tried
@@ -94,14 +95,15 @@ std::vector<BandShape> shapes_like(const BandShape& shape) {
   return shapes;
 }
 
-// Whether most steps are one pitch: bands that a canopy's texture suggests lie anywhere.
+// Whether most steps are one pitch, but for an alley: bands that a canopy's texture suggests lie
+// anywhere.
 bool is_regular(const Line& line, const AxisFit& fit) {
   double irregular = 0, steps = 0;
   for (const std::vector<int>& begins : fit.begins) {
     irregular += irregular_steps(begins, fit.shape, line.cell_m);
     steps += static_cast<double>(begins.size()) - 1;
   }
-  return irregular <= kMostIrregular * steps;
+  return irregular <= std::max(kAlleys, kMostIrregular * steps);
 }
 
 // As many bands as the user said that plots follow each other; rows with offsets of their own may

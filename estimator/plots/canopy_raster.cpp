@@ -19,7 +19,7 @@ constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the tab
 constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
 constexpr int kCoverBits = 32;  // above which a cell's sum of covers lies, below its count
 constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
-constexpr double kMostCells = 1e8;        // 10 m of oblique rows or an outlier must not eat memory
+constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());

@@ -7,7 +7,7 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeafClump_m = 0.3;  // cells so near see the same leaves
+constexpr double kLeafClump_m = 0.3;  // cells of a square of that side see the same leaves
 constexpr double kMostGap_m = 1.5;    // that leaves may close
 constexpr double kPiece_m = 1;        // in which a canopy is even
 
@@ -38,7 +38,15 @@ Sums sums_over(const RowView& view, const Band& r, const Band& c) {
   return sums;
 }
 
-double square(double value) { return value * value; }
+// Squares of leaves that anything is seen of.
+double seen_clumps(const RowView& view) {
+  const int side = std::max(1, static_cast<int>(std::lround(kLeafClump_m / view.cell_m())));
+  double seen = 0;
+  for (int r = 0; r < view.r_cells(); r += side)
+    for (int c = 0; c < view.c_cells(); c += side)
+      seen += view.seen_cells(r, r + side, c, c + side) > 0 ? 1 : 0;
+  return seen;
+}
 
 // Equal parts of a band, about as long as a piece.
 std::vector<Band> pieces_of(const Band& band, double cell_m) {
@@ -98,9 +106,7 @@ double variation_left(const Layout& layout) {
 }  // namespace
 
 double criterion(const Layout& layout) {
-  const RowView& view = layout.view;
-  const double seen = view.seen_cells(0, view.r_cells(), 0, view.c_cells());
-  const double independent = seen * square(view.cell_m() / kLeafClump_m);
+  const double independent = seen_clumps(layout.view);
   return independent * std::log(std::max(1e-12, variation_left(layout))) +
          std::log(std::max(2.0, independent)) * number_of_lines(layout);
 }

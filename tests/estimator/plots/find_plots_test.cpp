@@ -196,6 +196,17 @@ TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
   }
 }
 
+// 60 returns a square metre: most cells of the raster are empty.
+TEST(FindPlots, FindsPlotsInFewReturns) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  const std::vector<Eigen::Vector3f> all = points_over(boxes);
+  std::vector<Eigen::Vector3f> few;
+  for (std::size_t i = 0; i < all.size(); i += 12) few.push_back(all[i]);
+  const PlotField field = find_plots(few, 0.02, {}, 2);
+  EXPECT_EQ(field.nothing, "");
+  EXPECT_EQ(field.plots.size(), boxes.size());
+}
+
 // A task of the raster gets none but points that are left out.
 TEST(FindPlots, FindsPlotsBesideALargeRoof) {
   std::vector<Eigen::Vector3f> points;
