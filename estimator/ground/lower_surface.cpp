@@ -218,6 +218,9 @@ double bare_noise_m(const Columns& columns) {
   // with less noise in height.
   const double enough = std::max(16.0, 0.5 * usual_count(columns));
   constexpr double kPercentile = 0.2;
+  // Of a large sparse field only chance fills some, with canopy as soon as with ground.
+  constexpr std::size_t kLeastColumns = 30;
+  constexpr double kUsual_m = 0.03;
   std::vector<double> spreads;
   for (std::size_t i = 0; i < columns.grid.nodes(); i += 3) {
     const std::span<const Return> returns = columns.at(i);
@@ -225,7 +228,7 @@ double bare_noise_m(const Columns& columns) {
     const double spread = spread_of(returns);
     if (spread >= 0) spreads.push_back(spread);
   }
-  if (spreads.empty()) return 0.03;
+  if (spreads.size() < kLeastColumns) return kUsual_m;
   const auto at = spreads.begin() + static_cast<long>(kPercentile * spreads.size());
   std::nth_element(spreads.begin(), at, spreads.end());
   return std::max(kLeastNoise_m, *at);

@@ -34,6 +34,21 @@ TEST(FitSurface, FindsAPlaneAndItsNoise) {
   }
 }
 
+// Of columns that hold 4 returns each, the few that hold 20 more tell of the canopy in them.
+TEST(FitSurface, TakesNoNoiseFromAFewFullColumns) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 40000; ++i) {
+    RandomStream random(3, random_purpose("test/sparse"), i);
+    const auto x = static_cast<float>(i % 200) / 10, y = static_cast<float>(i / 200) / 10;
+    points.emplace_back(x, y, static_cast<float>(0.02 * random.normal()));
+    if (i >= 180) continue;
+    points.emplace_back(static_cast<float>(random.uniform(10, 11.2)),
+                        static_cast<float>(random.uniform(9.9, 10.1)),
+                        static_cast<float>(random.uniform(0.3, 0.9)));
+  }
+  EXPECT_LT(fit_surface(points, SurfaceOptions()).noise_m, 0.05);
+}
+
 TEST(FitSurface, TakesBareGroundWithoutNoise) {
   const Surface surface =
       fit_surface(returns_of({.terrain = kWaves, .noise_m = 0}), SurfaceOptions());
