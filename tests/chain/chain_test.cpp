@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The programs as a user runs them: farm, flight, scan, estimate, score.
 #include "programs.h"
+#include "small_farm.h"
 #include "temporary_folder.h"
 #include <nlohmann/json.hpp>
 
@@ -13,30 +14,17 @@ namespace {
 
 using testing::Finished;
 using testing::run;
-using testing::TemporaryFolder;
 
-const std::string kFarm =
-    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
-    " --set terrain.side_m=30 --set plots.rows.0.plots=3 --set plots.rows.1.plots=3" +
-    " --set plots.rows.2.plots=3 --set plants.count=40";
-
-class Chain : public ::testing::Test {
+class Chain : public testing::CommandsInAFolder {
  protected:
-  Finished succeed(const std::string& command) {
-    Finished finished = run(command, folder_.path().string());
-    EXPECT_EQ(finished.exit_code, 0) << command << '\n' << finished.output << finished.errors;
-    return finished;
-  }
   bool exists(const std::string& name) const {
     return std::filesystem::exists(folder_.path() / name);
   }
   std::string hash(const std::string& name) const { return file_hash(folder_.path() / name); }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Chain, RunsFromDescriptionToScores) {
-  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm --seed 101");
   succeed("lidarsim fly farm -o scan");
   succeed(
       "estimator run scan/cloud.pcd -o estimate --method dhami2020 --plots 9 --crop-box=-5,-9,5,9");
@@ -59,7 +47,7 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
 // RANSAC, which stops at the first good one: another point within the tolerance tilts them, and a
 // height changes by millimetres.
 TEST_F(Chain, EstimatesFromLasAsFromPcd) {
-  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm --seed 101");
   succeed("lidarsim fly farm -o scan --format las");
   const std::string options = " --method dhami2020 --plots 9 --crop-box=-5,-9,5,9";
   succeed("estimator run scan/cloud.pcd -o from_pcd" + options);
@@ -91,7 +79,7 @@ TEST_F(Chain, EstimatesFromLasAsFromPcd) {
 // The farm's own map in degrees, made through the Earth's centre, over the cloud in UTM: the same
 // heights as in local metres, under the same numbers, and every attribute of the map.
 TEST_F(Chain, MeasuresInAMapOfLongitudeAndLatitude) {
-  succeed("farmgen generate " + kFarm +
+  succeed("farmgen generate " + testing::kSmallFarm +
           " -o farm --seed 101 --set anchor.latitude_deg=37.2 --set anchor.longitude_deg=-80.5" +
           " --set plots.first_number=301");
   succeed("lidarsim fly farm -o scan");
@@ -121,7 +109,7 @@ TEST_F(Chain, MeasuresInAMapOfLongitudeAndLatitude) {
 
 // The farm is numbered as its description says, the plots that are found as the same words say.
 TEST_F(Chain, NumbersPlotsAsTheFieldBookDoes) {
-  succeed("farmgen generate " + kFarm +
+  succeed("farmgen generate " + testing::kSmallFarm +
           " -o farm --seed 101 --set plots.numbering=serpentine --set plots.first_number=101");
   succeed("lidarsim fly farm -o scan");
   succeed("estimator run scan -o estimate --first-number 101 --numbering serpentine");
@@ -158,7 +146,7 @@ TEST_F(Chain, SaysThatThereIsNothingToMeasure) {
 
 TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string threads : {"1", "7"}) {
-    succeed("farmgen generate " + kFarm + " -o farm" + threads + " -j " + threads);
+    succeed("farmgen generate " + testing::kSmallFarm + " -o farm" + threads + " -j " + threads);
     succeed("lidarsim fly farm" + threads + " -o scan" + threads + " -j " + threads + " --speed 4");
     succeed("estimator run scan" + threads + "/cloud.pcd -o estimate" + threads +
             " --method dhami2020 --plots 9 --crop-box=-5,-9,5,9 -j " + threads);
@@ -177,13 +165,13 @@ TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(Chain, AnotherSeedIsAnotherFarm) {
-  succeed("farmgen generate " + kFarm + " -o a --seed 1");
-  succeed("farmgen generate " + kFarm + " -o b --seed 2");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o a --seed 1");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o b --seed 2");
   EXPECT_NE(hash("a/truth/plants.csv"), hash("b/truth/plants.csv"));
 }
 
 TEST_F(Chain, LeavesNothingWhenInterrupted) {
-  succeed("farmgen generate " + kFarm + " -o farm");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm");
   const Finished interrupted =
       run("timeout -s INT 0.5 lidarsim fly farm -o scan --speed 0.05", folder_.path().string());
   EXPECT_NE(interrupted.exit_code, 0);
@@ -192,7 +180,7 @@ TEST_F(Chain, LeavesNothingWhenInterrupted) {
 }
 
 TEST_F(Chain, NeverReplacesWhatItReads) {
-  succeed("farmgen generate " + kFarm + " -o farm");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm");
   succeed("lidarsim fly farm -o scan --speed 4");
   for (const std::string command :
        {"lidarsim fly farm -o farm --force", "lidarsim fly farm -o farm/scan",
@@ -205,7 +193,7 @@ TEST_F(Chain, NeverReplacesWhatItReads) {
 }
 
 TEST_F(Chain, NeverReplacesWhatItDidNotWrite) {
-  const std::string generate = "farmgen generate " + kFarm + " -o farm";
+  const std::string generate = "farmgen generate " + testing::kSmallFarm + " -o farm";
   succeed(generate);
   const std::filesystem::path notes = folder_.write("farm/notes.txt", "precious");
   const Finished refused = run(generate + " --force", folder_.path().string());

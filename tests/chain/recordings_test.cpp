@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "programs.h"
+#include "small_farm.h"
 #include "temporary_folder.h"
 #include <nlohmann/json.hpp>
 
@@ -13,34 +14,20 @@ namespace plotscan {
 namespace {
 
 using nlohmann::json;
-using testing::Finished;
 using testing::run;
-using testing::TemporaryFolder;
 
-const std::string kFarm =
-    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
-    " --set terrain.side_m=30 --set plots.rows.0.plots=3 --set plots.rows.1.plots=3" +
-    " --set plots.rows.2.plots=3 --set plants.count=40";
-
-class Recordings : public ::testing::Test {
+class Recordings : public testing::CommandsInAFolder {
  protected:
-  Finished succeed(const std::string& command) {
-    Finished finished = run(command, folder_.path().string());
-    EXPECT_EQ(finished.exit_code, 0) << command << '\n' << finished.output << finished.errors;
-    return finished;
-  }
   json plots_of(const std::string& estimate) const {
     return json::parse(read_text(folder_.path() / estimate / "plots.geojson"))["features"];
   }
-
-  TemporaryFolder folder_;
 };
 
 // The same plots and heights, within what the formats round: transforms and floats to micrometres;
 // packets to 0.01 degrees (2 mm at 8 m) and 2 mm of range. A box that moves by a centimetre takes
 // other leaves in, and the mean height with them.
 TEST_F(Recordings, GiveThePlotsOfTheScan) {
-  succeed("farmgen generate " + kFarm + " -o farm --seed 101");
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm --seed 101");
   succeed("lidarsim fly farm -o scan --format pcap,bag,mcap");
   succeed("estimator run scan -o scanned");
   const json truth = plots_of("scanned");
