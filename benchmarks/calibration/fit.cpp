@@ -13,7 +13,7 @@
 #include "core/statistics.h"
 #include "heights/crop_model.h"
 #include "heights/features.h"
-#include "heights/plot_ground.h"
+#include "heights/known_returns.h"
 #include "heights/ratio_model.h"
 
 namespace plotscan::calibration {
@@ -50,7 +50,7 @@ Differences differences(const MeasuredField& field, const heights::CalibrationFa
 // counts the less the more is left of it: a lodged plot or a crease of the ground would outweigh
 // all that even fields tell of their plots.
 void fit_within(std::span<const MeasuredField> fields, heights::Calibration& calibration) {
-  constexpr double kRidge = 0.1;          // features scaled to 1
+  constexpr double kRidge = 0.003;        // features scaled to 1
   constexpr double kLeastSpread = 0.005;  // of the ratio, what even the best farm leaves
   constexpr int kRounds = 4;
   std::vector<Differences> farms;
@@ -263,7 +263,6 @@ std::vector<LeftOut> table_of(const heights::Calibration& calibration,
 }  // namespace
 
 MeasuredField measure(const FieldSample& sample, Returns returns) {
-  constexpr double kMarginSigmas = 5;
   constexpr double kLeastTop_m = 0.05;
   MeasuredField field{.library = sample.library, .plots = {}};
   const bool perfect = returns == Returns::perfect;
@@ -274,11 +273,10 @@ MeasuredField measure(const FieldSample& sample, Returns returns) {
     const std::vector<Eigen::Vector3f> points =
         perfect ? plot.perfect : thinned(plot, share, sample.seed, i);
     if (points.empty()) continue;
-    const heights::PlotGround ground = heights::ground_under(plot.box, sample.surface);
-    const heights::HeightProfile profile = heights::without_noise(
-        heights::height_profile(plot.box, points, kMarginSigmas * noise_m), noise_m);
+    const heights::KnownReturns known = heights::known_returns(plot.box, points, sample.surface);
     heights::CanopyFeatures features =
-        heights::canopy_features(plot.box, points, profile, noise_m, ground.slope);
+        heights::see_canopy(plot.box, perfect ? points : known.points, noise_m, known.ground.slope)
+            .features;
     if (features.top_m < kLeastTop_m) continue;
     field.plots.push_back(
         {.top_m = features.top_m, .features = std::move(features.values), .truth = plot.truth});

@@ -16,10 +16,10 @@ namespace plotscan::estimate {
 
 // Points a square metre at which plots were found, and at which they were not any more
 // (docs/real-clouds.md).
-inline constexpr double kPlotsFound_m2 = 85;
-inline constexpr double kPlotsLost_m2 = 42;
+inline constexpr double kPlotsFound_m2 = 65;
+inline constexpr double kPlotsLost_m2 = 20;
 // Plots are not searched below, even ones much larger than those.
-inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 4;
+inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 2;
 
 // Counts points by tile. Memory follows the area over which they lie.
 class TileCounter {

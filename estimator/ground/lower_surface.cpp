@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "ground/solver.h"
 
@@ -15,44 +14,6 @@ namespace plotscan::ground {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
-
-// Sigma about the least-squares plane by which its 20th percentile over columns is unbiased;
-// negative where that is not defined.
-double spread_of(std::span<const Return> returns) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0;
-  const double z0 = returns.front().z_m;
-  for (const Return& r : returns) {
-    const Eigen::Vector3d row(1, r.east(), r.north());
-    const double z = r.z_m - z0;
-    normal += row * row.transpose();
-    right += row * z;
-    squares += z * z;
-  }
-  const Eigen::LDLT<Eigen::Matrix3d> factors(normal);
-  if (factors.vectorD().minCoeff() < 1e-3) return -1;
-  const double rest = squares - right.dot(factors.solve(right));
-  const double freedom = static_cast<double>(returns.size()) - 3;
-  // Where a fifth of the columns with this sigma are expected (normal approximation).
-  const double low = 1 - 0.84 / std::sqrt(2 * freedom);
-  return std::sqrt(std::max(0.0, rest / freedom)) / low;
-}
-
-// Returns in the column where the middle one of all returns lies.
-double usual_count(const Columns& columns) {
-  std::vector<std::uint32_t> counts;
-  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
-    counts.push_back(columns.first[i + 1] - columns.first[i]);
-  }
-  std::sort(counts.begin(), counts.end());
-  double below = 0;
-  for (const std::uint32_t count : counts) {
-    below += count;
-    if (2 * below >= static_cast<double>(columns.returns.size())) return count;
-  }
-  return 0;
-}
 
 struct OneLayer {
   float z_m = kNone;
@@ -212,27 +173,6 @@ Field finite(const Field& z) {
 }
 
 }  // namespace
-
-double bare_noise_m(const Columns& columns) {
-  // Columns as dense as where most returns lie: far away the beams come in flat, and see the ground
-  // with less noise in height.
-  const double enough = std::max(16.0, 0.5 * usual_count(columns));
-  constexpr double kPercentile = 0.2;
-  // Of a large sparse field only chance fills some, with canopy as soon as with ground.
-  constexpr std::size_t kLeastColumns = 30;
-  constexpr double kUsual_m = 0.03;
-  std::vector<double> spreads;
-  for (std::size_t i = 0; i < columns.grid.nodes(); i += 3) {
-    const std::span<const Return> returns = columns.at(i);
-    if (static_cast<double>(returns.size()) < enough) continue;
-    const double spread = spread_of(returns);
-    if (spread >= 0) spreads.push_back(spread);
-  }
-  if (spreads.size() < kLeastColumns) return kUsual_m;
-  const auto at = spreads.begin() + static_cast<long>(kPercentile * spreads.size());
-  std::nth_element(spreads.begin(), at, spreads.end());
-  return std::max(kLeastNoise_m, *at);
-}
 
 Field slope_limited(const Grid& grid, const Field& z, double slope) {
   const auto straight = static_cast<float>(slope * grid.cell_m);

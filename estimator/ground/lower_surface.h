@@ -6,13 +6,6 @@
 
 namespace plotscan::ground {
 
-// What a lidar's steps of range leave of noise, and the ground's own grain.
-inline constexpr double kLeastNoise_m = 0.003;
-
-// Sigma of the heights about bare ground: a low percentile, over the columns, of the standard
-// deviation about a column's own plane. No less than kLeastNoise_m.
-double bare_noise_m(const Columns& columns);
-
 // The highest surface under z that is nowhere steeper than `slope`; infinite z bound nothing. Two
 // sweeps of a chamfer distance (Borgefors, 1986).
 Field slope_limited(const Grid& grid, const Field& z, double slope);

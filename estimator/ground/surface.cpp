@@ -9,6 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "ground/bare_noise.h"
 #include "ground/columns.h"
 #include "ground/lower_surface.h"
 #include "ground/misfit.h"

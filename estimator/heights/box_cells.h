@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,18 +23,28 @@ class BoxCells {
         length_axis_(box.length_axis()),
         width_axis_(box.width_axis()) {}
 
-  int along() const { return along_; }
-  int across() const { return across_; }
   std::size_t count() const {
     return static_cast<std::size_t>(along_) * static_cast<std::size_t>(across_);
   }
-  // Of the cell along * across() + across that holds the point, or is nearest to it.
+  // Of the cell, counted along rows across the plot, that holds the point, or is nearest to it.
   std::size_t index(const Eigen::Vector3f& point) const {
     const Eigen::Vector2d from_center = point.head<2>().cast<double>() - box_.center;
     const int i = place(from_center.dot(length_axis_) / box_.length_m, along_);
     const int j = place(from_center.dot(width_axis_) / box_.width_m, across_);
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(across_) +
            static_cast<std::size_t>(j);
+  }
+
+  // That cell and those that touch it, of one index each.
+  std::vector<std::size_t> around(std::size_t index) const {
+    const int i = static_cast<int>(index) / across_;
+    const int j = static_cast<int>(index) % across_;
+    std::vector<std::size_t> near;
+    for (int a = std::max(0, i - 1); a <= std::min(along_ - 1, i + 1); ++a)
+      for (int b = std::max(0, j - 1); b <= std::min(across_ - 1, j + 1); ++b)
+        near.push_back(static_cast<std::size_t>(a) * static_cast<std::size_t>(across_) +
+                       static_cast<std::size_t>(b));
+    return near;
   }
 
  private:

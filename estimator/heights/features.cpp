@@ -76,17 +76,10 @@ CellHeights cell_heights(const BoxCells& cells, std::span<const Eigen::Vector3f>
   return heights;
 }
 
-bool is_peak(const BoxCells& cells, const std::vector<double>& tops, int i, int j) {
-  const auto at = [&](int a, int b) {
-    return tops[static_cast<std::size_t>(a) * static_cast<std::size_t>(cells.across()) +
-                static_cast<std::size_t>(b)];
-  };
-  for (int a = std::max(0, i - 1); a <= std::min(cells.along() - 1, i + 1); ++a) {
-    for (int b = std::max(0, j - 1); b <= std::min(cells.across() - 1, j + 1); ++b) {
-      if ((a != i || b != j) && at(a, b) >= at(i, j)) return false;
-    }
-  }
-  return !std::isnan(at(i, j));
+bool is_peak(const BoxCells& cells, const std::vector<double>& tops, std::size_t cell) {
+  return !std::isnan(tops[cell]) && std::ranges::none_of(cells.around(cell), [&](std::size_t near) {
+    return near != cell && tops[near] >= tops[cell];
+  });
 }
 
 std::pair<double, double> mean_and_sd(std::span<const double> values) {
@@ -99,23 +92,18 @@ std::pair<double, double> mean_and_sd(std::span<const double> values) {
   return {mean, std::sqrt(squares / static_cast<double>(values.size()))};
 }
 
-Tops tops_of(const PlotBox& box, std::span<const Eigen::Vector3f> descending, double cell_m,
-             double top_m) {
-  const BoxCells cells(box, cell_m);
+Tops tops_of(const BoxCells& cells, std::span<const Eigen::Vector3f> descending, double top_m,
+             double area_m2) {
   const CellHeights heights = cell_heights(cells, descending, kDrawn);
   std::vector<double> canopy;
   std::vector<double> depths;
   std::vector<double> peaks;
-  for (int i = 0; i < cells.along(); ++i) {
-    for (int j = 0; j < cells.across(); ++j) {
-      const std::size_t k = static_cast<std::size_t>(i) * static_cast<std::size_t>(cells.across()) +
-                            static_cast<std::size_t>(j);
-      const double top = heights.top[k] / top_m;
-      if (!(top > kCanopyShare)) continue;
-      canopy.push_back(top);
-      depths.push_back(top - heights.mean[k] / top_m);
-      if (is_peak(cells, heights.top, i, j)) peaks.push_back(top);
-    }
+  for (std::size_t cell = 0; cell < cells.count(); ++cell) {
+    const double top = heights.top[cell] / top_m;
+    if (!(top > kCanopyShare)) continue;
+    canopy.push_back(top);
+    depths.push_back(top - heights.mean[cell] / top_m);
+    if (is_peak(cells, heights.top, cell)) peaks.push_back(top);
   }
   std::ranges::sort(peaks, std::greater());
   const auto [mean, sd] = mean_and_sd(canopy);
@@ -123,7 +111,7 @@ Tops tops_of(const PlotBox& box, std::span<const Eigen::Vector3f> descending, do
   const auto five = std::span(peaks).first(std::min<std::size_t>(5, peaks.size()));
   return {.mean = mean,
           .sd = sd,
-          .peaks_m2 = static_cast<double>(peaks.size()) / box.area_m2(),
+          .peaks_m2 = static_cast<double>(peaks.size()) / area_m2,
           .peak_mean = peak_mean,
           .peak_sd = peak_sd,
           .peak_high = peaks.empty() ? 0 : peaks.front(),
@@ -162,9 +150,38 @@ std::vector<std::string> make_names() {
          {"mean", "sd", "peaks", "peak_mean", "peak_sd", "peak_high", "peak_five", "depth"})
       names.push_back("tops" + cell + "_" + what);
   }
-  for (const char* name : {"rows", "along", "highest", "noise", "slope", "density", "height"})
+  for (const char* name :
+       {"rows", "along", "highest", "noise", "slope", "slope2", "density", "height"})
     names.emplace_back(name);
   return names;
+}
+
+CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector3f> points,
+                               const HeightProfile& profile, double noise_m, double slope) {
+  const double area_m2 = profile.seen_share * box.area_m2();
+  const double top_m = std::max(kLeastTop_m, profile.quantile(0.99));
+  std::vector<Eigen::Vector3f> descending(points.begin(), points.end());
+  std::ranges::sort(descending, std::greater(), [](const auto& point) { return point.z(); });
+  std::vector<double> values;
+  for (const double share : kAreaShares) values.push_back(profile.quantile(share) / top_m);
+  for (const double share : kHeightShares) values.push_back(profile.share_above(share * top_m));
+  for (const double cell_m : kCells_m) {
+    const Tops tops = tops_of(BoxCells(box, cell_m), descending, top_m, area_m2);
+    for (const double value : {tops.mean, tops.sd, tops.peaks_m2, tops.peak_mean, tops.peak_sd,
+                               tops.peak_high, tops.peak_five, tops.depth})
+      values.push_back(value);
+  }
+  values.push_back(strip_sd(box, points, top_m, true));
+  values.push_back(strip_sd(box, points, top_m, false));
+  values.push_back(descending[std::min<std::size_t>(2, descending.size() - 1)].z() / top_m);
+  values.push_back(noise_m / top_m);
+  values.push_back(slope);
+  values.push_back(slope * slope);
+  values.push_back(std::log(static_cast<double>(points.size()) / area_m2));
+  values.push_back(std::log(top_m));
+  return {.top_m = top_m,
+          .values = Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                      static_cast<Eigen::Index>(values.size()))};
 }
 
 }  // namespace
@@ -179,30 +196,12 @@ HeightProfile without_noise(HeightProfile profile, double noise_m) {
   return profile;
 }
 
-CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector3f> points,
-                               const HeightProfile& profile, double noise_m, double slope) {
-  const double top_m = std::max(kLeastTop_m, profile.quantile(0.99));
-  std::vector<Eigen::Vector3f> descending(points.begin(), points.end());
-  std::ranges::sort(descending, std::greater(), [](const auto& point) { return point.z(); });
-  std::vector<double> values;
-  for (const double share : kAreaShares) values.push_back(profile.quantile(share) / top_m);
-  for (const double share : kHeightShares) values.push_back(profile.share_above(share * top_m));
-  for (const double cell_m : kCells_m) {
-    const Tops tops = tops_of(box, descending, cell_m, top_m);
-    for (const double value : {tops.mean, tops.sd, tops.peaks_m2, tops.peak_mean, tops.peak_sd,
-                               tops.peak_high, tops.peak_five, tops.depth})
-      values.push_back(value);
-  }
-  values.push_back(strip_sd(box, points, top_m, true));
-  values.push_back(strip_sd(box, points, top_m, false));
-  values.push_back(descending[std::min<std::size_t>(2, descending.size() - 1)].z() / top_m);
-  values.push_back(noise_m / top_m);
-  values.push_back(slope);
-  values.push_back(std::log(static_cast<double>(points.size()) / box.area_m2()));
-  values.push_back(std::log(top_m));
-  return {.top_m = top_m,
-          .values = Eigen::Map<const Eigen::VectorXd>(values.data(),
-                                                      static_cast<Eigen::Index>(values.size()))};
+SeenCanopy see_canopy(const PlotBox& box, std::span<const Eigen::Vector3f> points, double noise_m,
+                      double slope) {
+  constexpr double kMarginSigmas = 5;  // room for noise beyond the lowest and the highest return
+  const HeightProfile profile =
+      without_noise(height_profile(box, points, kMarginSigmas * noise_m), noise_m);
+  return {.profile = profile, .features = canopy_features(box, points, profile, noise_m, slope)};
 }
 
 }  // namespace plotscan::heights

@@ -24,7 +24,14 @@ const std::vector<std::string>& feature_names();
 // The profile with the heights' noise taken out of it.
 HeightProfile without_noise(HeightProfile profile, double noise_m);
 
-CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector3f> points,
-                               const HeightProfile& profile, double noise_m, double slope);
+// A plot's canopy as its returns (x, y, height above the ground) show it.
+struct SeenCanopy {
+  HeightProfile profile;  // without the heights' noise
+  CanopyFeatures features;
+};
+
+// `noise_m` is the sigma of the heights, `slope` the ground's, rise over run.
+SeenCanopy see_canopy(const PlotBox& box, std::span<const Eigen::Vector3f> points, double noise_m,
+                      double slope);
 
 }  // namespace plotscan::heights

@@ -9,14 +9,12 @@
 #include "heights/box_cells.h"
 #include "heights/features.h"
 #include "heights/flags.h"
-#include "heights/height_profile.h"
+#include "heights/known_returns.h"
 #include "heights/plant_heights.h"
 
 namespace plotscan::heights {
 namespace {
 
-// Room for noise beyond the lowest and the highest return.
-constexpr double kMarginSigmas = 5;
 constexpr double kScannedCell_m = 0.5;
 
 struct SeenPlot {
@@ -34,20 +32,18 @@ double scanned_share(const PlotPoints& plot) {
 
 SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
   const double noise_m = surface.noise_m;
-  const PlotGround ground = ground_under(plot.box, surface);
-  const HeightProfile profile =
-      without_noise(height_profile(plot.box, plot.points, kMarginSigmas * noise_m), noise_m);
-  CanopyFeatures features = canopy_features(plot.box, plot.points, profile, noise_m, ground.slope);
-  SeenPlot seen{.canopy = {.top_m = features.top_m, .features = std::move(features.values)},
+  const KnownReturns known = known_returns(plot.box, plot.points, surface);
+  const SeenCanopy canopy = see_canopy(plot.box, known.points, noise_m, known.ground.slope);
+  SeenPlot seen{.canopy = {.top_m = canopy.features.top_m, .features = canopy.features.values},
                 .evidence = {.returns = plot.points.size(),
                              .area_m2 = plot.box.area_m2(),
                              .scanned_share = scanned_share(plot),
-                             .top_m = features.top_m,
+                             .top_m = canopy.features.top_m,
                              .noise_m = noise_m,
-                             .ground = ground}};
-  seen.canopy.ground_error_m = ground.standard_error_m;
+                             .ground = known.ground}};
+  seen.canopy.ground_error_m = known.ground.standard_error_m;
   for (const auto& [name, quantile] : canopy_quantiles())
-    seen.canopy.quantiles_m[name] = profile.quantile(quantile.area_share);
+    seen.canopy.quantiles_m[name] = canopy.profile.quantile(quantile.area_share);
   return seen;
 }
 

@@ -27,10 +27,12 @@ double shared_error(const ground::Surface& surface, const Eigen::Vector2d& place
 
 }  // namespace
 
-PlotGround ground_under(const PlotBox& box, const ground::Surface& surface) {
+PlotGround ground_under(const PlotBox& box, const ground::Surface& surface,
+                        double largest_error_m) {
   PlotGround ground;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  double slopes = 0;  // squared
   int reached = 0;
+  int measured = 0;
   double misfit_m2 = 0;
   for (int i = 0; i < kPlaces; ++i) {
     for (int j = 0; j < kPlaces; ++j) {
@@ -41,22 +43,25 @@ PlotGround ground_under(const PlotBox& box, const ground::Surface& surface) {
       const double misfit_m = surface.misfit(place);
       const Eigen::Vector2d slope = surface.slope(place);
       if (std::isnan(misfit_m) || slope.hasNaN()) continue;
-      const double error_m = shared_error(surface, place);
       ++reached;
+      slopes += slope.squaredNorm();
+      if (surface.standard_error(place) > largest_error_m) continue;
+      ++measured;
+      const double error_m = shared_error(surface, place);
       ground.standard_error_m += error_m;
       ground.worst_error_m = std::max(ground.worst_error_m, error_m);
       misfit_m2 += misfit_m * misfit_m;
-      gradient += slope;
     }
   }
   ground.reached_share = static_cast<double>(reached) / (kPlaces * kPlaces);
   if (reached == 0) return ground;
+  ground.slope = std::sqrt(slopes / reached);
+  if (measured == 0) return ground;
   const double cells =
       std::max(1.0, box.length_m * box.width_m / (surface.cell_m * surface.cell_m));
-  const double of_mean_m = std::sqrt(misfit_m2 / reached / cells);
-  ground.standard_error_m = std::hypot(ground.standard_error_m / reached, of_mean_m);
+  const double of_mean_m = std::sqrt(misfit_m2 / measured / cells);
+  ground.standard_error_m = std::hypot(ground.standard_error_m / measured, of_mean_m);
   ground.worst_error_m = std::hypot(ground.worst_error_m, of_mean_m);
-  ground.slope = gradient.norm() / reached;
   return ground;
 }
 

@@ -8,14 +8,16 @@ namespace plotscan::heights {
 
 // What is known of the ground under a plot.
 struct PlotGround {
-  // Of its mean height: mean over the plot, as errors go together, but for each cell's own.
+  // Of its mean height: mean over what is measured of the plot, as errors go together, but for each
+  // cell's own.
   double standard_error_m = 0;
-  double worst_error_m = 0;  // the same about the worst place in the plot
+  double worst_error_m = 0;  // the same about the worst place of what is measured
   double reached_share = 0;  // of the plot that has a ground
   double seen_share = 0;     // of the surface's nodes there: from returns of the ground
-  double slope = 0;          // of the plane through the plot, rise over run
+  double slope = 0;          // rise over run, root mean square over the plot
 };
 
-PlotGround ground_under(const PlotBox& box, const ground::Surface& surface);
+// Places whose standard error is larger than `largest_error_m` are not measured.
+PlotGround ground_under(const PlotBox& box, const ground::Surface& surface, double largest_error_m);
 
 }  // namespace plotscan::heights

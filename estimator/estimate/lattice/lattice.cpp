@@ -96,9 +96,10 @@ Points above_ground(const Points& points, const ground::Surface& surface, int th
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
+  const std::string too_few = formatted(
+      "too few points to show plots: about %.0f a square metre are needed", kPlotsFound_m2);
   if (cloud.density_m2 < kLeastSearched_m2) {
-    diagnostics["nothing"] = formatted(
-        "too few points to show plots: about %.0f a square metre are needed", kPlotsFound_m2);
+    diagnostics["nothing"] = too_few;
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
@@ -112,7 +113,9 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
       plots::find_plots(heights, noise_m, options.hints, options.threads);
   stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics["field"] = json_of(field);
-  if (!field.nothing.empty()) diagnostics["nothing"] = field.nothing;
+  if (!field.nothing.empty())
+    diagnostics["nothing"] =
+        cloud.density_m2 < kPlotsFound_m2 ? too_few + " (" + field.nothing + ")" : field.nothing;
   std::vector<PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),

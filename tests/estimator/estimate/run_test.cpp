@@ -60,7 +60,7 @@ Estimate estimate_of(const std::vector<Eigen::Vector3d>& points) {
 TEST(Run, SaysOfASparseCloudThatItCannotShowPlots) {
   const Estimate estimate = estimate_of(scattered(1000, 500, 0.05));
   EXPECT_TRUE(estimate.plots.empty());
-  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("85 a square metre"));
+  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("65 a square metre"));
   EXPECT_GT(estimate.diagnostics["ground"]["cell_m"], 5);
 }
 

@@ -49,6 +49,22 @@ TEST(FitSurface, TakesNoNoiseFromAFewFullColumns) {
   EXPECT_LT(fit_surface(points, SurfaceOptions()).noise_m, 0.05);
 }
 
+// 6 returns a column, of which 16 are wanted, over strips of canopy 1.2 m wide with alleys of 1 m:
+// the few columns that hold 16 by chance lie in the canopy, where strips of the flight overlap.
+TEST(FitSurface, FindsTheNoiseOfASparseCloud) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 72000; ++i) {
+    RandomStream random(4, random_purpose("test/alleys"), i);
+    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
+    const bool canopy = std::fmod(y, 2.2) < 1.2;
+    const double low = 0.02 * random.normal();
+    if (!canopy && i >= 60000) continue;  // twice as dense over the canopy
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(canopy ? random.uniform(0.4, 0.9) : low));
+  }
+  EXPECT_NEAR(fit_surface(points, SurfaceOptions()).noise_m, 0.02, 0.007);
+}
+
 TEST(FitSurface, TakesBareGroundWithoutNoise) {
   const Surface surface =
       fit_surface(returns_of({.terrain = kWaves, .noise_m = 0}), SurfaceOptions());
