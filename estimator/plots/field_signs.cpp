@@ -25,11 +25,13 @@ constexpr double kMostAspect = 12;        // plots are sown and harvested one by
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;
-constexpr double kLeastSquarenessOfFew = 1;
+constexpr double kLeastSquarenessOfFew = 1.05;
 constexpr double kMostUneven = 0.45;   // plots reach 0.3; trees two by two 0.7, bushes 1.1
 constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
 constexpr double kLeastFilled = 0.6;   // of the places
 constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
+// Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01.
+constexpr double kLeastConfidence = 0.05;
 
 CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
   return cells_about(lattice, place.r_m, place.c_m, around_m);
@@ -199,7 +201,7 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.unevenness > kMostUneven)
     return "single bushes or trees stand here, not plots that are covered by a crop";
   if (signs.held_share < kLeastHeld || signs.filled_share < kLeastFilled ||
-      signs.evidence < kLeastEvidence)
+      signs.evidence < kLeastEvidence || field_confidence(signs) < kLeastConfidence)
     return "canopy lies here, but not in plots of one size at equal steps";
   return "";
 }
