@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every option of the library does what the program's does: the same bytes, the manifest's account
 // of the options among them.
+#include <cmath>
 #include <memory>
 
 #include "chain/programs.h"
@@ -9,6 +10,7 @@
 #include "plotscan/estimate.h"
 #include "plotscan/score.h"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace plotscan {
 namespace {
@@ -104,11 +106,29 @@ TEST_F(LibraryOptions, OfFlightsAreTheProgramsSettings) {
   expect_same("again_ours", "again_theirs");
 }
 
+TEST_F(LibraryOptions, OfFlightsAreTheProgramsWaypoints) {
+  const fs::path waypoints = path("waypoints.yaml");
+  std::ofstream(waypoints) << "waypoints:\n"
+                              "  - {x_m: -6, y_m: -3, altitude_m: 8}\n"
+                              "  - {x_m: 6, y_m: 3, altitude_m: 8}\n";
+  const auto finished = testing::run(
+      "lidarsim fly farm -o pointed_theirs --json --waypoints " + waypoints.string(), *folder_);
+  ASSERT_EQ(finished.exit_code, 0) << finished.errors;
+  const FlightSummary flown = fly(path("farm"), path("pointed_ours"), {.waypoints = waypoints});
+  expect_same("pointed_ours", "pointed_theirs");
+  const auto said = nlohmann::json::parse(finished.output);
+  EXPECT_EQ(flown.duration_s, said["duration_s"].get<double>());
+  EXPECT_EQ(flown.points, said["points"].get<std::uint64_t>());
+}
+
 TEST_F(LibraryOptions, OfCloudsAreEncodingsAndReplacement) {
   const Cloud points = read_cloud(cloud());
   EXPECT_THAT(points.fields, ::testing::IsSupersetOf({"intensity", "class"}));
   write_cloud(path("text.pcd"), points.points, {.encoding = "ascii"});
   EXPECT_THAT(testing::run("head -n 12 text.pcd", *folder_).output, HasSubstr("DATA ascii"));
+  const std::string utm = R"(PROJCS["x",AUTHORITY["EPSG","32617"]])";
+  write_cloud(path("utm.las"), points.points, {.crs_wkt = utm});
+  EXPECT_EQ(read_cloud(path("utm.las")).crs_wkt, utm);
   EXPECT_THROW(convert_cloud(cloud(), path("text.pcd")), BadInput);
   convert_cloud(cloud(), path("text.pcd"), {.encoding = "binary", .replace = true});
   run_program("lidarsim convert scan.las binary.pcd --encoding binary");
@@ -117,7 +137,21 @@ TEST_F(LibraryOptions, OfCloudsAreEncodingsAndReplacement) {
 
 TEST_F(LibraryOptions, OfScoresAreTheLeastOverlap) {
   const FieldEstimate field = estimate_field(read_cloud(cloud()).positions());
-  EXPECT_EQ(score_estimate(field, path("farm")).found, 9u);
+  const Scores scores = score_estimate(field, path("farm"));
+  EXPECT_EQ(scores.found, 9u);
+  const auto said = nlohmann::json::parse(scores.json)["heights"];
+  ASSERT_EQ(said.size(), scores.heights.size());
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    const HeightScore& score = scores.heights[i];
+    EXPECT_EQ(said[i]["height"], score.height);
+    EXPECT_EQ(said[i]["truth"], score.truth);
+    for (const auto& [name, value] :
+         {std::pair{"rmse_m", score.rmse_m}, std::pair{"bias_m", score.bias_m},
+          std::pair{"mae_m", score.mae_m}, std::pair{"r2", score.r2},
+          std::pair{"coverage95", score.coverage95}}) {
+      EXPECT_TRUE(said[i][name].is_null() ? std::isnan(value) : said[i][name] == value) << name;
+    }
+  }
   const Scores strict = score_estimate(field, path("farm"), 0.9999);
   EXPECT_EQ(strict.found, 0u);
   EXPECT_EQ(strict.missed, 9u);
