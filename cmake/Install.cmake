@@ -5,21 +5,28 @@ set(PLOTSCAN_DATA_DIR ${CMAKE_INSTALL_DATADIR}/plotscan)
 
 set(programs farmgen lidarsim estimator farmbench plotview)
 install(TARGETS ${programs} COMPONENT programs)
-# Each program makes its manual page and its completion from its own declarations.
+# Each program makes its manual page and its completion from its own declarations. The folders are where Debian's shells look.
 find_program(GZIP gzip REQUIRED)
+set(pages ${PROJECT_BINARY_DIR}/pages)
+file(MAKE_DIRECTORY ${pages}/bash ${pages}/zsh ${pages}/fish ${pages}/man)
 foreach(program IN LISTS programs)
-  set(manual ${PROJECT_BINARY_DIR}/manual/${program}.1.gz)
-  set(completion ${PROJECT_BINARY_DIR}/completion/${program})
-  add_custom_command(OUTPUT ${manual} ${completion}
+  set(manual ${pages}/man/${program}.1.gz)
+  set(bash ${pages}/bash/${program})
+  set(zsh ${pages}/zsh/_${program})
+  set(fish ${pages}/fish/${program}.fish)
+  add_custom_command(OUTPUT ${manual} ${bash} ${zsh} ${fish}
     COMMAND ${program} --print-manual | ${GZIP} -9n > ${manual}
-    COMMAND ${program} --print-bash-completion > ${completion}
+    COMMAND ${program} --print-bash-completion > ${bash}
+    COMMAND ${program} --print-zsh-completion > ${zsh}
+    COMMAND ${program} --print-fish-completion > ${fish}
     DEPENDS ${program} VERBATIM)
-  list(APPEND pages ${manual} ${completion})
+  list(APPEND made_pages ${manual} ${bash} ${zsh} ${fish})
   install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
-  install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+  install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+  install(FILES ${zsh} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT programs)
+  install(FILES ${fish} DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT programs)
 endforeach()
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/manual ${PROJECT_BINARY_DIR}/completion)
-add_custom_target(pages ALL DEPENDS ${pages})
+add_custom_target(pages ALL DEPENDS ${made_pages})
 # Paths between the files of the data are relative: it keeps the folders of the sources.
 install(DIRECTORY worlds models DESTINATION ${PLOTSCAN_DATA_DIR} COMPONENT data USE_SOURCE_PERMISSIONS)
 install(DIRECTORY benchmarks/suites DESTINATION ${PLOTSCAN_DATA_DIR}/benchmarks COMPONENT data)

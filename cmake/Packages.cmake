@@ -60,6 +60,9 @@ endforeach()
 file(WRITE ${PROJECT_BINARY_DIR}/package/shlibs "${shlibs}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/shlibs ${PROJECT_BINARY_DIR}/package/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "plotscan-data ${same}")
+# Python's compiled files come with the package and go with it.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
+  ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DATA_PACKAGE_SHLIBDEPS OFF)
 include(CPack)

@@ -23,6 +23,7 @@
 #include "core/manifest.h"
 #include "core/nearest_name.h"
 #include "core/printable.h"
+#include "core/program_completion.h"
 #include "core/program_pages.h"
 #include "core/progress_display.h"
 #include "core/text.h"
@@ -85,6 +86,8 @@ Program::Program(std::string name, const std::string& description)
   // For whoever packages the programs: no group, so that --help does not show them.
   add_page("--print-manual", &manual_page);
   add_page("--print-bash-completion", &bash_completion);
+  add_page("--print-zsh-completion", &zsh_completion);
+  add_page("--print-fish-completion", &fish_completion);
 }
 
 void Program::add_page(const std::string& flag, std::string (*page)(const CLI::App&)) {

@@ -10,7 +10,4 @@ namespace plotscan {
 // A program's page for man(1), section 1, from the declarations of its commands and options.
 std::string manual_page(const CLI::App& program);
 
-// A script that completes a program's commands, options and their choices in bash, from the same.
-std::string bash_completion(const CLI::App& program);
-
 }  // namespace plotscan

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is installed beside the programs, made from their declarations: manual pages, completion.
+#include <fstream>
 #include <regex>
 #include <set>
 
@@ -10,7 +11,9 @@
 namespace plotscan {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using testing::TemporaryFolder;
 
@@ -22,46 +25,63 @@ std::set<std::string> matches(const std::string& text, const char* pattern) {
   return found;
 }
 
+// A program's pages, in a folder that holds one file, "cloud.las".
 class Pages : public ::testing::TestWithParam<const char*> {
  protected:
+  Pages() { std::ofstream(folder_.path() / "cloud.las"); }
+
   std::string output_of(const std::string& command) {
     const auto finished = testing::run(command, folder_.path().string());
     EXPECT_EQ(finished.exit_code, 0) << command << '\n' << finished.errors;
     EXPECT_EQ(finished.errors, "") << command;
     return finished.output;
   }
-  // What bash offers for the last of the words.
-  std::set<std::string> completed(const std::string& words, int last) {
-    const std::string program = GetParam();
-    return matches(
-        output_of("bash -c 'source <(" + program + " --print-bash-completion); COMP_WORDS=(" +
-                  words + "); COMP_CWORD=" + std::to_string(last) + "; _" + program +
-                  "; printf \"%s\\n\" \"${COMPREPLY[@]}\"'"),
-        "(\\S+)");
+  // What bash, zsh or fish offers at the end of a command line.
+  std::set<std::string> offered(const std::string& shell, const std::string& line) {
+    const std::string program = line.substr(0, line.find(' '));
+    const std::string bash =
+        "bash -c 'source <(" + program + " --print-bash-completion); COMP_WORDS=(" + line +
+        (line.ends_with(' ') ? "\"\"" : "") + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _" +
+        program + "; printf \"%s\\n\" \"${COMPREPLY[@]}\"'";
+    const std::string zsh = PLOTSCAN_SOURCE_DIR "/tests/chain/zsh_offers '" + line + "'";
+    const std::string fish = "HOME=$PWD fish --no-config -c '" + program +
+                             " --print-fish-completion | source; complete -C \"" + line +
+                             "\"' | cut -f 1";
+    return matches(output_of(shell == "bash" ? bash : shell == "zsh" ? zsh : fish), "(\\S+)");
   }
   std::set<std::string> commands() {
     const std::string help = output_of(std::string(GetParam()) + " --help");
     return matches(help.substr(help.find("Subcommands:")), "\n  (\\w+)");
   }
+  std::set<std::string> long_flags(const std::string& command) {
+    const std::string help = output_of(std::string(GetParam()) + " " + command + " --help");
+    return matches(help, "\n  (?:-\\w,)?(--[\\w-]+)");
+  }
 
   TemporaryFolder folder_;
 };
 
-TEST_P(Pages, HaveEveryOptionOfEveryCommand) {
-  const std::string program = GetParam();
-  std::string manual = output_of(program + " --print-manual");
+TEST_P(Pages, TellEveryOptionOfEveryCommand) {
+  std::string manual = output_of(std::string(GetParam()) + " --print-manual");
   manual = std::regex_replace(manual, std::regex(R"(\\-)"), "-");
   ASSERT_FALSE(commands().empty());
-  EXPECT_THAT(completed(program + " \"\"", 1), IsSupersetOf(commands()));
   for (const std::string& command : commands()) {
-    EXPECT_THAT(manual, HasSubstr("\n.SS " + command + "\n"));
+    ASSERT_THAT(manual, HasSubstr("\n.SS " + command + "\n"));
     const std::string section = manual.substr(manual.find("\n.SS " + command + "\n"));
-    const auto flags =
-        matches(output_of(program + " " + command + " --help"), "\n  (?:-\\w,)?(--[\\w-]+)");
-    ASSERT_GE(flags.size(), 5u) << command;
-    for (const std::string& flag : flags)
+    ASSERT_GE(long_flags(command).size(), 5u) << command;
+    for (const std::string& flag : long_flags(command))
       EXPECT_THAT(section.substr(0, section.find("\n.S", 1)), HasSubstr(flag));
-    EXPECT_THAT(completed(program + " " + command + " -", 2), IsSupersetOf(flags));
+  }
+}
+
+TEST_P(Pages, CompleteEveryCommandAndOptionInEveryShell) {
+  const std::string program = GetParam();
+  for (const char* shell : {"bash", "zsh", "fish"}) {
+    SCOPED_TRACE(shell);
+    EXPECT_THAT(offered(shell, program + " "), IsSupersetOf(commands()));
+    for (const std::string& command : commands())
+      EXPECT_THAT(offered(shell, program + " " + command + " --"),
+                  IsSupersetOf(long_flags(command)));
   }
 }
 
@@ -77,15 +97,31 @@ INSTANTIATE_TEST_SUITE_P(OfEveryProgram, Pages,
                                            "plotview"),
                          [](const auto& name) { return std::string(name.param); });
 
-TEST(Completion, NamesTheChoicesOfAnOption) {
-  const TemporaryFolder folder;
-  const auto finished = testing::run(
-      "bash -c 'source <(estimator --print-bash-completion); COMP_WORDS=(estimator run --method "
-      "d); COMP_CWORD=3; "
-      "_estimator; echo \"${COMPREPLY[@]}\"'",
-      folder.path().string());
-  EXPECT_EQ(finished.output, "dhami2020\n") << finished.errors;
+using Completion = Pages;
+
+TEST_P(Completion, NamesTheChoicesOfAnOption) {
+  EXPECT_THAT(offered(GetParam(), "estimator run --method "), ElementsAre("dhami2020", "lattice"));
+  EXPECT_THAT(offered(GetParam(), "estimator run --method d"), ElementsAre("dhami2020"));
 }
+
+TEST_P(Completion, TakesAFolderForNoCommand) {
+  EXPECT_THAT(offered(GetParam(), "estimator score run --m"), ElementsAre("--min-iou"));
+}
+
+INSTANTIATE_TEST_SUITE_P(InEveryShell, Completion, ::testing::Values("bash", "zsh", "fish"),
+                         [](const auto& name) { return std::string(name.param); });
+
+using FileCompletion = Pages;
+
+TEST_P(FileCompletion, IsForAllButNumbers) {
+  EXPECT_THAT(offered(GetParam(), "estimator run c"), ElementsAre("cloud.las"));
+  EXPECT_THAT(offered(GetParam(), "estimator run --boxes c"), ElementsAre("cloud.las"));
+  EXPECT_THAT(offered(GetParam(), "estimator run --seed c"), IsEmpty());
+}
+
+// bash itself completes files where a completion offers nothing.
+INSTANTIATE_TEST_SUITE_P(InShellsThatAreTold, FileCompletion, ::testing::Values("zsh", "fish"),
+                         [](const auto& name) { return std::string(name.param); });
 
 }  // namespace
 }  // namespace plotscan

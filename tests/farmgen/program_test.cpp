@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <regex>
 
 #include "farmgen/farm/example_farm.h"
 #include <gmock/gmock.h>
@@ -202,12 +203,15 @@ TEST_F(Farmgen, ExportsNothingOfBadInput) {
   }
 }
 
-// Every file by its path, but the manifest, which tells the version.
+// Every file by its path, but the manifest, which tells the version; without the version that the
+// page tells.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
-    if (entry.is_regular_file() && name != "manifest.json") files[name] = read_text(entry.path());
+    if (!entry.is_regular_file() || name == "manifest.json") continue;
+    files[name] =
+        std::regex_replace(read_text(entry.path()), std::regex(R"(Plotscan \d+\.\d+\.\d+)"), "");
   }
   return files;
 }

@@ -60,6 +60,20 @@ TEST_F(Installed, RunsFromAnEmptyFolder) {
   succeed("farmbench run smoke -o results --methods one-number --seeds 1");
 }
 
+TEST_F(Installed, HasPagesWhereDebiansManAndShellsLook) {
+  const fs::path share = PLOTSCAN_PREFIX "/share";
+  for (const std::string program : {"farmgen", "lidarsim", "estimator", "farmbench", "plotview"}) {
+    EXPECT_GT(fs::file_size(share / "man/man1" / (program + ".1.gz")), 500u);
+    const auto completion = [&](const std::string& shell) {
+      return succeed(program + " --print-" + shell + "-completion").output;
+    };
+    EXPECT_EQ(read_text(share / "bash-completion/completions" / program), completion("bash"));
+    EXPECT_EQ(read_text(share / "zsh/vendor-completions" / ("_" + program)), completion("zsh"));
+    EXPECT_EQ(read_text(share / "fish/vendor_completions.d" / (program + ".fish")),
+              completion("fish"));
+  }
+}
+
 TEST_F(Installed, FindsItsDataWhereverItIsMoved) {
   const fs::path moved = folder_.path() / "moved";
   fs::create_directories(moved / "bin");

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 import _thread
+import io
 import threading
 import unittest
 
 import plotscan
+import tqdm
 from example_scan import SMALL, ExampleScan
 
 
@@ -52,6 +54,14 @@ class Simulate(ExampleScan):
         self.assertEqual(told[-1], 1)
         self.assertGreater(len(told), 3)
         self.assertEqual(threads, {threading.get_ident()})
+
+    def test_tqdm_takes_progress(self):
+        # As docs/python.md has it.
+        drawn = io.StringIO()
+        with tqdm.tqdm(total=1, file=drawn, mininterval=0) as bar:
+            plotscan.fly(self.farm, self.folder / "bar", progress=lambda share: bar.update(share - bar.n))
+        self.assertAlmostEqual(bar.n, 1, 12)
+        self.assertIn("100%", drawn.getvalue())
 
     def test_what_progress_raises_ends_the_work(self):
         def progress(share):

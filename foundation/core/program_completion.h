@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+// Scripts that complete a program's commands, options and their choices, from its declarations.
+// Other words are completed as files, but for numbers.
+namespace plotscan {
+
+std::string bash_completion(const CLI::App& program);
+
+// With descriptions; for a file _PROGRAM in a folder of zsh's fpath.
+std::string zsh_completion(const CLI::App& program);
+
+// With descriptions.
+std::string fish_completion(const CLI::App& program);
+
+}  // namespace plotscan

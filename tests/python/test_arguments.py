@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every argument reaches the compiled part, in its place and under its own name."""
+
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy
+import plotscan
+from plotscan import _plotscan
+
+
+def sent(function, *arguments, **named):
+    """What plotscan's function hands to the compiled one of its name."""
+    with mock.patch.object(_plotscan, function) as compiled:
+        getattr(plotscan, function)(*arguments, **named)
+    compiled.assert_called_once()
+    return compiled.call_args.args
+
+
+class Arguments(unittest.TestCase):
+    def expect_options(self, options, expected):
+        self.assertEqual({name: getattr(options, name) for name in expected}, expected)
+
+    def test_of_farms(self):
+        options = {"set": {"terrain.relief_m": 0.5, "weeds": True}, "seed": 5, "threads": 3, "replace": True}
+        made = sent("generate_farm", "description", "farm", progress=print, **options)
+        self.assertEqual(made, ("description", "farm", ["terrain.relief_m=0.5", "weeds=true"], 5, 3, True, print))
+        self.assertEqual(sent("generate_farm", "a", "b"), ("a", "b", [], None, 0, False, None))
+        self.assertEqual(sent("read_truth", "farm"), ("farm",))
+
+    def test_of_flights(self):
+        given = {"trajectory": Path("t"), "waypoints": Path("w"), "formats": ["las"], "resource_paths": [Path("r")],
+                 "seed": 5, "threads": 3, "replace": True}  # fmt: skip
+        settings = {"altitude_m": 9.0, "sensor": "os1_64", "lever_arm_m": [1.0, 2.0, 3.0]}
+        place, folder, options, progress = sent("fly", "farm", "scan", progress=print, **given, **settings)
+        self.assertEqual((place, folder, progress), ("farm", "scan", print))
+        self.expect_options(options, {**given, "settings": settings})
+        usual = {"trajectory": None, "waypoints": None, "formats": [], "resource_paths": [], "seed": 1, "threads": 0,
+                 "replace": False, "settings": {}}  # fmt: skip
+        self.expect_options(sent("fly", "farm", "scan")[2], usual)
+
+    def test_of_clouds(self):
+        self.assertEqual(sent("read_cloud", "file", progress=print), ("file", print))
+        points = numpy.zeros(5, plotscan.point_dtype)
+        given = {"origin_m": (1.0, 2.0, 3.0), "encoding": "ascii", "replace": True, "progress": print}
+        written = sent("write_cloud", "file", points, **given)
+        self.assertIs(written[1], points)
+        self.assertEqual((written[0], *written[2:]), ("file", (1.0, 2.0, 3.0), "", "ascii", True, print))
+        given = {"encoding": "ascii", "crs": "utm", "topic": "/points", "replace": True, "progress": print}
+        converted = sent("convert_cloud", "source", "file", **given)
+        self.assertEqual(converted, ("source", "file", "ascii", "utm", "/points", True, print))
+
+    def test_of_estimates(self):
+        field = {"crop_box": [1.0, 2.0, 3.0, 4.0], "heading_deg": 5.0, "plot_width_m": 6.0, "plot_length_m": 7.0,
+                 "rows": 8, "columns": 9, "plots": 10, "crop": "maize", "noise_m": 0.01, "calibrated": False,
+                 "threads": 3}  # fmt: skip
+        points = numpy.zeros((5, 3))
+        boxes = [plotscan.Box(1, 2, 3, 4, 5)]
+        given = sent("estimate_field", points, boxes=boxes, origin_m=(1.0, 2.0, 3.0), progress=print, **field)
+        self.assertIs(given[0], points)
+        self.assertEqual(given[2:], ((1.0, 2.0, 3.0), print))
+        self.expect_options(given[1], field)
+        self.assertEqual([box.width_m for box in given[1].boxes], [3])
+
+        files = {"method": "dhami2020", "boxes": Path("map"), "id": "name", "units": "ft",
+                 "leave_out_classes": [5, 6], "csv": Path("table"), "seed": 5, "replace": True}  # fmt: skip
+        clouds, folder, options, progress = sent("estimate_files", "scan", "out", progress=print, **files, **field)
+        self.assertEqual((clouds, folder, progress), (["scan"], "out", print))
+        self.expect_options(options, files)
+        self.expect_options(options.field, field)
+        self.assertEqual(sent("estimate_files", ["a", Path("b")], "out")[0], ["a", Path("b")])
+
+    def test_of_scores(self):
+        self.assertEqual(sent("score_estimate", "estimate", "farm", min_iou=0.7), ("estimate", "farm", 0.7))
+        self.assertEqual(sent("score_estimate", "estimate", "farm"), ("estimate", "farm", 0.5))
+
+
+if __name__ == "__main__":
+    unittest.main()
