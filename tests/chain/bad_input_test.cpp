@@ -116,13 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"farmgen generate " + kPaper + " -o out --seed minus", "seed"},
         BadCommand{"lidarsim fly not_a_farm -o out", "not_a_farm"},
         BadCommand{"lidarsim fly absent -o out", "absent"},
-        BadCommand{"lidarsim fly broken.sdf -o out", "broken.sdf:"},
         BadCommand{"lidarsim fly broken.yaml -o out", "broken.yaml"},
-        BadCommand{"lidarsim fly absent.sdf -o out", "absent.sdf"},
-        BadCommand{"lidarsim fly fuel.sdf -o out", "network"},
-        BadCommand{"lidarsim fly bare.sdf -o out", "hut/wall.dae"},
-        BadCommand{"lidarsim fly posed.sdf -o out", "posed.sdf"},
-        BadCommand{"lidarsim fly bare.sdf -o out --resource-path nowhere", "nowhere"},
         BadCommand{"lidarsim fly box.sdf -o out --format las,xyz", "must be one of pcd, ply, las"},
         BadCommand{"lidarsim fly box.sdf -o out --sensor os1_64 --format pcap", "--format"},
         BadCommand{"lidarsim convert truncated.pcd out.las", "truncated.pcd"},
@@ -182,6 +176,25 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"plotview plot index.ply estimate -o p.png", "--plot"},
         BadCommand{"plotview plot index.ply estimate --plot 1 --heights p96 -o p.png", "p96"}),
     [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
+
+#ifdef PLOTSCAN_HAVE_SDFORMAT
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, BadInput,
+    ::testing::Values(BadCommand{"lidarsim fly broken.sdf -o out", "broken.sdf:"},
+                      BadCommand{"lidarsim fly absent.sdf -o out", "absent.sdf"},
+                      BadCommand{"lidarsim fly fuel.sdf -o out", "network"},
+                      BadCommand{"lidarsim fly bare.sdf -o out", "hut/wall.dae"},
+                      BadCommand{"lidarsim fly posed.sdf -o out", "posed.sdf"},
+                      BadCommand{"lidarsim fly bare.sdf -o out --resource-path nowhere",
+                                 "nowhere"}),
+    [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
+#else
+INSTANTIATE_TEST_SUITE_P(WithoutLibsdformat, BadInput,
+                         ::testing::Values(BadCommand{"lidarsim fly box.sdf -o out",
+                                                      "box.sdf: no SDF world can be read"},
+                                           BadCommand{"lidarsim fly box.sdf -o out",
+                                                      "libsdformat-dev"}));
+#endif
 
 }  // namespace
 }  // namespace plotscan
