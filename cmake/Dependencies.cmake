@@ -1,4 +1,8 @@
 # Everything Plotscan builds on, found once. packages.txt names the Debian packages.
+# CGAL's and PCL's configs leave open what newer CMake asks of them.
+set(CMAKE_POLICY_DEFAULT_CMP0144 NEW)
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
+
 find_package(Threads REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
@@ -15,7 +19,7 @@ find_package(sdformat12 QUIET)
 if(sdformat12_FOUND)
   find_package(console_bridge REQUIRED)
 else()
-  message(STATUS "SDF worlds are not read, and the tests are left out: both need libsdformat-dev")
+  message(STATUS "SDF worlds are not read, and their tests are left out: both need libsdformat-dev, which Debian 12 has")
 endif()
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
@@ -27,12 +31,18 @@ if(NOT benchmark_FOUND)
 endif()
 if(BUILD_TESTING)
   find_package(GTest QUIET)
-  find_package(ignition-common4 QUIET COMPONENTS graphics)
-  # The elements of each version of SDF, as libsdformat ships them.
-  find_path(SDF_SPECIFICATIONS 1.6/root.sdf PATH_SUFFIXES share/sdformat12)
-  if(NOT GTest_FOUND OR NOT ignition-common4_FOUND OR NOT SDF_SPECIFICATIONS OR NOT sdformat12_FOUND)
-    message(STATUS "The tests are left out: scripts/setup installs what they need on Debian 12")
+  if(NOT GTest_FOUND)
+    message(STATUS "The tests are left out: scripts/setup installs what they need")
     set(BUILD_TESTING OFF)
+  endif()
+  # Gazebo's mesh loader, and the elements of each version of SDF, as libsdformat ships them.
+  find_package(ignition-common4 QUIET COMPONENTS graphics)
+  find_path(SDF_SPECIFICATIONS 1.6/root.sdf PATH_SUFFIXES share/sdformat12)
+  if(sdformat12_FOUND AND ignition-common4_FOUND AND SDF_SPECIFICATIONS)
+    set(PLOTSCAN_GAZEBO_TESTS ON)
+  else()
+    message(STATUS "Exported worlds are not tested by Gazebo's own libraries: that needs libsdformat-dev and "
+      "libignition-common-graphics-dev, which Debian 12 has")
   endif()
 endif()
 

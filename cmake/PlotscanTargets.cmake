@@ -3,6 +3,8 @@ function(plotscan_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     # GCC 12 sees overlapping copies in std::string where there are none (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    # Embedded texts are long.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
     $<$<BOOL:${PLOTSCAN_WERROR}>:-Werror>)
   if(PLOTSCAN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE} -fno-omit-frame-pointer)

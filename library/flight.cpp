@@ -56,7 +56,7 @@ struct SetValue {
     setting.of(options) = static_cast<int>(number);
   }
   void operator()(const lidar::VectorSetting& setting) const {
-    const auto& numbers = value_as<std::array<double, 3>>(value, key, "three numbers");
+    const auto numbers = value_as<std::array<double, 3>>(value, key, "three numbers");
     setting.of(options) = Eigen::Vector3d(numbers.data());
   }
   void operator()(const lidar::TextSetting& setting) const {

@@ -26,7 +26,7 @@ inline int draw_count(RandomStream& random, int low, int high) {
 }
 
 template <class Value, std::size_t Count>
-const Value& pick(RandomStream& random, const std::array<Value, Count>& values) {
+Value pick(RandomStream& random, const std::array<Value, Count>& values) {
   return values[random.below(Count)];
 }
 

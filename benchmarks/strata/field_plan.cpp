@@ -189,7 +189,7 @@ void realism(const Field& field) {
 void kentland(const Field& field) {
   field.plan.farm = field.sources.worlds / "kentland.yaml";
   const PlantRanges ranges = read_plant_ranges(field.sources.strata / "plants.yaml");
-  const std::string& stage = pick(field.random, std::array<std::string, 2>{"Z65", "Z85"});
+  const std::string stage = pick(field.random, std::array<std::string, 2>{"Z65", "Z85"});
   field.set("plants.models", drawn_models("wheat", stage, ranges.at("wheat"),
                                           "tuft_m=0.25, tuft_plants_per_m=43", field.random));
 }

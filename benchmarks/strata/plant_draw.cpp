@@ -107,7 +107,7 @@ Overrides draw_meshes(const std::filesystem::path& folder, RandomStream& random)
   static const std::array<Plant, 3> plants = {Plant{"bean/bean_medium.obj", {2, 4.5}, {14, 40}},
                                               Plant{"bean/bean_big.obj", {1.4, 3.2}, {12, 36}},
                                               Plant{"maize/maize_big_1.obj", {0.8, 2.2}, {7, 18}}};
-  const Plant& plant = pick(random, plants);
+  const Plant plant = pick(random, plants);
   return {"plants.models=[{mesh: '" + std::filesystem::absolute(folder / plant.file).string() +
               "', unit_m: " + text(draw(random, plant.times)) + "}]",
           "plants.scale=[0.7, 1.3]", "plants.density_m2=" + text(draw(random, plant.density_m2))};

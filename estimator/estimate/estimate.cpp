@@ -71,7 +71,7 @@ std::map<std::string, HeightError> errors_of(const json& properties,
                                              const std::map<std::string, double>& heights_m) {
   std::map<std::string, HeightError> errors;
   for (const auto& [name, height_m] : heights_m) {
-    const auto number = [&](std::string_view before) {
+    const auto number = [&properties, &name = name](std::string_view before) {
       const auto found = properties.find(property_of(name, before));
       return found != properties.end() && found->is_number() ? found->get<double>() : std::nan("");
     };

@@ -53,9 +53,10 @@ void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& co
                        }});
     if (!with_errors.contains(name)) continue;
     for (const auto& [before, number] : parts) {
-      columns.push_back({property_of(name, before), [name, number](const PlotEstimate& plot) {
-                           return text_of<HeightError>(plot.errors, name, number);
-                         }});
+      columns.push_back(
+          {property_of(name, before), [name, number = number](const PlotEstimate& plot) {
+             return text_of<HeightError>(plot.errors, name, number);
+           }});
     }
   }
 }

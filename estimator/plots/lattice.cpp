@@ -205,7 +205,7 @@ int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;
   for (const Place& place : places) used.push_back(place.*number);
   std::ranges::sort(used);
-  used.erase(std::ranges::unique(used).begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
   for (Place& place : places)
     place.*number = static_cast<int>(std::ranges::lower_bound(used, place.*number) - used.begin());
   return static_cast<int>(used.size());

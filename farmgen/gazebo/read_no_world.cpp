@@ -6,9 +6,10 @@
 namespace plotscan::gazebo {
 
 StaticWorld read_world(const std::filesystem::path& file, const ReadWorldOptions& /*options*/) {
-  throw InputError(file,
-                   "no SDF world can be read: Plotscan was built without libsdformat, which Debian "
-                   "12 has and Debian 13 has not");
+  throw InputError(
+      file,
+      "no SDF world can be read: Plotscan was built without libsdformat (Debian 12 has "
+      "it as libsdformat-dev, Debian 13 has not); farms are exported all the same");
 }
 
 }  // namespace plotscan::gazebo

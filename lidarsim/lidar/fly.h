@@ -40,7 +40,7 @@ struct FlyOptions {
   SwayOptions sway = {};                           // of a farm's plants in the wind
   std::string start_utc = "2026-06-01T10:00:00Z";  // of the flight's time 0
   std::optional<double> spin_hz = {};  // turns of the sensor a second; else its own default
-  std::string spin_jitter = "none";    // "sensor": as the sensor's file states it
+  std::string spin_jitter = "sensor";  // as its file states it; "none": the head turns steadily
   double range_noise_m = 0.03;         // standard deviation of the range noise, 0 to 1
   int sub_rays = 1;                    // rays that stand for a beam, 1 (its axis) to 1024
   std::string returns = "strongest";   // of a shot that are kept: strongest, last or dual

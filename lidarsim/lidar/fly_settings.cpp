@@ -20,6 +20,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // The settings hand out references into what they are given; nothing is written through these.
 template <class Setting>
@@ -91,9 +93,9 @@ const std::vector<FlySetting>& fly_settings() {
        .value = NumberSetting{{0, 1}, [](FlyOptions& o) -> double& { return o.range_noise_m; }}},
       {.key = "spin_jitter",
        .flag = "--spin-jitter",
-       .help = "of the sensor's azimuth: none, or sensor, as the sensor's file states "
+       .help = "of the sensor's azimuth: sensor, as the sensor's file states, or none "
                "(docs/sensors.md)",
-       .value = TextSetting{{"none", "sensor"},
+       .value = TextSetting{{"sensor", "none"},
                             [](FlyOptions& o) -> std::string& { return o.spin_jitter; }}},
       {.key = "wind_m_s",
        .flag = "--wind",

@@ -59,9 +59,8 @@ ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d
   check(sensor.lasers.size() <= kMaxLasers, "the sensor has too many lasers");
   const auto lasers = static_cast<Eigen::Index>(sensor.lasers.size());
   const auto of_each = [&](auto&& value) {
-    PerLaser values(lasers);
-    for (Eigen::Index k = 0; k < lasers; ++k) values[k] = value(sensor.lasers[k]);
-    return values;
+    return PerLaser::NullaryExpr(
+        lasers, [&sensor, value](Eigen::Index k) { return value(sensor.lasers[k]); });
   };
   fires_s_ = of_each([](const Laser& laser) { return laser.fires_s; });
   cos_elevation_ = of_each([](const Laser& laser) { return std::cos(laser.elevation_rad); });

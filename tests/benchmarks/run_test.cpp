@@ -26,12 +26,13 @@ using ::testing::HasSubstr;
 
 const fs::path kSmoke = fs::path(PLOTSCAN_SOURCE_DIR) / "benchmarks/suites/smoke.yaml";
 
-const TableRow& row_of(const std::vector<TableRow>& table, const std::string& case_name,
-                       const std::string& method) {
+const TableRow& row_of(const std::vector<TableRow>& table, std::string_view case_name,
+                       std::string_view method) {
   const auto found = std::ranges::find_if(table, [&](const TableRow& row) {
     return row.case_name == case_name && row.method == method && row.truth == "height_max_m";
   });
-  if (found == table.end()) throw std::runtime_error("no row " + case_name + " " + method);
+  if (found == table.end())
+    throw std::runtime_error("no row " + std::string(case_name) + " " + std::string(method));
   return *found;
 }
 

@@ -59,6 +59,7 @@ TEST(LoadSuite, ThePapersProtocol) {
     ASSERT_EQ(farm.plots->rows.size(), 3U);
     for (const farm::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
     EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
+    EXPECT_EQ(suite.cases[i].flight.spin_jitter, "none") << "Gazebo's rays turn steadily";
   }
 }
 

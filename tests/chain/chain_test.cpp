@@ -72,7 +72,8 @@ TEST_F(Chain, EstimatesFromLasAsFromPcd) {
     EXPECT_EQ(las[row][0], pcd[row][0]);
     for (std::size_t column = 1; column < 5; ++column)
       EXPECT_NEAR(las[row][column], pcd[row][column], 5e-4) << columns[column];
-    EXPECT_NEAR(las[row][5], pcd[row][5], 0.02);
+    // A point that rounding puts into the next voxel (of 5 cm) moves the mean of both.
+    EXPECT_NEAR(las[row][5], pcd[row][5], 0.03);
   }
 }
 

@@ -61,9 +61,14 @@ INSTANTIATE_TEST_SUITE_P(
                                "$PWD/circle.dae}]\""},
                       Door{"Terrain", "farmgen generate " + kPaper +
                                           " -o out --set \"terrain={mesh: $PWD/circle.dae}\""},
-                      Door{"World", "lidarsim fly world.sdf -o out"},
                       Door{"Picture", "plotview plants circle.dae -o p.png"}),
     [](const auto& tested) { return tested.param.name; });
+
+#ifdef PLOTSCAN_HAVE_SDFORMAT
+INSTANTIATE_TEST_SUITE_P(Worlds, HostileMeshFile,
+                         ::testing::Values(Door{"World", "lidarsim fly world.sdf -o out"}),
+                         [](const auto& tested) { return tested.param.name; });
+#endif
 
 }  // namespace
 }  // namespace plotscan

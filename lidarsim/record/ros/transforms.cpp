@@ -39,8 +39,10 @@ Eigen::Isometry3d still_pose(const scan::StampedPose& pose) {
 // In order, each time once.
 std::vector<scan::StampedPose> ordered(std::vector<scan::StampedPose> poses) {
   std::ranges::stable_sort(poses, {}, &scan::StampedPose::time_s);
-  const auto same = std::ranges::unique(poses, {}, &scan::StampedPose::time_s);
-  poses.erase(same.begin(), same.end());
+  const auto same_time = [](const scan::StampedPose& one, const scan::StampedPose& other) {
+    return one.time_s == other.time_s;
+  };
+  poses.erase(std::unique(poses.begin(), poses.end(), same_time), poses.end());
   return poses;
 }
 

@@ -148,7 +148,9 @@ TEST(Simplified, PlantsThatAreNotOursStayThemselves) {
       EXPECT_EQ(mesh_height(coarse), mesh_height(mesh)) << file;
       EXPECT_EQ(extent_of(coarse).sizes(), extent_of(mesh).sizes()) << file;
       const double area = ScaledArea(mesh).at();
-      EXPECT_NEAR(ScaledArea(coarse).at(), area, 0.05 * area) << file << " " << triangles;
+      // Half of the triangles that exports use leave more to meshoptimizer, whose versions differ.
+      const double share = triangles == 300 ? 0.05 : 0.08;
+      EXPECT_NEAR(ScaledArea(coarse).at(), area, share * area) << file << " " << triangles;
       EXPECT_EQ(coarse.texture_coordinates.size(), coarse.vertices.size());
       ASSERT_EQ(coarse.materials.size(), 1u);
       EXPECT_NE(coarse.materials[0].texture, nullptr);

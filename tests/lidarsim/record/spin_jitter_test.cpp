@@ -125,19 +125,26 @@ TEST(SpinJitter, RaysGoWherePacketsSay) {
   EXPECT_LT(farthest_deg, 3);
 }
 
+// A VLP-16's file with another jitter, and a short way over the farm.
+std::string jittering_sensor(const TemporaryFolder& folder, const std::string& jitter_deg) {
+  std::string text = sensor::load_sensor("vlp16").description;
+  const std::string key = "spin_jitter_deg: 0.005";
+  text.replace(text.find(key), key.size(), "spin_jitter_deg: " + jitter_deg);
+  return folder.write("jitters_by_" + jitter_deg + ".yaml", text);
+}
+
+std::filesystem::path short_way(const TemporaryFolder& folder) {
+  return folder.write("way.txt", "0 -2 0.5 7 0 0 0 1\n0.3 -1.4 0.5 7 0 0 0.02 1\n");
+}
+
 // A flight with a jitter that moves points by decimetres: its folder says enough to find their
 // shots again, and without the jitter they are none.
 TEST(SpinJitter, AScanFolderKnowsItsJitter) {
   const TemporaryFolder folder;
-  std::string text = sensor::load_sensor("vlp16").description;
-  const std::string key = "spin_jitter_deg: 0.005";
-  ASSERT_NE(text.find(key), std::string::npos);
-  const auto sensor =
-      folder.write("loose.yaml", text.replace(text.find(key), key.size(), "spin_jitter_deg: 1"));
-  const auto way = folder.write("way.txt", "0 -2 0.5 7 0 0 0 1\n0.3 -1.4 0.5 7 0 0 0.02 1\n");
   const auto scan = folder.path() / "scan";
   lidar::fly(testing::small_farm(), scan,
-             {.sensor = sensor, .flight = way, .spin_jitter = "sensor", .seed = 77}, false);
+             {.sensor = jittering_sensor(folder, "1"), .flight = short_way(folder), .seed = 77},
+             false);
   EXPECT_GT(convert(scan, folder.path() / "flight.pcap", {}).points, 10'000U);
   FlightRecord steady = read_flight_record(scan);
   steady.spin_jitter = {};
@@ -145,6 +152,30 @@ TEST(SpinJitter, AScanFolderKnowsItsJitter) {
   EXPECT_THAT(
       message_of<InputError>([&] { encoder.write(testing::cloud_points(scan / "cloud.pcd")); }),
       HasSubstr("does not lie on its shot"));
+}
+
+// Without the range's noise: at 7 m over the ground 0.005 degrees are 0.6 mm.
+TEST(SpinJitter, IsTheSensorsOwnUnlessNoneIsAskedFor) {
+  const TemporaryFolder folder;
+  const auto flown = [&](const std::string& name, lidar::FlyOptions options) {
+    options.flight = short_way(folder);
+    options.range_noise_m = 0;
+    lidar::fly(testing::small_farm(), folder.path() / name, options, false);
+    return testing::cloud_points(folder.path() / name / "cloud.pcd");
+  };
+  const auto usual = flown("usual", {});
+  const auto none = flown("none", {.spin_jitter = "none"});
+  const auto zero = flown("zero", {.sensor = jittering_sensor(folder, "0")});
+  const auto apart = [](const auto& points, const auto& others) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < std::min(points.size(), others.size()); ++i)
+      count += points[i].x != others[i].x || points[i].y != others[i].y ? 1 : 0;
+    return count;
+  };
+  ASSERT_GT(none.size(), 10'000U);
+  EXPECT_EQ(none.size(), zero.size());
+  EXPECT_EQ(apart(none, zero), 0U);
+  EXPECT_GT(apart(none, usual), none.size() / 2);
 }
 
 }  // namespace
