@@ -1,0 +1,31 @@
+// Light or dark, as the reader's system has it or as the reader says.
+import { dark, light, type Theme } from "./colours";
+import { select } from "./dom";
+
+const system = window.matchMedia("(prefers-color-scheme: dark)");
+let chosen = "auto";
+const listeners = new Set<() => void>();
+
+export const theme = (): Theme => ((chosen === "auto" ? system.matches : chosen === "dark") ? dark : light);
+
+// Calls now and whenever the colours change.
+export function onTheme(draw: () => void): void {
+  listeners.add(draw);
+  draw();
+}
+
+function changed(): void {
+  document.documentElement.dataset.theme = theme().dark ? "dark" : "light";
+  for (const draw of listeners) draw();
+}
+
+export function themeChoice(): HTMLElement {
+  system.addEventListener("change", changed);
+  changed();
+  return select("Colours", [
+    { value: "auto", label: "as the system" }, { value: "light", label: "light" }, { value: "dark", label: "dark" },
+  ], chosen, (value) => {
+    chosen = value;
+    changed();
+  });
+}
