@@ -2,6 +2,7 @@ import "./style.css";
 import { readReport, type Report } from "./data";
 import { h } from "./dom";
 import { FieldView } from "./field_view";
+import { estimateFigures, SuiteView } from "./suite";
 import { themeChoice } from "./theme";
 
 function header(report: Report): HTMLElement {
@@ -34,13 +35,28 @@ function fieldsSection(report: Report): HTMLElement {
   return section;
 }
 
+function sections(report: Report): HTMLElement[] {
+  const all: HTMLElement[] = [];
+  if (report.fields.length > 0) all.push(fieldsSection(report));
+  if (report.suite) all.push(...new SuiteView(report.suite).sections);
+  const figures = report.kind === "estimate" ? estimateFigures(report) : undefined;
+  if (figures) all.push(figures);
+  return all.length > 1 ? [links(all), ...all] : all;
+}
+
+// Links to the page's sections.
+function links(all: HTMLElement[]): HTMLElement {
+  const names: Record<string, string> = { fields: "In three dimensions", figures: "Figures", tables: "Tables" };
+  return h("nav", { "aria-label": "Sections" }, ...all.map((section) => h("a", { href: `#${section.id}` }, names[section.id])));
+}
+
 function start(): void {
   const page = document.getElementById("page")!;
   try {
     const report = readReport();
     document.title = report.title;
     page.append(header(report));
-    if (report.fields.length > 0) page.append(fieldsSection(report));
+    page.append(...sections(report));
     document.documentElement.dataset.interactive = String(Math.round(performance.now()));
   } catch (error) {
     page.append(h("p", { class: "warning" }, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
