@@ -30,15 +30,19 @@ std::vector<Eigen::Vector3d> path_of(const record::Source& source) {
 
 }  // namespace
 
-ShownScan read_shown_scan(const std::filesystem::path& scan, std::size_t most,
-                          const record::SourceOptions& source_options,
+ShownScan read_shown_scan(const std::filesystem::path& scan, const ReadOptions& options,
                           const ProgressReport& progress) {
-  const record::Source source = record::open_source(scan, source_options);
-  report::CloudSample sample(most);
+  const record::Source source = record::open_source(scan, options.source);
+  const Eigen::Vector2d origin = source.info.origin_m.head<2>();
+  report::CloudSample sample(options.most);
   const auto promised = static_cast<double>(std::max<std::uint64_t>(source.info.points, 1));
+  double done = 0;
   source.stream([&](std::span<const scan::LabelledPoint> points) {
-    for (const scan::LabelledPoint& point : points) sample.add(shown(point));
-    if (progress) progress(std::min(1.0, static_cast<double>(sample.read()) / promised));
+    for (const scan::LabelledPoint& point : points)
+      if (!options.area || options.area->contains(origin + Eigen::Vector2d(point.x, point.y)))
+        sample.add(shown(point));
+    done += static_cast<double>(points.size());
+    if (progress) progress(std::min(1.0, done / promised));
   });
   const auto has = [&](const char* field) {
     return std::ranges::count(source.info.fields, field) > 0;

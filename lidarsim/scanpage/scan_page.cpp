@@ -70,9 +70,11 @@ PageSummary write_scan_page(const PageOptions& options, const ProgressReport& pr
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
-  report::ShownField field{.name = options.scan.filename().string()};
+  const fs::path& path = options.scan;
+  report::ShownField field{
+      .name = (path.has_filename() ? path : path.parent_path()).filename().string()};
   field.plots = read_plots(options.plots);
-  ShownScan scan = read_shown_scan(options.scan, options.points, options.source,
+  ShownScan scan = read_shown_scan(options.scan, {.most = options.points, .source = options.source},
                                    [&](double share) { report(kRead * share); });
   field.facts = facts_of(options.scan, scan.cloud);
   field.ground = fitted_ground(scan.cloud, options.threads);

@@ -119,21 +119,41 @@ export function frame(svg: SVGSVGElement, panel: Panel, horizontal: Axis, vertic
   return { x, y, group };
 }
 
-// Names of series with their marks, in as many lines as they need; the height that they take.
-export function legend(
-  svg: SVGSVGElement, names: { name: string; colour: string; shape?: number; dash?: string }[], left: number, top: number,
-  width: number): number {
+export interface LegendEntry {
+  name: string;
+  colour: string;
+  shape?: number;
+  dash?: string; // of a line in place of a mark; "" is solid
+}
+
+const entryWidth = (name: string): number => 26 + 6.3 * name.length;
+
+// The height that a legend takes.
+export function legendHeight(names: { name: string }[], width: number): number {
+  let lines = 1;
+  let x = 0;
+  for (const { name } of names) {
+    if (x > 0 && x + entryWidth(name) - 6 > width) {
+      ++lines;
+      x = 0;
+    }
+    x += entryWidth(name);
+  }
+  return 15 * lines + 6;
+}
+
+// Names of series with their marks, in as many lines as they need.
+export function legend(svg: SVGSVGElement, names: LegendEntry[], left: number, top: number, width: number): void {
   let x = left;
   let y = top;
   for (const { name, colour, shape, dash } of names) {
-    const size = 20 + 6.1 * name.length;
-    if (x > left && x + size > left + width) {
+    const size = entryWidth(name);
+    if (x > left && x + size - 6 > left + width) {
       x = left;
       y += 15;
     }
     svg.append(dash !== undefined ? line(x, y - 4, x + 12, y - 4, colour, 1.6, dash) : mark(shape ?? 1, x + 6, y - 4, 4, colour));
     svg.append(text(x + 16, y, name));
-    x += size + 6;
+    x += size;
   }
-  return y - top + 15;
 }

@@ -7,7 +7,7 @@ import { onTheme, theme } from "./theme";
 export interface Figure {
   title: string;
   note: string;
-  draw: (theme: Theme) => SVGSVGElement;
+  draw: (theme: Theme, narrow: boolean) => SVGSVGElement; // narrow: for a phone
   csv: () => string;
 }
 
@@ -16,6 +16,8 @@ export interface Card {
   update: () => void;
 }
 
+const kNarrow_px = 600;
+
 // `figure` is asked anew at every update.
 export function card(figure: () => Figure): Card {
   const title = h("h3");
@@ -23,13 +25,19 @@ export function card(figure: () => Figure): Card {
   const place = h("div", { class: "drawing" });
   const saves = h("div", { class: "tools" });
   const element = h("figure", { class: "card" }, h("div", { class: "head" }, title, saves), place, h("figcaption", {}, note));
+  let narrow = window.innerWidth < kNarrow_px;
   const update = () => {
     const now = figure();
     title.textContent = now.title;
     note.textContent = now.note;
-    place.replaceChildren(now.draw(theme()));
-    saves.replaceChildren(saveButtons({ title: now.title, svg: () => figure().draw(light), csv: () => figure().csv() }));
+    place.replaceChildren(now.draw(theme(), narrow));
+    saves.replaceChildren(saveButtons({ title: now.title, svg: () => figure().draw(light, false), csv: () => figure().csv() }));
   };
   onTheme(update);
+  window.addEventListener("resize", () => {
+    if (narrow === window.innerWidth < kNarrow_px) return;
+    narrow = !narrow;
+    update();
+  });
   return { element, update };
 }

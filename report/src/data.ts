@@ -102,6 +102,7 @@ export interface Suite {
   name: string;
   cases: { name: string; published_rmse_cm?: number }[];
   published?: { source: string; methods: string[] };
+  baseline?: string; // the case that the others are compared with
   truths: string[]; // that are shown first
   farms: { case: string; seed: number; plots: number }[];
   plots: Record<string, (number | null)[]>; // the truths, by attribute; farm after farm

@@ -1,5 +1,6 @@
 // One field: its points in three dimensions, the map of its plots, a plot from the side, their table.
 import { card } from "./card";
+import type { Theme } from "./colours";
 import { lookOf, modesOf, type Key, type Mode } from "./colouring";
 import type { Field, Plot } from "./data";
 import { Surface } from "./decode";
@@ -248,7 +249,7 @@ export class FieldView {
       title: `Plot ${plot.id} from the side`,
       note: `Seen along the plot's width; ${counted(points.filter((point) => point.inside).length)} points of this page between its long sides. ` +
         "Lines over the ground along its middle are heights, bands their 95 % intervals. Brown points lie within 7.5 cm of the fitted ground.",
-      draw: (colours: Parameters<typeof drawProfile>[1]) => drawProfile(options, colours),
+      draw: (colours: Theme, narrow: boolean) => drawProfile(options, colours, narrow),
       csv: () => profileCsv(options),
     };
   }

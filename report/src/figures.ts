@@ -1,9 +1,9 @@
 // The figures of heights against truths: the paper's, and what it lacks.
-import { canvas, frame, legend, line, mark, text, type Panel } from "./axes";
+import { canvas, frame, legend, legendHeight, line, mark, round, text, type LegendEntry, type Panel } from "./axes";
 import type { Theme } from "./colours";
 import { s } from "./dom";
-import { counted, csv, fixed, signed } from "./numbers";
-import { bias, error, oneNumber, r2, r2Within, relativeErrors, rmse, rmseStandardError, within, type Pair } from "./statistics";
+import { counted, csv, fixed, quantile } from "./numbers";
+import { error, oneNumber, r2, r2Within, relativeErrors, rmse, rmseStandardError, within, type Pair } from "./statistics";
 
 // One method's height on one kind of field.
 export interface Group {
@@ -24,41 +24,33 @@ export interface Bar {
   n: number;
 }
 
-const panels = (count: number, width: number, top: number, height: number): Panel[] => {
+// Panels side by side, `columns` of them in a row, each `pitch` pixels below the last row.
+function panels(count: number, columns: number, width: number, top: number, height: number, pitch: number): Panel[] {
   const gap = 46;
-  const each = (width - gap - 8 - (count - 1) * gap) / count;
-  return Array.from({ length: count }, (_, i) => ({ left: gap + i * (each + gap), top, width: each, height }));
-};
+  const each = (width - 8) / columns - gap;
+  return Array.from({ length: count }, (_, i) => ({
+    left: gap + (i % columns) * (each + gap), top: top + pitch * Math.floor(i / columns), width: each, height }));
+}
 
-const widthFor = (count: number): number => (count === 1 ? 360 : Math.min(1100, 300 * count));
 const colourOf = (theme: Theme, i: number): string => theme.kinds[i % theme.kinds.length];
 const names = (methods: Method[], theme: Theme) =>
   methods.map((method, i) => ({ name: method.name, colour: colourOf(theme, i), shape: i }));
 
-// The height of a legend before it is drawn.
-function legendHeight(methods: { name: string }[], width: number): number {
-  let lines = 1;
-  let x = 0;
-  for (const { name } of methods) {
-    const size = 26 + 6.1 * name.length;
-    if (x > 0 && x + size - 6 > width) {
-      ++lines;
-      x = 0;
-    }
-    x += size;
-  }
-  return 15 * lines + 6;
+// Lines over the bars of a case, metres.
+export interface Lines {
+  published?: Record<string, number | undefined>;
+  references?: Record<string, number>;
 }
 
 // Bars of a method beside each other in each case, with their error bars; a dashed line where a figure was published.
 export function drawBars(
-  title: string, label: string, bars: Bar[], theme: Theme, published: Record<string, number | undefined> = {},
-  references: Record<string, number> = {}): SVGSVGElement {
+  title: string, label: string, bars: Bar[], theme: Theme, narrow: boolean,
+  { published = {}, references = {} }: Lines = {}): SVGSVGElement {
   const groups = [...new Set(bars.map((bar) => bar.group))];
   const methods = [...new Set(bars.map((bar) => bar.method))];
-  const width = Math.max(360, Math.min(1100, 90 + groups.length * (26 * methods.length + 34)));
+  const width = Math.max(360, Math.min(narrow ? 360 : 1100, 90 + groups.length * (26 * methods.length + 34)));
   const legendNames = methods.map((name, i) => ({ name, colour: colourOf(theme, i), shape: 1 }));
-  const extra: Parameters<typeof legend>[1] = [];
+  const extra: LegendEntry[] = [];
   if (Object.values(published).some((value) => value !== undefined)) extra.push({ name: "published", colour: theme.ink, dash: "6 3" });
   if (Object.keys(references).length) extra.push({ name: "one number for each field", colour: theme.ink, dash: "2 2" });
   const top = 8 + legendHeight([...legendNames, ...extra], width - 54);
@@ -68,8 +60,9 @@ export function drawBars(
   const highest = Math.max(
     0.01, ...bars.flatMap((bar) => [bar.value, bar.high]).filter(Number.isFinite), ...Object.values(references),
     ...Object.values(published).map((value) => value ?? 0));
+  const lowest = Math.min(0, ...bars.flatMap((bar) => [bar.value, bar.low]).filter(Number.isFinite));
   const { y, group } = frame(svg, panel, { low: 0, high: groups.length, label: "", labels: [] },
-    { low: 0, high: 105 * highest, label }, theme);
+    { low: 105 * lowest, high: 105 * highest, label }, theme);
   groups.forEach((name, i) => {
     const each = panel.width / groups.length;
     const left = panel.left + each * i;
@@ -80,7 +73,7 @@ export function drawBars(
       if (!bar || !Number.isFinite(bar.value)) return;
       const x = first + size * k;
       const words = `${method}, ${name}: ${fixed(100 * bar.value, 2)} [${fixed(100 * bar.low, 2)}, ${fixed(100 * bar.high, 2)}] cm, n = ${bar.n}`;
-      group.append(s("rect", { x: x + 1.5, y: y(100 * bar.value), width: size - 3, height: y(0) - y(100 * bar.value), fill: colourOf(theme, k) }, s("title", {}, words)));
+      group.append(s("rect", { x: x + 1.5, y: y(Math.max(100 * bar.value, 0)), width: size - 3, height: Math.abs(y(0) - y(100 * bar.value)), fill: colourOf(theme, k) }, s("title", {}, words)));
       const middle = x + size / 2;
       if (Number.isFinite(bar.low) && Number.isFinite(bar.high))
         group.append(line(middle, y(100 * bar.low), middle, y(100 * bar.high), theme.ink, 1.3),
@@ -123,34 +116,36 @@ export function references(methods: Method[]): Record<string, number> {
   return found;
 }
 
-// How often errors of so many per cent come, a panel a case.
+// How often errors of so many per cent come: a row of panels a case, a column a method.
 export function drawHistograms(methods: Method[], theme: Theme): SVGSVGElement {
   const cases = methods[0]?.groups.map((group) => group.name) ?? [];
-  const width = widthFor(cases.length);
-  const top = 22 + legendHeight(methods, width - 54);
-  const svg = canvas(width, top + 222, theme, "Relative errors in bins of 5 %");
-  legend(svg, names(methods, theme).map((entry) => ({ ...entry, shape: 1 })), 46, 16, width - 54);
+  const columns = Math.max(methods.length, 1);
+  const width = Math.max(360, Math.min(1100, 216 * columns + 54));
+  const svg = canvas(width, 30 + 128 * cases.length + 36, theme, "Relative errors in bins of 5 %");
   const all = methods.map((method) => method.groups.map((group) => relativeErrors(group.pairs)));
-  const bins = all.flat(2);
-  const reach = Math.min(0.6, Math.max(0.1, ...bins.flatMap((bin) => [-bin.low, bin.low + 0.05])));
-  const most = Math.max(0.1, ...bins.map((bin) => bin.share));
-  panels(cases.length, width, top, 170).forEach((panel, i) => {
-    svg.append(text(panel.left + panel.width / 2, top - 6, `${cases[i]}, n = ${Math.max(...methods.map((method) => method.groups[i].pairs.length))}`, { anchor: "middle" }));
-    const { x, y, group } = frame(svg, panel,
-      { low: -100 * reach, high: 100 * reach, label: "error, % of the truth", count: 5 },
-      { low: 0, high: Math.min(104, 105 * most), label: i === 0 ? "share of plots, %" : "" }, theme);
-    group.append(line(x(0), panel.top, x(0), panel.top + panel.height, theme.soft));
-    methods.forEach((method, k) => {
-      const steps = Math.round((2 * reach) / 0.05);
-      let d = `M${x(-100 * reach)} ${y(0)}`;
-      for (let step = 0; step < steps; ++step) {
-        const low = -reach + 0.05 * step;
-        const bin = all[k][i].find((candidate) => Math.abs(candidate.low - low) < 1e-6);
-        const level = y(100 * (bin?.share ?? 0));
-        d += `V${level.toFixed(1)}H${x(100 * (low + 0.05)).toFixed(1)}`;
-      }
-      d += `V${y(0)}`;
-      group.append(s("path", { d, fill: colourOf(theme, k), "fill-opacity": 0.16, stroke: colourOf(theme, k), "stroke-width": 1.7 }, s("title", {}, `${method.name}, ${cases[i]}`)));
+  const common = all.flat(2).filter((bin) => bin.share >= 0.01);
+  const reach = Math.min(0.4, Math.max(0.15, ...common.flatMap((bin) => [-bin.low, bin.low + 0.05])));
+  const outside = (bin: { low: number }) => bin.low < -reach - 1e-9 || bin.low + 0.05 > reach + 1e-9;
+  const most = Math.max(0.1, ...all.flat(2).map((bin) => bin.share));
+  const places = panels(columns * cases.length, columns, width, 30, 100, 128);
+  methods.forEach((method, k) => {
+    const { left } = places[k];
+    svg.append(mark(1, left + 5, 11, 4, colourOf(theme, k)), text(left + 13, 15, method.name, { size: 10.5 }));
+    method.groups.forEach(({ name, pairs }, i) => {
+      const panel = places[columns * i + k];
+      const last = i === cases.length - 1;
+      const { x, y, group } = frame(svg, panel,
+        { low: -100 * reach, high: 100 * reach, label: last ? "error, % of the truth" : "", count: 5, labels: last ? undefined : [] },
+        { low: 0, high: Math.min(104, 105 * most), label: k === 0 ? "plots, %" : "", count: 3 }, theme);
+      for (const bin of all[k][i].filter((one) => !outside(one)))
+        group.append(s("rect", {
+          x: round(x(100 * bin.low) + 0.5), y: round(y(100 * bin.share)), width: round(x(5) - x(0) - 1),
+          height: round(y(0) - y(100 * bin.share)), fill: colourOf(theme, k),
+        }, s("title", {}, `${fixed(100 * bin.low, 0)} to ${fixed(100 * bin.low + 5, 0)} %: ${bin.count} plots`)));
+      group.append(line(x(0), panel.top, x(0), panel.top + panel.height, theme.soft));
+      const beyond = all[k][i].filter(outside).reduce((sum, bin) => sum + bin.count, 0);
+      const words = pairs.length === 0 ? `${name}: none found` : `${name}, n = ${pairs.length}${beyond ? `, ${beyond} beyond` : ""}`;
+      svg.append(text(panel.left + 4, panel.top + 10, words, { size: 9.5, colour: theme.soft }));
     });
   });
   return svg;
@@ -162,38 +157,42 @@ export const histogramsCsv = (methods: Method[]): string => csv([
     [group.name, method.name, Math.round(100 * bin.low), Math.round(100 * bin.low) + 5, bin.count, bin.share]))),
 ]);
 
-// Estimated against true heights, a panel a case.
-export function drawScatter(methods: Method[], theme: Theme): SVGSVGElement {
+// Estimated against true heights, a panel a case. Where a few estimates lie far away, the axes end before
+// them, and it is said how many do.
+export function drawScatter(methods: Method[], theme: Theme, narrow: boolean): SVGSVGElement {
   const cases = methods[0]?.groups.map((group) => group.name) ?? [];
-  const width = widthFor(cases.length);
-  const lines = 13 * methods.length;
-  const top = 22 + legendHeight(methods, width - 54);
-  const places = panels(cases.length, width, top, 0);
-  const side = places[0]?.width ?? 200;
-  const svg = canvas(width, top + side + 46 + lines, theme, "Estimated against true heights");
+  const columns = narrow ? 1 : Math.min(3, Math.max(cases.length, 1));
+  const width = columns === 1 ? 360 : 340 * columns;
+  const top = 24 + legendHeight(methods, width - 54);
+  const side = (width - 8) / columns - 46;
+  const pitch = side + 66 + 13 * methods.length;
+  const svg = canvas(width, top + pitch * Math.ceil(cases.length / columns) - 14, theme, "Estimated against true heights");
   legend(svg, names(methods, theme), 46, 16, width - 54);
-  const values = methods.flatMap((method) => method.groups.flatMap((group) => group.pairs.flatMap((pair) => [pair.estimate, pair.truth])));
-  const low = values.length ? Math.min(...values) : 0;
-  const high = values.length ? Math.max(...values) : 1;
-  const margin = 0.04 * (high - low || 1);
-  places.forEach((place, i) => {
-    const panel = { ...place, height: side };
-    svg.append(text(panel.left + panel.width / 2, top - 6, cases[i], { anchor: "middle" }));
+  const every = methods.flatMap((method) => method.groups.flatMap((group) => group.pairs));
+  const estimates = every.map((pair) => pair.estimate).sort((a, b) => a - b);
+  const truths = every.map((pair) => pair.truth);
+  const low = every.length ? Math.min(...truths, quantile(estimates, 0.02)) : 0;
+  const high = every.length ? Math.max(...truths, quantile(estimates, 0.98)) : 1;
+  const margin = 0.06 * (high - low || 1);
+  const inside = (value: number) => value >= low - margin && value <= high + margin;
+  panels(cases.length, columns, width, top, side, pitch).forEach((panel, i) => {
+    svg.append(text(panel.left + panel.width / 2, panel.top - 6, cases[i], { anchor: "middle" }));
     const { x, y, group } = frame(svg, panel,
       { low: low - margin, high: high + margin, label: "true height, m" },
-      { low: low - margin, high: high + margin, label: i === 0 ? "estimated height, m" : "" }, theme);
+      { low: low - margin, high: high + margin, label: i % columns === 0 ? "estimated height, m" : "" }, theme);
     group.append(line(x(low - margin), y(low - margin), x(high + margin), y(high + margin), theme.soft, 1.2));
     methods.forEach((method, k) => {
       const { pairs } = method.groups[i];
-      for (const pair of pairs) {
+      for (const pair of pairs.filter((candidate) => inside(candidate.estimate))) {
         const dot = mark(k, x(pair.truth), y(pair.estimate), 2.3, colourOf(theme, k), 0.6);
         dot.append(s("title", {}, `${pair.label}: ${fixed(pair.estimate, 3)} m, truth ${fixed(pair.truth, 3)} m (${method.name})`));
         group.append(dot);
       }
+      const beyond = pairs.filter((pair) => !inside(pair.estimate)).length;
       const words = pairs.length === 0 ? "no plots found"
-        : `R² ${fixed(r2(pairs), 2)} (within ${fixed(r2Within(pairs), 2)}), RMSE ${fixed(100 * rmse(pairs), 1)} cm, bias ${signed(100 * bias(pairs), 1)}, n ${pairs.length}`;
-      svg.append(mark(k, panel.left - 2, panel.top + side + 40 + 13 * k, 3, colourOf(theme, k)),
-        text(panel.left + 5, panel.top + side + 44 + 13 * k, words, { size: 9.5, colour: theme.soft }));
+        : `R² ${fixed(r2(pairs), 2)}, within ${fixed(r2Within(pairs), 2)}; RMSE ${fixed(100 * rmse(pairs), 1)} cm; n = ${pairs.length}${beyond ? `, ${beyond} beyond` : ""}`;
+      svg.append(mark(k, panel.left + 2, panel.top + side + 41 + 13 * k, 3, colourOf(theme, k)),
+        text(panel.left + 10, panel.top + side + 45 + 13 * k, words, { size: 10, colour: theme.soft }));
     });
   });
   return svg;

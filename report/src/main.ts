@@ -20,6 +20,7 @@ function fieldsSection(report: Report): HTMLElement {
     void view.open();
   };
   const section = h("section", { id: "fields", "aria-label": "Fields" });
+  if (report.kind === "suite") section.append(h("h2", {}, "One farm of each case"));
   if (report.fields.length > 1) {
     const tabs = report.fields.map((field, i) => {
       const tab = h("button", { type: "button", role: "tab", "aria-selected": i === 0 ? "true" : "false", click: () => {
@@ -57,6 +58,7 @@ function start(): void {
     document.title = report.title;
     page.append(header(report));
     page.append(...sections(report));
+    if (report.fields.length === 0) document.documentElement.dataset.ready = "true";
     document.documentElement.dataset.interactive = String(Math.round(performance.now()));
   } catch (error) {
     page.append(h("p", { class: "warning" }, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));

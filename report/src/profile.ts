@@ -1,5 +1,5 @@
 // A plot from the side: its points, the ground, heights with their intervals, truths.
-import { canvas, frame, legend, line, round, text } from "./axes";
+import { canvas, frame, legend, legendHeight, line, round, text, type LegendEntry } from "./axes";
 import type { Theme } from "./colours";
 import type { Box, Cloud, Plot } from "./data";
 import type { TilePoints } from "./decode";
@@ -9,6 +9,7 @@ import type { Grounds } from "./scene";
 
 const kBeyond = 1; // metres that are shown before and behind the plot
 const kMostPoints = 9000;
+const kHeightKinds = [0, 1, 3]; // colours of the heights
 
 // A point beside the plot's middle: along its length from the box's start, across, up.
 export interface SidePoint {
@@ -83,9 +84,8 @@ function dots(points: SidePoint[], x: (v: number) => number, y: (v: number) => n
   return points.map((point) => `M${x(point.along).toFixed(1)} ${y(point.z).toFixed(1)}h0`).join("");
 }
 
-export function drawProfile({ plot, points, grounds, height, noise }: ProfileOptions, theme: Theme): SVGSVGElement {
-  const [width, total] = [720, 330];
-  const svg = canvas(width, total, theme, `Plot ${plot.id} from the side`);
+export function drawProfile({ plot, points, grounds, height, noise }: ProfileOptions, theme: Theme, narrow: boolean): SVGSVGElement {
+  const width = narrow ? 360 : 720;
   const length = plot.box[3];
   const names = profileHeights(plot, height);
   const middle = (surface?: { height(x: number, y: number): number }) => surface?.height(plot.box[0], plot.box[1]) ?? NaN;
@@ -96,20 +96,30 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
   const low = Math.min(sorted[Math.floor(sorted.length * 0.001)] ?? base, base - 0.05);
   const high = Math.max(sorted[Math.floor(sorted.length * 0.999)] ?? base, ...tops, base + 0.2);
   const margin = 0.06 * (high - low);
-  const panel = { left: 48, top: 30, width: width - 48 - (names.length ? 176 : 12), height: total - 30 - 40 };
-  const { x, y, group } = frame(svg, panel,
-    { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" },
-    { low: low - margin, high: high + margin, label: "height z, m" }, theme);
   const kinds: [string, string, SidePoint[]][] = [
     ["beyond the plot's ends", theme.dark ? "#6e7681" : "#b6bdc5", shown.filter((point) => !point.inside)],
     ["crop", theme.kinds[2], shown.filter((point) => point.inside && !isGround(point, noise))],
     ["within the ground's noise", theme.dark ? "#d6a461" : "#a1762f", shown.filter((point) => point.inside && isGround(point, noise))],
   ];
+  const ground = grounds.ground ? groundLine(plot.box, (u, v) => grounds.ground!.height(u, v)) : [];
+  const terrain = grounds.terrain ? groundLine(plot.box, (u, v) => grounds.terrain!.height(u, v)) : [];
+  const named: LegendEntry[] = kinds.filter(([, , some]) => some.length > 0).map(([name, colour]) => ({ name, colour, shape: 0 }));
+  if (ground.length) named.push({ name: "fitted ground ± 1.96 SE", colour: theme.ink, dash: "" });
+  if (narrow) names.forEach((name, i) => named.push({ name, colour: theme.kinds[kHeightKinds[i]], dash: "" }));
+  if (terrain.length) named.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
+  if (names.some((name) => plot.truths[namedTruth(name)] !== undefined)) named.push({ name: "truth", colour: theme.soft, dash: "2 3" });
+  const top = 14 + legendHeight(named, width - 58);
+  const total = top + 300;
+  const svg = canvas(width, total, theme, `Plot ${plot.id} from the side`);
+  legend(svg, named, 48, 16, width - 58);
+  const panel = { left: 48, top, width: width - 48 - (names.length && !narrow ? 176 : 12), height: 258 };
+  const { x, y, group } = frame(svg, panel,
+    { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" },
+    { low: low - margin, high: high + margin, label: "height z, m" }, theme);
   for (const [, colour, some] of kinds)
     if (some.length) group.append(s("path", { d: dots(some, x, y), stroke: colour, "stroke-width": 1.7, "stroke-linecap": "round", fill: "none", "stroke-opacity": 0.75 }));
   for (const end of [0, length]) group.append(line(x(end), panel.top, x(end), panel.top + panel.height, theme.soft, 1, "2 3"));
   const path = (piece: [number, number][], up = 0) => piece.map(([u, v], i) => `${i ? "L" : "M"}${round(x(u))} ${round(y(v + up))}`).join("");
-  const ground = grounds.ground ? groundLine(plot.box, (u, v) => grounds.ground!.height(u, v)) : [];
   const error = (along: number): number => {
     const angle = (plot.box[4] * Math.PI) / 180;
     const from = along - length / 2;
@@ -119,14 +129,13 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
     const band = [...piece.map(([u, v]) => [u, v + error(u)]), ...piece.map(([u, v]) => [u, v - error(u)]).reverse()] as [number, number][];
     group.append(s("path", { d: path(band) + "z", fill: theme.ink, "fill-opacity": 0.22 }), s("path", { d: path(piece), stroke: theme.ink, "stroke-width": 1.6, fill: "none" }));
   }
-  const terrain = grounds.terrain ? groundLine(plot.box, (u, v) => grounds.terrain!.height(u, v)) : [];
   for (const piece of terrain) group.append(s("path", { d: path(piece), stroke: theme.kinds[5], "stroke-width": 1.4, "stroke-dasharray": "5 3", fill: "none" }));
   const inBox = (ground.length ? ground : terrain.length ? terrain : [[[0, base], [length, base]] as [number, number][]])
     .map((piece) => piece.filter(([u]) => u >= 0 && u <= length)).filter((piece) => piece.length > 1);
   const labels: { y: number; words: string; colour: string }[] = [];
   names.forEach((name, i) => {
     const [value, , from, to] = plot.heights[name];
-    const colour = theme.kinds[[0, 1, 3][i]];
+    const colour = theme.kinds[kHeightKinds[i]];
     for (const piece of inBox) {
       if (from !== null && to !== null) {
         const band = [...piece.map(([u, v]) => [u, v + to]), ...piece.map(([u, v]) => [u, v + from]).reverse()] as [number, number][];
@@ -144,20 +153,15 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
   });
   // Labels beside the ends of their lines, none over another.
   labels.sort((a, b) => a.y - b.y);
-  labels.forEach((label, i) => {
+  if (!narrow) labels.forEach((label, i) => {
     if (i > 0) label.y = Math.max(label.y, labels[i - 1].y + 26);
     const [name, rest] = [label.words.split(" [")[0], label.words.split(" [")[1]];
     const left = panel.left + panel.width + 8;
     svg.append(text(left, label.y + 1, name, { colour: label.colour, bold: true }));
     if (rest) svg.append(text(left, label.y + 13, `95 %: [${rest}`, { colour: theme.soft, size: 10 }));
   });
-  const named: Parameters<typeof legend>[1] = kinds.filter(([, , some]) => some.length > 0).map(([name, colour]) => ({ name, colour, shape: 0 }));
-  if (ground.length) named.push({ name: "fitted ground ± 1.96 SE", colour: theme.ink, dash: "" });
-  if (terrain.length) named.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
-  if (names.some((name) => plot.truths[namedTruth(name)] !== undefined)) named.push({ name: "truth", colour: theme.soft, dash: "2 3" });
-  legend(svg, named, panel.left, 16, width - panel.left - 10);
   const factor = panel.height / (high - low + 2 * margin) / (panel.width / (length + 2 * kBeyond));
-  svg.append(text(width - 8, total - 11, `heights drawn × ${fixed(factor, 1)}`, { anchor: "end", colour: theme.soft, size: 10 }));
+  svg.append(text(width - 8, total - 11 + (narrow ? 9 : 0), `heights drawn × ${fixed(factor, 1)}`, { anchor: "end", colour: theme.soft, size: 10 }));
   return svg;
 }
 

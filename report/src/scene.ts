@@ -250,6 +250,14 @@ export class Scene {
     setTimeout(poll, 3);
   }
 
+  // Whether ground is drawn here: not far beyond the plots, where nothing is measured on it.
+  private isNear(x: number, y: number): boolean {
+    if (this.field.plots.length + this.field.true_boxes.length === 0) return true;
+    const { low, high } = this.extent;
+    const reach = 6 + 0.15 * Math.max(high.x - low.x, high.y - low.y);
+    return x > low.x - reach && x < high.x + reach && y > low.y - reach && y < high.y + reach;
+  }
+
   private addSurface(layer: Layer, surface: Surface | undefined, colour: string): void {
     if (!surface) return;
     const { first, cell, columns, rows } = surface.grid;
@@ -262,8 +270,9 @@ export class Scene {
       for (let column = 0; column < across; ++column) {
         const z = surface.z[row * stride * columns + column * stride];
         const at = row * across + column;
-        known[at] = Number.isFinite(z) ? 1 : 0;
-        const place = this.local(first[0] + cell * stride * column, first[1] + cell * stride * row, known[at] ? z : 0);
+        const [x, y] = [first[0] + cell * stride * column, first[1] + cell * stride * row];
+        known[at] = Number.isFinite(z) && this.isNear(x, y) ? 1 : 0;
+        const place = this.local(x, y, known[at] ? z : 0);
         place.toArray(places, 3 * at);
       }
     const faces: number[] = [];

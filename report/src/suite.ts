@@ -1,5 +1,6 @@
 // What a suite of farms showed: figures and tables of its methods.
 import { card, type Card } from "./card";
+import type { Theme } from "./colours";
 import type { Report, Suite, TableRow } from "./data";
 import { checkbox, h, select } from "./dom";
 import {
@@ -35,6 +36,12 @@ export function methodsBeside(suite: Suite, truth: string): { all: string[]; fir
   const oracle = all.filter((method) => method === "oracle-ground");
   const first = [...new Set([...named.filter((method) => !method.startsWith("one-number")).slice(0, 2), ...all.filter((method) => published.includes(method)), ...oracle])];
   return { all, first: (first.length > 0 ? first : all).slice(0, 5) };
+}
+
+// Method by method in their order, a method's cases together.
+function byMethod(rows: TableRow[]): TableRow[] {
+  const methods = [...new Set(rows.map((row) => row.method))];
+  return methods.flatMap((method) => rows.filter((row) => row.method === method));
 }
 
 const number = (row: TableRow, key: string): number => (typeof row[key] === "number" ? (row[key] as number) : NaN);
@@ -114,7 +121,8 @@ export class SuiteView {
         this.update();
       }));
     this.cards = [card(() => this.rmseFigure()), card(() => this.withinFigure()), card(() => this.scatterFigure()), card(() => this.histogramFigure())];
-    if (suite.cases.length > 1) this.cards.slice(2).forEach(({ element }) => element.classList.add("wide"));
+    if (suite.baseline) this.cards.splice(1, 0, card(() => this.changeFigure()));
+    if (suite.cases.length > 1) this.cards.slice(-2).forEach(({ element }) => element.classList.add("wide"));
     if (suite.cases.length > 4) this.cards.forEach(({ element }) => element.classList.add("wide"));
     this.sections.push(h("section", { id: "figures" }, h("h2", {}, "Heights against the truth"), tools, this.chips,
       h("div", { class: "grid" }, ...this.cards.map(({ element }) => element))));
@@ -131,9 +139,9 @@ export class SuiteView {
       title: "Plots found", columns: boxColumns, rows: suite.boxes,
       note: "A plot is found where its box and an estimated one overlap by an intersection over union of at least 0.5, one to one.",
     }).element);
-    const named = suite.table.filter((row) => row.named);
+    const named = byMethod(suite.table.filter((row) => row.named));
     if (named.length > 0)
-      section.append(new Table({ title: "Each height against the truth it is named after", columns: [text("truth", "truth"), ...heightColumns(suite)], rows: named }).element);
+      section.append(new Table({ title: "Each height against the truth it is named after", columns: [{ title: "truth", value: (row) => truthName(row.truth) }, ...heightColumns(suite)], rows: named }).element);
     this.sections.push(section);
   }
 
@@ -142,7 +150,7 @@ export class SuiteView {
   }
 
   private heightRows(): TableRow[] {
-    return this.suite.table.filter((row) => row.truth === this.truth && row.shown);
+    return byMethod(this.suite.table.filter((row) => row.truth === this.truth && row.shown));
   }
 
   private choose(truth: string): void {
@@ -191,8 +199,20 @@ export class SuiteView {
       title: `Error against the ${truthName(this.truth)}`,
       note: `Root mean square error over the plots found, ${this.farms()}; bars: ${how}. n: plots.` +
         (Object.keys(published).length ? ` Dashed: ${this.suite.published!.source}.` : ""),
-      draw: (theme: Parameters<typeof drawBars>[3]) => drawBars("RMSE by case and method", "RMSE, cm", bars, theme, published),
+      draw: (theme: Theme, narrow: boolean) => drawBars("RMSE by case and method", "RMSE, cm", bars, theme, narrow, { published }),
       csv: () => barsCsv(bars, "rmse"),
+    };
+  }
+
+  private changeFigure() {
+    const { suite } = this;
+    const bars: Bar[] = suite.table.filter((row) => row.truth === this.truth && this.chosen.includes(row.method) && row.case !== suite.baseline).map((row) => ({
+      group: row.case, method: row.method, value: number(row, "rmse_change_m"), low: number(row, "rmse_change_low_m"), high: number(row, "rmse_change_high_m"), n: number(row, "plots") }));
+    return {
+      title: `What each case changes against ${suite.baseline}`,
+      note: `RMSE minus that of the case ${suite.baseline} on the same farms, with its 95 % interval (bootstrap over farms, drawn in pairs).`,
+      draw: (theme: Theme, narrow: boolean) => drawBars("Change of RMSE", "change of RMSE, cm", bars, theme, narrow),
+      csv: () => barsCsv(bars, "rmse_change"),
     };
   }
 
@@ -201,7 +221,7 @@ export class SuiteView {
     return {
       title: "What is left within fields",
       note: "Root mean square of the errors less their farm's mean error: how well a method tells a field's plots apart. Dotted: the best single number for each field; a method above it has measured the field, not its plots.",
-      draw: (theme: Parameters<typeof drawBars>[3]) => drawBars("Error within fields", "error within farms, cm", bars, theme, {}, references(this.methods)),
+      draw: (theme: Theme, narrow: boolean) => drawBars("Error within fields", "error within farms, cm", bars, theme, narrow, { references: references(this.methods) }),
       csv: () => barsCsv(bars, "within"),
     };
   }
@@ -210,7 +230,7 @@ export class SuiteView {
     return {
       title: "Estimated against true heights",
       note: `A mark a plot found; the line is estimate = truth. R² against that line, and in brackets within farms. Truth: ${truthName(this.truth)}.`,
-      draw: (theme: Parameters<typeof drawBars>[3]) => drawScatter(this.methods, theme),
+      draw: (theme: Theme, narrow: boolean) => drawScatter(this.methods, theme, narrow),
       csv: () => pairsCsv(this.methods),
     };
   }
@@ -219,7 +239,7 @@ export class SuiteView {
     return {
       title: "Relative errors in bins of 5 %",
       note: "Estimate minus truth as a share of the truth, plots found. Errors beyond the axis are in the CSV.",
-      draw: (theme: Parameters<typeof drawBars>[3]) => drawHistograms(this.methods, theme),
+      draw: (theme: Theme) => drawHistograms(this.methods, theme),
       csv: () => histogramsCsv(this.methods),
     };
   }
@@ -245,11 +265,11 @@ export function estimateFigures(report: Report): HTMLElement | undefined {
   const cards = [
     card(() => ({
       title: "Error of each height", note: `Root mean square error and its standard error (jackknife over plots) against the truth that each height is named after, n = ${n} plots. Dotted: one number for the whole field.`,
-      draw: (theme) => drawBars("RMSE of each height", "RMSE, cm", standardErrorBars(shown()), theme, {}, shown().length === 1 ? references(shown()) : {}),
+      draw: (theme, narrow) => drawBars("RMSE of each height", "RMSE, cm", standardErrorBars(shown()), theme, narrow, shown().length === 1 ? { references: references(shown()) } : {}),
       csv: () => barsCsv(standardErrorBars(shown()), "rmse") })),
     card(() => ({
       title: "Estimated against true heights", note: "A mark a plot; the line is estimate = truth. R² against that line, and in brackets of the correlation within the field.",
-      draw: (theme) => drawScatter(shown(), theme), csv: () => pairsCsv(shown()) })),
+      draw: (theme, narrow) => drawScatter(shown(), theme, narrow), csv: () => pairsCsv(shown()) })),
     card(() => ({
       title: "Relative errors in bins of 5 %", note: "Estimate minus truth as a share of the truth.",
       draw: (theme) => drawHistograms(shown(), theme), csv: () => histogramsCsv(shown()) })),
