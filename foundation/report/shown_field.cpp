@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDecimals = 4;             // of metres
+constexpr int kDecimals = 5;             // of metres
 constexpr std::size_t kMostPath = 2000;  // places of the drone that are shown
 
 json number(double value) {

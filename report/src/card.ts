@@ -30,7 +30,10 @@ export function card(figure: () => Figure): Card {
     const now = figure();
     title.textContent = now.title;
     note.textContent = now.note;
-    place.replaceChildren(now.draw(theme(), narrow));
+    const svg = now.draw(theme(), narrow);
+    // What is too wide for a phone scrolls.
+    if (narrow && svg.width.baseVal.value > 480) svg.style.minWidth = `${0.75 * svg.width.baseVal.value}px`;
+    place.replaceChildren(svg);
     saves.replaceChildren(saveButtons({ title: now.title, svg: () => figure().draw(light, false), csv: () => figure().csv() }));
   };
   onTheme(update);

@@ -8,6 +8,9 @@ import { Shading } from "./shading";
 
 export type Layer = "points" | "boxes" | "truth" | "ground" | "terrain" | "path" | "numbers";
 
+// Ground whose standard error is larger is not drawn: it is made up.
+const kUnsure_m = 0.15;
+
 export interface Grounds {
   ground?: Surface;
   terrain?: Surface;
@@ -271,7 +274,8 @@ export class Scene {
         const z = surface.z[row * stride * columns + column * stride];
         const at = row * across + column;
         const [x, y] = [first[0] + cell * stride * column, first[1] + cell * stride * row];
-        known[at] = Number.isFinite(z) && this.isNear(x, y) ? 1 : 0;
+        const error = surface.se?.[row * stride * columns + column * stride] ?? 0;
+        known[at] = Number.isFinite(z) && error < kUnsure_m && this.isNear(x, y) ? 1 : 0;
         const place = this.local(x, y, known[at] ? z : 0);
         place.toArray(places, 3 * at);
       }

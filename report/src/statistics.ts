@@ -79,7 +79,7 @@ export function relativeErrors(pairs: Pair[], width = 0.05): Bin[] {
   const counts = new Map<number, number>();
   for (const pair of pairs) {
     if (!(pair.truth > 0)) continue;
-    const bin = Math.floor(error(pair) / pair.truth / width);
+    const bin = Math.floor(error(pair) / pair.truth / width + 1e-9);
     counts.set(bin, (counts.get(bin) ?? 0) + 1);
   }
   const all = sum([...counts.values()]);
