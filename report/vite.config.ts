@@ -1,4 +1,5 @@
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vite";
 
 // Puts script and style into the page, which is then one file; a policy in it allows this script alone,
@@ -19,12 +20,14 @@ function oneFile(): Plugin {
       }
       script = "\n" + script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--").trim() + "\n";
       const hash = createHash("sha256").update(script).digest("base64");
+      const license = readFileSync("node_modules/three/LICENSE", "utf8").trim();
       const policy =
         `default-src 'none'; script-src 'sha256-${hash}'; style-src 'unsafe-inline'; img-src data: blob:; ` +
         "base-uri 'none'; form-action 'none'";
       page.source = String(page.source)
         .replace(/<script type="module"[^>]*><\/script>\n?/g, "")
         .replace(/<link rel="stylesheet"[^>]*>\n?/g, "")
+        .replace("<html", () => `<!--\nPlotscan's report pages, Apache License 2.0. They contain three.js:\n\n${license}\n-->\n<html`)
         .replace("</title>", () => `</title>\n<meta http-equiv="Content-Security-Policy" content="${policy}">\n<style>${style.trim()}</style>`)
         .replace("</body>", () => `<script type="module">${script}</script>\n</body>`);
     },

@@ -72,6 +72,7 @@ export class Scene {
   private heightOf: (plot: Plot) => number = () => NaN;
   private frame = 0;
   private busy = false; // the last picture is still being drawn
+  private moving = false; // since the last picture
   private waiting = false; // and another one is wanted
   private rest = 0;
   private speed = 20_000; // points a millisecond, as measured
@@ -90,7 +91,7 @@ export class Scene {
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxPolarAngle = Math.PI * 0.495;
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("change", () => this.redraw());
+    this.controls.addEventListener("change", () => this.redraw(true));
     if (field.cloud) {
       this.cloud = new PointCloud(field.cloud, this.centre);
       this.points.add(this.cloud.group);
@@ -149,7 +150,10 @@ export class Scene {
     this.addBoxes();
   }
 
-  redraw(): void {
+  // Draws soon: while the camera moves as much as stays smooth, else, and once it rests, all that the screen
+  // resolves in a moment.
+  redraw(moving = false): void {
+    this.moving ||= moving;
     if (this.frame) return;
     if (this.busy) {
       this.waiting = true;
@@ -157,9 +161,11 @@ export class Scene {
     }
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
-      this.render(Math.max(this.speed * 40, 60_000));
+      const full = Math.max(this.speed * 500, 600_000);
+      this.render(this.moving ? Math.max(this.speed * 40, 60_000) : full);
       clearTimeout(this.rest);
-      this.rest = window.setTimeout(() => this.render(Math.max(this.speed * 500, 400_000)), 180);
+      if (this.moving) this.rest = window.setTimeout(() => this.redraw(), 180);
+      this.moving = false;
     });
   }
 
@@ -450,6 +456,6 @@ export class Scene {
     }
     event.preventDefault();
     this.controls.update();
-    this.redraw();
+    this.redraw(true);
   }
 }

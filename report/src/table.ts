@@ -89,12 +89,12 @@ export class Table<Row> {
     const ordered = this.ordered();
     const at = key && this.selected !== undefined ? ordered.findIndex((row) => key(row) === this.selected) : -1;
     const shown = this.all || at >= kFirst ? ordered : ordered.slice(0, kFirst);
+    const numbers = columns.map((column) => this.isNumber(column));
     this.body.replaceChildren(...shown.map((row) => {
       const cells = columns.map((column, i) => {
         const value = column.value(row);
         const words = column.shown ? column.shown(row) : value === null || value === undefined ? "" : String(value);
-        const number = typeof value === "number" || column.shown !== undefined;
-        return h("td", { class: number ? "number" : undefined },
+        return h("td", { class: numbers[i] ? "number" : undefined },
           i === 0 && pick ? button(words, "Show this plot", () => pick(row)) : words);
       });
       const selected = key !== undefined && this.selected !== undefined && key(row) === this.selected;

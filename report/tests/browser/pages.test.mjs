@@ -83,6 +83,8 @@ test("an estimate: a plot is chosen on the map, in the table, by key and in the 
     assert.ok((await details.textContent()).includes(`Plot ${plots[2].id}`));
     assert.ok((await page.locator(".profile h3").textContent()).includes(plots[2].id));
     // A click in the view, where a plot's number stands.
+    await page.locator(".stage").scrollIntoViewIfNeeded();
+    await page.waitForTimeout(500);
     const label = page.locator(".labels span", { hasText: "P-5" });
     const box = await label.boundingBox();
     await page.mouse.click(box.x + box.width / 2, box.y + box.height + 6);
