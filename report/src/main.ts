@@ -58,6 +58,8 @@ function start(): void {
     document.title = report.title;
     page.append(header(report));
     page.append(...sections(report));
+    if (report.kind === "suite" && report.fields.length === 0)
+      page.append(h("p", { class: "note" }, "These results have no views of their farms: farmbench run makes them, and shows one farm of each case in three dimensions."));
     if (report.fields.length === 0) document.documentElement.dataset.ready = "true";
     document.documentElement.dataset.interactive = String(Math.round(performance.now()));
   } catch (error) {

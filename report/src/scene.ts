@@ -9,7 +9,7 @@ import { Shading } from "./shading";
 export type Layer = "points" | "boxes" | "truth" | "ground" | "terrain" | "path" | "numbers";
 
 // Ground whose standard error is larger is not drawn: it is made up.
-const kUnsure_m = 0.15;
+const kUnsure_m = 0.06;
 
 export interface Grounds {
   ground?: Surface;
@@ -75,6 +75,9 @@ export class Scene {
   private moving = false; // since the last picture
   private waiting = false; // and another one is wanted
   private rest = 0;
+  private readonly size = new THREE.Vector2(1, 1);
+  private sharp = true;
+  private slow = false; // a sharp picture takes too long for a moving camera
   private speed = 20_000; // points a millisecond, as measured
   private background = new THREE.Color("#ffffff");
   private ink = "#1c2128";
@@ -116,8 +119,8 @@ export class Scene {
   look(from: "overview" | "top" | "plot"): void {
     const size = new THREE.Vector3().subVectors(this.extent.high, this.extent.low);
     const aspect = Math.max(this.camera.aspect, 0.4);
-    let reach = Math.max(size.y * 0.9, size.x / aspect, 4) * 1.45;
-    this.controls.target.set(0, 0, 0);
+    let reach = Math.max(size.y * 0.9, size.x / aspect, 4) * 1.32;
+    this.controls.target.set(0, -0.05 * size.y, 0);
     if (from === "plot" && this.selected) {
       const [x, y, width, length] = this.selected.box;
       this.controls.target.copy(this.local(x, y, this.groundAt(x, y) + 0.3));
@@ -162,7 +165,8 @@ export class Scene {
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
       const full = Math.max(this.speed * 500, 600_000);
-      this.render(this.moving ? Math.max(this.speed * 40, 60_000) : full);
+      this.sharpen(!(this.moving && this.slow));
+      this.render(this.moving ? Math.max(this.speed * 40, 60_000) : full, this.moving);
       clearTimeout(this.rest);
       if (this.moving) this.rest = window.setTimeout(() => this.redraw(), 180);
       this.moving = false;
@@ -171,19 +175,32 @@ export class Scene {
 
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
-    const ratio = Math.min(window.devicePixelRatio, 2);
     const before = this.camera.aspect;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
-    this.shading.resize(Math.round(width * ratio), Math.round(height * ratio), ratio);
+    this.size.set(width, height);
+    this.setSize();
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (before === 1) this.look("overview");
     this.redraw();
   }
 
+  // Where pictures take long, those of a moving camera are coarser.
+  private sharpen(sharp: boolean): void {
+    if (sharp === this.sharp) return;
+    this.sharp = sharp;
+    this.setSize();
+  }
+
+  private setSize(): void {
+    const ratio = Math.min(window.devicePixelRatio, 2) * (this.sharp ? 1 : 0.5);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.size.x, this.size.y, false);
+    this.shading.resize(Math.round(this.size.x * ratio), Math.round(this.size.y * ratio), ratio);
+  }
+
   // The picture as it stands, with every point that the screen resolves.
   async png(): Promise<Blob> {
+    this.sharpen(true);
     this.render(5_000_000);
     return new Promise((done, failed) =>
       this.canvas.toBlob((blob) => (blob ? done(blob) : failed(new Error("no picture"))), "image/png"));
@@ -211,7 +228,7 @@ export class Scene {
     return this.extent.low.z;
   }
 
-  private render(budget: number): void {
+  private render(budget: number, moving = false): void {
     const start = performance.now();
     const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
     const distance = this.camera.position.distanceTo(this.controls.target);
@@ -230,18 +247,19 @@ export class Scene {
     this.renderer.clear();
     if (this.cloud && this.points.visible) this.shading.draw(this.renderer, this.camera);
     this.renderer.render(this.things, this.camera);
-    this.measure(start);
+    this.measure(start, moving);
     this.placeLabels();
   }
 
   // How fast points are drawn here, so that moving stays smooth on any machine.
-  private measure(start: number): void {
+  private measure(start: number, moving: boolean): void {
     const drawn = this.cloud?.shown ?? 0;
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
     const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence) return;
     gl.flush();
     this.busy = true;
+    const { sharp } = this;
     const poll = () => {
       const done = gl.isContextLost() || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED;
       if (!done && performance.now() - start < 4000) {
@@ -250,7 +268,10 @@ export class Scene {
       }
       gl.deleteSync(fence);
       this.busy = false;
-      if (drawn > 30_000) this.speed = 0.6 * this.speed + 0.4 * (drawn / Math.max(performance.now() - start, 1));
+      const spent = performance.now() - start;
+      if (moving && sharp && spent > 40) this.slow = true;
+      if (moving && !sharp && spent < 8) this.slow = false;
+      if (drawn > 30_000) this.speed = 0.6 * this.speed + 0.4 * (drawn / Math.max(spent, 1));
       if (this.waiting) {
         this.waiting = false;
         this.redraw();

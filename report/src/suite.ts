@@ -186,7 +186,7 @@ export class SuiteView {
   private farms(): string {
     const counts = this.suite.cases.map(({ name }) => this.suite.farms.filter((farm) => farm.case === name).length);
     const same = counts.every((count) => count === counts[0]);
-    return same ? `${counts[0]} farms a case` : `${this.suite.farms.length} farms`;
+    return same ? `${counts[0]} farm${counts[0] === 1 ? "" : "s"} a case` : `${this.suite.farms.length} farms`;
   }
 
   private rmseFigure() {
@@ -229,7 +229,7 @@ export class SuiteView {
   private scatterFigure() {
     return {
       title: "Estimated against true heights",
-      note: `A mark a plot found; the line is estimate = truth. R² against that line, and in brackets within farms. Truth: ${truthName(this.truth)}.`,
+      note: `A mark a plot found; the line is estimate = truth. R² against that line, and of a line through the plots within farms. Truth: ${truthName(this.truth)}.`,
       draw: (theme: Theme, narrow: boolean) => drawScatter(this.methods, theme, narrow),
       csv: () => pairsCsv(this.methods),
     };
@@ -268,7 +268,7 @@ export function estimateFigures(report: Report): HTMLElement | undefined {
       draw: (theme, narrow) => drawBars("RMSE of each height", "RMSE, cm", standardErrorBars(shown()), theme, narrow, shown().length === 1 ? { references: references(shown()) } : {}),
       csv: () => barsCsv(standardErrorBars(shown()), "rmse") })),
     card(() => ({
-      title: "Estimated against true heights", note: "A mark a plot; the line is estimate = truth. R² against that line, and in brackets of the correlation within the field.",
+      title: "Estimated against true heights", note: "A mark a plot; the line is estimate = truth. R² against that line, and within: the square of their correlation.",
       draw: (theme, narrow) => drawScatter(shown(), theme, narrow), csv: () => pairsCsv(shown()) })),
     card(() => ({
       title: "Relative errors in bins of 5 %", note: "Estimate minus truth as a share of the truth.",
