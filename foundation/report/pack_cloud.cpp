@@ -116,8 +116,8 @@ Indices drawing_order(const Places& places) {
 
 TimeRange times_of(const ShownCloud& cloud) {
   if (!cloud.has_time || cloud.points.empty()) return {};
-  const auto [first, last] = std::ranges::minmax(cloud.points, {}, &ShownPoint::time_s);
-  return {first.time_s, last.time_s};
+  const auto [first, last] = std::ranges::minmax_element(cloud.points, {}, &ShownPoint::time_s);
+  return {first->time_s, last->time_s};
 }
 
 void append_attributes(const ShownCloud& cloud, const TimeRange& times, const Tile& tile,

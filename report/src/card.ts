@@ -36,11 +36,11 @@ export function card(figure: () => Figure): Card {
     place.replaceChildren(svg);
     saves.replaceChildren(saveButtons({ title: now.title, svg: () => figure().draw(light, false), csv: () => figure().csv() }));
   };
-  onTheme(update);
-  window.addEventListener("resize", () => {
+  onTheme(element, update);
+  new ResizeObserver(() => {
     if (narrow === window.innerWidth < kNarrow_px) return;
     narrow = !narrow;
     update();
-  });
+  }).observe(element);
   return { element, update };
 }

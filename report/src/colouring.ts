@@ -4,7 +4,7 @@ import { classColours, classNames, cividis, growth, hex, noPlot, plasma, plotCol
 import type { Field } from "./data";
 import type { TilePoints } from "./decode";
 import { quantile } from "./numbers";
-import type { Grounds } from "./scene";
+import type { Grounds } from "./place";
 
 export type Mode = "height" | "elevation" | "class" | "plot" | "intensity" | "time";
 

@@ -6,10 +6,11 @@ import type { Field, Plot } from "./data";
 import { Surface } from "./decode";
 import { button, checkbox, h, select } from "./dom";
 import { drawMap, mapCsv, measured, measureNames, type Measure } from "./map";
-import { cm, counted, fixed, namedTruth, signed, truthName } from "./numbers";
+import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
+import type { Grounds } from "./place";
 import { drawProfile, pointsOf, profileCsv, profileHeights } from "./profile";
 import { saveButtons } from "./save";
-import { Scene, type Grounds, type Layer } from "./scene";
+import { Scene, type Layer } from "./scene";
 import { Table, type Column } from "./table";
 import { onTheme, theme } from "./theme";
 
@@ -183,11 +184,11 @@ export class FieldView {
     const { scene } = this;
     scene.canvas.setAttribute("role", "application");
     scene.canvas.setAttribute("aria-label", "The field in three dimensions: arrows turn it, with Shift they move it, + and − zoom, a click selects a plot");
-    stage.append(scene.canvas, scene.overlay, this.key);
+    stage.append(scene.canvas, scene.labels.overlay, this.key);
     scene.onPick = (plot) => plot && this.pick(plot, "scene");
     for (const [layer, shown] of this.layers) scene.show(layer, shown);
     scene.plots((plot) => this.heightOf(plot), this.selected);
-    onTheme(() => this.scene?.colours(theme().dark ? "#0d1117" : "#f3f5f7", theme().dark ? "#c9d1d9" : "#1c2128"));
+    onTheme(stage, () => this.scene?.colours(theme().dark ? "#0d1117" : "#f3f5f7", theme().dark ? "#c9d1d9" : "#1c2128"));
     new ResizeObserver(() => this.scene?.resize(stage.clientWidth, stage.clientHeight)).observe(stage);
     scene.resize(stage.clientWidth, stage.clientHeight);
   }
@@ -319,5 +320,3 @@ export class FieldView {
     });
   }
 }
-
-export const summary = (value: number): string => `${cm(value)} cm`;

@@ -4,7 +4,7 @@ import { cividis, hex, signs, viridis, type Ramp, type Theme } from "./colours";
 import type { Field, Plot } from "./data";
 import { s } from "./dom";
 import { csv, fixed, namedTruth, ticks } from "./numbers";
-import { corners } from "./scene";
+import { corners } from "./place";
 
 export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
 

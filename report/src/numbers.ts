@@ -11,9 +11,6 @@ export function signed(value: number | null | undefined, digits: number): string
   return value !== null && value !== undefined && Number(value.toFixed(digits)) > 0 ? "+" + text : text;
 }
 
-export const cm = (metres: number | null | undefined, digits = 1): string =>
-  fixed(metres === null || metres === undefined ? NaN : 100 * metres, digits);
-
 export const counted = (n: number): string => n.toLocaleString("en-GB").replaceAll(",", " ");
 
 // "height_max_m" as people say it.

@@ -5,7 +5,7 @@ import type { Box, Cloud, Plot } from "./data";
 import type { TilePoints } from "./decode";
 import { s } from "./dom";
 import { csv, fixed, namedTruth } from "./numbers";
-import type { Grounds } from "./scene";
+import type { Grounds } from "./place";
 
 const kBeyond = 1; // metres that are shown before and behind the plot
 const kMostPoints = 9000;

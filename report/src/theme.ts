@@ -4,19 +4,22 @@ import { select } from "./dom";
 
 const system = window.matchMedia("(prefers-color-scheme: dark)");
 let chosen = "auto";
-const listeners = new Set<() => void>();
+const listeners = new Map<() => void, Element>();
 
 export const theme = (): Theme => ((chosen === "auto" ? system.matches : chosen === "dark") ? dark : light);
 
-// Calls now and whenever the colours change.
-export function onTheme(draw: () => void): void {
-  listeners.add(draw);
+// Calls now and whenever the colours change, as long as the element is on the page.
+export function onTheme(element: Element, draw: () => void): void {
+  listeners.set(draw, element);
   draw();
 }
 
 function changed(): void {
   document.documentElement.dataset.theme = theme().dark ? "dark" : "light";
-  for (const draw of listeners) draw();
+  for (const [draw, element] of listeners) {
+    if (element.isConnected) draw();
+    else listeners.delete(draw);
+  }
 }
 
 export function themeChoice(): HTMLElement {

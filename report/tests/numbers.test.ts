@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { csv, fixed, namedTruth, quantile, signed, ticks } from "../src/numbers";
 import { fileName } from "../src/save";
-import { corners } from "../src/scene";
+import { corners } from "../src/place";
 
 describe("numbers", () => {
   it("are written with a true minus, and absence as a dash", () => {
