@@ -6,6 +6,7 @@ const [file, png, width, height, selector, plot] = process.argv.slice(2);
 await open(file, { size: { width: Number(width), height: Number(height) } }, async (page) => {
   if (plot) await page.locator(`.map [data-plot="${plot}"]`).click();
   await page.evaluate(() => {
+    document.querySelector("nav")?.style.setProperty("position", "static");
     window.scrollTo(0, 0);
     document.activeElement?.blur();
   });

@@ -1,9 +1,9 @@
 // The figures of heights against truths: the paper's, and what it lacks.
-import { canvas, frame, legend, legendHeight, line, mark, round, text, type LegendEntry, type Panel } from "./axes";
+import { canvas, frame, legend, legendHeight, line, mark, round, text, type LegendEntry, type Panel, type Scale } from "./axes";
 import type { Theme } from "./colours";
 import { s } from "./dom";
 import { counted, csv, fixed, quantile } from "./numbers";
-import { error, oneNumber, r2, r2Within, relativeErrors, rmse, rmseStandardError, within, type Pair } from "./statistics";
+import { error, oneNumber, r2, r2Within, relativeErrors, rmse, standardError, within, type Pair } from "./statistics";
 
 // One method's height on one kind of field.
 export interface Group {
@@ -44,48 +44,52 @@ export interface Lines {
 
 // Bars of a method beside each other in each case, with their error bars; a dashed line where a figure was published.
 export function drawBars(
-  title: string, label: string, bars: Bar[], theme: Theme, narrow: boolean,
-  { published = {}, references = {} }: Lines = {}): SVGSVGElement {
+  title: string, label: string, bars: Bar[], theme: Theme, narrow: boolean, lines: Lines = {}): SVGSVGElement {
   const groups = [...new Set(bars.map((bar) => bar.group))];
   const methods = [...new Set(bars.map((bar) => bar.method))];
   const width = Math.max(360, Math.min(narrow ? 360 : 1100, 90 + groups.length * (26 * methods.length + 34)));
-  const legendNames = methods.map((name, i) => ({ name, colour: colourOf(theme, i), shape: 1 }));
-  const extra: LegendEntry[] = [];
-  if (Object.values(published).some((value) => value !== undefined)) extra.push({ name: "published", colour: theme.ink, dash: "6 3" });
-  if (Object.keys(references).length) extra.push({ name: "one number for each field", colour: theme.ink, dash: "2 2" });
-  const top = 8 + legendHeight([...legendNames, ...extra], width - 54);
+  const entries: LegendEntry[] = methods.map((name, i) => ({ name, colour: colourOf(theme, i), shape: 1 }));
+  const published = Object.values(lines.published ?? {}).filter((value) => value !== undefined);
+  if (published.length) entries.push({ name: "published", colour: theme.ink, dash: "6 3" });
+  if (lines.references) entries.push({ name: "one number for each field", colour: theme.ink, dash: "2 2" });
+  const top = 8 + legendHeight(entries, width - 54);
   const svg = canvas(width, top + 258, theme, title);
-  legend(svg, [...legendNames, ...extra], 46, 16, width - 54);
+  legend(svg, entries, 46, 16, width - 54);
   const panel = { left: 46, top, width: width - 54, height: 200 };
-  const highest = Math.max(
-    0.01, ...bars.flatMap((bar) => [bar.value, bar.high]).filter(Number.isFinite), ...Object.values(references),
-    ...Object.values(published).map((value) => value ?? 0));
-  const lowest = Math.min(0, ...bars.flatMap((bar) => [bar.value, bar.low]).filter(Number.isFinite));
+  const values = bars.flatMap((bar) => [bar.value, bar.low, bar.high]).filter(Number.isFinite);
+  const highest = Math.max(0.01, ...values, ...Object.values(lines.references ?? {}), ...published);
   const { y, group } = frame(svg, panel, { low: 0, high: groups.length, label: "", labels: [] },
-    { low: 105 * lowest, high: 105 * highest, label }, theme);
+    { low: 105 * Math.min(0, ...values), high: 105 * highest, label }, theme);
   groups.forEach((name, i) => {
     const each = panel.width / groups.length;
     const left = panel.left + each * i;
+    const own = bars.filter((bar) => bar.group === name);
     const size = Math.min(30, (0.84 * each) / methods.length);
-    const first = left + (each - size * methods.length) / 2;
-    methods.forEach((method, k) => {
-      const bar = bars.find((candidate) => candidate.group === name && candidate.method === method);
-      if (!bar || !Number.isFinite(bar.value)) return;
-      const x = first + size * k;
-      const words = `${method}, ${name}: ${fixed(100 * bar.value, 2)} [${fixed(100 * bar.low, 2)}, ${fixed(100 * bar.high, 2)}] cm, n = ${bar.n}`;
-      group.append(s("rect", { x: x + 1.5, y: y(Math.max(100 * bar.value, 0)), width: size - 3, height: Math.abs(y(0) - y(100 * bar.value)), fill: colourOf(theme, k) }, s("title", {}, words)));
-      const middle = x + size / 2;
-      if (Number.isFinite(bar.low) && Number.isFinite(bar.high))
-        group.append(line(middle, y(100 * bar.low), middle, y(100 * bar.high), theme.ink, 1.3),
-          ...[bar.low, bar.high].map((end) => line(middle - 3, y(100 * end), middle + 3, y(100 * end), theme.ink, 1.3)));
+    own.forEach((bar) => {
+      const k = methods.indexOf(bar.method);
+      drawBar(group, bar, { x: left + (each - size * methods.length) / 2 + size * k, size, y, colour: colourOf(theme, k), ink: theme.ink });
     });
-    for (const [value, dash] of [[published[name], "6 3"], [references[name], "2 2"]] as const)
+    for (const [value, dash] of [[lines.published?.[name], "6 3"], [lines.references?.[name], "2 2"]] as const)
       if (value !== undefined) group.append(line(left + 0.04 * each, y(100 * value), left + 0.96 * each, y(100 * value), theme.ink, 1.6, dash));
-    const n = Math.max(0, ...bars.filter((bar) => bar.group === name).map((bar) => bar.n));
-    svg.append(text(left + each / 2, panel.top + panel.height + 15, name, { anchor: "middle" }),
-      text(left + each / 2, panel.top + panel.height + 30, `n = ${counted(n)}`, { anchor: "middle", colour: theme.soft }));
+    const below = panel.top + panel.height;
+    svg.append(text(left + each / 2, below + 15, name, { anchor: "middle" }),
+      text(left + each / 2, below + 30, `n = ${counted(Math.max(0, ...own.map((bar) => bar.n)))}`, { anchor: "middle", colour: theme.soft }));
   });
   return svg;
+}
+
+function drawBar(
+  group: SVGGElement, bar: Bar, { x, size, y, colour, ink }: { x: number; size: number; y: Scale; colour: string; ink: string }): void {
+  if (!Number.isFinite(bar.value)) return;
+  const cm = (metres: number) => fixed(100 * metres, 2);
+  const words = `${bar.method}, ${bar.group}: ${cm(bar.value)} [${cm(bar.low)}, ${cm(bar.high)}] cm, n = ${bar.n}`;
+  group.append(s("rect", {
+    x: round(x + 1.5), y: round(y(Math.max(100 * bar.value, 0))), width: round(size - 3), height: round(Math.abs(y(0) - y(100 * bar.value))), fill: colour,
+  }, s("title", {}, words)));
+  if (!Number.isFinite(bar.low) || !Number.isFinite(bar.high)) return;
+  const middle = x + size / 2;
+  group.append(line(middle, y(100 * bar.low), middle, y(100 * bar.high), ink, 1.3),
+    ...[bar.low, bar.high].map((end) => line(middle - 3, y(100 * end), middle + 3, y(100 * end), ink, 1.3)));
 }
 
 export const barsCsv = (bars: Bar[], value: string): string => csv([
@@ -93,19 +97,17 @@ export const barsCsv = (bars: Bar[], value: string): string => csv([
   ...bars.map((bar) => [bar.group, bar.method, 100 * bar.value, 100 * bar.low, 100 * bar.high, bar.n]),
 ]);
 
-// RMSE with its standard error.
-export function standardErrorBars(methods: Method[]): Bar[] {
+// A statistic of each method and case with its standard error.
+function errorBars(methods: Method[], statistic: (pairs: Pair[]) => number): Bar[] {
   return methods.flatMap((method) => method.groups.filter((group) => group.pairs.length > 0).map((group) => {
-    const value = rmse(group.pairs);
-    const se = rmseStandardError(group.pairs);
+    const value = statistic(group.pairs);
+    const se = standardError(group.pairs, statistic);
     return { group: group.name, method: method.name, value, low: value - se, high: value + se, n: group.pairs.length };
   }));
 }
 
-export function withinBars(methods: Method[]): Bar[] {
-  return methods.flatMap((method) => method.groups.filter((group) => group.pairs.length > 0).map((group) =>
-    ({ group: group.name, method: method.name, value: within(group.pairs), low: NaN, high: NaN, n: group.pairs.length })));
-}
+export const rmseBars = (methods: Method[]): Bar[] => errorBars(methods, rmse);
+export const withinBars = (methods: Method[]): Bar[] => errorBars(methods, within);
 
 // What the best single number for each field errs by, a case at a time.
 export function references(methods: Method[]): Record<string, number> {

@@ -1,6 +1,6 @@
 // The plots from above, coloured by what is asked of them.
-import { canvas, font, line, round, text } from "./axes";
-import { cividis, hex, signs, viridis, type Ramp, type Theme } from "./colours";
+import { canvas, line, round, text, type Panel } from "./axes";
+import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Field, Plot } from "./data";
 import { s } from "./dom";
 import { csv, fixed, namedTruth, ticks } from "./numbers";
@@ -48,7 +48,8 @@ export function coloursOf(values: number[], measure: Measure): Colours {
 const share = (colours: Colours, value: number): number => (value - colours.low) / (colours.high - colours.low);
 
 // An upright bar of colours with its ticks.
-function colourBar(svg: SVGSVGElement, colours: Colours, left: number, top: number, height: number, title: string, theme: Theme, digits: number): void {
+function colourBar({ svg, panel, theme }: Sheet, colours: Colours, title: string, digits: number): void {
+  const [left, top, height] = [kWidth - 78, panel.top + 20, panel.height - 40];
   const steps = 48;
   for (let i = 0; i < steps; ++i)
     svg.append(s("rect", {
@@ -61,7 +62,7 @@ function colourBar(svg: SVGSVGElement, colours: Colours, left: number, top: numb
   svg.append(text(left + 66, top + height / 2, title, { anchor: "middle", turned: true }));
 }
 
-const luminance = ([r, g, b]: [number, number, number]): number => (0.3 * r + 0.59 * g + 0.11 * b) / 255;
+const luminance = ([r, g, b]: Rgb): number => (0.3 * r + 0.59 * g + 0.11 * b) / 255;
 
 export interface MapOptions {
   field: Field;
@@ -71,80 +72,99 @@ export interface MapOptions {
   pick?: (plot: Plot) => void;
 }
 
-export function drawMap({ field, measure, height, selected, pick }: MapOptions, theme: Theme): SVGSVGElement {
-  const [width, total] = [460, 400];
-  const panel = { left: 46, top: 10, width: width - 46 - 86, height: total - 10 - 40 };
-  const svg = canvas(width, total, theme, `Map of the plots: ${measureNames[measure]}`);
+// From the field's metres to the drawing's pixels.
+interface Sheet {
+  svg: SVGSVGElement;
+  panel: Panel;
+  theme: Theme;
+  scale: number; // pixels a metre
+  at: (x: number, y: number) => [number, number];
+}
+
+const kWidth = 460;
+const kHeight = 400;
+
+// An empty map with the axes of the cloud's coordinates.
+function sheetOf(field: Field, title: string, theme: Theme): Sheet {
+  const panel = { left: 46, top: 10, width: kWidth - 46 - 86, height: kHeight - 10 - 40 };
+  const svg = canvas(kWidth, kHeight, theme, title);
   const outlines = [...field.plots, ...field.true_boxes].flatMap((plot) => corners(plot.box));
+  const middle = (values: number[]) => (values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0);
+  const span = (values: number[]) => (values.length ? Math.max(...values) - Math.min(...values) : 1) || 1;
   const xs = outlines.map(([x]) => x);
   const ys = outlines.map(([, y]) => y);
-  const [x0, x1, y0, y1] = xs.length ? [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)] : [0, 1, 0, 1];
-  const scale = Math.min(panel.width / (x1 - x0 || 1), panel.height / (y1 - y0 || 1)) * 0.96;
-  const at = (x: number, y: number): [number, number] => [
-    panel.left + panel.width / 2 + (x - (x0 + x1) / 2) * scale,
-    panel.top + panel.height / 2 - (y - (y0 + y1) / 2) * scale,
-  ];
-  const spanX = panel.width / scale / 2;
-  const spanY = panel.height / scale / 2;
-  for (const x of ticks((x0 + x1) / 2 - spanX, (x0 + x1) / 2 + spanX, 5)) {
-    const [u] = at(x, 0);
-    svg.append(line(u, panel.top, u, panel.top + panel.height, theme.line), text(u, panel.top + panel.height + 14, fixed(x, 0), { anchor: "middle", colour: theme.soft }));
+  const [x0, y0] = [middle(xs), middle(ys)];
+  const scale = Math.min(panel.width / span(xs), panel.height / span(ys)) * 0.96;
+  const [left, top] = [panel.left + panel.width / 2, panel.top + panel.height / 2];
+  const bottom = panel.top + panel.height;
+  const right = panel.left + panel.width;
+  for (const x of ticks(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, 5)) {
+    const u = left + (x - x0) * scale;
+    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, fixed(x, 0), { anchor: "middle", colour: theme.soft }));
   }
-  for (const y of ticks((y0 + y1) / 2 - spanY, (y0 + y1) / 2 + spanY, 5)) {
-    const [, v] = at(0, y);
-    svg.append(line(panel.left, v, panel.left + panel.width, v, theme.line), text(panel.left - 5, v + 4, fixed(y, 0), { anchor: "end", colour: theme.soft }));
+  for (const y of ticks(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, 5)) {
+    const v = top - (y - y0) * scale;
+    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y, 0), { anchor: "end", colour: theme.soft }));
   }
-  svg.append(text(panel.left + panel.width / 2, total - 8, "east, m", { anchor: "middle" }),
-    text(12, panel.top + panel.height / 2, "north, m", { anchor: "middle", turned: true }));
-  const centimetres = measure === "error" || measure === "interval";
-  const factor = centimetres ? 100 : 1;
-  const values = field.plots.map((plot) => factor * measured(plot, measure, height));
-  const colours = coloursOf(values, measure);
-  const points = (box: Plot["box"]) => corners(box).map(([x, y]) => at(x, y).map(round).join(",")).join(" ");
-  const all = s("g");
-  field.plots.forEach((plot, i) => {
-    const known = Number.isFinite(values[i]);
-    const colour = known ? colours.ramp(share(colours, values[i])) : undefined;
-    const chosen = plot === selected;
-    const unit = measure === "confidence" ? "" : centimetres ? " cm" : " m";
-    const words = `plot ${plot.id}: ${known ? fixed(values[i], centimetres ? 1 : 3) + unit : "no value"}`;
-    const shape = s("polygon", {
-      points: points(plot.box), fill: colour ? hex(colour) : theme.paper,
-      stroke: chosen ? "#e69f00" : plot.flags.length ? theme.kinds[1] : theme.ink, "stroke-width": chosen ? 3 : plot.flags.length ? 1.8 : 0.6,
-    }, s("title", {}, words + (plot.flags.length ? ` (${plot.flags.join("; ")})` : "")));
-    const [u, v] = at(plot.box[0], plot.box[1]);
-    const room = Math.min(plot.box[2], plot.box[3]) * scale;
-    const group = s("g", pick
-      ? { class: "plot", role: "button", tabindex: chosen || (!selected && i === 0) ? 0 : -1, "aria-label": words, "data-plot": plot.id, "aria-pressed": chosen ? "true" : "false" }
-      : {}, shape);
-    if (room > 9 && plot.id.length * 5 < Math.max(room, plot.box[3] * scale * 0.9)) {
-      const upright = plot.id.length * 6 > room;
-      const heading = ((plot.box[4] % 180) + 180) % 180;
-      const label = text(u, v + 3.5, plot.id, { anchor: "middle", size: 10, colour: colour && luminance(colour) < 0.52 ? "#ffffff" : colour ? "#1c2128" : theme.ink });
-      if (upright) label.setAttribute("transform", `rotate(${round(heading > 90 ? 180 - heading : -heading)} ${round(u)} ${round(v)})`);
-      group.append(label);
-    }
-    if (pick) {
-      group.addEventListener("click", () => pick(plot));
-      group.addEventListener("keydown", (event) => {
-        const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[(event as KeyboardEvent).key];
-        const enter = ["Enter", " "].includes((event as KeyboardEvent).key);
-        if (!step && !enter) return;
-        event.preventDefault();
-        pick(step ? field.plots[(i + step + field.plots.length) % field.plots.length] : plot);
-      });
-    }
-    all.append(group);
+  svg.append(text(left, kHeight - 8, "east, m", { anchor: "middle" }), text(12, top, "north, m", { anchor: "middle", turned: true }));
+  return { svg, panel, theme, scale, at: (x, y) => [left + (x - x0) * scale, top - (y - y0) * scale] };
+}
+
+const cornersOn = (sheet: Sheet, box: Plot["box"]): string =>
+  corners(box).map(([x, y]) => sheet.at(x, y).map(round).join(",")).join(" ");
+
+// A plot's number where its box has room for it, along the box where that is narrow.
+function numberOn(sheet: Sheet, plot: Plot, fill: Rgb | undefined): SVGTextElement | undefined {
+  const room = Math.min(plot.box[2], plot.box[3]) * sheet.scale;
+  if (room <= 9 || plot.id.length * 5 >= Math.max(room, plot.box[3] * sheet.scale * 0.9)) return undefined;
+  const [u, v] = sheet.at(plot.box[0], plot.box[1]);
+  const colour = fill === undefined ? sheet.theme.ink : luminance(fill) < 0.52 ? "#ffffff" : "#1c2128";
+  const label = text(u, v + 3.5, plot.id, { anchor: "middle", size: 10, colour });
+  const heading = ((plot.box[4] % 180) + 180) % 180;
+  if (plot.id.length * 6 > room)
+    label.setAttribute("transform", `rotate(${round(heading > 90 ? 180 - heading : -heading)} ${round(u)} ${round(v)})`);
+  return label;
+}
+
+// Chosen by a click, Enter or the space bar; arrows choose the neighbours.
+function makeChoosable(group: SVGGElement, plots: Plot[], i: number, pick: (plot: Plot) => void): void {
+  group.addEventListener("click", () => pick(plots[i]));
+  group.addEventListener("keydown", (event) => {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (!step && event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    pick(plots[(i + (step ?? 0) + plots.length) % plots.length]);
   });
-  svg.append(all);
-  for (const plot of field.true_boxes)
-    if (!plot.found) svg.append(s("polygon", { points: points(plot.box), fill: "none", stroke: theme.kinds[0], "stroke-dasharray": "3 2" }, s("title", {}, `missed: plot ${plot.id}`)));
-  const unit = measure === "confidence" ? "" : centimetres ? ", cm" : ", m";
-  const title = measure === "confidence" ? "confidence" : `${height ? height + ": " : ""}${measureNames[measure].replace(" (estimate − truth)", "")}${unit}`;
-  if (values.some(Number.isFinite))
-    colourBar(svg, colours, width - 78, panel.top + 20, panel.height - 40, title, theme, centimetres ? 1 : 2);
-  svg.setAttribute("font-family", font);
-  return svg;
+}
+
+export function drawMap({ field, measure, height, selected, pick }: MapOptions, theme: Theme): SVGSVGElement {
+  const sheet = sheetOf(field, `Map of the plots: ${measureNames[measure]}`, theme);
+  const centimetres = measure === "error" || measure === "interval";
+  const unit = measure === "confidence" ? "" : centimetres ? "cm" : "m";
+  const values = field.plots.map((plot) => (centimetres ? 100 : 1) * measured(plot, measure, height));
+  const colours = coloursOf(values, measure);
+  field.plots.forEach((plot, i) => {
+    const fill = Number.isFinite(values[i]) ? colours.ramp(share(colours, values[i])) : undefined;
+    const chosen = plot === selected;
+    const words = `plot ${plot.id}: ${fill ? `${fixed(values[i], centimetres ? 1 : 3)} ${unit}` : "no value"}`;
+    const group = s("g", pick ? {
+      class: "plot", role: "button", tabindex: chosen || (!selected && i === 0) ? 0 : -1, "aria-label": words,
+      "data-plot": plot.id, "aria-pressed": chosen ? "true" : "false" } : {},
+    s("polygon", {
+      points: cornersOn(sheet, plot.box), fill: fill ? hex(fill) : theme.paper,
+      stroke: chosen ? "#e69f00" : plot.flags.length ? theme.kinds[1] : theme.ink,
+      "stroke-width": chosen ? 3 : plot.flags.length ? 1.8 : 0.6,
+    }, s("title", {}, words + (plot.flags.length ? ` (${plot.flags.join("; ")})` : ""))));
+    const number = numberOn(sheet, plot, fill);
+    if (number) group.append(number);
+    if (pick) makeChoosable(group, field.plots, i, pick);
+    sheet.svg.append(group);
+  });
+  for (const plot of field.true_boxes.filter((box) => !box.found))
+    sheet.svg.append(s("polygon", { points: cornersOn(sheet, plot.box), fill: "none", stroke: theme.kinds[0], "stroke-dasharray": "3 2" }, s("title", {}, `missed: plot ${plot.id}`)));
+  const name = measure === "confidence" ? "confidence" : `${height ? `${height}: ` : ""}${measureNames[measure].replace(" (estimate − truth)", "")}, ${unit}`;
+  if (values.some(Number.isFinite)) colourBar(sheet, colours, name, centimetres ? 1 : 2);
+  return sheet.svg;
 }
 
 export function mapCsv(field: Field, measure: Measure, height: string): string {

@@ -1,8 +1,8 @@
 // A plot from the side: its points, the ground, heights with their intervals, truths.
-import { canvas, frame, legend, legendHeight, line, round, text, type LegendEntry } from "./axes";
+import { canvas, frame, legend, legendHeight, line, round, text, type Frame, type LegendEntry, type Panel } from "./axes";
 import type { Theme } from "./colours";
 import type { Box, Cloud, Plot } from "./data";
-import type { TilePoints } from "./decode";
+import type { Surface, TilePoints } from "./decode";
 import { s } from "./dom";
 import { csv, fixed, namedTruth } from "./numbers";
 import type { Grounds } from "./place";
@@ -80,88 +80,130 @@ export interface ProfileOptions {
 // Points within the noise of the ground are the ground's own.
 const isGround = (point: SidePoint, noise: number): boolean => Math.abs(point.above) <= 2.5 * noise;
 
-function dots(points: SidePoint[], x: (v: number) => number, y: (v: number) => number): string {
-  return points.map((point) => `M${x(point.along).toFixed(1)} ${y(point.z).toFixed(1)}h0`).join("");
+type Line = [number, number][]; // places along the plot and up
+
+interface Side {
+  frame: Frame;
+  theme: Theme;
+  panel: Panel;
+}
+
+const pathOn = ({ frame: { x, y } }: Side, piece: Line, up = 0): string =>
+  piece.map(([u, v], i) => `${i ? "L" : "M"}${round(x(u))} ${round(y(v + up))}`).join("");
+
+const stroke = (side: Side, piece: Line, colour: string, width: number, up = 0, dash?: string): void =>
+  side.frame.group.append(s("path", { d: pathOn(side, piece, up), stroke: colour, "stroke-width": width, "stroke-dasharray": dash, fill: "none" }));
+
+// What lies between two lines of as many places.
+const band = (side: Side, low: Line, high: Line, colour: string, opacity: number): void =>
+  side.frame.group.append(s("path", { d: `${pathOn(side, [...high, ...[...low].reverse()])}z`, fill: colour, "fill-opacity": opacity }));
+
+interface Kind {
+  name: string;
+  colour: string;
+  points: SidePoint[];
+}
+
+function kindsOf(points: SidePoint[], noise: number, theme: Theme): Kind[] {
+  const inside = points.filter((point) => point.inside);
+  return [
+    { name: "beyond the plot's ends", colour: theme.dark ? "#6e7681" : "#b6bdc5", points: points.filter((point) => !point.inside) },
+    { name: "crop", colour: theme.kinds[2], points: inside.filter((point) => !isGround(point, noise)) },
+    { name: "within the ground's noise", colour: theme.dark ? "#d6a461" : "#a1762f", points: inside.filter((point) => isGround(point, noise)) },
+  ].filter((kind) => kind.points.length > 0);
+}
+
+// One path of dots: thousands of circles would be slow.
+function drawDots(side: Side, { colour, points }: Kind): void {
+  const { x, y } = side.frame;
+  const d = points.map((point) => `M${x(point.along).toFixed(1)} ${y(point.z).toFixed(1)}h0`).join("");
+  side.frame.group.append(s("path", { d, stroke: colour, "stroke-width": 1.7, "stroke-linecap": "round", fill: "none", "stroke-opacity": 0.75 }));
+}
+
+function drawGround(side: Side, plot: Plot, grounds: Grounds, ground: Line[], terrain: Line[]): void {
+  const { theme } = side;
+  const angle = (plot.box[4] * Math.PI) / 180;
+  const error = (along: number): number => {
+    const from = along - plot.box[3] / 2;
+    return 1.96 * (grounds.ground?.standardError(plot.box[0] + from * Math.cos(angle), plot.box[1] + from * Math.sin(angle)) || 0);
+  };
+  for (const piece of ground) {
+    band(side, piece.map(([u, v]) => [u, v - error(u)]), piece.map(([u, v]) => [u, v + error(u)]), theme.ink, 0.22);
+    stroke(side, piece, theme.ink, 1.6);
+  }
+  for (const piece of terrain) stroke(side, piece, theme.kinds[5], 1.4, 0, "5 3");
+}
+
+// A height over the ground with its interval, and its truth; where the line ends.
+function drawHeight(side: Side, plot: Plot, name: string, colour: string, over: { ground: Line[]; terrain: Line[] }): number {
+  const [value, , low, high] = plot.heights[name];
+  for (const piece of over.ground) {
+    if (low !== null && high !== null)
+      band(side, piece.map(([u, v]) => [u, v + low]), piece.map(([u, v]) => [u, v + high]), colour, 0.2);
+    stroke(side, piece, colour, 2, value);
+  }
+  const truth = plot.truths[namedTruth(name)];
+  if (truth !== undefined && truth !== null)
+    for (const piece of over.terrain) stroke(side, piece, colour, 1.5, truth, "2 3");
+  return side.frame.y((over.ground.at(-1)?.at(-1)?.[1] ?? 0) + value);
+}
+
+// Names of the heights beside the ends of their lines, none over another.
+function drawLabels(svg: SVGSVGElement, { panel, theme }: Side, plot: Plot, labels: { name: string; y: number; colour: string }[]): void {
+  const left = panel.left + panel.width + 8;
+  let last = -Infinity;
+  for (const { name, y, colour } of [...labels].sort((a, b) => a.y - b.y)) {
+    last = Math.max(y, last + 26);
+    const [value, , low, high] = plot.heights[name];
+    svg.append(text(left, last + 1, `${name} ${fixed(value, 3)} m`, { colour, bold: true }));
+    if (low !== null) svg.append(text(left, last + 13, `95 %: [${fixed(low, 3)}, ${fixed(high, 3)}]`, { colour: theme.soft, size: 10 }));
+  }
+}
+
+// The range of z that is shown: nearly all points, and the heights.
+function rangeOf(plot: Plot, points: SidePoint[], names: string[], base: number): [number, number] {
+  const sorted = points.map((point) => point.z).sort((a, b) => a - b);
+  const tops = names.map((name) => base + (plot.heights[name][3] ?? plot.heights[name][0]));
+  const low = Math.min(sorted[Math.floor(sorted.length * 0.001)] ?? base, base - 0.05);
+  const high = Math.max(sorted[Math.floor(sorted.length * 0.999)] ?? base, ...tops, base + 0.2);
+  const margin = 0.06 * (high - low);
+  return [low - margin, high + margin];
 }
 
 export function drawProfile({ plot, points, grounds, height, noise }: ProfileOptions, theme: Theme, narrow: boolean): SVGSVGElement {
   const width = narrow ? 360 : 720;
   const length = plot.box[3];
   const names = profileHeights(plot, height);
-  const middle = (surface?: { height(x: number, y: number): number }) => surface?.height(plot.box[0], plot.box[1]) ?? NaN;
-  const base = [middle(grounds.ground), middle(grounds.terrain)].find(Number.isFinite) ?? Math.min(...points.map((point) => point.z), 0);
   const shown = points.length <= kMostPoints ? points : points.filter((_, i) => (i * kMostPoints) % points.length < kMostPoints);
-  const sorted = shown.map((point) => point.z).sort((a, b) => a - b);
-  const tops = names.map((name) => base + (plot.heights[name][3] ?? plot.heights[name][0]));
-  const low = Math.min(sorted[Math.floor(sorted.length * 0.001)] ?? base, base - 0.05);
-  const high = Math.max(sorted[Math.floor(sorted.length * 0.999)] ?? base, ...tops, base + 0.2);
-  const margin = 0.06 * (high - low);
-  const kinds: [string, string, SidePoint[]][] = [
-    ["beyond the plot's ends", theme.dark ? "#6e7681" : "#b6bdc5", shown.filter((point) => !point.inside)],
-    ["crop", theme.kinds[2], shown.filter((point) => point.inside && !isGround(point, noise))],
-    ["within the ground's noise", theme.dark ? "#d6a461" : "#a1762f", shown.filter((point) => point.inside && isGround(point, noise))],
-  ];
-  const ground = grounds.ground ? groundLine(plot.box, (u, v) => grounds.ground!.height(u, v)) : [];
-  const terrain = grounds.terrain ? groundLine(plot.box, (u, v) => grounds.terrain!.height(u, v)) : [];
-  const named: LegendEntry[] = kinds.filter(([, , some]) => some.length > 0).map(([name, colour]) => ({ name, colour, shape: 0 }));
-  if (ground.length) named.push({ name: "fitted ground ± 1.96 SE", colour: theme.ink, dash: "" });
-  if (narrow) names.forEach((name, i) => named.push({ name, colour: theme.kinds[kHeightKinds[i]], dash: "" }));
-  if (terrain.length) named.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
-  if (names.some((name) => plot.truths[namedTruth(name)] !== undefined)) named.push({ name: "truth", colour: theme.soft, dash: "2 3" });
-  const top = 14 + legendHeight(named, width - 58);
-  const total = top + 300;
-  const svg = canvas(width, total, theme, `Plot ${plot.id} from the side`);
-  legend(svg, named, 48, 16, width - 58);
+  const kinds = kindsOf(shown, noise, theme);
+  const lineOf = (surface?: Surface) => (surface ? groundLine(plot.box, (u, v) => surface.height(u, v)) : []);
+  const [ground, terrain] = [lineOf(grounds.ground), lineOf(grounds.terrain)];
+  const entries: LegendEntry[] = kinds.map(({ name, colour }) => ({ name, colour, shape: 0 }));
+  if (ground.length) entries.push({ name: "fitted ground ± 1.96 SE", colour: theme.ink, dash: "" });
+  if (narrow) names.forEach((name, i) => entries.push({ name, colour: theme.kinds[kHeightKinds[i]], dash: "" }));
+  if (terrain.length) entries.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
+  if (names.some((name) => plot.truths[namedTruth(name)] !== undefined)) entries.push({ name: "truth", colour: theme.soft, dash: "2 3" });
+  const top = 14 + legendHeight(entries, width - 58);
+  const svg = canvas(width, top + 300, theme, `Plot ${plot.id} from the side`);
+  legend(svg, entries, 48, 16, width - 58);
   const panel = { left: 48, top, width: width - 48 - (names.length && !narrow ? 176 : 12), height: 258 };
-  const { x, y, group } = frame(svg, panel,
-    { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" },
-    { low: low - margin, high: high + margin, label: "height z, m" }, theme);
-  for (const [, colour, some] of kinds)
-    if (some.length) group.append(s("path", { d: dots(some, x, y), stroke: colour, "stroke-width": 1.7, "stroke-linecap": "round", fill: "none", "stroke-opacity": 0.75 }));
-  for (const end of [0, length]) group.append(line(x(end), panel.top, x(end), panel.top + panel.height, theme.soft, 1, "2 3"));
-  const path = (piece: [number, number][], up = 0) => piece.map(([u, v], i) => `${i ? "L" : "M"}${round(x(u))} ${round(y(v + up))}`).join("");
-  const error = (along: number): number => {
-    const angle = (plot.box[4] * Math.PI) / 180;
-    const from = along - length / 2;
-    return 1.96 * (grounds.ground?.standardError(plot.box[0] + from * Math.cos(angle), plot.box[1] + from * Math.sin(angle)) || 0);
-  };
-  for (const piece of ground) {
-    const band = [...piece.map(([u, v]) => [u, v + error(u)]), ...piece.map(([u, v]) => [u, v - error(u)]).reverse()] as [number, number][];
-    group.append(s("path", { d: path(band) + "z", fill: theme.ink, "fill-opacity": 0.22 }), s("path", { d: path(piece), stroke: theme.ink, "stroke-width": 1.6, fill: "none" }));
-  }
-  for (const piece of terrain) group.append(s("path", { d: path(piece), stroke: theme.kinds[5], "stroke-width": 1.4, "stroke-dasharray": "5 3", fill: "none" }));
-  const inBox = (ground.length ? ground : terrain.length ? terrain : [[[0, base], [length, base]] as [number, number][]])
-    .map((piece) => piece.filter(([u]) => u >= 0 && u <= length)).filter((piece) => piece.length > 1);
-  const labels: { y: number; words: string; colour: string }[] = [];
-  names.forEach((name, i) => {
-    const [value, , from, to] = plot.heights[name];
+  const base = [grounds.ground, grounds.terrain].map((surface) => surface?.height(plot.box[0], plot.box[1]) ?? NaN).find(Number.isFinite) ?? Math.min(...shown.map((point) => point.z), 0);
+  const [low, high] = rangeOf(plot, shown, names, base);
+  const side: Side = { theme, panel, frame: frame(svg, panel,
+    { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" }, { low, high, label: "height z, m" }, theme) };
+  for (const kind of kinds) drawDots(side, kind);
+  for (const end of [0, length]) side.frame.group.append(line(side.frame.x(end), panel.top, side.frame.x(end), panel.top + panel.height, theme.soft, 1, "2 3"));
+  drawGround(side, plot, grounds, ground, terrain);
+  const inBox = (pieces: Line[]) => pieces.map((piece) => piece.filter(([u]) => u >= 0 && u <= length)).filter((piece) => piece.length > 1);
+  const flat: Line[] = [[[0, base], [length, base]]];
+  const over = { ground: inBox([ground, terrain, flat].find((pieces) => pieces.length)!), terrain: inBox([terrain, ground, flat].find((pieces) => pieces.length)!) };
+  const labels = names.map((name, i) => {
     const colour = theme.kinds[kHeightKinds[i]];
-    for (const piece of inBox) {
-      if (from !== null && to !== null) {
-        const band = [...piece.map(([u, v]) => [u, v + to]), ...piece.map(([u, v]) => [u, v + from]).reverse()] as [number, number][];
-        group.append(s("path", { d: path(band) + "z", fill: colour, "fill-opacity": 0.2 }));
-      }
-      group.append(s("path", { d: path(piece, value), stroke: colour, "stroke-width": 2, fill: "none" }));
-    }
-    const interval = from !== null && to !== null ? ` [${fixed(from, 3)}, ${fixed(to, 3)}]` : "";
-    const end = inBox[inBox.length - 1]?.at(-1)?.[1] ?? base;
-    labels.push({ y: y(end + value), words: `${name} ${fixed(value, 3)} m${interval}`, colour });
-    const truth = plot.truths[namedTruth(name)];
-    if (truth !== undefined && truth !== null)
-      for (const piece of terrain.length ? terrain.map((all) => all.filter(([u]) => u >= 0 && u <= length)).filter((all) => all.length > 1) : inBox)
-        group.append(s("path", { d: path(piece, truth), stroke: colour, "stroke-width": 1.5, "stroke-dasharray": "2 3", fill: "none" }));
+    return { name, colour, y: drawHeight(side, plot, name, colour, over) };
   });
-  // Labels beside the ends of their lines, none over another.
-  labels.sort((a, b) => a.y - b.y);
-  if (!narrow) labels.forEach((label, i) => {
-    if (i > 0) label.y = Math.max(label.y, labels[i - 1].y + 26);
-    const [name, rest] = [label.words.split(" [")[0], label.words.split(" [")[1]];
-    const left = panel.left + panel.width + 8;
-    svg.append(text(left, label.y + 1, name, { colour: label.colour, bold: true }));
-    if (rest) svg.append(text(left, label.y + 13, `95 %: [${rest}`, { colour: theme.soft, size: 10 }));
-  });
-  const factor = panel.height / (high - low + 2 * margin) / (panel.width / (length + 2 * kBeyond));
-  svg.append(text(width - 8, total - 11 + (narrow ? 9 : 0), `heights drawn × ${fixed(factor, 1)}`, { anchor: "end", colour: theme.soft, size: 10 }));
+  if (!narrow) drawLabels(svg, side, plot, labels);
+  const factor = panel.height / (high - low) / (panel.width / (length + 2 * kBeyond));
+  svg.append(text(width - 8, top + 289 + (narrow ? 9 : 0), `heights drawn × ${fixed(factor, 1)}`, { anchor: "end", colour: theme.soft, size: 10 }));
   return svg;
 }
 

@@ -24,7 +24,10 @@ export function r2(pairs: Pair[]): number {
 
 export function byFarm(pairs: Pair[]): Pair[][] {
   const farms = new Map<number, Pair[]>();
-  for (const pair of pairs) farms.set(pair.farm, [...(farms.get(pair.farm) ?? []), pair]);
+  for (const pair of pairs) {
+    if (!farms.has(pair.farm)) farms.set(pair.farm, []);
+    farms.get(pair.farm)!.push(pair);
+  }
   return [...farms.values()];
 }
 
@@ -55,15 +58,13 @@ export function oneNumber(pairs: Pair[]): number {
   return within(pairs.map((pair) => ({ ...pair, estimate: 0 })));
 }
 
-// Standard error of the RMSE by the jackknife, a farm left out at a time, of a single farm a plot at a
+// Standard error of a statistic by the jackknife, a farm left out at a time, of a single farm a plot at a
 // time (Efron and Tibshirani 1993, chapter 11; from memory).
-export function rmseStandardError(pairs: Pair[]): number {
+export function standardError(pairs: Pair[], statistic: (pairs: Pair[]) => number): number {
   const farms = byFarm(pairs);
   const units = farms.length > 1 ? farms : pairs.map((pair) => [pair]);
   if (units.length < 2) return NaN;
-  const total = sum(pairs.map((pair) => error(pair) ** 2));
-  const left = units.map((unit) =>
-    Math.sqrt(Math.max(0, total - sum(unit.map((pair) => error(pair) ** 2))) / (pairs.length - unit.length)));
+  const left = units.map((_, i) => statistic(units.filter((__, k) => k !== i).flat()));
   const middle = mean(left);
   return Math.sqrt(((units.length - 1) / units.length) * sum(left.map((value) => (value - middle) ** 2)));
 }

@@ -4,7 +4,7 @@ import type { Theme } from "./colours";
 import type { Report, Suite, TableRow } from "./data";
 import { checkbox, h, select } from "./dom";
 import {
-  barsCsv, drawBars, drawHistograms, drawScatter, histogramsCsv, pairsCsv, references, standardErrorBars, withinBars,
+  barsCsv, drawBars, drawHistograms, drawScatter, histogramsCsv, pairsCsv, references, rmseBars, withinBars,
   type Bar, type Group, type Method } from "./figures";
 import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
 import type { Pair } from "./statistics";
@@ -190,7 +190,7 @@ export class SuiteView {
   }
 
   private rmseFigure() {
-    const bars = this.spread === "interval" ? this.intervalBars() : standardErrorBars(this.methods);
+    const bars = this.spread === "interval" ? this.intervalBars() : rmseBars(this.methods);
     const published: Record<string, number | undefined> = {};
     if (this.suite.published && this.chosen.some((method) => this.suite.published!.methods.includes(method)))
       for (const { name, published_rmse_cm } of this.suite.cases) published[name] = published_rmse_cm === undefined ? undefined : published_rmse_cm / 100;
@@ -220,7 +220,7 @@ export class SuiteView {
     const bars = withinBars(this.methods);
     return {
       title: "What is left within fields",
-      note: "Root mean square of the errors less their farm's mean error: how well a method tells a field's plots apart. Dotted: the best single number for each field; a method above it has measured the field, not its plots.",
+      note: "Root mean square of the errors less their farm's mean error: how well a method tells a field's plots apart; bars: standard errors by the jackknife over farms. Dotted: the best single number for each field; a method above it has measured the field, not its plots.",
       draw: (theme: Theme, narrow: boolean) => drawBars("Error within fields", "error within farms, cm", bars, theme, narrow, { references: references(this.methods) }),
       csv: () => barsCsv(bars, "within"),
     };
@@ -265,8 +265,8 @@ export function estimateFigures(report: Report): HTMLElement | undefined {
   const cards = [
     card(() => ({
       title: "Error of each height", note: `Root mean square error and its standard error (jackknife over plots) against the truth that each height is named after, n = ${n} plots. Dotted: one number for the whole field.`,
-      draw: (theme, narrow) => drawBars("RMSE of each height", "RMSE, cm", standardErrorBars(shown()), theme, narrow, shown().length === 1 ? { references: references(shown()) } : {}),
-      csv: () => barsCsv(standardErrorBars(shown()), "rmse") })),
+      draw: (theme, narrow) => drawBars("RMSE of each height", "RMSE, cm", rmseBars(shown()), theme, narrow, shown().length === 1 ? { references: references(shown()) } : {}),
+      csv: () => barsCsv(rmseBars(shown()), "rmse") })),
     card(() => ({
       title: "Estimated against true heights", note: "A mark a plot; the line is estimate = truth. R² against that line, and within: the square of their correlation.",
       draw: (theme, narrow) => drawScatter(shown(), theme, narrow), csv: () => pairsCsv(shown()) })),

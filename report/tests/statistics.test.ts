@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { bias, oneNumber, r2, r2Within, relativeErrors, rmse, rmseStandardError, within, type Pair } from "../src/statistics";
+import { bias, oneNumber, r2, r2Within, relativeErrors, rmse, standardError, within, type Pair } from "../src/statistics";
 
 const pairs = (rows: [number, number, number][]): Pair[] =>
   rows.map(([farm, truth, error]) => ({ farm, truth, estimate: truth + error, label: "" }));
@@ -33,9 +33,17 @@ describe("statistics", () => {
 
   it("jackknifes as the standard error of a mean where the RMSE is one", () => {
     // Of squared errors all alike there is no doubt; of two farms the closed form is half their difference.
-    expect(rmseStandardError(pairs([[1, 1, 0.1], [2, 1, -0.1], [3, 1, 0.1]]))).toBeCloseTo(0, 12);
-    expect(rmseStandardError(pairs([[1, 1, 0.1], [2, 1, 0.3]]))).toBeCloseTo(0.1, 12);
-    expect(rmseStandardError(pairs([[1, 1, 0.1]]))).toBeNaN();
+    expect(standardError(pairs([[1, 1, 0.1], [2, 1, -0.1], [3, 1, 0.1]]), rmse)).toBeCloseTo(0, 12);
+    expect(standardError(pairs([[1, 1, 0.1], [2, 1, 0.3]]), rmse)).toBeCloseTo(0.1, 12);
+    expect(standardError(pairs([[1, 1, 0.1]]), rmse)).toBeNaN();
+  });
+
+  it("jackknifes a mean to the spread of its values", () => {
+    // Of a mean the jackknife's standard error is s / sqrt(n), exactly.
+    const errors = [0.01, 0.04, -0.02, 0.06];
+    const middle = errors.reduce((sum, value) => sum + value, 0) / 4;
+    const spread = Math.sqrt(errors.reduce((sum, value) => sum + (value - middle) ** 2, 0) / 3);
+    expect(standardError(pairs(errors.map((value, i) => [i, 1, value])), bias)).toBeCloseTo(spread / 2, 12);
   });
 
   it("counts relative errors in bins whose edges are multiples of 5 %", () => {
