@@ -86,6 +86,12 @@ export interface Frame {
   group: SVGGElement; // clipped to the panel
 }
 
+// Decimals that tell ticks apart.
+export function digitsOf(values: number[]): number {
+  const step = values.length > 1 ? values[1] - values[0] : 1;
+  return Math.max(0, Math.min(4, -Math.floor(Math.log10(step) + 1e-9)));
+}
+
 let clips = 0;
 
 // A panel's frame, grid and ticks; what is drawn goes into the group.
@@ -93,15 +99,12 @@ export function frame(svg: SVGSVGElement, panel: Panel, horizontal: Axis, vertic
   const { left, top, width, height } = panel;
   const x = scale(horizontal.low, horizontal.high, left, left + width);
   const y = scale(vertical.low, vertical.high, top + height, top);
-  const digits = (values: number[]) => {
-    const step = values.length > 1 ? values[1] - values[0] : 1;
-    return Math.max(0, Math.min(4, -Math.floor(Math.log10(step) + 1e-9)));
-  };
   const marksOf = (axis: Axis): [number, string][] => {
     const values = ticks(axis.low, axis.high, axis.count ?? 5);
-    return axis.labels ?? values.map((value) => [value, fixed(value, axis.digits ?? digits(values))]);
+    return axis.labels ?? values.map((value) => [value, fixed(value, axis.digits ?? digitsOf(values))]);
   };
-  for (const [value, words] of marksOf(vertical)) {
+  const rows = marksOf(vertical);
+  for (const [value, words] of rows) {
     svg.append(line(left, y(value), left + width, y(value), theme.line),
       text(left - 5, y(value) + 4, words, { anchor: "end", colour: theme.soft }));
   }
@@ -112,7 +115,8 @@ export function frame(svg: SVGSVGElement, panel: Panel, horizontal: Axis, vertic
   svg.append(line(left, top + height, left + width, top + height, theme.soft), line(left, top, left, top + height, theme.soft));
   if (horizontal.label)
     svg.append(text(left + width / 2, top + height + 29, horizontal.label, { anchor: "middle" }));
-  if (vertical.label) svg.append(text(left - 34, top + height / 2, vertical.label, { anchor: "middle", turned: true }));
+  const room = Math.max(34, 14 + 6.3 * Math.max(0, ...rows.map(([, words]) => words.length)));
+  if (vertical.label) svg.append(text(left - room, top + height / 2, vertical.label, { anchor: "middle", turned: true }));
   const clip = `clip${++clips}`;
   const group = s("g", { "clip-path": `url(#${clip})` });
   svg.append(s("clipPath", { id: clip }, s("rect", { x: left - 6, y: top - 6, width: width + 12, height: height + 6 })), group);

@@ -1,9 +1,9 @@
 // The plots from above, coloured by what is asked of them.
-import { canvas, line, round, text, type Panel } from "./axes";
+import { canvas, digitsOf, line, round, text, type Panel } from "./axes";
 import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Field, Plot } from "./data";
 import { s } from "./dom";
-import { csv, fixed, namedTruth, ticks } from "./numbers";
+import { counted, csv, fixed, namedTruth, ticks } from "./numbers";
 import { corners } from "./place";
 
 export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
@@ -48,16 +48,17 @@ export function coloursOf(values: number[], measure: Measure): Colours {
 const share = (colours: Colours, value: number): number => (value - colours.low) / (colours.high - colours.low);
 
 // An upright bar of colours with its ticks.
-function colourBar({ svg, panel, theme }: Sheet, colours: Colours, title: string, digits: number): void {
+function colourBar({ svg, panel, theme }: Sheet, colours: Colours, title: string): void {
   const [left, top, height] = [kWidth - 78, panel.top + 20, panel.height - 40];
   const steps = 48;
   for (let i = 0; i < steps; ++i)
     svg.append(s("rect", {
       x: left, y: round(top + height * (1 - (i + 1) / steps)), width: 12, height: round(height / steps + 0.6),
       fill: hex(colours.ramp((i + 0.5) / steps)) }));
-  for (const value of ticks(colours.low, colours.high, 5)) {
+  const values = ticks(colours.low, colours.high, 5);
+  for (const value of values) {
     const y = top + height * (1 - share(colours, value));
-    svg.append(line(left + 12, y, left + 16, y, theme.soft), text(left + 19, y + 4, fixed(value, digits), { colour: theme.soft }));
+    svg.append(line(left + 12, y, left + 16, y, theme.soft), text(left + 19, y + 4, fixed(value, digitsOf(values)), { colour: theme.soft }));
   }
   svg.append(text(left + 66, top + height / 2, title, { anchor: "middle", turned: true }));
 }
@@ -81,6 +82,10 @@ interface Sheet {
   at: (x: number, y: number) => [number, number];
 }
 
+// Coordinates of hundreds of kilometres count from a round one, which the axis names.
+const roundOrigin = (middle: number): number => (Math.abs(middle) < 10_000 ? 0 : 1000 * Math.floor(middle / 1000));
+const axisName = (name: string, from: number): string => (from ? `${name} less ${counted(from)}, m` : `${name}, m`);
+
 const kWidth = 460;
 const kHeight = 400;
 
@@ -98,15 +103,17 @@ function sheetOf(field: Field, title: string, theme: Theme): Sheet {
   const [left, top] = [panel.left + panel.width / 2, panel.top + panel.height / 2];
   const bottom = panel.top + panel.height;
   const right = panel.left + panel.width;
+  const [fromX, fromY] = [roundOrigin(x0), roundOrigin(y0)];
   for (const x of ticks(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, 5)) {
     const u = left + (x - x0) * scale;
-    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, fixed(x, 0), { anchor: "middle", colour: theme.soft }));
+    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, fixed(x - fromX, 0), { anchor: "middle", colour: theme.soft }));
   }
   for (const y of ticks(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, 5)) {
     const v = top - (y - y0) * scale;
-    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y, 0), { anchor: "end", colour: theme.soft }));
+    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y - fromY, 0), { anchor: "end", colour: theme.soft }));
   }
-  svg.append(text(left, kHeight - 8, "east, m", { anchor: "middle" }), text(12, top, "north, m", { anchor: "middle", turned: true }));
+  svg.append(text(left, kHeight - 8, axisName("east", fromX), { anchor: "middle" }),
+    text(12, top, axisName("north", fromY), { anchor: "middle", turned: true }));
   return { svg, panel, theme, scale, at: (x, y) => [left + (x - x0) * scale, top - (y - y0) * scale] };
 }
 
@@ -163,7 +170,7 @@ export function drawMap({ field, measure, height, selected, pick }: MapOptions, 
   for (const plot of field.true_boxes.filter((box) => !box.found))
     sheet.svg.append(s("polygon", { points: cornersOn(sheet, plot.box), fill: "none", stroke: theme.kinds[0], "stroke-dasharray": "3 2" }, s("title", {}, `missed: plot ${plot.id}`)));
   const name = measure === "confidence" ? "confidence" : `${height ? `${height}: ` : ""}${measureNames[measure].replace(" (estimate − truth)", "")}, ${unit}`;
-  if (values.some(Number.isFinite)) colourBar(sheet, colours, name, centimetres ? 1 : 2);
+  if (values.some(Number.isFinite)) colourBar(sheet, colours, name);
   return sheet.svg;
 }
 

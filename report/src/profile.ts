@@ -183,10 +183,10 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
   if (narrow) names.forEach((name, i) => entries.push({ name, colour: theme.kinds[kHeightKinds[i]], dash: "" }));
   if (terrain.length) entries.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
   if (names.some((name) => plot.truths[namedTruth(name)] !== undefined)) entries.push({ name: "truth", colour: theme.soft, dash: "2 3" });
-  const top = 14 + legendHeight(entries, width - 58);
+  const top = 14 + legendHeight(entries, width - 66);
   const svg = canvas(width, top + 300, theme, `Plot ${plot.id} from the side`);
-  legend(svg, entries, 48, 16, width - 58);
-  const panel = { left: 48, top, width: width - 48 - (names.length && !narrow ? 176 : 12), height: 258 };
+  legend(svg, entries, 56, 16, width - 66);
+  const panel = { left: 56, top, width: width - 56 - (names.length && !narrow ? 176 : 12), height: 258 };
   const base = [grounds.ground, grounds.terrain].map((surface) => surface?.height(plot.box[0], plot.box[1]) ?? NaN).find(Number.isFinite) ?? Math.min(...shown.map((point) => point.z), 0);
   const [low, high] = rangeOf(plot, shown, names, base);
   const side: Side = { theme, panel, frame: frame(svg, panel,
