@@ -107,6 +107,16 @@ void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
 
+FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
+  return {.case_name = run.suite_case.name,
+          .seed = run.seed,
+          .made_from = {},
+          .shots = flown.shots,
+          .points = flown.points,
+          .flight_s = flown.duration_s,
+          .methods = {}};
+}
+
 }  // namespace
 
 json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
@@ -146,13 +156,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
     plots.clear();
   }
   report(progress, kRead);
-  FarmResult result{.case_name = suite_case.name,
-                    .seed = seed,
-                    .made_from = {},
-                    .shots = scanned.flown.shots,
-                    .points = scanned.flown.points,
-                    .flight_s = scanned.flown.duration_s,
-                    .methods = {}};
+  FarmResult result = result_of(run, scanned.flown);
   const Field field{.cloud = scanned.cloud,
                     .map = map,
                     .plots = plots,

@@ -32,9 +32,10 @@ report::ShownPlot shown(const estimate::PlotEstimate& plot) {
   return result;
 }
 
-// Nodes every half metre around the plots.
+// Nodes every half metre around the plots, farther apart where they would be too many.
 report::ShownGrid grid_around(const report::ShownField& field) {
-  constexpr double kCell_m = 0.5;
+  constexpr double kFinest_m = 0.5;
+  constexpr double kMostNodes = 1e6;
   constexpr double kAround_m = 3;
   Eigen::AlignedBox2d bounds;
   for (const report::ShownPlot& plot : field.plots)
@@ -42,10 +43,12 @@ report::ShownGrid grid_around(const report::ShownField& field) {
   for (const report::ShownBox& plot : field.true_boxes)
     for (const Eigen::Vector2d& corner : plot.box.corners()) bounds.extend(corner);
   const Eigen::Vector2d size = bounds.sizes().array() + 2 * kAround_m;
+  const double cell_m =
+      std::max({kFinest_m, std::sqrt(size.prod() / kMostNodes), size.maxCoeff() / kMostNodes});
   return {.first = bounds.min().array() - kAround_m,
-          .cell_m = kCell_m,
-          .columns = static_cast<int>(size.x() / kCell_m) + 2,
-          .rows = static_cast<int>(size.y() / kCell_m) + 2};
+          .cell_m = cell_m,
+          .columns = static_cast<int>(size.x() / cell_m) + 2,
+          .rows = static_cast<int>(size.y() / cell_m) + 2};
 }
 
 report::ShownPoint shown(const Eigen::Vector3d& place) { return {.place = place.cast<float>()}; }

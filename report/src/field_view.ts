@@ -196,7 +196,7 @@ export class FieldView {
   private async loadCloud(): Promise<void> {
     const cloud = this.scene?.cloud;
     if (!cloud) {
-      this.element.dataset.ready = "true";
+      this.element.dataset.ready = String(Math.round(performance.now()));
       this.status.textContent = this.field.cloud ? "" : "This page was made without points.";
       return;
     }
@@ -215,7 +215,7 @@ export class FieldView {
     this.status.textContent =
       `${counted(shown)} points${read > shown ? `, a fair sample of the ${counted(read)} that were read` : ""}. ` +
       "Drag turns, wheel or pinch zooms, right button or two fingers move; arrows, + and − do the same.";
-    this.element.dataset.ready = "true";
+    this.element.dataset.ready = String(Math.round(performance.now()));
   }
 
   private colour(): void {

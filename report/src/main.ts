@@ -60,7 +60,7 @@ function start(): void {
     page.append(...sections(report));
     if (report.kind === "suite" && report.fields.length === 0)
       page.append(h("p", { class: "note" }, "These results have no views of their farms: farmbench run makes them, and shows one farm of each case in three dimensions."));
-    if (report.fields.length === 0) document.documentElement.dataset.ready = "true";
+    if (report.fields.length === 0) document.documentElement.dataset.ready = String(Math.round(performance.now()));
     document.documentElement.dataset.interactive = String(Math.round(performance.now()));
   } catch (error) {
     page.append(h("p", { class: "warning" }, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));

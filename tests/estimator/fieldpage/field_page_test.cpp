@@ -96,6 +96,22 @@ TEST_F(FieldPage, ShowsTheCloudsPositions) {
   }
 }
 
+// A plane through three points, at nodes around plots that lie 40 km apart.
+TEST_F(FieldPage, ShowsTheTrueGroundOfAnyField) {
+  report::ShownField field;
+  for (const double x : {-20'000.0, 20'000.0})
+    field.plots.push_back({.id = "1", .box = {.center = {x, 0}, .width_m = 1, .length_m = 4}});
+  show_terrain(
+      field, farm::Terrain({{-30'000, -100, 0}, {30'000, -100, 600}, {0, 100, 300}}, {{0, 1, 2}}));
+  ASSERT_TRUE(field.terrain.has_value());
+  const report::ShownGrid& grid = *field.terrain;
+  EXPECT_LT(grid.z_m.size(), 2'000'000U);
+  EXPECT_EQ(grid.z_m.size(), static_cast<std::size_t>(grid.columns) * grid.rows);
+  const int column = grid.columns / 2;
+  const double x = grid.first.x() + grid.cell_m * column;
+  EXPECT_NEAR(grid.z_m.at(column), 300 + 0.01 * x, 0.01);
+}
+
 TEST_F(FieldPage, RefusesItsOwnInputsAndAPageThatExists) {
   EXPECT_THROW(write_estimate_page({.estimate = estimate_, .html = estimate_, .replace = true}),
                InputError);
