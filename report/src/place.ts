@@ -74,11 +74,11 @@ export class Place {
     return Number.isFinite(height) ? height : 0;
   }
 
-  // Whether ground is drawn here: not far beyond the plots, where nothing is measured on it.
+  // Whether ground is drawn here: not far beyond the plots, or the points where there are none.
   isNear(x: number, y: number): boolean {
-    if (this.field.plots.length + this.field.true_boxes.length === 0) return true;
     const { low, high } = this.extent;
-    const reach = 6 + 0.15 * Math.max(high.x - low.x, high.y - low.y);
+    const plots = this.field.plots.length + this.field.true_boxes.length;
+    const reach = plots > 0 ? 6 + 0.15 * Math.max(high.x - low.x, high.y - low.y) : 1;
     return x > low.x - reach && x < high.x + reach && y > low.y - reach && y < high.y + reach;
   }
 

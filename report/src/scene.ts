@@ -184,6 +184,8 @@ export class Scene {
       this.renderer.render(this.points, this.camera);
     }
     this.renderer.setRenderTarget(null);
+    // Once more: the other target has another colour space.
+    this.renderer.setClearColor(this.background, 1);
     this.renderer.clear();
     if (this.cloud && this.points.visible) this.shading.draw(this.renderer, this.camera);
     this.renderer.render(this.things, this.camera);

@@ -6,6 +6,7 @@ import { corners, type Place } from "./place";
 
 // Ground whose standard error is larger is not drawn: it is made up.
 const kUnsure_m = 0.06;
+const kSteepest = 2; // rise over run of ground that is drawn
 const kMostNodes = 40_000;
 
 // A surface's mesh, as finely as it can be seen.
@@ -28,7 +29,9 @@ export function surfaceMesh(surface: Surface, place: Place, colour: string): THR
     for (let column = 0; column + 1 < across; ++column) {
       const a = row * across + column;
       const [b, c, d] = [a + 1, a + across, a + across + 1];
-      if (known[a] && known[b] && known[c] && known[d]) faces.push(a, b, d, a, d, c);
+      if (!known[a] || !known[b] || !known[c] || !known[d]) continue;
+      const heights = [a, b, c, d].map((node) => places[3 * node + 2]);
+      if (Math.max(...heights) - Math.min(...heights) < kSteepest * cell * stride) faces.push(a, b, d, a, d, c);
     }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));

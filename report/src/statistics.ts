@@ -58,12 +58,16 @@ export function oneNumber(pairs: Pair[]): number {
   return within(pairs.map((pair) => ({ ...pair, estimate: 0 })));
 }
 
+const kMostGroups = 50;
+
 // Standard error of a statistic by the jackknife, a farm left out at a time, of a single farm a plot at a
-// time (Efron and Tibshirani 1993, chapter 11; from memory).
+// time (Efron and Tibshirani 1993, chapter 11; from memory). More than 50 are left out in 50 groups.
 export function standardError(pairs: Pair[], statistic: (pairs: Pair[]) => number): number {
   const farms = byFarm(pairs);
-  const units = farms.length > 1 ? farms : pairs.map((pair) => [pair]);
-  if (units.length < 2) return NaN;
+  const single = farms.length > 1 ? farms : pairs.map((pair) => [pair]);
+  if (single.length < 2) return NaN;
+  const units: Pair[][] = Array.from({ length: Math.min(single.length, kMostGroups) }, () => []);
+  single.forEach((unit, i) => units[i % units.length].push(...unit));
   const left = units.map((_, i) => statistic(units.filter((__, k) => k !== i).flat()));
   const middle = mean(left);
   return Math.sqrt(((units.length - 1) / units.length) * sum(left.map((value) => (value - middle) ** 2)));

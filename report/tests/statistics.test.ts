@@ -46,6 +46,15 @@ describe("statistics", () => {
     expect(standardError(pairs(errors.map((value, i) => [i, 1, value])), bias)).toBeCloseTo(spread / 2, 12);
   });
 
+  it("leaves out groups where there are many, and finds about the same", () => {
+    const errors = Array.from({ length: 500 }, (_, i) => 0.05 * Math.sin(12.9898 * i * i));
+    const many = errors.map((value, i) => ({ farm: i, truth: 1, estimate: 1 + value, label: "" }));
+    const middle = errors.reduce((sum, value) => sum + value, 0) / 500;
+    const spread = Math.sqrt(errors.reduce((sum, value) => sum + (value - middle) ** 2, 0) / 499);
+    const exact = spread / Math.sqrt(500);
+    expect(Math.abs(standardError(many, bias) / exact - 1)).toBeLessThan(0.25);
+  });
+
   it("counts relative errors in bins whose edges are multiples of 5 %", () => {
     const bins = relativeErrors(pairs([[1, 1, 0.01], [1, 1, 0.049], [1, 1, -0.01], [1, 2, 0.12]]));
     expect(bins.map(({ low, count }) => [Math.round(100 * low), count])).toEqual([[-5, 1], [0, 2], [5, 1]]);
