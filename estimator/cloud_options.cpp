@@ -33,14 +33,7 @@ void declare_recording(CLI::App& command, CloudArguments& arguments) {
       ->group(group);
 }
 
-}  // namespace
-
-void declare_cloud(CLI::App& command, CloudArguments& arguments) {
-  command
-      .add_option("CLOUD", arguments.cloud.files,
-                  "PCD, PLY, LAS or text clouds, a scan folder (its cloud.pcd), a folder of tiles, "
-                  "or a recording (pcap, bag, MCAP); several are read as one")
-      ->required();
+void declare_frame(CLI::App& command, CloudArguments& arguments) {
   command
       .add_option("--units", arguments.units,
                   "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: "
@@ -50,6 +43,26 @@ void declare_cloud(CLI::App& command, CloudArguments& arguments) {
                      "of the cloud's coordinates, whatever its file states: EPSG:CODE of UTM in "
                      "metres (EPSG:32617) or of longitude and latitude (EPSG:4326)");
   declare_recording(command, arguments);
+}
+
+}  // namespace
+
+void declare_cloud(CLI::App& command, CloudArguments& arguments) {
+  command
+      .add_option("CLOUD", arguments.cloud.files,
+                  "PCD, PLY, LAS or text clouds, a scan folder (its cloud.pcd), a folder of tiles, "
+                  "or a recording (pcap, bag, MCAP); several are read as one")
+      ->required();
+  declare_frame(command, arguments);
+}
+
+void declare_shown_cloud(CLI::App& command, CloudArguments& arguments) {
+  command
+      .add_option("--cloud", arguments.cloud.files,
+                  "the cloud that was measured, as estimator run takes it; may be repeated: its "
+                  "points are shown")
+      ->allow_extra_args(false);
+  declare_frame(command, arguments);
 }
 
 CloudFiles cloud_of(const CloudArguments& arguments) {

@@ -19,6 +19,9 @@ struct CloudArguments {
 // Adds CLOUD, --units, --crs and what tells of recordings. The arguments outlive the command.
 void declare_cloud(CLI::App& command, CloudArguments& arguments);
 
+// Adds --cloud and the same options, of a cloud that may be left out.
+void declare_shown_cloud(CLI::App& command, CloudArguments& arguments);
+
 // The cloud as told; its files are as the user names them.
 CloudFiles cloud_of(const CloudArguments& arguments);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "info_command.h"
+#include "report_command.h"
 #include "run_command.h"
 #include "score_command.h"
 
@@ -10,5 +11,6 @@ int main(int argc, char** argv) {
   plotscan::declare_run(program);
   plotscan::declare_info(program);
   plotscan::declare_score(program);
+  plotscan::declare_report(program);
   return program.run(argc, argv);
 }

@@ -7,6 +7,7 @@
 
 #include "convert_command.h"
 #include "sensors_command.h"
+#include "view_command.h"
 
 #include "core/data_folder.h"
 #include "core/program.h"
@@ -134,5 +135,6 @@ int main(int argc, char** argv) {
   add_options(fly, arguments);
   declare_convert(program);
   declare_sensors(program);
+  declare_view(program);
   return program.run(argc, argv);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "farmbench/change_chart.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "farmbench/charts.h"
 #include "farmbench/format.h"
 #include "farmbench/svg.h"
 

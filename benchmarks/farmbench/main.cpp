@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <filesystem>
 #include <string>
 
 #include "core/data_folder.h"
@@ -53,7 +54,8 @@ void say_summary(const Program& program, const farmbench::RunSummary& summary,
                  const std::string& output) {
   for (const std::string& line : farmbench::summary_lines(summary.result, summary.table))
     program.say(line);
-  program.say("Written: table.csv, results.json, leaderboard.md, report.html in " + output);
+  program.say("Written: table.csv, results.json, leaderboard.md in " + output);
+  program.say("To look at: " + (std::filesystem::path(output) / "report.html").string());
   nlohmann::json rows = nlohmann::json::array();
   for (const farmbench::TableRow& row : summary.table) rows.push_back(json_of(row));
   program.result({{"output", output},

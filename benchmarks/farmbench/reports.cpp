@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "farmbench/charts.h"
+#include "farmbench/change_chart.h"
 #include "farmbench/format.h"
-#include "farmbench/html_report.h"
 #include "farmbench/methods.h"
+#include "farmbench/suite_page.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
@@ -278,7 +278,7 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
                    const std::vector<TableRow>& table) {
   write_text(folder / "table.csv", table_csv(table));
   write_text(folder / "leaderboard.md", leaderboard(result, table));
-  write_text(folder / "report.html", html_report(result, table));
+  write_suite_page(folder, result, table);
   if (!result.baseline) return;
   for (const std::string& truth : shown_truths(result, table))
     write_text(folder / ("changes_" + truth + ".svg"),

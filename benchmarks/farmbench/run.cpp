@@ -16,6 +16,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "farmbench/farm_queue.h"
+#include "farmbench/farm_view.h"
 #include "farmbench/methods.h"
 #include "farmbench/reports.h"
 #include "farmbench/run_farm.h"
@@ -36,6 +37,7 @@ struct Task {
   std::uint64_t seed;
   std::string name;  // "flat-1"
   json made_from;
+  bool viewed = false;  // the report shows this farm
   std::optional<FarmResult> result = std::nullopt;
 };
 
@@ -70,6 +72,11 @@ fs::path times_file(const fs::path& output, const std::string& farm) {
   return output / "times" / (farm + ".json");
 }
 
+std::optional<fs::path> view_file(const RunOptions& options, const Task& task) {
+  if (!task.viewed) return std::nullopt;
+  return farm_view_file(options.output, task.suite_case.name, task.seed);
+}
+
 void read_times(const fs::path& output, const std::string& farm, FarmResult& result) {
   const fs::path file = times_file(output, farm);
   if (fs::exists(file)) set_times(result, json::parse(read_text(file)));
@@ -78,7 +85,8 @@ void read_times(const fs::path& output, const std::string& farm, FarmResult& res
 // The farm's result where there is one made from the same; a broken file is as good as none.
 std::optional<FarmResult> earlier_result(const RunOptions& options, const Task& task) {
   const fs::path file = result_file(options, task);
-  if (!fs::exists(file)) return std::nullopt;
+  const auto view = view_file(options, task);
+  if (!fs::exists(file) || (view && !fs::exists(*view))) return std::nullopt;
   try {
     FarmResult result = farm_result_from_json(json::parse(read_text(file)));
     read_times(options.output, task.name, result);
@@ -96,7 +104,8 @@ std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
       tasks.push_back({.suite_case = suite_case,
                        .seed = seed,
                        .name = suite_case.name + "-" + std::to_string(seed),
-                       .made_from = made_from(suite, suite_case, seed, options.build)});
+                       .made_from = made_from(suite, suite_case, seed, options.build),
+                       .viewed = seed == suite.seeds.front()});
       if (options.force) continue;
       tasks.back().result = earlier_result(options, tasks.back());
     }
@@ -127,7 +136,13 @@ void run_task(Task& task, const Suite& suite, const RunOptions& options, const f
               int threads, const ProgressReport& progress) {
   const fs::path folder = work / task.name;
   fs::create_directories(folder);
-  FarmResult result = run_farm(suite, task.suite_case, task.seed, folder, threads, progress);
+  FarmResult result = run_farm({.suite = suite,
+                                .suite_case = task.suite_case,
+                                .seed = task.seed,
+                                .folder = folder,
+                                .threads = threads,
+                                .view = view_file(options, task)},
+                               progress);
   result.made_from = task.made_from;
   // The result last: it is what a later run looks for.
   write_text(times_file(options.output, task.name), times_of(result).dump(1) + "\n");
@@ -197,7 +212,8 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
   require_places(options, tasks);
   NewFolder folder(options.output);
-  for (const char* part : {"farms", "times"}) fs::create_directories(options.output / part);
+  for (const char* part : {"farms", "times", "views"})
+    fs::create_directories(options.output / part);
   write_run_manifest(options, tasks, false);
   run_tasks(tasks, suite, options, progress, finished);
   std::vector<FarmResult> farms;

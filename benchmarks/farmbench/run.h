@@ -37,11 +37,12 @@ struct RunSummary {
 // Told of every farm that has been run and how long it took, from one thread at a time.
 using FarmReport = std::function<void(const FarmResult& farm, double seconds)>;
 
-// Runs the suite and writes output/farms/CASE-SEED.json and times/CASE-SEED.json farm by farm, then
-// the reports of write_reports and manifest.json. A farm is not run again when its file is there
-// and was made from the same (made_from). Nothing but the times depends on jobs and threads. Where
-// no farm is finished, an output folder that was not there before is removed. Throws InputError on
-// a bad suite, options out of range, an output that is no results folder, and as run_farm does.
+// Runs the suite and writes output/farms/CASE-SEED.json and times/CASE-SEED.json farm by farm, of
+// each case's first farm views/CASE-SEED.cbor, then the reports of write_reports and manifest.json.
+// A farm is not run again when its file is there and was made from the same (made_from). Nothing
+// but the times depends on jobs and threads. Where no farm is finished, an output folder that was
+// not there before is removed. Throws InputError on a bad suite, options out of range, an output
+// that is no results folder, and as run_farm does.
 RunSummary run(const RunOptions& options, const ProgressReport& progress = {},
                const FarmReport& finished = {});
 

@@ -12,6 +12,7 @@
 #include "farm/description.h"
 #include "farm/generate.h"
 #include "farm/write_farm.h"
+#include "farmbench/farm_view.h"
 #include "farmbench/methods.h"
 #include "farmbench/survey.h"
 #include "lidar/canopy_height.h"
@@ -27,6 +28,7 @@ using nlohmann::json;
 // How far a farm is when it has been flown, and when its cloud has been read.
 constexpr double kFlown = 0.5;
 constexpr double kRead = 0.6;
+constexpr double kShown_m = 4;  // around the plots, on pages
 
 farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder,
                      int threads) {
@@ -63,8 +65,8 @@ struct ScannedFarm {
   fs::path cloud;
 };
 
-ScannedFarm scan_farm(const SuiteCase& suite_case, const farm::Farm& farm, std::uint64_t seed,
-                      const fs::path& folder, int threads, const ProgressReport& progress) {
+ScannedFarm scan_farm(const FarmRun& run, const farm::Farm& farm, const ProgressReport& progress) {
+  const auto& [suite, suite_case, seed, folder, threads, view] = run;
   lidar::FlyOptions flight = suite_case.flight;
   flight.seed = seed;
   flight.threads = threads;
@@ -76,26 +78,43 @@ ScannedFarm scan_farm(const SuiteCase& suite_case, const farm::Farm& farm, std::
   return {flown, folder / "survey.pcd"};
 }
 
+// What a method says of a field, and how it went.
+struct MethodRun {
+  estimate::Estimate estimate;
+  MethodResult result;
+};
+
 // `truth`: all plots of the field, those that are not scored among them.
-MethodResult run_method(const Method& method, const Field& field,
-                        const std::vector<score::TruePlot>& truth) {
-  MethodResult result{.method = method.name, .failure = {}, .score = {}};
-  estimate::Estimate estimate{.method = method.name};
+MethodRun run_method(const Method& method, const Field& field,
+                     const std::vector<score::TruePlot>& truth) {
+  MethodRun run{.estimate = {.method = method.name},
+                .result = {.method = method.name, .failure = {}, .score = {}}};
   const auto start = std::chrono::steady_clock::now();
   try {
-    estimate = method.estimate(field);
-    estimate.method = method.name;
-    result.diagnostics = estimate.diagnostics;
+    run.estimate = method.estimate(field);
+    run.estimate.method = method.name;
+    run.result.diagnostics = run.estimate.diagnostics;
   } catch (const InputError& error) {
-    result.failure = error.what();
+    run.result.failure = error.what();
   }
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  result.score = score::score_field(truth, estimate);
-  return result;
+  run.result.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.result.score = score::score_field(truth, run.estimate);
+  return run;
 }
 
 void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
+}
+
+FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
+  return {.case_name = run.suite_case.name,
+          .seed = run.seed,
+          .made_from = {},
+          .shots = flown.shots,
+          .points = flown.points,
+          .flight_s = flown.duration_s,
+          .methods = {}};
 }
 
 }  // namespace
@@ -120,12 +139,13 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
   return document;
 }
 
-FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
-                    const fs::path& folder, int threads, const ProgressReport& progress) {
+FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
+  const auto& [suite, suite_case, seed, folder, threads, view] = run;
   const farm::Farm farm = make_farm(suite_case, seed, folder / "farm", threads);
-  const ScannedFarm scanned = scan_farm(suite_case, farm, seed, folder, threads,
-                                        [&](double share) { report(progress, kFlown * share); });
+  const ScannedFarm scanned =
+      scan_farm(run, farm, [&](double share) { report(progress, kFlown * share); });
   std::vector<score::TruePlot> truth = score::read_truth(folder / "farm");
+  const estimate::Area shown = field_area(truth, kShown_m);
   if (suite_case.survey) leave_to_survey(truth, *suite_case.survey);
   std::vector<score::TruePlot> plots;
   std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
@@ -136,13 +156,7 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
     plots.clear();
   }
   report(progress, kRead);
-  FarmResult result{.case_name = suite_case.name,
-                    .seed = seed,
-                    .made_from = {},
-                    .shots = scanned.flown.shots,
-                    .points = scanned.flown.points,
-                    .flight_s = scanned.flown.duration_s,
-                    .methods = {}};
+  FarmResult result = result_of(run, scanned.flown);
   const Field field{.cloud = scanned.cloud,
                     .map = map,
                     .plots = plots,
@@ -150,7 +164,17 @@ FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64
                     .seed = seed,
                     .threads = threads};
   for (const std::string& name : suite.methods) {
-    result.methods.push_back(run_method(method_named(name), field, truth));
+    MethodRun method = run_method(method_named(name), field, truth);
+    result.methods.push_back(std::move(method.result));
+    if (view && result.methods.size() == 1) {
+      write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
+                              .area = shown,
+                              .points = view_points(suite),
+                              .estimate = method.estimate,
+                              .truth = truth,
+                              .terrain = farm.terrain,
+                              .result = result});
+    }
     const auto done = static_cast<double>(result.methods.size());
     report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -18,11 +19,20 @@ namespace plotscan::farmbench {
 nlohmann::json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                          const std::string& build);
 
-// Generates the farm into `folder`/farm, scans it into `folder`/scan, runs and scores every method.
-// A method that finds no plots (InputError) is scored as having missed them all. Throws InputError
+// One farm of a suite to be run.
+struct FarmRun {
+  const Suite& suite;
+  const SuiteCase& suite_case;
+  std::uint64_t seed = 1;
+  std::filesystem::path folder;  // existing, for the farm and its scan
+  int threads = 1;
+  // A file for what pages show of the farm (farm_view.h), of the suite's first method.
+  std::optional<std::filesystem::path> view = std::nullopt;
+};
+
+// Generates the farm into folder/farm, scans it into folder/scan, runs and scores every method. A
+// method that finds no plots (InputError) is scored as having missed them all. Throws InputError
 // when the farm cannot be made or flown.
-FarmResult run_farm(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
-                    const std::filesystem::path& folder, int threads,
-                    const ProgressReport& progress);
+FarmResult run_farm(const FarmRun& run, const ProgressReport& progress);
 
 }  // namespace plotscan::farmbench

@@ -86,7 +86,7 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
     EXPECT_GT(row_of(summary.table, terrain, "dhami2020/raw-max true-boxes").bias_m, row.bias_m);
   }
   for (const char* file : {"table.csv", "results.json", "leaderboard.md", "report.html",
-                           "manifest.json", "farms/one-1.json"}) {
+                           "manifest.json", "farms/one-1.json", "views/one-1.cbor"}) {
     EXPECT_TRUE(fs::exists(folder.path() / "smoke" / file)) << file;
   }
   EXPECT_FALSE(fs::exists(folder.path() / "smoke" / "work"));
@@ -102,6 +102,8 @@ TEST(RunSuite, ResumesWhereItWasStopped) {
   const std::string kept = read_text(farm("one-1.json"));
   const auto kept_time = fs::last_write_time(farm("one-1.json"));
   fs::remove(farm("half-1.json"));
+  const std::string view = read_text(output / "views" / "half-1.cbor");
+  fs::remove(output / "views" / "half-1.cbor");
   std::ofstream(farm("flat-1.json")) << "{ \"case\": \"fl";  // cut off
 
   const RunSummary summary = run(smoke_options(output));
@@ -110,6 +112,7 @@ TEST(RunSuite, ResumesWhereItWasStopped) {
   EXPECT_EQ(read_text(farm("one-1.json")), kept);
   EXPECT_EQ(fs::last_write_time(farm("one-1.json")), kept_time);
   EXPECT_EQ(read_text(farm("half-1.json")), removed);
+  EXPECT_EQ(read_text(output / "views" / "half-1.cbor"), view);
   for (const auto& entry : fs::directory_iterator(output)) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".work")) << entry.path();
   }

@@ -6,12 +6,11 @@
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tinyxml2.h>
 
 #include "core/csv.h"
 #include "core/error.h"
-#include "farmbench/html_report.h"
 #include "farmbench/reports.h"
+#include "farmbench/suite_page.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -148,7 +147,7 @@ TEST(MakeTable, ACaseWithoutPlotsCountsWhatWasInvented) {
   EXPECT_EQ(table[0].plots, 0U);
   EXPECT_EQ(table[0].extra, 2U);
   EXPECT_EQ(plot_rows(result, table).front().extra, 2U);
-  EXPECT_THAT(html_report(result, table), Not(HasSubstr("nan")));
+  EXPECT_TRUE(suite_document(result, table)["plots"].empty());
 }
 
 TEST(MakeTable, NothingFoundIsARowOfItsOwn) {
@@ -237,30 +236,30 @@ TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
                                          HasSubstr("+2.60"), HasSubstr("4.8")));
 }
 
-TEST(HtmlReport, DrawsWellFormedCharts) {
+// The page's figures are made from these pairs: they give the table's figures back.
+TEST(SuiteDocument, HoldsEveryPlotsTruthAndEstimate) {
   const SuiteResult result = small_result();
-  const std::string page = html_report(result, make_table(result, 1));
-  EXPECT_THAT(page, Not(HasSubstr("nan")));
-  EXPECT_THAT(page, Not(HasSubstr("s<1>")));
-  EXPECT_THAT(page, HasSubstr("A &amp; B"));
-  std::size_t charts = 0, circles = 0, bars = 0;
-  for (std::size_t at = page.find("<svg"); at != std::string::npos;
-       at = page.find("<svg", at + 1)) {
-    const std::string chart = page.substr(at, page.find("</svg>", at) + 6 - at);
-    tinyxml2::XMLDocument document;
-    ASSERT_EQ(document.Parse(chart.c_str()), tinyxml2::XML_SUCCESS) << chart;
-    ++charts;
-    const auto* root = document.RootElement();
-    for (const auto* e = root->FirstChildElement("rect"); e; e = e->NextSiblingElement("rect"))
-      bars += e->FirstChildElement("title") != nullptr ? 1 : 0;
-    for (const auto* g = root->FirstChildElement("g"); g; g = g->NextSiblingElement("g")) {
-      for (const auto* e = g->FirstChildElement("circle"); e; e = e->NextSiblingElement("circle"))
-        ++circles;
+  const std::vector<TableRow> table = make_table(result, 1);
+  const nlohmann::json document = nlohmann::json::parse(suite_document(result, table).dump());
+  const nlohmann::json& truths = document["plots"]["height_max_m"];
+  const nlohmann::json& series = document["series"][0];
+  EXPECT_EQ(series["row"], "oracle-ground");
+  ASSERT_EQ(series["values"].size(), truths.size());
+  std::size_t at = 0;
+  double squares = 0, found = 0;
+  for (const auto& farm : document["farms"]) {
+    for (std::size_t i = 0; i < farm["plots"]; ++i, ++at) {
+      if (farm["case"] != "a" || series["values"][at].is_null()) continue;
+      squares += std::pow(series["values"][at].get<double>() - truths[at].get<double>(), 2);
+      ++found;
     }
   }
-  EXPECT_EQ(charts, 3U);   // RMSE, and heights of two cases
-  EXPECT_EQ(bars, 1U);     // nothing was found in b
-  EXPECT_EQ(circles, 5U);  // the plots found
+  EXPECT_EQ(at, truths.size());
+  EXPECT_EQ(found, 5);
+  EXPECT_NEAR(std::sqrt(squares / found), table[0].rmse_m, 1e-5);
+  EXPECT_NEAR(document["table"][0]["rmse_m"].get<double>(), table[0].rmse_m, 1e-5);
+  EXPECT_EQ(document["table"][1]["rmse_m"], nullptr);  // nothing was found in b
+  EXPECT_EQ(document["published"]["source"], result.published->source);
 }
 
 }  // namespace

@@ -56,6 +56,8 @@ TEST_F(Installed, RunsFromAnEmptyFolder) {
   succeed("estimator run scan -o estimate");
   const Finished scored = succeed("estimator score estimate --truth farm --json");
   EXPECT_EQ(nlohmann::json::parse(scored.output)["boxes"]["found"], 9);
+  succeed("lidarsim view scan -o scan.html");
+  succeed("estimator report estimate --truth farm -o estimate.html");
 #ifdef PLOTSCAN_HAVE_SDFORMAT
   succeed("lidarsim fly gazebo/classic/world.sdf -o world");
 #endif

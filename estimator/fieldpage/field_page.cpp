@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fieldpage/field_page.h"
+
+#include <algorithm>
+
+#include "core/manifest.h"
+#include "core/output_file.h"
+#include "core/output_folder.h"
+#include "core/text.h"
+#include "estimate/ground_grids.h"
+#include "farm/terrain_ply.h"
+#include "fieldpage/shown.h"
+#include "report/page.h"
+
+namespace plotscan::fieldpage {
+namespace fs = std::filesystem;
+namespace {
+
+// The last part of a path that has a name: "scan" of "field/scan/".
+std::string name_of(const fs::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+estimate::Estimate read(const fs::path& path) {
+  estimate::Estimate estimate = estimate::read_estimate(path);
+  if (fs::exists(path / "ground.asc"))
+    estimate.ground = estimate::read_ground(path, estimate.units.value_or(CoordinateUnits{}));
+  const nlohmann::json::json_pointer diagnostics("/results/diagnostics");
+  if (fs::exists(path / "manifest.json"))
+    estimate.diagnostics = read_manifest(path).value(diagnostics, nlohmann::json::object());
+  return estimate;
+}
+
+// Whether the cloud's only file is the one that the estimate's manifest names.
+bool is_measured_cloud(const fs::path& estimate, const CloudFiles& cloud) {
+  if (!fs::exists(estimate / "manifest.json") || cloud.files.size() != 1) return true;
+  const nlohmann::json inputs = read_manifest(estimate).value("inputs", nlohmann::json::array());
+  const std::string hash = file_hash(cloud.files.front());
+  return std::ranges::any_of(inputs, [&](const nlohmann::json& input) {
+    return input.is_object() && input.value("hash", "") == hash;
+  });
+}
+
+void show_cloud(report::ShownField& field, const PageOptions& options,
+                const ProgressReport& progress) {
+  CloudFiles cloud = *options.cloud;
+  cloud.files = cloud_files_of(cloud.files);
+  field.cloud = read_shown_positions(cloud, options.points, progress);
+  field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
+  if (!is_measured_cloud(options.estimate, cloud))
+    field.notes.push_back("The cloud " + cloud.name() +
+                          " is not the file that this estimate was made from (its manifest.json "
+                          "has another hash).");
+}
+
+void show_nothing(report::ShownField& field, const estimate::Estimate& estimate) {
+  const auto nothing = estimate.diagnostics.find("nothing");
+  if (nothing != estimate.diagnostics.end() && nothing->is_string())
+    field.notes.push_back(nothing->get<std::string>());
+}
+
+}  // namespace
+
+PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress) {
+  std::vector<fs::path> inputs = {options.estimate};
+  if (options.truth) inputs.push_back(*options.truth);
+  require_apart(options.html, inputs);
+  OutputFile file(options.html, options.replace);
+  const estimate::Estimate estimate = read(options.estimate);
+  report::ShownField field{.name = name_of(options.estimate)};
+  if (!estimate.method.empty()) field.facts.push_back({"method", estimate.method});
+  field.facts.push_back({"plots", std::to_string(estimate.plots.size())});
+  show_nothing(field, estimate);
+  show_estimate(field, estimate);
+  if (options.truth) {
+    show_truth(field, estimate, score::read_truth(*options.truth));
+    const fs::path terrain = *options.truth / "truth" / "terrain.ply";
+    if (fs::exists(terrain)) show_terrain(field, farm::read_terrain(terrain));
+    field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
+  }
+  if (options.cloud) show_cloud(field, options, progress);
+  nlohmann::json document = {{"kind", "estimate"}, {"title", "Estimate " + field.name}};
+  document["fields"] = nlohmann::json::array();
+  document["fields"].push_back(report::packed_field(field));
+  report::write_page(file.path(), std::move(document));
+  file.commit();
+  return {.plots = field.plots.size(),
+          .read = field.cloud ? field.cloud->read : 0,
+          .shown = field.cloud ? field.cloud->points.size() : 0};
+}
+
+}  // namespace plotscan::fieldpage

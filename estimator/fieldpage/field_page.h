@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+#include "core/cloud_files.h"
+#include "core/progress.h"
+
+namespace plotscan::fieldpage {
+
+struct PageOptions {
+  std::filesystem::path estimate;  // an estimate folder, or a GeoJSON file of plots with heights
+  std::filesystem::path html;
+  // A farm folder, or a GeoJSON file of plots with heights.
+  std::optional<std::filesystem::path> truth = {};
+  std::optional<CloudFiles> cloud = {};  // that was measured; files as cloud_files_of takes them
+  std::size_t points = 3'000'000;        // at most, 1 to report::kMostPoints
+  bool replace = false;                  // an existing page
+};
+
+struct PageSummary {
+  std::size_t plots = 0;
+  std::uint64_t read = 0;   // points of the cloud
+  std::uint64_t shown = 0;  // of these
+};
+
+// Writes one HTML page of an estimate: plots, heights, ground and, where they are given, the
+// cloud's positions and the truth (docs/report.md). Throws InputError on bad input and a page that
+// exists; nothing is left behind then.
+PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress = {});
+
+}  // namespace plotscan::fieldpage

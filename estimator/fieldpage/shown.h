@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/cloud_files.h"
+#include "core/progress.h"
+#include "estimate/estimate.h"
+#include "farm/terrain.h"
+#include "report/shown_cloud.h"
+#include "report/shown_field.h"
+#include "score/score.h"
+
+namespace plotscan::fieldpage {
+
+// Puts an estimate into a field: its plots and its ground.
+void show_estimate(report::ShownField& field, const estimate::Estimate& estimate);
+
+// Holds the field's plots, which are the estimate's, against true ones: which are found, their
+// truths, and the true boxes.
+void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
+                const std::vector<score::TruePlot>& truth);
+
+// The true ground at the nodes of the field's fitted ground, else around its plots.
+void show_terrain(report::ShownField& field, const farm::Terrain& terrain);
+
+// A fair sample of a cloud's positions, at most `most` of them. Throws InputError as
+// record::read_positions does.
+report::ShownCloud read_shown_positions(const CloudFiles& cloud, std::size_t most,
+                                        const ProgressReport& progress = {});
+
+}  // namespace plotscan::fieldpage

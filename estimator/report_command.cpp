@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cloud_options.h"
+
+#include "core/text.h"
+#include "fieldpage/field_page.h"
+
+namespace plotscan {
+namespace {
+
+struct ReportArguments {
+  fieldpage::PageOptions options;
+  CloudArguments cloud;
+};
+
+void make_page(const Program& program, ReportArguments& arguments) {
+  fieldpage::PageOptions& options = arguments.options;
+  if (!arguments.cloud.cloud.files.empty()) options.cloud = cloud_of(arguments.cloud);
+  const fieldpage::PageSummary summary =
+      fieldpage::write_estimate_page(options, program.progress("making the page"));
+  const auto bytes = std::filesystem::file_size(options.html);
+  program.result({{"page", options.html.string()},
+                  {"plots", summary.plots},
+                  {"points_read", summary.read},
+                  {"points_shown", summary.shown},
+                  {"bytes", bytes}});
+  program.say(formatted("%s: %zu plots, %.2f of %.2f million points, %.1f MB", options.html.c_str(),
+                        summary.plots, 1e-6 * static_cast<double>(summary.shown),
+                        1e-6 * static_cast<double>(summary.read),
+                        1e-6 * static_cast<double>(bytes)));
+  if (!options.cloud) program.say("With --cloud it shows the points, too.");
+  program.say("Open it in a browser; it needs no network.");
+}
+
+}  // namespace
+
+void declare_report(Program& program) {
+  const auto shared = std::make_shared<ReportArguments>();
+  fieldpage::PageOptions& options = shared->options;
+  CLI::App& report =
+      program.command("report", "Make a page of an estimate, to be opened in a browser.",
+                      [&program, shared] { make_page(program, *shared); });
+  report
+      .add_option(
+          "EST", options.estimate,
+          "estimate folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+      ->required();
+  report.add_option("-o,--output", options.html, "page to write (.html)")->required();
+  report.add_option("--truth", options.truth,
+                    "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres: "
+                    "errors are shown");
+  declare_shown_cloud(report, shared->cloud);
+  report.add_option("--points", options.points, "points on the page, at most (1 to 5000000)")
+      ->capture_default_str();
+  report.add_flag("--force", options.replace, "replace an existing page");
+}
+
+}  // namespace plotscan

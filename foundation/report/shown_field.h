@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "core/plot_box.h"
+#include "report/shown_cloud.h"
+
+namespace plotscan::report {
+
+// A height, metres; NaN where the method does not say.
+struct ShownHeight {
+  double value_m = 0;
+  double standard_error_m = 0;
+  double low95_m = 0;
+  double high95_m = 0;
+};
+
+// What became of a plot once it is held against the truth.
+enum class PlotState : std::uint8_t { unscored, found, extra };
+
+// A plot of an estimate or, in a scan's page, of a map.
+struct ShownPlot {
+  std::string id;
+  int row = 0;     // from 1; 0: unknown
+  int column = 0;  // from 1; 0: unknown
+  PlotBox box;     // the frame of the field's cloud, metres
+  std::optional<std::uint64_t> points = {};
+  std::map<std::string, ShownHeight> heights = {};  // by name, "max"
+  std::optional<double> confidence = {};
+  std::vector<std::string> flags = {};
+  PlotState state = PlotState::unscored;
+  std::map<std::string, double> truths_m = {};  // of a found plot, by attribute, "height_max_m"
+};
+
+// A true plot's box.
+struct ShownBox {
+  std::string id;
+  PlotBox box;
+  bool found = false;
+};
+
+// Heights of the nodes of a square grid, rows from south to north; NaN where there is none.
+struct ShownGrid {
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();  // the south-western node, the cloud's frame
+  double cell_m = 0;
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> z_m = {};
+  std::vector<float> standard_error_m = {};  // empty: not known
+  std::vector<float> seen = {};              // 1 or 0; empty: not known
+};
+
+// Something to be told of a field, "points read: 7,735,305".
+struct Fact {
+  std::string name;
+  std::string value;
+};
+
+// One field in three dimensions and as a map. All of it may be absent.
+struct ShownField {
+  std::string name;
+  std::vector<Fact> facts = {};
+  std::vector<std::string> notes = {};  // sentences
+  std::optional<ShownCloud> cloud = {};
+  std::optional<ShownGrid> ground = {};    // fitted
+  std::optional<ShownGrid> terrain = {};   // true
+  std::vector<Eigen::Vector3d> path = {};  // of the drone
+  std::vector<ShownPlot> plots = {};
+  std::vector<ShownBox> true_boxes = {};
+};
+
+// As pages hold it (docs/report-format.md), with binary values.
+nlohmann::json packed_field(const ShownField& field);
+
+}  // namespace plotscan::report

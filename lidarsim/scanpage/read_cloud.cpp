@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scanpage/read_cloud.h"
+
+#include <algorithm>
+
+namespace plotscan::scanpage {
+namespace {
+
+report::ShownPoint shown(const scan::LabelledPoint& point) {
+  return {.place = {point.x, point.y, point.z},
+          .intensity = point.intensity,
+          .time_s = static_cast<float>(point.time),
+          .plot = point.plot,
+          .label = static_cast<std::uint8_t>(point.label)};
+}
+
+std::vector<Eigen::Vector3d> path_of(const record::Source& source) {
+  std::vector<Eigen::Vector3d> path;
+  const auto append = [&](const scan::Trajectory& trajectory, const Eigen::Vector3d& move_m) {
+    for (const scan::StampedPose& pose : trajectory.poses())
+      path.push_back(pose.position_m + move_m);
+  };
+  if (source.flight) {
+    append(source.flight->reported, source.info.origin_m);
+  } else if (source.trajectory) {
+    append(*source.trajectory, Eigen::Vector3d::Zero());
+  }
+  return path;
+}
+
+}  // namespace
+
+ShownScan read_shown_scan(const std::filesystem::path& scan, const ReadOptions& options,
+                          const ProgressReport& progress) {
+  const record::Source source = record::open_source(scan, options.source);
+  const Eigen::Vector2d origin = source.info.origin_m.head<2>();
+  report::CloudSample sample(options.most);
+  const auto promised = static_cast<double>(std::max<std::uint64_t>(source.info.points, 1));
+  double done = 0;
+  source.stream([&](std::span<const scan::LabelledPoint> points) {
+    for (const scan::LabelledPoint& point : points)
+      if (!options.area || options.area->contains(origin + Eigen::Vector2d(point.x, point.y)))
+        sample.add(shown(point));
+    done += static_cast<double>(points.size());
+    if (progress) progress(std::min(1.0, done / promised));
+  });
+  const auto has = [&](const char* field) {
+    return std::ranges::count(source.info.fields, field) > 0;
+  };
+  ShownScan result{.cloud = {.origin = source.info.origin_m, .read = sample.read()},
+                   .path = path_of(source)};
+  result.cloud.points = sample.take();
+  result.cloud.has_class = has("class");
+  result.cloud.has_plot = has("plot");
+  result.cloud.has_intensity = has("intensity");
+  result.cloud.has_time = has("time");
+  return result;
+}
+
+}  // namespace plotscan::scanpage

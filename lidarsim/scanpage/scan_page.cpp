@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scanpage/scan_page.h"
+
+#include <string>
+#include <utility>
+
+#include "core/output_file.h"
+#include "core/output_folder.h"
+#include "core/plot_features.h"
+#include "core/text.h"
+#include "report/page.h"
+#include "report/shown_field.h"
+#include "scanpage/fitted_ground.h"
+#include "scanpage/read_cloud.h"
+
+namespace plotscan::scanpage {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kRead = 0.5;    // share of the work when the points are read
+constexpr double kFitted = 0.8;  // and when the ground is fitted
+
+report::ShownPlot shown(const PlotFeature& plot, std::size_t place) {
+  const nlohmann::json& properties = plot.properties;
+  report::ShownPlot result{.id = std::to_string(place), .box = plot.box};
+  for (const std::string& property : plot_id_properties()) {
+    if (const auto id = id_in(plot, property)) {
+      result.id = id->text();
+      break;
+    }
+  }
+  const auto whole = [&](const char* name) {
+    const auto number = properties.find(name);
+    return number != properties.end() && number->is_number_integer() ? number->get<int>() : 0;
+  };
+  result.row = whole("row_number");
+  result.column = whole("col_number");
+  for (const auto& [name, value] : properties.items()) {
+    const bool is_height = name.starts_with("height_") || name.starts_with("canopy_");
+    if (is_height && name.ends_with("_m") && value.is_number()) result.truths_m[name] = value;
+  }
+  return result;
+}
+
+std::vector<report::ShownPlot> read_plots(const std::optional<fs::path>& place) {
+  std::vector<report::ShownPlot> plots;
+  if (!place) return plots;
+  const fs::path file = fs::is_directory(*place) ? *place / "truth" / "plots.geojson" : *place;
+  for (const PlotFeature& plot : read_plot_features(file))
+    plots.push_back(shown(plot, plots.size() + 1));
+  return plots;
+}
+
+std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownCloud& cloud) {
+  std::vector<report::Fact> facts = {{"points of the scan", std::to_string(cloud.read)},
+                                     {"points on this page", std::to_string(cloud.points.size())}};
+  if (!fs::is_directory(scan)) return facts;
+  const record::FlightRecord flight = record::read_flight_record(scan);
+  facts.push_back({"sensor", flight.sensor.name});
+  facts.push_back(
+      {"flight", formatted("%.1f s", flight.reported.end_s() - flight.reported.start_s())});
+  return facts;
+}
+
+}  // namespace
+
+PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress) {
+  require_apart(options.html, {{options.scan}});
+  OutputFile file(options.html, options.replace);
+  const auto report = [&](double share) {
+    if (progress) progress(share);
+  };
+  const fs::path& path = options.scan;
+  report::ShownField field{
+      .name = (path.has_filename() ? path : path.parent_path()).filename().string()};
+  field.plots = read_plots(options.plots);
+  ShownScan scan = read_shown_scan(options.scan, {.most = options.points, .source = options.source},
+                                   [&](double share) { report(kRead * share); });
+  field.facts = facts_of(options.scan, scan.cloud);
+  field.ground = fitted_ground(scan.cloud, options.threads);
+  report(kFitted);
+  if (!field.ground)
+    field.notes.emplace_back("No ground could be fitted: heights count from the lowest point.");
+  const PageSummary summary{
+      .read = scan.cloud.read, .shown = scan.cloud.points.size(), .plots = field.plots.size()};
+  field.path = std::move(scan.path);
+  field.cloud = std::move(scan.cloud);
+  nlohmann::json document = {{"kind", "scan"}, {"title", "Scan " + field.name}};
+  document["fields"] = nlohmann::json::array();
+  document["fields"].push_back(report::packed_field(field));
+  report::write_page(file.path(), std::move(document));
+  file.commit();
+  report(1);
+  return summary;
+}
+
+}  // namespace plotscan::scanpage

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view_command.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "core/text.h"
+#include "scanpage/scan_page.h"
+
+namespace plotscan {
+namespace {
+
+void view_scan(const Program& program, scanpage::PageOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  options.threads = program.common().threads;
+  const scanpage::PageSummary summary =
+      scanpage::write_scan_page(options, program.progress("making the page"));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const auto bytes = std::filesystem::file_size(options.html);
+  program.result({{"page", options.html.string()},
+                  {"points_read", summary.read},
+                  {"points_shown", summary.shown},
+                  {"plots", summary.plots},
+                  {"bytes", bytes},
+                  {"seconds", elapsed.count()}});
+  program.say(formatted("%s: %.2f of %.2f million points, %.1f MB, made in %.1f s",
+                        options.html.c_str(), 1e-6 * static_cast<double>(summary.shown),
+                        1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes),
+                        elapsed.count()));
+  program.say("Open it in a browser; it needs no network.");
+}
+
+}  // namespace
+
+void declare_view(Program& program) {
+  const auto options = std::make_shared<scanpage::PageOptions>();
+  CLI::App& view = program.command("view", "Make a page of a scan, to be opened in a browser.",
+                                   [&program, options] { view_scan(program, *options); });
+  view.add_option("SCAN", options->scan,
+                  "scan folder, cloud (PCD, PLY, LAS, text) or recording that knows its poses "
+                  "(bag, MCAP)")
+      ->required();
+  view.add_option("-o,--output", options->html, "page to write (.html)")->required();
+  view.add_option("--plots", options->plots,
+                  "boxes to show: a farm folder, or a map of plots (GeoJSON) in the cloud's frame");
+  view.add_option("--points", options->points, "points on the page, at most (1 to 5000000)")
+      ->capture_default_str();
+  view.add_option("--topic", options->source.topic,
+                  "of a bag or MCAP: the topic of its clouds; by default /velodyne_points, or the "
+                  "only one");
+  view.add_flag("--force", options->replace, "replace an existing page");
+}
+
+}  // namespace plotscan

@@ -1,0 +1,322 @@
+// One field: its points in three dimensions, the map of its plots, a plot from the side, their table.
+import { card } from "./card";
+import type { Theme } from "./colours";
+import { lookOf, modesOf, type Key, type Mode } from "./colouring";
+import type { Field, Plot } from "./data";
+import { Surface } from "./decode";
+import { button, checkbox, h, select } from "./dom";
+import { drawMap, mapCsv, measured, measureNames, type Measure } from "./map";
+import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
+import type { Grounds } from "./place";
+import { drawProfile, pointsOf, profileCsv, profileHeights } from "./profile";
+import { saveButtons } from "./save";
+import { Scene, type Layer } from "./scene";
+import { Table, type Column } from "./table";
+import { onTheme, theme } from "./theme";
+
+const kNoise_m = 0.03;
+
+function keyElement(key: Key): HTMLElement {
+  if (key.kinds)
+    return h("div", { class: "key" }, ...key.kinds.map(({ name, colour }) =>
+      h("span", {}, h("i", { style: `background:${colour}` }), name)));
+  const { low, high, css, unit, title } = key.ramp!;
+  const digits = high - low < 20 ? 2 : 0;
+  return h("div", { class: "key ramp" }, h("span", {}, unit ? `${title}, ${unit}` : title),
+    h("span", { class: "scale" }, fixed(low, digits), h("i", { style: `background:${css}` }), fixed(high, digits)));
+}
+
+// The heights that any plot of the field has: estimated, else true ones.
+export function heightNames(field: Field): string[] {
+  const names = new Set(field.plots.flatMap((plot) => Object.keys(plot.heights)));
+  const order = ["max", "p99", "p95", "p90", "p50", "mean", "canopy_p99", "canopy_p95"];
+  return [...names].sort((a, b) => (order.indexOf(a) + 1 || 99) - (order.indexOf(b) + 1 || 99) || a.localeCompare(b));
+}
+
+export class FieldView {
+  readonly element = h("div", { class: "field" });
+  private grounds: Grounds = {};
+  private scene?: Scene;
+  private selected?: Plot;
+  private height: string;
+  private measure: Measure;
+  private mode: Mode = "elevation";
+  private table?: Table<Plot>;
+  private map?: { update: () => void };
+  private profile?: { update: () => void };
+  private readonly status = h("p", { class: "status", role: "status" });
+  private readonly key = h("div", { class: "keys" });
+  private readonly details = h("div", { class: "details" });
+
+  constructor(readonly field: Field) {
+    const names = heightNames(field);
+    this.height = names[0] ?? "";
+    this.measure = names.length ? "height" : "truth";
+  }
+
+  // Builds the view; resolves once the points are read.
+  async open(): Promise<void> {
+    const { field } = this;
+    if (field.ground) this.grounds.ground = await Surface.of(field.ground);
+    if (field.terrain) this.grounds.terrain = await Surface.of(field.terrain);
+    this.element.replaceChildren(...this.parts());
+    this.startScene();
+    if (field.plots.length > 0) this.pick(field.plots[0]);
+    await this.loadCloud();
+  }
+
+  close(): void {
+    this.scene?.dispose();
+    this.scene = undefined;
+  }
+
+  private parts(): (Node | string)[] {
+    const { field } = this;
+    const parts: (Node | string)[] = [h("p", { class: "facts" }, ...field.facts.map(([name, value]) =>
+      h("span", {}, `${name} `, h("b", {}, /^\d+$/.test(value) ? counted(Number(value)) : value))))];
+    for (const note of field.notes) parts.push(h("p", { class: "warning" }, note));
+    const stage = h("div", { class: "stage", id: "stage" });
+    const view = h("section", { class: "card view", "aria-label": "Three dimensions" }, this.viewTools(), stage, this.status);
+    if (field.plots.length === 0) return [...parts, view];
+    const map = card(() => ({
+      title: "Map of the plots",
+      note: this.mapNote(),
+      draw: (colours) => drawMap({ field, measure: this.measure, height: this.heightOrTruth(), selected: this.selected, pick: (plot) => this.pick(plot, "map") }, colours),
+      csv: () => mapCsv(field, this.measure, this.heightOrTruth()),
+    }));
+    this.map = map;
+    map.element.classList.add("map");
+    map.element.querySelector(".head")!.after(this.mapTools());
+    parts.push(h("div", { class: "pair" }, view, map.element));
+    const profile = card(() => this.profileFigure());
+    this.profile = profile;
+    profile.element.classList.add("profile");
+    profile.element.append(this.details);
+    this.table = this.plotTable();
+    parts.push(profile.element, this.table.element);
+    return parts;
+  }
+
+  private heightOrTruth(): string {
+    return this.height || (Object.keys(this.field.plots[0]?.truths ?? {})[0] ?? "").replace(/^height_|_m$/g, "");
+  }
+
+  private mapNote(): string {
+    const parts = ["North is up; coordinates are the cloud's."];
+    if (this.field.plots.some((plot) => plot.flags.length > 0)) parts.push("Orange outlines: flagged plots.");
+    if (this.field.true_boxes.some((plot) => !plot.found)) parts.push("Dashed: plots that were missed.");
+    return `n = ${counted(this.field.plots.length)}. ${parts.join(" ")}`;
+  }
+
+  private viewTools(): HTMLElement {
+    const { field } = this;
+    const layers: [Layer, string, boolean, boolean][] = [
+      ["points", "points", field.cloud !== undefined, true],
+      ["boxes", "boxes", field.plots.length > 0, true],
+      ["numbers", "numbers", field.plots.length > 0, field.plots.length <= 60],
+      ["truth", "true boxes", field.true_boxes.length > 0, true],
+      ["ground", "fitted ground", this.grounds.ground !== undefined, true],
+      ["terrain", "true ground", this.grounds.terrain !== undefined, false],
+      ["path", "drone's path", field.path.length > 1, false],
+    ];
+    const checks = layers.filter(([, , there]) => there).map(([layer, label, , on]) => {
+      this.layers.set(layer, on);
+      return checkbox(label, on, (shown) => this.scene?.show(layer, shown));
+    });
+    const modes = modesOf(field, this.grounds);
+    this.mode = modes[0].value;
+    const tools = h("div", { class: "tools" });
+    if (field.cloud) {
+      tools.append(select("Colour", modes, this.mode, (mode) => {
+        this.mode = mode as Mode;
+        this.colour();
+      }));
+      const size = h("input", { type: "range", min: 0.5, max: 3, step: 0.1, value: 1, "aria-label": "Point size", input: () => {
+        if (this.scene?.cloud) this.scene.cloud.scale = Number(size.value);
+        this.scene?.redraw();
+      } });
+      tools.append(h("label", { class: "choice" }, h("span", {}, "Size"), size));
+    }
+    tools.append(
+      button("Whole field", "Look at the whole field", () => this.scene?.look("overview")),
+      button("From above", "Look from straight above", () => this.scene?.look("top")));
+    if (field.plots.length > 0) tools.append(button("To the plot", "Look at the selected plot", () => this.scene?.look("plot")));
+    tools.append(saveButtons({ title: `${field.name} in 3D`, png: () => this.scene!.png() }));
+    return h("div", { class: "head" }, h("h3", {}, "In three dimensions"), tools, h("div", { class: "checks" }, ...checks));
+  }
+
+  private readonly layers = new Map<Layer, boolean>();
+
+  private mapTools(): HTMLElement {
+    const { field } = this;
+    const some = (measure: Measure) => field.plots.some((plot) =>
+      heightNames(field).concat(this.heightOrTruth()).some((name) => Number.isFinite(measured(plot, measure, name))));
+    const measures = (Object.keys(measureNames) as Measure[]).filter(some);
+    if (!measures.includes(this.measure)) this.measure = measures[0] ?? "height";
+    const names = heightNames(field);
+    const truths = [...new Set(field.plots.flatMap((plot) => Object.keys(plot.truths)))];
+    const heights = names.length ? names.map((name) => ({ value: name, label: name })) :
+      truths.map((name) => ({ value: name.replace(/^height_|_m$/g, ""), label: truthName(name) }));
+    if (!names.length && heights.length) this.height = heights.find(({ value }) => value === "max")?.value ?? heights[0].value;
+    return h("div", { class: "tools" },
+      select("Show", measures.map((measure) => ({ value: measure, label: measureNames[measure] })), this.measure, (measure) => {
+        this.measure = measure as Measure;
+        this.refresh();
+      }),
+      heights.length > 1 ? select("Height", heights, this.height, (height) => {
+        this.height = height;
+        this.refresh();
+      }) : null);
+  }
+
+  private heightOf(plot: Plot): number {
+    return plot.heights[this.height]?.[0] ?? plot.truths[namedTruth(this.height)] ?? NaN;
+  }
+
+  private startScene(): void {
+    const stage = this.element.querySelector<HTMLElement>("#stage")!;
+    try {
+      this.scene = new Scene(this.field, this.grounds);
+    } catch {
+      stage.replaceChildren(h("p", { class: "warning" }, "This browser cannot draw in three dimensions (WebGL 2)."));
+      return;
+    }
+    const { scene } = this;
+    scene.canvas.setAttribute("role", "application");
+    scene.canvas.setAttribute("aria-label", "The field in three dimensions: arrows turn it, with Shift they move it, + and − zoom, a click selects a plot");
+    stage.append(scene.canvas, scene.labels.overlay, this.key);
+    scene.onPick = (plot) => plot && this.pick(plot, "scene");
+    for (const [layer, shown] of this.layers) scene.show(layer, shown);
+    scene.plots((plot) => this.heightOf(plot), this.selected);
+    onTheme(stage, () => this.scene?.colours(theme().dark ? "#0d1117" : "#f3f5f7", theme().dark ? "#c9d1d9" : "#1c2128"));
+    new ResizeObserver(() => this.scene?.resize(stage.clientWidth, stage.clientHeight)).observe(stage);
+    scene.resize(stage.clientWidth, stage.clientHeight);
+  }
+
+  private async loadCloud(): Promise<void> {
+    const cloud = this.scene?.cloud;
+    if (!cloud) {
+      this.element.dataset.ready = String(Math.round(performance.now()));
+      this.status.textContent = this.field.cloud ? "" : "This page was made without points.";
+      return;
+    }
+    const { shown, read } = cloud.cloud;
+    let coloured = 0;
+    await cloud.load((done) => {
+      this.status.textContent = `Reading points: ${counted(done)} of ${counted(shown)}`;
+      if (done > 2 * coloured) {
+        coloured = done;
+        this.colour();
+      }
+    });
+    if (!this.scene) return;
+    this.colour();
+    this.profile?.update();
+    this.status.textContent =
+      `${counted(shown)} points${read > shown ? `, a fair sample of the ${counted(read)} that were read` : ""}. ` +
+      "Drag turns, wheel or pinch zooms, right button or two fingers move; arrows, + and − do the same.";
+    this.element.dataset.ready = String(Math.round(performance.now()));
+  }
+
+  private colour(): void {
+    const cloud = this.scene?.cloud;
+    if (!cloud) return;
+    const look = lookOf(this.mode, this.field, this.grounds, cloud.read);
+    cloud.colour(look.colouring);
+    this.key.replaceChildren(keyElement(look.key));
+    this.scene?.redraw();
+  }
+
+  private refresh(): void {
+    this.scene?.plots((plot) => this.heightOf(plot), this.selected);
+    this.map?.update();
+    this.profile?.update();
+    this.showDetails();
+  }
+
+  private pick(plot: Plot, from?: "map" | "scene"): void {
+    this.selected = plot;
+    this.refresh();
+    this.table?.select(plot.id);
+    if (from === "map") this.element.querySelector<SVGElement>(".map [aria-pressed='true']")?.focus();
+  }
+
+  private profileFigure() {
+    const plot = this.selected ?? this.field.plots[0];
+    const cloud = this.scene?.cloud;
+    const points = cloud ? pointsOf(plot, cloud.cloud, cloud.read, this.grounds) : [];
+    const options = { plot, points, grounds: this.grounds, height: this.height, noise: kNoise_m };
+    return {
+      title: `Plot ${plot.id} from the side`,
+      note: `Seen along the plot's width; ${counted(points.filter((point) => point.inside).length)} points of this page between its long sides. ` +
+        "Lines over the ground along its middle are heights, bands their 95 % intervals. Brown points lie within 7.5 cm of the fitted ground.",
+      draw: (colours: Theme, narrow: boolean) => drawProfile(options, colours, narrow),
+      csv: () => profileCsv(options),
+    };
+  }
+
+  private showDetails(): void {
+    const plot = this.selected;
+    if (!plot) return;
+    const place = plot.row > 0 ? `, row ${plot.row}, column ${plot.column}` : "";
+    const [, , width, length, heading] = plot.box;
+    const lines: (Node | null)[] = [
+      h("h4", {}, `Plot ${plot.id}${place}`),
+      h("p", { class: "note" }, `${fixed(length, 2)} m × ${fixed(width, 2)} m, heading ${fixed(heading, 1)}°` +
+        (plot.points !== undefined ? `, ${counted(plot.points)} points` : "") +
+        (plot.confidence !== undefined ? `, confidence ${fixed(plot.confidence, 2)}` : "") +
+        (plot.state ? `, ${plot.state === "extra" ? "no true plot" : "found"}` : "")),
+    ];
+    for (const flag of plot.flags) lines.push(h("p", { class: "warning" }, flag));
+    const names = Object.keys(plot.heights).length ? Object.keys(plot.heights) : [];
+    const first = profileHeights(plot, this.height);
+    const ordered = [...first, ...names.filter((name) => !first.includes(name))];
+    const truths = Object.keys(plot.truths);
+    if (ordered.length > 0) {
+      const told = ordered.some((name) => plot.heights[name][2] !== null);
+      const known = truths.length > 0;
+      lines.push(h("table", {}, h("thead", {}, h("tr", {}, ...["height", "m", ...(told ? ["95 % interval"] : []), ...(known ? ["truth", "error, cm"] : [])].map((title) => h("th", { scope: "col" }, title)))),
+        h("tbody", {}, ...ordered.map((name) => {
+          const [value, , low, high] = plot.heights[name];
+          const truth = plot.truths[namedTruth(name)];
+          return h("tr", {}, h("td", {}, name), h("td", { class: "number" }, fixed(value, 3)),
+            told ? h("td", { class: "number" }, low === null ? "" : `${fixed(low, 3)} – ${fixed(high, 3)}`) : null,
+            ...(known ? [h("td", { class: "number" }, fixed(truth, 3)), h("td", { class: "number" }, signed(truth === undefined ? NaN : 100 * (value - truth), 1))] : []));
+        }))));
+    } else if (truths.length > 0) {
+      lines.push(h("table", {}, h("tbody", {}, ...truths.map((name) =>
+        h("tr", {}, h("td", {}, truthName(name)), h("td", { class: "number" }, `${fixed(plot.truths[name], 3)} m`))))));
+    }
+    this.details.replaceChildren(...lines.filter((line) => line !== null));
+  }
+
+  private plotTable(): Table<Plot> {
+    const { field } = this;
+    const columns: Column<Plot>[] = [{ title: "plot", value: (plot) => (/^\d+$/.test(plot.id) ? Number(plot.id) : plot.id), shown: (plot) => plot.id }];
+    if (field.plots.some((plot) => plot.row > 0))
+      columns.push({ title: "row", value: (plot) => plot.row }, { title: "column", value: (plot) => plot.column });
+    for (const name of heightNames(field)) {
+      columns.push({ title: name, unit: "m", value: (plot) => plot.heights[name]?.[0], shown: (plot) => fixed(plot.heights[name]?.[0], 3) });
+      if (field.plots.some((plot) => (plot.heights[name]?.[2] ?? null) !== null)) columns.push({
+        title: "±", unit: "cm", hint: `half the width of ${name}'s 95 % interval`,
+        value: (plot) => 50 * measured(plot, "interval", name), shown: (plot) => fixed(50 * measured(plot, "interval", name), 1) });
+      if (field.plots.some((plot) => plot.truths[namedTruth(name)] !== undefined)) columns.push({
+        title: "error", unit: "cm", hint: `${name} minus ${truthName(namedTruth(name))}`,
+        value: (plot) => 100 * measured(plot, "error", name), shown: (plot) => signed(100 * measured(plot, "error", name), 1) });
+    }
+    if (heightNames(field).length === 0)
+      for (const truth of new Set(field.plots.flatMap((plot) => Object.keys(plot.truths))))
+        columns.push({ title: truthName(truth), unit: "m", value: (plot) => plot.truths[truth], shown: (plot) => fixed(plot.truths[truth], 3) });
+    if (field.plots.some((plot) => plot.confidence !== undefined))
+      columns.push({ title: "confidence", value: (plot) => plot.confidence, shown: (plot) => fixed(plot.confidence, 2) });
+    columns.push({ title: "length", unit: "m", value: (plot) => plot.box[3], shown: (plot) => fixed(plot.box[3], 2) },
+      { title: "width", unit: "m", value: (plot) => plot.box[2], shown: (plot) => fixed(plot.box[2], 2) });
+    if (field.plots.some((plot) => plot.state)) columns.push({ title: "is", value: (plot) => (plot.state === "extra" ? "no plot" : "a plot") });
+    if (field.plots.some((plot) => plot.flags.length)) columns.push({ title: "flags", value: (plot) => plot.flags.join("; ") });
+    return new Table({
+      title: `Plots of ${field.name}`, columns, rows: field.plots, key: (plot) => plot.id, pick: (plot) => this.pick(plot),
+      note: field.plots.some((plot) => plot.state === "extra" || plot.state === "found")
+        ? "Errors are estimate minus truth. ± is half the width of the 95 % interval." : "± is half the width of the 95 % interval.",
+    });
+  }
+}

@@ -1,0 +1,70 @@
+import "./style.css";
+import { readReport, type Report } from "./data";
+import { h } from "./dom";
+import { FieldView } from "./field_view";
+import { estimateFigures, SuiteView } from "./suite";
+import { themeChoice } from "./theme";
+
+function header(report: Report): HTMLElement {
+  return h("header", {}, h("div", {}, h("h1", {}, report.title), h("p", { class: "note" }, `Plotscan ${report.plotscan}`)), themeChoice());
+}
+
+// A tab for each field; a field's points are read when it is first looked at.
+function fieldsSection(report: Report): HTMLElement {
+  const place = h("div", { class: "place" });
+  let view: FieldView | undefined;
+  const open = (i: number) => {
+    view?.close();
+    view = new FieldView(report.fields[i]);
+    place.replaceChildren(view.element);
+    void view.open();
+  };
+  const section = h("section", { id: "fields", "aria-label": "Fields" });
+  if (report.kind === "suite") section.append(h("h2", {}, "One farm of each case"));
+  if (report.fields.length > 1) {
+    const tabs = report.fields.map((field, i) => {
+      const tab = h("button", { type: "button", role: "tab", "aria-selected": i === 0 ? "true" : "false", click: () => {
+        tabs.forEach((other) => other.setAttribute("aria-selected", other === tab ? "true" : "false"));
+        open(i);
+      } }, field.name);
+      return tab;
+    });
+    section.append(h("div", { class: "tabs", role: "tablist" }, ...tabs));
+  }
+  section.append(place);
+  open(0);
+  return section;
+}
+
+function sections(report: Report): HTMLElement[] {
+  const all: HTMLElement[] = [];
+  if (report.fields.length > 0) all.push(fieldsSection(report));
+  if (report.suite) all.push(...new SuiteView(report.suite).sections);
+  const figures = report.kind === "estimate" ? estimateFigures(report) : undefined;
+  if (figures) all.push(figures);
+  return all.length > 1 ? [links(all), ...all] : all;
+}
+
+// Links to the page's sections.
+function links(all: HTMLElement[]): HTMLElement {
+  const names: Record<string, string> = { fields: "In three dimensions", figures: "Figures", tables: "Tables" };
+  return h("nav", { "aria-label": "Sections" }, ...all.map((section) => h("a", { href: `#${section.id}` }, names[section.id])));
+}
+
+function start(): void {
+  const page = document.getElementById("page")!;
+  try {
+    const report = readReport();
+    document.title = report.title;
+    page.append(header(report));
+    page.append(...sections(report));
+    if (report.kind === "suite" && report.fields.length === 0)
+      page.append(h("p", { class: "note" }, "These results have no views of their farms: farmbench run makes them, and shows one farm of each case in three dimensions."));
+    if (report.fields.length === 0) document.documentElement.dataset.ready = String(Math.round(performance.now()));
+    document.documentElement.dataset.interactive = String(Math.round(performance.now()));
+  } catch (error) {
+    page.append(h("p", { class: "warning" }, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
+  }
+}
+
+start();

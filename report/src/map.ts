@@ -1,0 +1,182 @@
+// The plots from above, coloured by what is asked of them.
+import { canvas, digitsOf, line, round, text, type Panel } from "./axes";
+import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
+import type { Field, Plot } from "./data";
+import { s } from "./dom";
+import { counted, csv, fixed, namedTruth, ticks } from "./numbers";
+import { corners } from "./place";
+
+export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
+
+export function measured(plot: Plot, measure: Measure, height: string): number {
+  const value = plot.heights[height];
+  const truth = plot.truths[namedTruth(height)];
+  switch (measure) {
+    case "height": return value?.[0] ?? NaN;
+    case "truth": return truth ?? NaN;
+    case "error": return value && truth !== undefined && truth !== null ? value[0] - truth : NaN;
+    case "interval": return value && value[2] !== null && value[3] !== null ? value[3] - value[2] : NaN;
+    case "confidence": return plot.confidence ?? NaN;
+  }
+}
+
+export const measureNames: Record<Measure, string> = {
+  height: "height", truth: "true height", error: "error (estimate − truth)", interval: "width of the 95 % interval",
+  confidence: "confidence",
+};
+
+export interface Colours {
+  low: number;
+  high: number;
+  ramp: Ramp;
+}
+
+// The range of a measure over the plots: symmetric for errors, 0 to 1 for confidence.
+export function coloursOf(values: number[], measure: Measure): Colours {
+  const known = values.filter(Number.isFinite);
+  if (measure === "confidence") return { low: 0, high: 1, ramp: cividis };
+  let low = known.length ? Math.min(...known) : 0;
+  let high = known.length ? Math.max(...known) : 1;
+  if (measure === "error") {
+    high = Math.max(-low, high, 0.5);
+    return { low: -high, high, ramp: signs };
+  }
+  if (high - low < 1e-3) [low, high] = [low - 0.01, high + 0.01];
+  return { low, high, ramp: measure === "interval" ? cividis : viridis };
+}
+
+const share = (colours: Colours, value: number): number => (value - colours.low) / (colours.high - colours.low);
+
+// An upright bar of colours with its ticks.
+function colourBar({ svg, panel, theme }: Sheet, colours: Colours, title: string): void {
+  const [left, top, height] = [kWidth - 78, panel.top + 20, panel.height - 40];
+  const steps = 48;
+  for (let i = 0; i < steps; ++i)
+    svg.append(s("rect", {
+      x: left, y: round(top + height * (1 - (i + 1) / steps)), width: 12, height: round(height / steps + 0.6),
+      fill: hex(colours.ramp((i + 0.5) / steps)) }));
+  const values = ticks(colours.low, colours.high, 5);
+  for (const value of values) {
+    const y = top + height * (1 - share(colours, value));
+    svg.append(line(left + 12, y, left + 16, y, theme.soft), text(left + 19, y + 4, fixed(value, digitsOf(values)), { colour: theme.soft }));
+  }
+  svg.append(text(left + 66, top + height / 2, title, { anchor: "middle", turned: true }));
+}
+
+const luminance = ([r, g, b]: Rgb): number => (0.3 * r + 0.59 * g + 0.11 * b) / 255;
+
+export interface MapOptions {
+  field: Field;
+  measure: Measure;
+  height: string;
+  selected?: Plot;
+  pick?: (plot: Plot) => void;
+}
+
+// From the field's metres to the drawing's pixels.
+interface Sheet {
+  svg: SVGSVGElement;
+  panel: Panel;
+  theme: Theme;
+  scale: number; // pixels a metre
+  at: (x: number, y: number) => [number, number];
+}
+
+// Coordinates of hundreds of kilometres count from a round one, which the axis names.
+const roundOrigin = (middle: number): number => (Math.abs(middle) < 10_000 ? 0 : 1000 * Math.floor(middle / 1000));
+const axisName = (name: string, from: number): string => (from ? `${name} less ${counted(from)}, m` : `${name}, m`);
+
+const kWidth = 460;
+const kHeight = 400;
+
+// An empty map with the axes of the cloud's coordinates.
+function sheetOf(field: Field, title: string, theme: Theme): Sheet {
+  const panel = { left: 46, top: 10, width: kWidth - 46 - 86, height: kHeight - 10 - 40 };
+  const svg = canvas(kWidth, kHeight, theme, title);
+  const outlines = [...field.plots, ...field.true_boxes].flatMap((plot) => corners(plot.box));
+  const middle = (values: number[]) => (values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0);
+  const span = (values: number[]) => (values.length ? Math.max(...values) - Math.min(...values) : 1) || 1;
+  const xs = outlines.map(([x]) => x);
+  const ys = outlines.map(([, y]) => y);
+  const [x0, y0] = [middle(xs), middle(ys)];
+  const scale = Math.min(panel.width / span(xs), panel.height / span(ys)) * 0.96;
+  const [left, top] = [panel.left + panel.width / 2, panel.top + panel.height / 2];
+  const bottom = panel.top + panel.height;
+  const right = panel.left + panel.width;
+  const [fromX, fromY] = [roundOrigin(x0), roundOrigin(y0)];
+  for (const x of ticks(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, 5)) {
+    const u = left + (x - x0) * scale;
+    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, fixed(x - fromX, 0), { anchor: "middle", colour: theme.soft }));
+  }
+  for (const y of ticks(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, 5)) {
+    const v = top - (y - y0) * scale;
+    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y - fromY, 0), { anchor: "end", colour: theme.soft }));
+  }
+  svg.append(text(left, kHeight - 8, axisName("east", fromX), { anchor: "middle" }),
+    text(12, top, axisName("north", fromY), { anchor: "middle", turned: true }));
+  return { svg, panel, theme, scale, at: (x, y) => [left + (x - x0) * scale, top - (y - y0) * scale] };
+}
+
+const cornersOn = (sheet: Sheet, box: Plot["box"]): string =>
+  corners(box).map(([x, y]) => sheet.at(x, y).map(round).join(",")).join(" ");
+
+// A plot's number where its box has room for it, along the box where that is narrow.
+function numberOn(sheet: Sheet, plot: Plot, fill: Rgb | undefined): SVGTextElement | undefined {
+  const room = Math.min(plot.box[2], plot.box[3]) * sheet.scale;
+  if (room <= 9 || plot.id.length * 5 >= Math.max(room, plot.box[3] * sheet.scale * 0.9)) return undefined;
+  const [u, v] = sheet.at(plot.box[0], plot.box[1]);
+  const colour = fill === undefined ? sheet.theme.ink : luminance(fill) < 0.52 ? "#ffffff" : "#1c2128";
+  const label = text(u, v + 3.5, plot.id, { anchor: "middle", size: 10, colour });
+  const heading = ((plot.box[4] % 180) + 180) % 180;
+  if (plot.id.length * 6 > room)
+    label.setAttribute("transform", `rotate(${round(heading > 90 ? 180 - heading : -heading)} ${round(u)} ${round(v)})`);
+  return label;
+}
+
+// Chosen by a click, Enter or the space bar; arrows choose the neighbours.
+function makeChoosable(group: SVGGElement, plots: Plot[], i: number, pick: (plot: Plot) => void): void {
+  group.addEventListener("click", () => pick(plots[i]));
+  group.addEventListener("keydown", (event) => {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (!step && event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    pick(plots[(i + (step ?? 0) + plots.length) % plots.length]);
+  });
+}
+
+export function drawMap({ field, measure, height, selected, pick }: MapOptions, theme: Theme): SVGSVGElement {
+  const sheet = sheetOf(field, `Map of the plots: ${measureNames[measure]}`, theme);
+  const centimetres = measure === "error" || measure === "interval";
+  const unit = measure === "confidence" ? "" : centimetres ? "cm" : "m";
+  const values = field.plots.map((plot) => (centimetres ? 100 : 1) * measured(plot, measure, height));
+  const colours = coloursOf(values, measure);
+  field.plots.forEach((plot, i) => {
+    const fill = Number.isFinite(values[i]) ? colours.ramp(share(colours, values[i])) : undefined;
+    const chosen = plot === selected;
+    const words = `plot ${plot.id}: ${fill ? `${fixed(values[i], centimetres ? 1 : 3)} ${unit}` : "no value"}`;
+    const group = s("g", pick ? {
+      class: "plot", role: "button", tabindex: chosen || (!selected && i === 0) ? 0 : -1, "aria-label": words,
+      "data-plot": plot.id, "aria-pressed": chosen ? "true" : "false" } : {},
+    s("polygon", {
+      points: cornersOn(sheet, plot.box), fill: fill ? hex(fill) : theme.paper,
+      stroke: chosen ? "#e69f00" : plot.flags.length ? theme.kinds[1] : theme.ink,
+      "stroke-width": chosen ? 3 : plot.flags.length ? 1.8 : 0.6,
+    }, s("title", {}, words + (plot.flags.length ? ` (${plot.flags.join("; ")})` : ""))));
+    const number = numberOn(sheet, plot, fill);
+    if (number) group.append(number);
+    if (pick) makeChoosable(group, field.plots, i, pick);
+    sheet.svg.append(group);
+  });
+  for (const plot of field.true_boxes.filter((box) => !box.found))
+    sheet.svg.append(s("polygon", { points: cornersOn(sheet, plot.box), fill: "none", stroke: theme.kinds[0], "stroke-dasharray": "3 2" }, s("title", {}, `missed: plot ${plot.id}`)));
+  const name = measure === "confidence" ? "confidence" : `${height ? `${height}: ` : ""}${measureNames[measure].replace(" (estimate − truth)", "")}, ${unit}`;
+  if (values.some(Number.isFinite)) colourBar(sheet, colours, name);
+  return sheet.svg;
+}
+
+export function mapCsv(field: Field, measure: Measure, height: string): string {
+  return csv([
+    ["plot", "row", "column", "center_x_m", "center_y_m", "width_m", "length_m", "heading_deg", measure === "confidence" ? measure : `${height}_${measure}_m`, "flags"],
+    ...field.plots.map((plot) => [plot.id, plot.row || "", plot.column || "", ...plot.box, measured(plot, measure, height), plot.flags.join("; ")]),
+  ]);
+}

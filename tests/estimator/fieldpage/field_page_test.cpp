@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fieldpage/field_page.h"
+
+#include <string>
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "fieldpage/shown.h"
+
+namespace plotscan::fieldpage {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
+// A plot of 1 x 4 m whose west end lies at x.
+std::string feature(const std::string& id, double x, const std::string& properties) {
+  const auto corner = [&](double u, double v) {
+    return "[" + std::to_string(x + u) + "," + std::to_string(v) + "]";
+  };
+  return R"({"type":"Feature","id":)" + id + R"(,"properties":{)" + properties +
+         R"(},"geometry":{"type":"Polygon","coordinates":[[)" + corner(0, 0) + "," + corner(1, 0) +
+         "," + corner(1, 4) + "," + corner(0, 4) + "," + corner(0, 0) + "]]}}";
+}
+
+std::string collection(const std::vector<std::string>& features) {
+  std::string all;
+  for (const std::string& one : features) all += (all.empty() ? "" : ",") + one;
+  return R"({"type":"FeatureCollection","coordinate_system":"local metres","features":[)" + all +
+         "]}";
+}
+
+nlohmann::json field_of(const fs::path& html) {
+  const std::string page = read_text(html);
+  const std::size_t begin = page.find('>', page.find("id=\"report\"")) + 1;
+  return nlohmann::json::parse(
+      page.substr(begin, page.find("</script>", begin) - begin))["fields"][0];
+}
+
+class FieldPage : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  fs::path html_ = folder_.path() / "page.html";
+  fs::path estimate_ = folder_.write(
+      "estimate.geojson",
+      collection({feature(R"("<script>alert(1)</script>")", 0.1,
+                          R"("height_max_m":0.9,"low95_height_max_m":0.8,"high95_height_max_m":1.0,
+                          "se_height_max_m":0.05,"flags":["\"><img src=x onerror=alert(1)>"])"),
+                  feature("2", 30, R"("height_max_m":0.5)")}));
+  fs::path truth_ =
+      folder_.write("truth.geojson", collection({feature("11", 0, R"("height_max_m":0.95)"),
+                                                 feature("12", 6, R"("height_max_m":1.0)")}));
+};
+
+TEST_F(FieldPage, SaysWhichPlotsAreFoundExtraAndMissed) {
+  write_estimate_page({.estimate = estimate_, .html = html_, .truth = truth_});
+  const nlohmann::json field = field_of(html_);
+  const nlohmann::json& found = field["plots"][0];
+  EXPECT_EQ(found["id"], "<script>alert(1)</script>");
+  EXPECT_EQ(found["state"], "found");
+  EXPECT_EQ(found["truths"]["height_max_m"], 0.95);
+  EXPECT_EQ(found["heights"]["max"], nlohmann::json({0.9, 0.05, 0.8, 1.0}));
+  EXPECT_EQ(field["plots"][1]["state"], "extra");
+  EXPECT_EQ(field["true_boxes"][0]["found"], true);
+  EXPECT_EQ(field["true_boxes"][1]["found"], false);
+  EXPECT_FALSE(field.contains("cloud"));
+  const std::string page = read_text(html_);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+}
+
+TEST_F(FieldPage, WithoutTruthNothingIsScored) {
+  write_estimate_page({.estimate = estimate_, .html = html_});
+  const nlohmann::json field = field_of(html_);
+  EXPECT_EQ(field["plots"][0]["state"], "");
+  EXPECT_TRUE(field["true_boxes"].empty());
+}
+
+// Positions far from the origin keep their millimetres.
+TEST_F(FieldPage, ShowsTheCloudsPositions) {
+  std::string text;
+  for (int i = 0; i < 500; ++i)
+    text +=
+        std::to_string(500'000.001 + 0.01 * i) + " 4100000.002 " + std::to_string(0.001 * i) + "\n";
+  const report::ShownCloud cloud = read_shown_positions(folder_.write("a.xyz", text), 1000);
+  ASSERT_EQ(cloud.points.size(), 500U);
+  EXPECT_EQ(cloud.origin.y(), 4'100'000);
+  for (const report::ShownPoint& point : cloud.points) {
+    EXPECT_NEAR(point.place.y(), 0.002, 1e-5);
+    EXPECT_NEAR(point.place.x(), 0.001 + 10 * point.place.z(), 1e-4);
+  }
+}
+
+// A plane through three points, at nodes around plots that lie 40 km apart.
+TEST_F(FieldPage, ShowsTheTrueGroundOfAnyField) {
+  report::ShownField field;
+  for (const double x : {-20'000.0, 20'000.0})
+    field.plots.push_back({.id = "1", .box = {.center = {x, 0}, .width_m = 1, .length_m = 4}});
+  show_terrain(
+      field, farm::Terrain({{-30'000, -100, 0}, {30'000, -100, 600}, {0, 100, 300}}, {{0, 1, 2}}));
+  ASSERT_TRUE(field.terrain.has_value());
+  const report::ShownGrid& grid = *field.terrain;
+  EXPECT_LT(grid.z_m.size(), 2'000'000U);
+  EXPECT_EQ(grid.z_m.size(), static_cast<std::size_t>(grid.columns) * grid.rows);
+  const int column = grid.columns / 2;
+  const double x = grid.first.x() + grid.cell_m * column;
+  EXPECT_NEAR(grid.z_m.at(column), 300 + 0.01 * x, 0.01);
+}
+
+TEST_F(FieldPage, RefusesItsOwnInputsAndAPageThatExists) {
+  EXPECT_THROW(write_estimate_page({.estimate = estimate_, .html = estimate_, .replace = true}),
+               InputError);
+  write_estimate_page({.estimate = estimate_, .html = html_});
+  EXPECT_THAT(
+      message_of<InputError>([&] { write_estimate_page({.estimate = estimate_, .html = html_}); }),
+      HasSubstr("exists"));
+}
+
+}  // namespace
+}  // namespace plotscan::fieldpage
