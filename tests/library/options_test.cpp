@@ -152,10 +152,13 @@ TEST_F(LibraryOptions, OfScoresAreTheLeastOverlap) {
       EXPECT_TRUE(said[i][name].is_null() ? std::isnan(value) : said[i][name] == value) << name;
     }
   }
-  const Scores strict = score_estimate(field, path("farm"), 0.9999);
-  EXPECT_EQ(strict.found, 0u);
-  EXPECT_EQ(strict.missed, 9u);
-  EXPECT_EQ(strict.extra, 9u);
+  estimate_files({cloud()}, path("scored"));
+  for (const Scores& strict : {score_estimate(field, path("farm"), 0.9999),
+                               score_estimate(path("scored"), path("farm"), 0.9999)}) {
+    EXPECT_EQ(strict.found, 0u);
+    EXPECT_EQ(strict.missed, 9u);
+    EXPECT_EQ(strict.extra, 9u);
+  }
 }
 
 }  // namespace
