@@ -136,12 +136,7 @@ void add_view_options(CLI::App& command, Options& options) {
                      "of the camera over the horizon (degrees)");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  plotscan::Program program(
-      "plotview", "Draw virtual phenotyping farms, scans of them, and the plots found there.");
-  PictureArguments arguments;
+void declare_picture(plotscan::Program& program, PictureArguments& arguments) {
   CLI::App& picture =
       program.command("picture", "Draw a farm, and a scan with plot boxes beside it, into a PNG.",
                       [&] { draw(program, arguments); });
@@ -153,44 +148,61 @@ int main(int argc, char** argv) {
                      "estimate folder or GeoJSON: its boxes are drawn on the scan");
   add_view_options(picture, arguments.options);
   picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");
+}
 
-  PlantsArguments several;
+void declare_plants(plotscan::Program& program, PlantsArguments& arguments) {
   CLI::App& plants = program.command("plants", "Draw plant meshes side by side into a PNG.",
-                                     [&] { draw_plants(program, several); });
-  plants.add_option("MESH", several.meshes, "plant meshes: OBJ, DAE, glTF, PLY, STL")->required();
-  plants.add_option("-o,--output", several.png, "the PNG to write")->required();
+                                     [&] { draw_plants(program, arguments); });
+  plants.add_option("MESH", arguments.meshes, "plant meshes: OBJ, DAE, glTF, PLY, STL")->required();
+  plants.add_option("-o,--output", arguments.png, "the PNG to write")->required();
   plants
-      .add_option("--labels", several.labels,
+      .add_option("--labels", arguments.labels,
                   "names under the plants, with commas between; else the files' names")
       ->delimiter(',')
       ->allow_extra_args(false);
-  plants.add_option("--columns", several.options.columns,
+  plants.add_option("--columns", arguments.options.columns,
                     "plants in a row; else as many as makes them largest");
-  plants.add_option("--up", several.up, "axis that points up in the meshes")
+  plants.add_option("--up", arguments.up, "axis that points up in the meshes")
       ->check(CLI::IsMember({"z", "y"}));
-  add_view_options(plants, several.options);
+  add_view_options(plants, arguments.options);
+}
 
-  EstimateArguments of_field;
+void declare_field(plotscan::Program& program, EstimateArguments& arguments) {
   CLI::App& field = program.command(
       "field", "Draw an estimate's plots over its cloud, from straight above, into a PNG.",
-      [&] { draw_field(program, of_field); });
-  add_estimate_arguments(field, of_field);
-  field.add_option("--width", of_field.field.width_px, "of the picture at most (pixels)");
-  field.add_option("--height", of_field.field.height_px, "of the picture at most (pixels)");
-  field.add_option("--margin", of_field.field.margin_m, "shown around the plots (metres)");
+      [&] { draw_field(program, arguments); });
+  add_estimate_arguments(field, arguments);
+  field.add_option("--width", arguments.field.width_px, "of the picture at most (pixels)");
+  field.add_option("--height", arguments.field.height_px, "of the picture at most (pixels)");
+  field.add_option("--margin", arguments.field.margin_m, "shown around the plots (metres)");
+}
 
-  EstimateArguments of_plot;
+void declare_plot(plotscan::Program& program, EstimateArguments& arguments) {
   CLI::App& plot =
       program.command("plot", "Draw a plot from the side, with its ground and heights, into a PNG.",
-                      [&] { draw_plot(program, of_plot); });
-  add_estimate_arguments(plot, of_plot);
-  plot.add_option("--plot", of_plot.plot, "id of the plot")->required();
-  plot.add_option("--heights", of_plot.side.heights,
+                      [&] { draw_plot(program, arguments); });
+  add_estimate_arguments(plot, arguments);
+  plot.add_option("--plot", arguments.plot, "id of the plot")->required();
+  plot.add_option("--heights", arguments.side.heights,
                   "heights to draw, with commas between, such as mean,p95,max")
       ->delimiter(',')
       ->allow_extra_args(false);
-  plot.add_option("--beyond", of_plot.side.beyond_m, "shown before and behind the plot (metres)");
-  plot.add_option("--width", of_plot.side.width_px, "of the picture (pixels)");
-  plot.add_option("--height", of_plot.side.height_px, "of the picture at most (pixels)");
+  plot.add_option("--beyond", arguments.side.beyond_m, "shown before and behind the plot (metres)");
+  plot.add_option("--width", arguments.side.width_px, "of the picture (pixels)");
+  plot.add_option("--height", arguments.side.height_px, "of the picture at most (pixels)");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plotscan::Program program(
+      "plotview", "Draw virtual phenotyping farms, scans of them, and the plots found there.");
+  PictureArguments picture;
+  PlantsArguments plants;
+  EstimateArguments field, plot;
+  declare_picture(program, picture);
+  declare_plants(program, plants);
+  declare_field(program, field);
+  declare_plot(program, plot);
   return program.run(argc, argv);
 }
