@@ -270,8 +270,8 @@ TEST(Export, ALidarThatWouldSeeNothingIsRefused) {
            {sim, "--lidar cpu needs --gazebo classic"},
            {bare, "--lidar cpu needs --collision mesh"},
            {without, "--lidar cpu needs --drone"}}) {
-    EXPECT_THAT(testing::message_of<InputError>([&] { example.write("world", options); }),
-                HasSubstr(message));
+    const auto write = [&example, &given = options] { example.write("world", given); };
+    EXPECT_THAT(testing::message_of<InputError>(write), HasSubstr(message));
     EXPECT_FALSE(fs::exists(example.path() / "world"));
   }
   EXPECT_NO_THROW(example.write("world", good));
