@@ -16,12 +16,13 @@ namespace {
 
 // Of a plot, that takes part in its outline: half the gap to the next one.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
-constexpr double kPiece_m = 1;            // of a plot, in which canopy is taken
-constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looked for
-constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
-constexpr double kLeastRoughness = 0.05;  // tables: up to 0.02; crops: 0.11 and more
-constexpr double kLeastGap_m = 0.05;      // a cell of the raster: no less is seen
-constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
+constexpr double kPiece_m = 1;        // of a plot, in which canopy is taken
+constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked for
+constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
+constexpr double kLeastRoughness =
+    0.08;                             // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
+constexpr double kLeastGap_m = 0.05;  // a cell of the raster: no less is seen
+constexpr double kMostAspect = 12;    // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;
