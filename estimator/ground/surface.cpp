@@ -171,15 +171,28 @@ constexpr double kReachCells = 4;
 // A cell's bilinear patch leaves as much of a broken ground's heights, whatever the sensor's noise.
 constexpr double kLeastSpread_m = 0.01;
 
-Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
+// What the ground is found from.
+struct LowReturns {
+  Columns columns;
+  double noise_m = 0;   // sigma of the heights about bare ground
+  double spread_m = 0;  // the same about a bilinear patch of it
+};
+
+LowReturns low_returns(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
   const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
   const double noise_m =
       options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
   const double spread_m = std::max(noise_m, kLeastSpread_m);
-  const Columns low = low_part(columns, static_cast<float>(0.4 + 6 * spread_m));
+  return {.columns = low_part(columns, static_cast<float>(0.4 + 6 * spread_m)),
+          .noise_m = noise_m,
+          .spread_m = spread_m};
+}
+
+Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
+  const auto [low, noise_m, spread_m] = low_returns(points, options);
   Steps steps(options.progress);
   const Ground ground = find_ground(low, spread_m, steps);
-  const Grid& grid = columns.grid;
+  const Grid& grid = low.grid;
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
                   .columns = grid.columns,
@@ -198,8 +211,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
     surface.sd_m[i] = std::hypot(surface.sd_m[i], surface.misfit_m[i]);
     const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
                                 static_cast<double>(i / grid.columns));
-    surface.z_m[i] +=
-        static_cast<float>(columns.base.z_m + grid.cell_m * columns.base.slope.dot(place));
+    surface.z_m[i] += static_cast<float>(low.base.z_m + grid.cell_m * low.base.slope.dot(place));
     surface.seen[i] = ground.evidence.support[i] > 0.5f && ground.evidence.data[i] > 0;
   }
   forget_beyond_reach(grid, ground.evidence.data,

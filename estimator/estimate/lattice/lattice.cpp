@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -69,27 +70,17 @@ Points ground_told(const CloudFiles& cloud, const FieldCloud& field,
 }
 
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
-Points above_ground(const Points& points, const ground::Surface& surface, int threads) {
+Points above_ground(Points points, const ground::Surface& surface, int threads) {
   const Stage stage("heights above the ground");
-  constexpr std::size_t kChunk = 1 << 16;
-  std::vector<Points> chunks(points.size() / kChunk + 1);
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t chunk) {
-      const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
-      chunks[chunk].reserve(end - chunk * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i) {
-        const double ground_z = surface.height(points[i].head<2>().cast<double>());
-        if (std::isnan(ground_z)) continue;
-        chunks[chunk].emplace_back(points[i].x(), points[i].y(),
-                                   static_cast<float>(points[i].z() - ground_z));
-      }
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+      const double ground_z = surface.height(points[i].head<2>().cast<double>());
+      points[i].z() = static_cast<float>(points[i].z() - ground_z);
     });
   });
-  Points heights;
-  heights.reserve(points.size());
-  for (const Points& chunk : chunks) heights.insert(heights.end(), chunk.begin(), chunk.end());
-  return heights;
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return std::isnan(point.z()); });
+  return points;
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
@@ -222,14 +213,13 @@ std::optional<Area> area_to_read(const LatticeOptions& options) {
               boxes[3] + kGroundAround_m};
 }
 
-Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
-                 const ProgressReport& progress) {
+Estimate lattice(FieldCloud cloud, const LatticeOptions& options, const ProgressReport& progress) {
   require_sound(options);
   Estimate estimate{.method = "lattice"};
   estimate.diagnostics = describe(cloud);
   tell_work(cloud, options);
   const ground::Surface surface = ground_of(cloud, options, progress);
-  const Points heights = above_ground(cloud.points, surface, options.threads);
+  const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
   if (heights.empty())
     throw NothingToMeasure("the cloud shows no ground (" + point_account(estimate.diagnostics) +
                            "; " + density_text(cloud.density_m2) +
@@ -251,7 +241,7 @@ Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
   FieldCloud field = read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
                                 [&](double share) { report(progress, kField * share); });
   if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
-  return lattice(field, options, progress);
+  return lattice(std::move(field), options, progress);
 }
 
 }  // namespace plotscan::estimate

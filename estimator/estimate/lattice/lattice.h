@@ -38,7 +38,7 @@ void require_sound(const LatticeOptions& options);
 // intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
 // without a lattice of plots has an estimate without plots; diagnostics["nothing"] says why.
 // Throws InputError on options out of range and on a cloud without ground.
-Estimate lattice(const FieldCloud& cloud, const LatticeOptions& options,
+Estimate lattice(FieldCloud cloud, const LatticeOptions& options,
                  const ProgressReport& progress = {});
 
 // The part of a cloud that the method looks at: the crop box; else the given boxes and the ground
