@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include "temporary_folder.h"
 #include "test_images.h"
 #include <assimp/Importer.hpp>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

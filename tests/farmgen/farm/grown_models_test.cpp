@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

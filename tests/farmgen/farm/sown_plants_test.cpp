@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/summary.h"
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <gtest/gtest.h>
 
 #include "farm/generate.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "farmgen/farm/example_farm.h"
+#include "example_farm.h"
 #include <gtest/gtest.h>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
