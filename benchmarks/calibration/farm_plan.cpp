@@ -36,7 +36,8 @@ std::string models_of(const Library& library, std::uint64_t first_seed, RandomSt
   for (const auto& [key, value] : library.set) values += key + "=" + value + ", ";
   for (const auto& [key, bounds] : library.vary) {
     const double value = draw(random, bounds);
-    if (!usual && !library.set.contains(key)) values += key + "=" + text(value) + ", ";
+    if ((!usual || library.always.contains(key)) && !library.set.contains(key))
+      values += key + "=" + text(value) + ", ";
   }
   return "[{crop: " + library.crop + ", stage: " + library.stage +
          ", seed: " + std::to_string(first_seed) +
@@ -173,7 +174,7 @@ std::vector<Library> read_libraries(const std::filesystem::path& file) {
   const YamlSection crops = document.section("crops");
   std::vector<Library> libraries;
   for (const YamlSection& entry : document.list("libraries", kMostLibraries)) {
-    entry.allow_only({"name", "crop", "stage", "height_m", "set", "density_m2", "row_m",
+    entry.allow_only({"name", "crop", "stage", "height_m", "set", "vary", "density_m2", "row_m",
                       "spacing_m", "spread", "variants"});
     Library library{
         .name = entry.text("name"), .crop = entry.text("crop"), .stage = entry.text("stage")};
@@ -181,6 +182,13 @@ std::vector<Library> read_libraries(const std::filesystem::path& file) {
     if (entry.has("set")) library.set = entry.section("set").texts();
     const YamlSection vary = crops.section(library.crop);
     for (const std::string& key : vary.keys()) library.vary[key] = vary.pair(key, kAny);
+    if (entry.has("vary")) {
+      const YamlSection own = entry.section("vary");
+      for (const std::string& key : own.keys()) {
+        library.vary[key] = own.pair(key, kAny);
+        library.always.insert(key);
+      }
+    }
     const auto range = [&](const char* key) {
       return entry.has(key) ? std::optional(entry.pair(key, kPositive)) : std::nullopt;
     };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ struct Library {
   std::optional<double> height_m = {};          // of a usual plant, where plants may be stretched
   std::map<std::string, std::string> set = {};  // parameters of the crop
   std::map<std::string, Bounds> vary = {};      // others, drawn for each farm
+  std::set<std::string> always = {};            // of these, which farms of usual plants draw too
   std::optional<Bounds> density_m2 = {};        // plants a square metre
   std::optional<Bounds> row_m = {};             // between drilled rows
   std::optional<Bounds> spacing_m = {};         // from plant to plant in them

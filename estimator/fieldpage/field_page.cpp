@@ -79,7 +79,7 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
     field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
   }
   if (options.cloud) show_cloud(field, options, progress);
-  nlohmann::json document = {{"kind", "estimate"}, {"title", "Estimate " + field.name}};
+  nlohmann::json document = {{"kind", "estimate"}, {"title", "Plots of " + field.name}};
   document["fields"] = nlohmann::json::array();
   document["fields"].push_back(report::packed_field(field));
   report::write_page(file.path(), std::move(document));
