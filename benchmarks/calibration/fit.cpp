@@ -153,20 +153,47 @@ Eigen::VectorXd own_crop(const heights::Calibration& calibration,
                                static_cast<Eigen::Index>(calibration.index_of(farm.crop)));
 }
 
-// Each farm's ratios by the others.
-void find_surprises(heights::Calibration& calibration) {
+// The farms' numbers in groups.
+std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
+                                                Group group) {
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    by_name[group == Group::farm ? std::to_string(i) : calibration.farms[i].library].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(by_name.size());
+  for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
+  return groups;
+}
+
+// How little is known of each farm's canopy by the others.
+void find_unlikeness(heights::Calibration& calibration) {
   const heights::Calibration all = calibration;
   tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
     heights::CalibrationFarm& farm = calibration.farms[i];
     const heights::Calibration others = all.without({&i, 1});
+    farm.unlike = heights::RatioModel(others)
+                      .mixture(others.scaled(farm.features), farm.top_m, own_crop(others, farm))
+                      .unlike;
+  });
+}
+
+// Each farm's ratios by the farms of other libraries: a user's plants are of none.
+void find_surprises(heights::Calibration& calibration) {
+  const heights::Calibration all = calibration;
+  const std::vector<std::vector<std::size_t>> libraries = groups_of(all, Group::library);
+  tbb::parallel_for(std::size_t{0}, libraries.size(), [&](std::size_t g) {
+    const heights::Calibration others = all.without(libraries[g]);
     const heights::RatioModel model(others);
-    const Eigen::VectorXd scaled = others.scaled(farm.features);
-    const heights::Prediction told =
-        model.mixture(scaled, farm.top_m, heights::CropModel(others).probabilities(scaled));
-    const heights::Prediction given = model.mixture(scaled, farm.top_m, own_crop(others, farm));
-    farm.surprise_told_crop = (farm.ratios - told.values).cwiseQuotient(told.sds);
-    farm.surprise_given_crop = (farm.ratios - given.values).cwiseQuotient(given.sds);
-    farm.unlike = given.unlike;
+    const heights::CropModel crops(others);
+    for (const std::size_t i : libraries[g]) {
+      heights::CalibrationFarm& farm = calibration.farms[i];
+      const Eigen::VectorXd scaled = others.scaled(farm.features);
+      const heights::Prediction told =
+          model.mixture(scaled, farm.top_m, crops.probabilities(scaled));
+      const heights::Prediction given = model.mixture(scaled, farm.top_m, own_crop(others, farm));
+      farm.surprise_told_crop = (farm.ratios - told.values).cwiseQuotient(told.sds);
+      farm.surprise_given_crop = (farm.ratios - given.values).cwiseQuotient(given.sds);
+    }
   });
 }
 
@@ -193,18 +220,6 @@ std::vector<Eigen::Vector3f> thinned(const PlotSample& plot, double share, std::
   for (const Eigen::Vector3f& point : plot.points)
     if (random.uniform() < share) kept.push_back(point);
   return kept;
-}
-
-// The farms' numbers in groups.
-std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
-                                                Group group) {
-  std::map<std::string, std::vector<std::size_t>> by_name;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
-    by_name[group == Group::farm ? std::to_string(i) : calibration.farms[i].library].push_back(i);
-  std::vector<std::vector<std::size_t>> groups;
-  groups.reserve(by_name.size());
-  for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
-  return groups;
 }
 
 // A farm by the others.
@@ -303,6 +318,7 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   calibration.crop_sharpness = likeliest_sharpness(calibration);
   calibration.like_ratios = fit_likeness(calibration.features_and_crops_of_farms(),
                                          calibration.ratios(), calibration.noise());
+  find_unlikeness(calibration);
   find_surprises(calibration);
   fit_within(fields, calibration);
   return calibration;

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
 #include "core/csv.h"
 #include "heights/box_cells.h"
 #include "heights/deconvolve.h"
+#include "heights/semivariogram.h"
 
 namespace plotscan::heights {
 namespace {
@@ -153,6 +155,7 @@ std::vector<std::string> make_names() {
   for (const char* name :
        {"rows", "along", "highest", "noise", "slope", "slope2", "density", "height"})
     names.emplace_back(name);
+  for (std::string& name : semivariance_names()) names.push_back(std::move(name));
   return names;
 }
 
@@ -179,6 +182,8 @@ CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector
   values.push_back(slope * slope);
   values.push_back(std::log(static_cast<double>(points.size()) / area_m2));
   values.push_back(std::log(top_m));
+  for (const double value : relative_semivariances(box, descending, top_m, noise_m))
+    values.push_back(value);
   return {.top_m = top_m,
           .values = Eigen::Map<const Eigen::VectorXd>(values.data(),
                                                       static_cast<Eigen::Index>(values.size()))};
