@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "terrain/terrain.h"
+
 #include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "score/score.h"
 
 namespace plotscan::farmbench {
@@ -21,7 +22,7 @@ struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
   const estimate::CloudMap& map;       // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
-  const farm::Terrain& terrain;
+  const terrain::Terrain& terrain;
   std::uint64_t seed = 1;
   int threads = 1;
 };

@@ -5,9 +5,10 @@
 #include <set>
 #include <variant>
 
+#include "description/load_description.h"
+
 #include "core/error.h"
 #include "core/yaml_section.h"
-#include "farm/description.h"
 #include "farmbench/methods.h"
 #include "lidar/fly_settings.h"
 
@@ -29,7 +30,7 @@ std::string read_name(const YamlSection& section) {
 
 void require_farm(const YamlSection& section, const SuiteCase& suite_case) {
   try {
-    farm::load_description(suite_case.farm, suite_case.overrides);
+    description::load_description(suite_case.farm, suite_case.overrides);
   } catch (const InputError& error) {
     section.fail("farm", std::string("does not hold: ") + error.what());
   }

@@ -14,7 +14,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 void append_heights(const Points& points, const Eigen::Vector3d& origin,
-                    const farm::Terrain& terrain, double tolerance_m,
+                    const terrain::Terrain& terrain, double tolerance_m,
                     std::vector<double>& heights_m) {
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d world = origin + point.cast<double>();
@@ -38,7 +38,7 @@ std::vector<PlotBox> extended_boxes(const std::vector<TruePlot>& plots,
 }  // namespace
 
 estimate::Estimate oracle_ground(const estimate::CloudMap& map, const std::vector<TruePlot>& plots,
-                                 const farm::Terrain& terrain,
+                                 const terrain::Terrain& terrain,
                                  const estimate::Dhami2020Options& options) {
   const Points voxels = estimate::voxel_filter(map.points(), options.voxel_m);
   const std::vector<PlotBox> boxes = extended_boxes(plots, map.origin(), options.extend_m);

@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "terrain/terrain.h"
+
 #include "estimate/cloud_map.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "score/score.h"
 
 namespace plotscan::score {
@@ -17,7 +18,7 @@ namespace plotscan::score {
 // under it, and those of more than plane_tolerance_m count. A plot without such a point, or beside
 // the terrain, has no height. Of `options`, only these three and voxel_m matter.
 estimate::Estimate oracle_ground(const estimate::CloudMap& map, const std::vector<TruePlot>& plots,
-                                 const farm::Terrain& terrain,
+                                 const terrain::Terrain& terrain,
                                  const estimate::Dhami2020Options& options = {});
 
 }  // namespace plotscan::score

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "description/load_description.h"
+#include "planting/generate.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "farm/description.h"
-#include "farm/generate.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -50,14 +50,14 @@ TEST(LoadSuite, ThePapersProtocol) {
   const double relief_m[] = {0, 0.5, 1};
   const double published_cm[] = {4.8, 6.1, 16.0};
   for (std::size_t i = 0; i < 3; ++i) {
-    const farm::FarmDescription farm = farm::load_description(suite.cases[i].farm);
+    const planting::FarmDescription farm = description::load_description(suite.cases[i].farm);
     EXPECT_EQ(farm.terrain.side_m, 80);
     EXPECT_EQ(farm.terrain.vertices, 150U);
     EXPECT_EQ(farm.terrain.relief_m, relief_m[i]);
     ASSERT_EQ(farm.plants->cultivars.size(), 1U);
     EXPECT_EQ(farm.plants->cultivars[0].count, 90U);
     ASSERT_EQ(farm.plots->rows.size(), 3U);
-    for (const farm::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
+    for (const planting::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
     EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
     EXPECT_EQ(suite.cases[i].flight.spin_jitter, "none") << "Gazebo's rays turn steadily";
   }
@@ -80,8 +80,8 @@ TEST_P(ShippedSuite, IsSound) {
   for (const std::uint64_t seed : suite.seeds) EXPECT_LT(seed, 1000U) << "others tune";
   for (const SuiteCase& suite_case : suite.cases) {
     if (suite_case.overrides.empty()) continue;  // a shipped world, which has tests of its own
-    const farm::Farm farm = farm::generate(
-        farm::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
+    const farm::Farm farm = planting::generate(
+        description::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
     EXPECT_FALSE(farm.plots.empty()) << suite_case.name;
     EXPECT_TRUE(suite_case.without_plots || !farm.plants.empty()) << suite_case.name;
   }
@@ -100,7 +100,7 @@ TEST(LoadSuite, HardFieldsAreHard) {
   const auto made = [&](const std::string& name, std::uint64_t seed) {
     const auto found = std::ranges::find(suite.cases, name, &SuiteCase::name);
     if (found == suite.cases.end()) throw std::runtime_error("no case " + name);
-    return farm::generate(farm::load_description(found->farm, found->overrides), seed);
+    return planting::generate(description::load_description(found->farm, found->overrides), seed);
   };
   EXPECT_NE(made("heading", 1).plots[0].box.heading_rad,
             made("heading", 2).plots[0].box.heading_rad);
