@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "cloud_options.h"
+#include "methods/run.h"
 #include "say_estimate.h"
 
 #include "core/error.h"
 #include "core/text.h"
-#include "estimate/run.h"
 #include "heights/measure_heights.h"
 
 namespace plotscan {
@@ -26,7 +26,7 @@ constexpr const char* kDhamiGroup = "dhami2020";
 struct RunArguments {
   const CLI::App* command = nullptr;
   CloudArguments cloud;
-  estimate::RunOptions options;
+  methods::RunOptions options;
   std::vector<double> crop_box;
   std::vector<double> learn_box;
   std::string boxes;
@@ -41,9 +41,9 @@ struct RunArguments {
   bool no_level = false;
 };
 
-std::optional<estimate::Area> area_of(const std::vector<double>& corners) {
+std::optional<cloud::Area> area_of(const std::vector<double>& corners) {
   if (corners.empty()) return std::nullopt;
-  return estimate::Area{corners[0], corners[1], corners[2], corners[3]};
+  return cloud::Area{corners[0], corners[1], corners[2], corners[3]};
 }
 
 // An option of another method would have no effect, and says so.
@@ -72,7 +72,7 @@ estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
 }
 
 // Small runs stay quiet.
-void say_ahead(const Program& program, const estimate::WorkEstimate& work) {
+void say_ahead(const Program& program, const methods::lattice::WorkEstimate& work) {
   constexpr double kQuick_s = 2;
   if (work.seconds < kQuick_s) return;
   program.announce(
@@ -81,7 +81,7 @@ void say_ahead(const Program& program, const estimate::WorkEstimate& work) {
 
 void run_estimate(const Program& program, RunArguments arguments) {
   require_own_options(*arguments.command, arguments.options.method);
-  estimate::RunOptions& options = arguments.options;
+  methods::RunOptions& options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
   options.cloud = cloud_of(arguments.cloud);
   options.seed = program.common().seed;
@@ -101,12 +101,14 @@ void run_estimate(const Program& program, RunArguments arguments) {
   if (options.method == "dhami2020" && arguments.boxes.empty() && !arguments.plots) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
-  options.lattice.tell = [&](const estimate::WorkEstimate& work) { say_ahead(program, work); };
+  options.lattice.tell = [&](const methods::lattice::WorkEstimate& work) {
+    say_ahead(program, work);
+  };
   const auto start = std::chrono::steady_clock::now();
-  const estimate::Estimate estimate = estimate::run(options, program.progress("estimating"));
+  const estimate::Estimate estimate = methods::run(options, program.progress("estimating"));
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const nlohmann::json summary = estimate::height_summary(estimate);
+  const nlohmann::json summary = methods::height_summary(estimate);
   say_estimate(program, estimate, summary);
   program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
                         options.output.c_str()));
@@ -116,7 +118,7 @@ void run_estimate(const Program& program, RunArguments arguments) {
                   {"heights", summary},
                   {"diagnostics", estimate.diagnostics},
                   {"seconds", seconds}});
-  estimate::require_measured(estimate);
+  methods::require_measured(estimate);
 }
 
 void declare_lattice(CLI::App& run, RunArguments& arguments) {
@@ -219,7 +221,7 @@ void declare_run(Program& program) {
   run.add_option("--method", options.method,
                  "lattice: needs nothing but the cloud; dhami2020: the paper's pipeline, needs "
                  "--plots")
-      ->check(CLI::IsMember(estimate::method_names()))
+      ->check(CLI::IsMember(methods::method_names()))
       ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
                  "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "cloud/cloud_map.h"
 #include "terrain/terrain.h"
 #include <nlohmann/json.hpp>
 
-#include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
 #include "farmbench/farm_result.h"
 #include "farmbench/suite.h"
@@ -22,7 +22,7 @@ namespace plotscan::farmbench {
 
 struct FarmView {
   std::filesystem::path scan;  // folder, or the cloud where only that was given to the methods
-  estimate::Area area;         // of which points are shown
+  cloud::Area area;            // of which points are shown
   std::size_t points = 1;      // at most
   const estimate::Estimate& estimate;
   const std::vector<score::TruePlot>& truth;

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include "methods/dhami2020/dhami2020.h"
+#include "methods/lattice/lattice.h"
+
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
-#include "estimate/dhami2020/dhami2020.h"
-#include "estimate/lattice/lattice.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 
@@ -23,29 +24,32 @@ std::vector<PlotBox> true_boxes(const Field& field) {
 
 // The cloud and nothing else.
 estimate::Estimate lattice(const Field& field) {
-  return estimate::lattice(field.cloud, {.threads = field.threads});
+  return methods::lattice::estimate_plots(field.cloud, {.threads = field.threads});
 }
 
 // The same with the canopy's own quantiles for the plants'.
 estimate::Estimate lattice_uncalibrated(const Field& field) {
-  return estimate::lattice(field.cloud, {.calibrated = false, .threads = field.threads});
+  return methods::lattice::estimate_plots(field.cloud,
+                                          {.calibrated = false, .threads = field.threads});
 }
 
 // Its heights alone, in the true boxes.
 estimate::Estimate lattice_true_boxes(const Field& field) {
-  return estimate::lattice(field.cloud, {.boxes = true_boxes(field), .threads = field.threads});
+  return methods::lattice::estimate_plots(field.cloud,
+                                          {.boxes = true_boxes(field), .threads = field.threads});
 }
 
 // The paper's pipeline: given the number of plots, it finds them.
 estimate::Estimate dhami2020(const Field& field) {
-  return estimate::dhami2020(field.map, {.plots = static_cast<int>(field.plots.size()),
-                                         .seed = field.seed,
-                                         .threads = field.threads});
+  return methods::dhami2020::estimate_plots(field.map,
+                                            {.plots = static_cast<int>(field.plots.size()),
+                                             .seed = field.seed,
+                                             .threads = field.threads});
 }
 
 // Its heights alone, in the true boxes.
 estimate::Estimate dhami2020_true_boxes(const Field& field) {
-  return estimate::dhami2020(
+  return methods::dhami2020::estimate_plots(
       field.map, {.boxes = true_boxes(field), .seed = field.seed, .threads = field.threads});
 }
 

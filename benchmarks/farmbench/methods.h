@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cloud/cloud_map.h"
 #include "terrain/terrain.h"
 
-#include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
 #include "score/score.h"
 
@@ -20,7 +20,7 @@ namespace plotscan::farmbench {
 // name or docs/benchmark.md says so.
 struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
-  const estimate::CloudMap& map;       // its points in the rectangle of the plots and a margin
+  const cloud::CloudMap& map;          // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
   const terrain::Terrain& terrain;
   std::uint64_t seed = 1;

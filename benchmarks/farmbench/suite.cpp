@@ -80,11 +80,11 @@ lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions fligh
   return flight;
 }
 
-estimate::Area read_survey(const YamlSection& section) {
+cloud::Area read_survey(const YamlSection& section) {
   const std::vector<double> numbers = section.numbers("survey_m", 4, {-100'000, 100'000});
-  const estimate::Area area = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  const cloud::Area area = {numbers[0], numbers[1], numbers[2], numbers[3]};
   try {
-    estimate::require_area(area, "survey_m");
+    cloud::require_area(area, "survey_m");
   } catch (const InputError& error) {
     section.fail("survey_m", std::string("does not hold: ") + error.what());
   }

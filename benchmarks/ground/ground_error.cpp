@@ -10,11 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "cloud/cloud_map.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
 #include "methods.h"
-
-#include "estimate/cloud_map.h"
 
 namespace {
 
@@ -67,7 +66,7 @@ struct Score {
 
 void measure(const std::filesystem::path& farm, const std::filesystem::path& scan, bool each,
              std::map<std::string, Score>& scores) {
-  const estimate::CloudMap map = estimate::read_map(scan / "cloud.pcd", {});
+  const cloud::CloudMap map = cloud::read_map(scan / "cloud.pcd", {});
   const terrain::Terrain terrain = farmfolder::read_terrain(farm / "truth/terrain.ply");
   std::vector<PlotBox> boxes;
   for (const farm::Plot& plot : farmfolder::read_plots(farm / "truth/plots.geojson")) {

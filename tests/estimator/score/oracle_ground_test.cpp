@@ -21,7 +21,7 @@ terrain::Terrain ridge() {
 double ridge_z(double x) { return 1 - 0.1 * std::abs(x); }
 
 struct Field {
-  estimate::CloudMap map{estimate::Area{-9.5, -9.5, 9.5, 9.5}};
+  cloud::CloudMap map{cloud::Area{-9.5, -9.5, 9.5, 9.5}};
   std::vector<TruePlot> plots;
 };
 
@@ -72,7 +72,7 @@ TEST(OracleGround, SeesTheBoxAndItsEndsOnly) {
   const terrain::Terrain flat({{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}},
                               {{0, 1, 2}, {0, 2, 3}});
   const auto height_with = [&](const Eigen::Vector3d& point) {
-    estimate::CloudMap map(estimate::Area{-4, -4, 4, 4});
+    cloud::CloudMap map(cloud::Area{-4, -4, 4, 4});
     map.add(std::vector<Eigen::Vector3d>{{0, 0, 0.04}, point});
     return oracle_ground(map, plots, flat, {.extend_m = 0.5}).plots[0].heights_m;
   };
@@ -83,7 +83,7 @@ TEST(OracleGround, SeesTheBoxAndItsEndsOnly) {
 }
 
 TEST(OracleGround, APlotBesideTheTerrainHasNoHeight) {
-  estimate::CloudMap map(estimate::Area{-20, -20, 20, 20});
+  cloud::CloudMap map(cloud::Area{-20, -20, 20, 20});
   map.add(std::vector<Eigen::Vector3d>{{15, 0, 0.7}});
   const std::vector<TruePlot> plots = {
       {.id = 1, .box = {.center = {15, 0}, .width_m = 1, .length_m = 2, .heading_rad = 0}}};
