@@ -20,14 +20,12 @@ constexpr Range kLongitude = {-180, 180};
 constexpr Range kAltitude = {-1000, 10000};
 
 Anchor read_anchor(const YamlSection& section) {
-  section.allow_only({"latitude_deg", "longitude_deg", "altitude_m"});
   return {.latitude_deg = section.number("latitude_deg", kLatitude),
           .longitude_deg = section.number("longitude_deg", kLongitude),
           .altitude_m = section.number("altitude_m", kAltitude, 0.0)};
 }
 
 planting::LayoutDescription read_layout(const YamlSection& section) {
-  section.allow_only({"plants", "columns", "plots", "models"});
   planting::LayoutDescription layout;
   layout.plants = file_at(section, "plants");
   if (section.has("plots")) layout.plots = file_at(section, "plots");
@@ -59,7 +57,6 @@ void read_explicit_plants(const YamlSection& root, planting::FarmDescription& de
 planting::FarmDescription load_description(const std::filesystem::path& file,
                                            const std::vector<std::string>& overrides) {
   const YamlSection root = YamlSection::load(file, overrides);
-  root.allow_only({"name", "seed", "anchor", "terrain", "plots", "plants", "layout", "weeds"});
   planting::FarmDescription description;
   description.source = file;
   description.name = name_at(root, "name", file.stem().string());
@@ -73,6 +70,7 @@ planting::FarmDescription load_description(const std::filesystem::path& file,
     read_random_plants(root, description);
   }
   if (root.has("weeds")) description.weeds = read_weeds(root.section("weeds"), description.models);
+  root.refuse_unread();
   return description;
 }
 

@@ -36,7 +36,6 @@ std::map<std::string, float> read_crop_reflectance(const YamlSection& section,
 }
 
 planting::ModelDescription read_mesh_model(const YamlSection& section) {
-  section.allow_only({"mesh", "name", "up", "unit_m", "foot", "light", "reflectance"});
   planting::ModelDescription model;
   model.mesh = file_at(section, "mesh");
   model.name = name_at(section, "name", model.mesh.stem().string());
@@ -58,7 +57,6 @@ planting::GrownPlant read_grown_plant(const YamlSection& section) {
   if (section.has("seed")) plant.seed = section.unsigned_integer("seed");
   if (!section.has("set")) return plant;
   for (const YamlSection& entry : section.list("set", kMostAssignments, "assignment")) {
-    entry.allow_only({"assignment"});
     plant.assignments.push_back(entry.text("assignment"));
   }
   return plant;
@@ -66,7 +64,6 @@ planting::GrownPlant read_grown_plant(const YamlSection& section) {
 
 // One plant, or as many variants of it, each of the next seed.
 std::vector<planting::ModelDescription> read_grown_models(const YamlSection& section) {
-  section.allow_only({"crop", "stage", "seed", "set", "name", "variants", "reflectance"});
   const planting::GrownPlant first = read_grown_plant(section);
   const std::map<std::string, float> reflectance = read_crop_reflectance(section, first.crop);
   const std::int64_t variants = section.integer("variants", 1, kMostVariants, 1);

@@ -30,9 +30,6 @@ constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::uint64_t kMostPlants = 10'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
 constexpr std::size_t kMostPlots = 100'000;
-const std::vector<std::string> kCultivarKeys = {"models",     "count",    "density_m2", "pattern",
-                                                "drill_rows", "jitter_m", "scale",      "height_m",
-                                                "missing",    "lodging",  "yaw"};
 
 // A cultivar's section; what it does not say, `plants` says.
 class Inherited {
@@ -40,9 +37,14 @@ class Inherited {
   Inherited(const YamlSection& own, const YamlSection& plants) : own_(own), plants_(plants) {}
   // The section that has the key, the cultivar's own where neither has.
   const YamlSection& at(const std::string& key) const {
-    return !own_.has(key) && plants_.has(key) ? plants_ : own_;
+    return !has_own(key) && plants_.has(key) ? plants_ : own_;
   }
-  bool has(const std::string& key) const { return own_.has(key) || plants_.has(key); }
+  bool has(const std::string& key) const { return has_own(key) || plants_.has(key); }
+  // Whether the cultivar's own section has the key, which `plants` may have in any case.
+  bool has_own(const std::string& key) const {
+    plants_.has(key);
+    return own_.has(key);
+  }
   const YamlSection& own() const { return own_; }
 
  private:
@@ -52,9 +54,10 @@ class Inherited {
 
 std::uint32_t read_count(const Inherited& section, const planting::PlotGridDescription& grid) {
   const YamlSection& own = section.own();
-  const bool is_own = own.has("count") || own.has("density_m2");
+  const bool counts = section.has_own("count");
+  const bool is_dense = section.has_own("density_m2");
   const YamlSection& where =
-      is_own ? own : section.at(section.has("count") ? "count" : "density_m2");
+      counts || is_dense ? own : section.at(section.has("count") ? "count" : "density_m2");
   if (where.has("count") && where.has("density_m2")) {
     where.fail("density_m2", "is given beside count; give one of the two");
   }
@@ -77,14 +80,13 @@ void read_pattern(const Inherited& section, planting::CultivarDescription& culti
     cultivar.yaw_of_row = section.at("yaw").choice("yaw", {"random", "row"}, 0) == 1;
   }
   for (const char* key : {"drill_rows", "jitter_m", "yaw"}) {
-    if (cultivar.pattern == planting::PlantPattern::random && section.own().has(key)) {
+    if (section.has_own(key) && cultivar.pattern == planting::PlantPattern::random) {
       section.own().fail(key, "belongs to pattern: drilled; the pattern is random");
     }
   }
 }
 
 planting::HeightDescription read_height(const YamlSection& section) {
-  section.allow_only({"mean", "sd"});
   const planting::HeightDescription height{.mean_m = section.number("mean", kHeight),
                                            .sd_m = section.number("sd", kDeviation)};
   if (height.sd_m > 0.3 * height.mean_m) {
@@ -95,7 +97,6 @@ planting::HeightDescription read_height(const YamlSection& section) {
 
 planting::MissingDescription read_missing(const YamlSection& section,
                                           const planting::PlotGridDescription& grid) {
-  section.allow_only({"rate", "gaps_per_plot", "gap_length_m"});
   const planting::MissingDescription missing{
       .rate = section.number("rate", kShare, 0.0),
       .gaps_per_plot = section.number("gaps_per_plot", kGaps, 0.0),
@@ -110,7 +111,6 @@ planting::MissingDescription read_missing(const YamlSection& section,
 }
 
 planting::LodgingDescription read_lodging(const YamlSection& section) {
-  section.allow_only({"plots_rate", "angle_deg", "spread_deg", "direction_deg"});
   const auto [least, greatest] = section.pair("angle_deg", kLean);
   if (least > greatest) section.fail("angle_deg", "is not [min, max]: min is the larger");
   planting::LodgingDescription lodging{
@@ -144,17 +144,11 @@ planting::CultivarDescription read_cultivar(const Inherited& section,
   return cultivar;
 }
 
-std::vector<std::string> with(std::vector<std::string> keys, std::vector<std::string> more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
-
 void read_cultivars(const YamlSection& section, const planting::PlotGridDescription& grid,
                     planting::PlantsDescription& plants,
                     std::vector<planting::ModelDescription>& models) {
   std::size_t with_own_models = 0;
   for (const YamlSection& entry : section.list("cultivars", kMostCultivars)) {
-    entry.allow_only(with(kCultivarKeys, {"name"}));
     const std::string name = name_at(entry, "name");
     for (const planting::CultivarDescription& other : plants.cultivars) {
       if (other.name == name) entry.fail("name", "\"" + name + "\" is another cultivar's too");
@@ -170,7 +164,6 @@ void read_cultivars(const YamlSection& section, const planting::PlotGridDescript
 
 void read_list(const YamlSection& section, planting::PlantsDescription& plants) {
   for (const YamlSection& entry : section.list("list", kMostPlots, "cultivar")) {
-    entry.allow_only({"cultivar"});
     std::vector<std::string> names;
     for (const planting::CultivarDescription& cultivar : plants.cultivars)
       names.push_back(cultivar.name);
@@ -242,11 +235,9 @@ planting::PlantsDescription read_plants(const YamlSection& section,
                                         std::vector<planting::ModelDescription>& models) {
   planting::PlantsDescription plants;
   if (section.has("cultivars")) {
-    section.allow_only(with(kCultivarKeys, {"cultivars", "design", "block_by", "reps", "list"}));
     read_cultivars(section, grid, plants, models);
     read_trial(section, grid, plants);
   } else {
-    section.allow_only(with(kCultivarKeys, {"cultivars"}));
     plants.cultivars.push_back(read_cultivar({section, section}, grid, models));
     plants.trial.design = planting::TrialDesign::cycle;
   }

@@ -33,7 +33,6 @@ Eigen::Vector2d vector_at(const YamlSection& section, const std::string& key, Ra
 
 void read_rows(const YamlSection& section, planting::PlotGridDescription& grid) {
   for (const YamlSection& row : section.list("rows", kMostRows)) {
-    row.allow_only({"plots", "offset_m"});
     const auto plots = static_cast<std::uint32_t>(row.integer("plots", 1, kMostPlots));
     grid.rows.push_back({plots, row.number("offset_m", kPlace, 0.0)});
   }
@@ -48,7 +47,6 @@ void read_pitch(const YamlSection& section, planting::PlotGridDescription& grid)
     if (section.has(key)) section.fail("pitch", std::string("takes the place of ") + key);
   }
   const YamlSection pitch = section.section("pitch");
-  pitch.allow_only({"column_m", "row_m"});
   grid.pitch = {vector_at(pitch, "column_m", kPitch), vector_at(pitch, "row_m", kPitch)};
   const auto& [column, row] = *grid.pitch;
   const double across = column.x() * row.y() - column.y() * row.x();
@@ -60,7 +58,6 @@ void read_pitch(const YamlSection& section, planting::PlotGridDescription& grid)
 void read_alleys(const YamlSection& section, planting::PlotGridDescription& grid) {
   const std::int64_t rows = static_cast<std::int64_t>(grid.rows.size());
   for (const YamlSection& alley : section.list("alleys", kMostPlots)) {
-    alley.allow_only({"after_row", "after_column", "width_m"});
     if (alley.has("after_row") == alley.has("after_column")) {
       alley.fail("after_row", "or after_column has to be given, one of the two");
     }
@@ -81,7 +78,6 @@ void read_missing(const YamlSection& section, planting::PlotGridDescription& gri
   const std::int64_t last = first + static_cast<std::int64_t>(planting::plots_of(grid)) - 1;
   if (section.has("missing")) {
     for (const YamlSection& entry : section.list("missing", kMostPlots, "number")) {
-      entry.allow_only({"number"});
       grid.missing.push_back(static_cast<std::uint32_t>(entry.integer("number", first, last)));
     }
     std::sort(grid.missing.begin(), grid.missing.end());
@@ -127,9 +123,6 @@ void require_apart(const YamlSection& section, const planting::PlotGridDescripti
 }  // namespace
 
 planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
-  section.allow_only({"width_m", "length_m", "gap_width_m", "gap_length_m", "heading_deg",
-                      "skew_deg", "pitch", "position_m", "rows", "alleys", "numbering",
-                      "first_number", "missing", "missing_rate"});
   planting::PlotGridDescription grid;
   grid.width_m = section.number("width_m", kPlotSize);
   grid.length_m = section.number("length_m", kPlotSize);

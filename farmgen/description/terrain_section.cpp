@@ -32,15 +32,7 @@ double angle_at(const YamlSection& section, const std::string& key) {
   return section.number(key, kAngle, 0.0) * kRadians;
 }
 
-void allow_with_relief(const YamlSection& section, std::vector<std::string> keys) {
-  for (const char* key :
-       {"slope", "rolling", "furrows", "clods", "step_m", "detail_m", "reflectance"})
-    keys.emplace_back(key);
-  section.allow_only(keys);
-}
-
 terrain::HeightmapDescription read_heightmap(const YamlSection& section) {
-  allow_with_relief(section, {"heightmap", "side_m", "size_m", "height_m"});
   terrain::HeightmapDescription heightmap;
   heightmap.image = file_at(section, "heightmap");
   if (section.has("size_m")) {
@@ -58,7 +50,6 @@ terrain::HeightmapDescription read_heightmap(const YamlSection& section) {
 }
 
 terrain::XyzDescription read_xyz(const YamlSection& section) {
-  allow_with_relief(section, {"xyz", "keep_coordinates"});
   terrain::XyzDescription xyz;
   xyz.file = file_at(section, "xyz");
   xyz.keep_coordinates = section.choice("keep_coordinates", {"false", "true"}, 0) == 1;
@@ -66,7 +57,6 @@ terrain::XyzDescription read_xyz(const YamlSection& section) {
 }
 
 void read_random_square(const YamlSection& section, terrain::TerrainDescription& terrain) {
-  allow_with_relief(section, {"side_m", "vertices", "relief_m", "mesh", "heightmap", "xyz"});
   terrain.side_m = section.number("side_m", kSide);
   terrain.vertices =
       static_cast<std::uint32_t>(section.integer("vertices", 0, kMostVertices, terrain.vertices));
@@ -81,7 +71,6 @@ void read_base(const YamlSection& section, terrain::TerrainDescription& terrain)
     base = key;
   }
   if (base == "mesh") {
-    allow_with_relief(section, {"mesh", "up", "unit_m"});
     terrain.mesh = file_at(section, "mesh");
     terrain.mesh_options = read_mesh_options(section);
   } else if (base == "heightmap") {
@@ -94,13 +83,11 @@ void read_base(const YamlSection& section, terrain::TerrainDescription& terrain)
 }
 
 terrain::SlopeDescription read_slope(const YamlSection& section) {
-  section.allow_only({"percent", "direction_deg"});
   return {.gradient = section.number("percent", kPercent) / 100,
           .direction_rad = angle_at(section, "direction_deg")};
 }
 
 terrain::RollingDescription read_rolling(const YamlSection& section) {
-  section.allow_only({"rms_m", "wavelength_m"});
   const auto [shortest, longest] = section.pair("wavelength_m", kWavelength);
   if (shortest > longest)
     section.fail("wavelength_m", "is not [shortest, longest]: the first is the longer");
@@ -108,7 +95,6 @@ terrain::RollingDescription read_rolling(const YamlSection& section) {
 }
 
 terrain::FurrowsDescription read_furrows(const YamlSection& section) {
-  section.allow_only({"spacing_m", "depth_m", "heading_deg", "offset_m", "profile"});
   const bool trapezoid = section.choice("profile", {"sine", "trapezoid"}, 0) == 1;
   return {.spacing_m = section.number("spacing_m", kSpacing),
           .depth_m = section.number("depth_m", kDepth),
@@ -118,7 +104,6 @@ terrain::FurrowsDescription read_furrows(const YamlSection& section) {
 }
 
 terrain::ClodsDescription read_clods(const YamlSection& section) {
-  section.allow_only({"height_m", "size_m"});
   return {.height_m = section.number("height_m", kClodHeight),
           .size_m = section.number("size_m", kClodSize)};
 }

@@ -18,7 +18,6 @@ constexpr Range kMargin = {0, 1000};
 
 planting::WeedsDescription read_weeds(const YamlSection& section,
                                       std::vector<planting::ModelDescription>& models) {
-  section.allow_only({"per_m2", "where", "margin_m", "models", "scale"});
   planting::WeedsDescription weeds;
   weeds.per_m2 = section.number("per_m2", kDensity);
   weeds.where = static_cast<planting::WeedPlace>(

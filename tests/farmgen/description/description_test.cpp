@@ -128,12 +128,15 @@ INSTANTIATE_TEST_SUITE_P(
     Description, MistakenDescription,
     ::testing::Values(
         Mistake{"UnknownKey", "  vertices: 12\n", "  vertexes: 12\n",
-                "5: terrain.vertexes is not a known key; known here are side_m, vertices, "
-                "relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, detail_m, "
+                "5: terrain.vertexes is not a known key; known here are mesh, heightmap, xyz, "
+                "side_m, vertices, relief_m, slope, rolling, furrows, clods, step_m, detail_m, "
                 "reflectance"},
-        Mistake{"UnknownSection", "terrain:", "ground:",
-                "3: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
-                "plants, layout, weeds"},
+        Mistake{"UnknownSection", "plots:", "ground: 3\nplots:",
+                "7: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
+                "layout, plants, weeds"},
+        Mistake{"MisspeltSection",
+                "terrain:", "terain:", "3: terain is not a known key, and terrain is missing"},
+        Mistake{"MissingSection", "terrain:", "ground:", "1: terrain is missing"},
         Mistake{"KeyTwice", "  vertices: 12\n", "  side_m: 31\n",
                 "5: terrain.side_m is given twice"},
         Mistake{"WrongType", "side_m: 30", "side_m: wide",
@@ -234,8 +237,8 @@ TEST(Description, MistakesInOverridesNameTheOverride) {
   EXPECT_EQ(message("terrain.relief_m=-1"),
             "--set terrain.relief_m=-1: terrain.relief_m -1 is not in [0, 1000]");
   EXPECT_EQ(message("terrain.relief=1"),
-            "--set terrain.relief=1: terrain.relief is not a known key; known here are side_m, "
-            "vertices, relief_m, mesh, heightmap, xyz, slope, rolling, furrows, clods, step_m, "
+            "--set terrain.relief=1: terrain.relief is not a known key; known here are mesh, "
+            "heightmap, xyz, side_m, vertices, relief_m, slope, rolling, furrows, clods, step_m, "
             "detail_m, reflectance");
   EXPECT_EQ(message("plots.rows.2.plots=1"),
             "--set plots.rows.2.plots=1: \"2\" is not an index of a list of 2 entries (from 0)");

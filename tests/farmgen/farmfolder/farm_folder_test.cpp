@@ -292,7 +292,7 @@ TEST(FarmFolder, KeepsReflectancesAndMasks) {
   }
 }
 
-TEST(planting::FarmDescription, ReflectancesThatCannotBeAreRefused) {
+TEST(FarmDescription, ReflectancesThatCannotBeAreRefused) {
   const TemporaryFolder folder;
   folder.write("m.mtl", "newmtl leaf\n");
   folder.write("m.obj", "mtllib m.mtl\nusemtl leaf\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");

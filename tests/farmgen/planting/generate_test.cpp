@@ -283,7 +283,7 @@ TEST(Generate, PlotHeightsAreOverTheirOwnPlants) {
   }
 }
 
-TEST(farm::PlotHeights, Hand3IsTheMeanOfThreeDifferentPlants) {
+TEST(PlotHeights, Hand3IsTheMeanOfThreeDifferentPlants) {
   // Powers of ten show which plants were taken.
   std::vector<double> heights(8);
   for (int i = 0; i < 8; ++i) heights[i] = std::pow(10.0, i);

@@ -5,7 +5,7 @@
 #include "description/load_description.h"
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
-#include "farmgen/farm/example_farm.h"
+#include "farmgen/example_farm.h"
 #include "planting/generate.h"
 #include "simulated.h"
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using testing::TemporaryFolder;
 // Five plots and weeds in and between them, as read back from its folder.
 farm::Farm farm_with_weeds(const TemporaryFolder& folder) {
   const auto description =
-      folder.write("weedy.yaml", farm::example_description() +
+      folder.write("weedy.yaml", testing::example_description() +
                                      "weeds: {per_m2: 2, models: [{crop: wheat, name: weed}]}\n");
   farmfolder::write_farm(planting::generate(description::load_description(description), 3),
                          folder.path() / "farm", false, {.command = "farmgen generate"});
