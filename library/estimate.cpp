@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plotscan/estimate.h"
 
-#include <numbers>
-
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
 #include "boundary/values.h"
@@ -19,12 +17,12 @@ namespace {
 
 methods::lattice::Options inner(const EstimateOptions& options) {
   methods::lattice::Options made{.crop_box = options.crop_box};
-  if (options.heading_deg) made.hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
-  made.hints.width_m = options.plot_width_m;
-  made.hints.length_m = options.plot_length_m;
-  made.hints.rows = options.rows;
-  made.hints.columns = options.columns;
-  made.hints.plots = options.plots;
+  made.heading_deg = options.heading_deg;
+  made.plot_width_m = options.plot_width_m;
+  made.plot_length_m = options.plot_length_m;
+  made.rows = options.rows;
+  made.columns = options.columns;
+  made.plots = options.plots;
   for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
   made.noise_m = options.noise_m;
   made.calibrated = options.calibrated;

@@ -139,7 +139,7 @@ json value_of(const OGRFeature& feature, int field) {
     case OFTDate:
       return date_of(feature, field);
     default:
-      return cloud::text_of(feature, field);
+      return text_of(feature, field);
   }
 }
 

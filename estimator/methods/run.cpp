@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 
 #include "cloud/field_density.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
 
 #include "core/error.h"
 #include "core/manifest.h"
@@ -25,38 +26,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegrees = std::numbers::pi / 180;
-
 template <class Value>
 json to_json(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
-}
-
-json options_json(const lattice::Options& options) {
-  const std::optional<double>& heading = options.hints.heading_rad;
-  return {{"heading_deg", heading ? json(*heading / kDegrees) : json(nullptr)},
-          {"plot_width_m", to_json(options.hints.width_m)},
-          {"plot_length_m", to_json(options.hints.length_m)},
-          {"rows", to_json(options.hints.rows)},
-          {"columns", to_json(options.hints.columns)},
-          {"plots", to_json(options.hints.plots)},
-          {"crop", to_json(options.crop)},
-          {"noise_m", to_json(options.noise_m)},
-          {"ground_classes", options.ground_classes},
-          {"calibrated", options.calibrated}};
-}
-
-json options_json(const dhami2020::Options& options) {
-  return {{"plots", options.plots},
-          {"learn_box", to_json(options.learn_box)},
-          {"level", options.level},
-          {"voxel_m", options.voxel_m},
-          {"min_height_m", options.min_height_m},
-          {"orientation_bin_rad", options.orientation_bin_rad},
-          {"width_bin_m", options.width_bin_m},
-          {"length_bin_m", options.length_bin_m},
-          {"extend_m", options.extend_m},
-          {"plane_tolerance_m", options.plane_tolerance_m}};
 }
 
 json options_json(const estimate::NumberingOptions& options) {
@@ -80,8 +52,9 @@ json options_json(const RecordingOptions& options) {
 }
 
 json options_json(const RunOptions& options) {
-  json document =
-      options.method == "lattice" ? options_json(options.lattice) : options_json(options.dhami2020);
+  json document = options.method == "lattice"
+                      ? settings_json(lattice::settings(), options.lattice)
+                      : settings_json(dhami2020::settings(), options.dhami2020);
   document["method"] = options.method;
   document["crop_box"] = to_json(options.crop_box);
   const CloudFiles& cloud = options.cloud;

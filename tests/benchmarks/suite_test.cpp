@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "farmbench/methods.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -40,12 +41,26 @@ std::string with(const std::string& line, const std::string& other) {
   return text.replace(text.find(line), line.size(), other);
 }
 
+TEST(LoadSuite, AMethodHasSettingsOfItsOwn) {
+  const TemporaryFolder folder;
+  const Suite suite = load_suite(
+      folder.write("s.yaml", with("[oracle-ground]",
+                                  "[lattice, lattice: {noise_m: 0.02, calibrated: false}, "
+                                  "dhami2020 true-boxes: {voxel_m: 0.1}]")));
+  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice calibrated=false noise_m=0.02",
+                                         "dhami2020 true-boxes voxel_m=0.1"));
+  EXPECT_EQ(method_named(suite.methods[1]).heights.front().row,
+            "lattice/max calibrated=false noise_m=0.02");
+  EXPECT_EQ(method_named(suite.methods[2]).heights.front().row,
+            "dhami2020/voxel-max true-boxes voxel_m=0.1");
+}
+
 TEST(LoadSuite, ThePapersProtocol) {
   const Suite suite = load_suite(kSuites / "paper.yaml");
   EXPECT_EQ(suite.name, "paper");
   EXPECT_THAT(suite.seeds, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
   ASSERT_EQ(suite.cases.size(), 3U);
-  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice uncalibrated", "dhami2020",
+  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice calibrated=false", "dhami2020",
                                          "dhami2020 true-boxes", "oracle-ground", "one-number"));
   const double relief_m[] = {0, 0.5, 1};
   const double published_cm[] = {4.8, 6.1, 16.0};
@@ -172,7 +187,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{with("[4]", "[4, 4]"), ":4: seeds name 4 twice"},
         BadSuite{with("[4]", "{first: 1, count: 0}"), ":4: seeds.count 0 is not in [1, 10000]"},
         BadSuite{with("[4]", "4"), ":4: seeds is not a map"},
-        BadSuite{with("[oracle-ground]", "[magic]"), ":5: methods.0.name \"magic\" is not one of"},
+        BadSuite{with("[oracle-ground]", "[magic]"),
+                 ":5: methods do not hold: there is no method \"magic\"; there are lattice, "},
+        BadSuite{with("[oracle-ground]", "[lattice: {calibrated: maybe}]"),
+                 ":5: methods do not hold: calibrated \"maybe\" must be one of true, false"},
+        BadSuite{with("[oracle-ground]", "[lattice: {heading_deg: 400}]"),
+                 ":5: methods do not hold: heading_deg 400 must be in [-360, 360]"},
+        BadSuite{with("[oracle-ground]", "[lattice: {voxel_m: 1}]"),
+                 ":5: methods do not hold: \"voxel_m=1\" is not one of heading_deg, plot_width_m"},
+        BadSuite{with("[oracle-ground]", "[oracle-ground: {voxel_m: 1}]"),
+                 ":5: methods do not hold: there is no method \"oracle-ground voxel_m=1\""},
+        BadSuite{with("[oracle-ground]", "[{lattice: {rows: 2}, dhami2020: {}}]"),
+                 ":5: methods.0 has to be a method's name, or name: {key: value}"},
         BadSuite{with("[oracle-ground]", "[oracle-ground, oracle-ground]"), ":5: methods name"},
         BadSuite{with("name: mine", "name: a/b"), ":1: name \"a/b\" is not a name"},
         BadSuite{with("name: mine\n", ""), ":1: name is missing"},

@@ -7,18 +7,20 @@
 #include <numbers>
 #include <string>
 
+#include "cloud/surroundings.h"
 #include "methods/dhami2020/ground_level.h"
 #include "methods/dhami2020/k_means.h"
 #include "methods/dhami2020/lattice.h"
 #include "methods/dhami2020/oriented_box.h"
 #include "methods/dhami2020/plot_grid.h"
 #include "methods/dhami2020/plot_heights.h"
+#include "methods/dhami2020/settings.h"
 #include "methods/dhami2020/voting.h"
 #include "methods/dhami2020/voxel_filter.h"
-#include "methods/given_boxes.h"
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "estimate/given_plots.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
@@ -154,12 +156,6 @@ std::vector<estimate::PlotEstimate> find_plots(const cloud::CloudMap& map, const
   return plots;
 }
 
-void require_range(double value, double low, double high, const std::string& name) {
-  if (value >= low && value <= high) return;
-  throw InputError(name + " is " + format_number(value) + "; it is " + format_number(low) + " to " +
-                   format_number(high));
-}
-
 bool holds(const cloud::Area& outer, const cloud::Area& inner) {
   return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] &&
          inner[3] <= outer[3];
@@ -183,13 +179,7 @@ void require_sound(const Options& options) {
   if (options.learn_box && options.crop_box && !holds(*options.crop_box, *options.learn_box)) {
     throw InputError("the learn box reaches out of the crop box");
   }
-  require_range(options.voxel_m, 0.005, 1, "the voxel's edge in metres");
-  require_range(options.min_height_m, 0, 10, "the minimum height in metres");
-  require_range(options.orientation_bin_rad, 0.001, 1.5, "the orientation's bin in radians");
-  require_range(options.width_bin_m, 0.001, 100, "the width's bin in metres");
-  require_range(options.length_bin_m, 0.001, 100, "the length's bin in metres");
-  require_range(options.extend_m, 0, 10, "the boxes' extension in metres");
-  require_range(options.plane_tolerance_m, 0.001, 1, "the ground plane's tolerance in metres");
+  require_settings(settings(), options);
   require_count(options.threads, kMostThreads, "the number of threads");
 }
 
@@ -206,7 +196,7 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
   if (progress) progress(0.6);
   estimate.plots = options.boxes.empty()
                        ? find_plots(map, voxels, options, estimate.diagnostics)  // IV-B
-                       : given_plots(options.boxes, map.origin());
+                       : estimate::given_plots(options.boxes, map.origin());
   if (progress) progress(0.8);
   measure_heights(estimate.plots, map.points(), voxels, options);  // IV-C
   for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
@@ -218,7 +208,7 @@ estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& option
                                   const ProgressReport& progress) {
   require_sound(options);
   std::optional<cloud::Area> area = options.crop_box;
-  if (!area && !options.boxes.empty()) area = surroundings(options.boxes, options.extend_m);
+  if (!area && !options.boxes.empty()) area = cloud::surroundings(options.boxes, options.extend_m);
   return estimate_plots(cloud::read_map(cloud, area, progress), options, progress);
 }
 

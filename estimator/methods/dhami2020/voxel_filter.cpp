@@ -63,7 +63,7 @@ class VoxelGrid {
   }
 
   Voxel& voxel_of(const Eigen::Array3d& cell) {
-    const std::uint64_t key = cloud::key_of(cell);
+    const std::uint64_t key = key_of(cell);
     std::size_t slot = first_slot(key);
     while (slots_[slot] != kFree) {
       if (voxels_[slots_[slot]].key == key) return voxels_[slots_[slot]];

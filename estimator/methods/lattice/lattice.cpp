@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
 #include "cloud/field_density.h"
 #include "cloud/point_account.h"
 #include "cloud/points_in_boxes.h"
-#include "methods/given_boxes.h"
+#include "cloud/surroundings.h"
 #include "methods/lattice/field_report.h"
+#include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -19,8 +21,10 @@
 #include "core/error.h"
 #include "core/stage.h"
 #include "core/text.h"
+#include "estimate/given_plots.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
+#include "plots/find_plots.h"
 
 namespace plotscan::methods::lattice {
 namespace {
@@ -29,7 +33,6 @@ using Points = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
 constexpr int kMostThreads = 1024;
-constexpr int kMostPlots = 100000;
 constexpr double kGroundAround_m = 4;  // read around given boxes, to see the ground beside them
 
 void report(const ProgressReport& progress, double share) {
@@ -84,11 +87,21 @@ Points above_ground(Points points, const ground::Surface& surface, int threads) 
   return points;
 }
 
+plots::Hints hints_of(const Options& options) {
+  plots::Hints hints{.width_m = options.plot_width_m,
+                     .length_m = options.plot_length_m,
+                     .rows = options.rows,
+                     .columns = options.columns,
+                     .plots = options.plots};
+  if (options.heading_deg) hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  return hints;
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              double noise_m, const Options& options,
                                              json& diagnostics) {
-  if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
+  if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
   const std::string too_few = formatted(
       "too few points to show plots: about %.0f a square metre are needed", cloud::kPlotsFound_m2);
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
@@ -103,7 +116,7 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
   }
   Stage stage("plots");
   const plots::PlotField field =
-      plots::find_plots(heights, noise_m, options.hints, options.threads);
+      plots::find_plots(heights, noise_m, hints_of(options), options.threads);
   stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics["field"] = json_of(field);
   if (!field.nothing.empty())
@@ -180,38 +193,17 @@ ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
   return surface;
 }
 
-void require_known(const std::optional<std::string>& crop) {
-  const std::vector<std::string>& crops = heights::crop_names();
-  if (!crop || std::ranges::find(crops, *crop) != crops.end()) return;
-  throw InputError("there is no crop \"" + *crop + "\"; there is " + joined(crops, ", "));
-}
-
-void require_between(const std::optional<double>& value, double low, double high,
-                     const std::string& name) {
-  if (!value || (*value >= low && *value <= high)) return;
-  throw InputError(name + " is " + format_number(*value) + "; it is " + format_number(low) +
-                   " to " + format_number(high));
-}
-
 }  // namespace
 
 void require_sound(const Options& options) {
   if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
-  require_between(options.hints.width_m, 0.1, 100, "the plots' width in metres");
-  require_between(options.hints.length_m, 0.1, 100, "the plots' length in metres");
-  require_between(options.hints.rows, 1, kMostPlots, "the number of rows");
-  require_between(options.hints.columns, 1, kMostPlots, "the number of columns");
-  require_between(options.hints.plots, 1, kMostPlots, "the number of plots");
-  require_between(options.noise_m, 0, 0.5, "the noise's sigma in metres");
-  for (const int number : options.ground_classes)
-    require_between(number, 0, 255, "a class of the ground");
-  require_known(options.crop);
-  require_between(options.threads, 1, kMostThreads, "the number of threads");
+  require_settings(settings(), options);
+  require_in_range("threads", options.threads, {1, kMostThreads});
 }
 
 std::optional<cloud::Area> area_to_read(const Options& options) {
   if (options.crop_box || options.boxes.empty()) return options.crop_box;
-  const cloud::Area boxes = surroundings(options.boxes, 0);
+  const cloud::Area boxes = cloud::surroundings(options.boxes, 0);
   return cloud::Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m,
                      boxes[2] + kGroundAround_m, boxes[3] + kGroundAround_m};
 }

@@ -13,14 +13,18 @@
 #include "core/plot_box.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"
-#include "plots/find_plots.h"
 
 namespace plotscan::methods::lattice {
 
-// What may be told to the lattice method; it needs none of it.
+// What may be told to the lattice method; it needs none of it. Ranges: settings.cpp.
 struct Options {
   std::optional<cloud::Area> crop_box = {};  // use only the points in here
-  plots::Hints hints = {};                   // of the plots' heading, size and number
+  std::optional<double> heading_deg = {};    // of the plots' length, counter-clockwise from x
+  std::optional<double> plot_width_m = {};   // of every plot
+  std::optional<double> plot_length_m = {};  // of every plot
+  std::optional<int> rows = {};              // of plots; they follow each other along the length
+  std::optional<int> columns = {};           // of plots; along the width
+  std::optional<int> plots = {};             // how many there are
   std::vector<PlotBox> boxes = {};           // given boxes: no detection, heights only
   std::optional<double> noise_m = {};        // sigma of the points' heights, else estimated
   bool calibrated = true;                    // plants' heights from the canopy's (docs/methods.md)

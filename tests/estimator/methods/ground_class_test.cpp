@@ -87,7 +87,7 @@ TEST_F(GroundClass, WhatACloudHasNotIsRefused) {
   EXPECT_THAT(message_of<InputError>([&] { run(options_); }), HasSubstr("plain.xyz"));
   options_.lattice.ground_classes = {300};
   EXPECT_THAT(message_of<InputError>([&] { run(options_); }),
-              HasSubstr("a class of the ground is 300; it is 0 to 255"));
+              HasSubstr("ground_classes 300 must be in [0, 255]"));
 }
 
 }  // namespace

@@ -201,10 +201,11 @@ TEST(Dhami2020, RefusesBadOptions) {
   };
   EXPECT_THAT(message({.plots = 0}), HasSubstr("number of plots is 0; it is 1 to 100000"));
   EXPECT_THAT(message({.plots = 100001}), HasSubstr("number of plots"));
-  EXPECT_THAT(message({.plots = 2, .voxel_m = 0}), HasSubstr("voxel"));
-  EXPECT_THAT(message({.plots = 2, .min_height_m = -1}), HasSubstr("minimum height"));
-  EXPECT_THAT(message({.plots = 2, .extend_m = -1}), HasSubstr("extension"));
-  EXPECT_THAT(message({.plots = 2, .plane_tolerance_m = std::nan("")}), HasSubstr("tolerance"));
+  EXPECT_THAT(message({.plots = 2, .voxel_m = 0}), HasSubstr("voxel_m 0 must be in [0.005, 1]"));
+  EXPECT_THAT(message({.plots = 2, .min_height_m = -1}), HasSubstr("min_height_m -1"));
+  EXPECT_THAT(message({.plots = 2, .extend_m = -1}), HasSubstr("extend_m"));
+  EXPECT_THAT(message({.plots = 2, .plane_tolerance_m = std::nan("")}),
+              HasSubstr("plane_tolerance_m nan"));
   EXPECT_THAT(message({.plots = 2, .crop_box = cloud::Area{3, 0, 1, 1}}), HasSubstr("crop box"));
   EXPECT_THAT(message({.plots = 2, .learn_box = cloud::Area{500, 500, 501, 501}}),
               HasSubstr("only 0"));
