@@ -45,8 +45,7 @@ const std::vector<MethodSetting<Options>>& settings() {
                               [](Options& o) -> std::optional<int>& { return o.columns; }}},
       {.key = "plots",
        .flag = "--plots",
-       .help =
-           "how many plots lie in the field, or in --learn-box (dhami2020 needs it)",
+       .help = "how many plots lie in the field, or in --learn-box (dhami2020 needs it)",
        .value = OptionalWhole{{1, kMostPlots},
                               [](Options& o) -> std::optional<int>& { return o.plots; }},
        .searches = true},
@@ -57,8 +56,7 @@ const std::vector<MethodSetting<Options>>& settings() {
                              [](Options& o) -> std::optional<std::string>& { return o.crop; }}},
       {.key = "noise_m",
        .flag = "--noise",
-       .help =
-           "sigma of the points' heights (metres; default: estimated from bare ground)",
+       .help = "sigma of the points' heights (metres; default: estimated from bare ground)",
        .value = Optional{{0, 0.5}, [](Options& o) -> std::optional<double>& { return o.noise_m; }}},
       {.key = "ground_classes",
        .flag = "--ground-class",
