@@ -36,14 +36,14 @@ void say_system(const Program& program, const scan::CloudSystem& system) {
   for (const std::string& note : system.notes) program.say("note       " + note);
 }
 
-void say_density(const Program& program, const estimate::FieldDensity& density) {
-  const estimate::Area& field = density.field;
+void say_density(const Program& program, const cloud::FieldDensity& density) {
+  const cloud::Area& field = density.field;
   program.say(formatted("field      %.0f x %.0f m around, %.2f ha scanned densely",
                         field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
   program.say(
       formatted("density    %s points/m2 (median), %s in the thinnest 5 %%, in squares of %d m",
-                estimate::density_text(density.median).c_str(),
-                estimate::density_text(density.least5).c_str(), density.square_m));
+                cloud::density_text(density.median).c_str(),
+                cloud::density_text(density.least5).c_str(), density.square_m));
 }
 
 // "1 62.5 %, 2 37.5 %"

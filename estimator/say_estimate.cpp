@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "cloud/field_density.h"
+#include "cloud/point_account.h"
+
 #include "core/geodesy.h"
 #include "core/text.h"
-#include "estimate/field_density.h"
-#include "estimate/point_account.h"
 
 namespace plotscan {
 namespace {
@@ -90,14 +91,13 @@ void say_named(const Program& program, const estimate::Estimate& estimate) {
 void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
   for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
     program.say("note       " + note.get<std::string>());
-  program.say("points     " + estimate::point_account(diagnostics));
+  program.say("points     " + cloud::point_account(diagnostics));
   const auto& area = diagnostics["area_m"];
   const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
   program.say(formatted("field      x %.1f to %.1f, y %.1f to %.1f (%s)", side(0), side(2), side(1),
                         side(3), unit_name(unit_m).c_str()));
   if (diagnostics.contains("density_per_m2")) {
-    program.say("density    " +
-                estimate::density_text(diagnostics["density_per_m2"].get<double>()) +
+    program.say("density    " + cloud::density_text(diagnostics["density_per_m2"].get<double>()) +
                 " points/m2 (median)");
   }
   if (diagnostics.contains("ground")) {

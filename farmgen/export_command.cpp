@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include "farmfolder/read_farm.h"
+
 #include "core/text.h"
 #include "gazebo/export_world.h"
 
@@ -58,7 +60,7 @@ Manifest manifest_of(const ExportArguments& arguments) {
 void run_export(const Program& program, const ExportArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const gazebo::ExportSummary summary =
-      gazebo::export_world(farm::read_farm(arguments.farm), arguments.farm, arguments.output,
+      gazebo::export_world(farmfolder::read_farm(arguments.farm), arguments.farm, arguments.output,
                            {.gazebo = kGazebos.at(arguments.gazebo),
                             .merge = kMerges.at(arguments.merge),
                             .lod = kDetails.at(arguments.lod),

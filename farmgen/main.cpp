@@ -5,15 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "description/load_description.h"
 #include "export_command.h"
+#include "farmfolder/read_farm.h"
 #include "plant_command.h"
+#include "planting/generate.h"
 
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
-#include "farm/description.h"
-#include "farm/generate.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
 #include "lidar/make_farm.h"
@@ -124,11 +125,11 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
 }
 
 farm::Farm generate_from(const Program& program, const Arguments& arguments) {
-  const farm::FarmDescription description =
-      farm::load_description(found_file(arguments.input, "worlds"), arguments.assignments);
+  const planting::FarmDescription description =
+      description::load_description(found_file(arguments.input, "worlds"), arguments.assignments);
   const CommonOptions& common = program.common();
-  return farm::generate(description,
-                        common.seed_given ? common.seed : description.seed.value_or(common.seed));
+  return planting::generate(
+      description, common.seed_given ? common.seed : description.seed.value_or(common.seed));
 }
 
 void say_notes(const Program& program, const farm::Farm& made) {
@@ -161,7 +162,7 @@ void run_generate(const Program& program, const Arguments& arguments) {
 }
 
 void run_info(const Program& program, const Arguments& arguments) {
-  const farm::Farm read = farm::read_farm(arguments.input);
+  const farm::Farm read = farmfolder::read_farm(arguments.input);
   const farm::FarmSummary summary = farm::summarise(read);
   program.result(json_of(read, summary));
   say_summary(program, read, summary);

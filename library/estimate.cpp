@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plotscan/estimate.h"
 
-#include <numbers>
-
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
 #include "boundary/values.h"
+#include "cloud/field_cloud.h"
+#include "cloud/tile_store.h"
+#include "methods/lattice/lattice.h"
+#include "methods/run.h"
 
 #include "core/coordinate_units.h"
 #include "core/error.h"
-#include "estimate/field_cloud.h"
-#include "estimate/lattice/lattice.h"
-#include "estimate/run.h"
-#include "estimate/tile_store.h"
 
 namespace plotscan {
 namespace {
 
-estimate::LatticeOptions inner(const EstimateOptions& options) {
-  estimate::LatticeOptions made{.crop_box = options.crop_box};
-  if (options.heading_deg) made.hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
-  made.hints.width_m = options.plot_width_m;
-  made.hints.length_m = options.plot_length_m;
-  made.hints.rows = options.rows;
-  made.hints.columns = options.columns;
-  made.hints.plots = options.plots;
+methods::lattice::Options inner(const EstimateOptions& options) {
+  methods::lattice::Options made{.crop_box = options.crop_box};
+  made.heading_deg = options.heading_deg;
+  made.plot_width_m = options.plot_width_m;
+  made.plot_length_m = options.plot_length_m;
+  made.rows = options.rows;
+  made.columns = options.columns;
+  made.plots = options.plots;
   for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
   made.noise_m = options.noise_m;
   made.calibrated = options.calibrated;
@@ -34,7 +32,7 @@ estimate::LatticeOptions inner(const EstimateOptions& options) {
 }
 
 // Hands the finite points on, piece by piece; returns how many were not.
-std::size_t feed(const PointsView& points, estimate::TileStore& store) {
+std::size_t feed(const PointsView& points, cloud::TileStore& store) {
   constexpr std::size_t kPiece = 1 << 16;
   std::vector<Eigen::Vector3d> piece;
   piece.reserve(kPiece);
@@ -52,24 +50,24 @@ std::size_t feed(const PointsView& points, estimate::TileStore& store) {
   return not_finite;
 }
 
-estimate::FieldCloud field_of(const PointsView& points, const estimate::LatticeOptions& options,
-                              const Progress& progress) {
-  const estimate::FieldOptions field_options{.area = area_to_read(options),
-                                             .threads = options.threads};
-  estimate::TileStore store(
+cloud::FieldCloud field_of(const PointsView& points, const methods::lattice::Options& options,
+                           const Progress& progress) {
+  const cloud::FieldOptions field_options{.area = area_to_read(options),
+                                          .threads = options.threads};
+  cloud::TileStore store(
       {.points_per_cell = field_options.points_per_cell, .threads = options.threads});
   const std::size_t not_finite = feed(points, store);
   if (not_finite == points.size()) throw InputError("the cloud has no point that is finite");
   if (progress) progress(0.1);
-  estimate::FieldCloud field = take_field(store, field_options, "the cloud");
+  cloud::FieldCloud field = take_field(store, field_options, "the cloud");
   field.counts.read += not_finite;
   field.counts.not_finite = not_finite;
   if (progress) progress(0.2);
   return field;
 }
 
-estimate::RunOptions inner(const EstimateFilesOptions& options) {
-  estimate::RunOptions run;
+methods::RunOptions inner(const EstimateFilesOptions& options) {
+  methods::RunOptions run;
   run.method = options.method;
   run.boxes = options.boxes;
   if (const auto unit_m = unit_named(options.units.value_or("")))
@@ -93,9 +91,10 @@ estimate::RunOptions inner(const EstimateFilesOptions& options) {
 FieldEstimate estimate_field(const PointsView& points, const EstimateOptions& options,
                              const Progress& progress) {
   return boundary::guarded([&] {
-    const estimate::LatticeOptions method = inner(options);
+    const methods::lattice::Options method = inner(options);
     require_sound(method);
-    return boundary::outer(lattice(field_of(points, method, progress), method, progress));
+    return boundary::outer(
+        methods::lattice::estimate_plots(field_of(points, method, progress), method, progress));
   });
 }
 
@@ -103,10 +102,10 @@ FieldEstimate estimate_files(const std::vector<std::filesystem::path>& clouds,
                              const std::filesystem::path& folder,
                              const EstimateFilesOptions& options, const Progress& progress) {
   return boundary::guarded([&] {
-    estimate::RunOptions run = inner(options);
+    methods::RunOptions run = inner(options);
     run.cloud.files = clouds;
     run.output = folder;
-    return boundary::outer(estimate::run(run, progress));
+    return boundary::outer(methods::run(run, progress));
   });
 }
 

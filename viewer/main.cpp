@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "farmfolder/read_farm.h"
+
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/program.h"
@@ -29,7 +31,7 @@ fs::path file_or_inside(const fs::path& path, const char* name) {
 }
 
 void draw(const plotscan::Program& program, const PictureArguments& arguments) {
-  const plotscan::farm::Farm farm = plotscan::farm::read_farm(arguments.farm);
+  const plotscan::farm::Farm farm = plotscan::farmfolder::read_farm(arguments.farm);
   std::vector<plotscan::PlotBox> boxes;
   if (arguments.plots) {
     for (const auto& plot :

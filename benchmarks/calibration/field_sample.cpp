@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "calibration/canopy_truth.h"
+#include "description/load_description.h"
+#include "planting/generate.h"
 
 #include "core/random.h"
 #include "core/statistics.h"
 #include "core/temporary_path.h"
-#include "farm/description.h"
-#include "farm/generate.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::calibration {
@@ -103,7 +103,7 @@ PlotBox found_box(const PlotBox& box, std::uint64_t seed, std::size_t number) {
 FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base_farm,
                          GroundSource source, const std::filesystem::path& work, int threads) {
   const farm::Farm farm =
-      farm::generate(farm::load_description(base_farm, plan.overrides), plan.seed);
+      planting::generate(description::load_description(base_farm, plan.overrides), plan.seed);
   const TemporaryPath scan(work / ("scan-" + std::to_string(plan.seed)));
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;

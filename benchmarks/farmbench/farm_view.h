@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "cloud/cloud_map.h"
+#include "terrain/terrain.h"
 #include <nlohmann/json.hpp>
 
-#include "estimate/cloud_map.h"
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "farmbench/farm_result.h"
 #include "farmbench/suite.h"
 #include "score/score.h"
@@ -22,11 +22,11 @@ namespace plotscan::farmbench {
 
 struct FarmView {
   std::filesystem::path scan;  // folder, or the cloud where only that was given to the methods
-  estimate::Area area;         // of which points are shown
+  cloud::Area area;            // of which points are shown
   std::size_t points = 1;      // at most
   const estimate::Estimate& estimate;
   const std::vector<score::TruePlot>& truth;
-  const farm::Terrain& terrain;
+  const terrain::Terrain& terrain;
   const FarmResult& result;  // whose case, seed and counts are told
 };
 

@@ -3,50 +3,27 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
+#include <string_view>
+
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
 
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
-#include "estimate/dhami2020/dhami2020.h"
-#include "estimate/lattice/lattice.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 
 namespace plotscan::farmbench {
 namespace {
 
+constexpr std::string_view kTrueBoxes = " true-boxes";
+
 std::vector<PlotBox> true_boxes(const Field& field) {
   std::vector<PlotBox> boxes;
   for (const score::TruePlot& plot : field.plots) boxes.push_back(plot.box);
   return boxes;
-}
-
-// The cloud and nothing else.
-estimate::Estimate lattice(const Field& field) {
-  return estimate::lattice(field.cloud, {.threads = field.threads});
-}
-
-// The same with the canopy's own quantiles for the plants'.
-estimate::Estimate lattice_uncalibrated(const Field& field) {
-  return estimate::lattice(field.cloud, {.calibrated = false, .threads = field.threads});
-}
-
-// Its heights alone, in the true boxes.
-estimate::Estimate lattice_true_boxes(const Field& field) {
-  return estimate::lattice(field.cloud, {.boxes = true_boxes(field), .threads = field.threads});
-}
-
-// The paper's pipeline: given the number of plots, it finds them.
-estimate::Estimate dhami2020(const Field& field) {
-  return estimate::dhami2020(field.map, {.plots = static_cast<int>(field.plots.size()),
-                                         .seed = field.seed,
-                                         .threads = field.threads});
-}
-
-// Its heights alone, in the true boxes.
-estimate::Estimate dhami2020_true_boxes(const Field& field) {
-  return estimate::dhami2020(
-      field.map, {.boxes = true_boxes(field), .seed = field.seed, .threads = field.threads});
 }
 
 estimate::Estimate oracle_ground(const Field& field) {
@@ -84,52 +61,98 @@ std::string row_name(const std::string& method, const std::string& height) {
   return method.substr(0, space) + "/" + height + method.substr(space);
 }
 
-// The heights that have a truth of their name, in rows named after the method.
-std::vector<MethodHeight> named_heights(const std::string& method) {
-  std::vector<MethodHeight> heights;
-  for (const std::string& name : height_names()) heights.push_back({name, row_name(method, name)});
-  return heights;
+// Heights in rows named after the method.
+std::vector<MethodHeight> rows_of(const std::string& method,
+                                  const std::vector<std::string>& heights) {
+  std::vector<MethodHeight> rows;
+  for (const std::string& name : heights) rows.push_back({name, row_name(method, name)});
+  return rows;
+}
+
+// It gets the cloud and nothing else, or the true boxes to measure heights in.
+Method lattice_method(const std::string& name, bool in_true_boxes,
+                      const methods::lattice::Options& options) {
+  return {
+      .name = name, .heights = rows_of(name, height_names()), .estimate = [=](const Field& field) {
+        methods::lattice::Options own = options;
+        own.threads = field.threads;
+        if (in_true_boxes) own.boxes = true_boxes(field);
+        return methods::lattice::estimate_plots(field.cloud, own);
+      }};
+}
+
+// The paper's pipeline: given the number of plots, it finds them; or it gets the true boxes.
+Method dhami2020_method(const std::string& name, bool in_true_boxes,
+                        const methods::dhami2020::Options& options) {
+  return {.name = name,
+          .heights = rows_of(name, {"voxel-max", "raw-max", "raw-p99"}),
+          .estimate = [=](const Field& field) {
+            methods::dhami2020::Options own = options;
+            own.seed = field.seed;
+            own.threads = field.threads;
+            own.plots = in_true_boxes ? 0 : static_cast<int>(field.plots.size());
+            if (in_true_boxes) own.boxes = true_boxes(field);
+            return methods::dhami2020::estimate_plots(field.map, own);
+          }};
+}
+
+// Sets "key=value" of the method's own settings.
+template <class Options>
+void set_word(const std::vector<MethodSetting<Options>>& settings, const std::string& word,
+              Options& options) {
+  const std::string key = word.substr(0, word.find('='));
+  std::vector<std::string> keys;
+  for (const MethodSetting<Options>& setting : settings) {
+    keys.push_back(setting.key);
+    if (setting.key == key && key != word)
+      return assign(setting, key, word.substr(key.size() + 1), options);
+  }
+  throw InputError("\"" + word + "\" is not one of " + joined(keys, ", ") + " and its value");
+}
+
+template <class Options>
+Options with_words(const std::vector<MethodSetting<Options>>& settings, std::istringstream& words) {
+  Options options;
+  for (std::string word; words >> word;) set_word(settings, word, options);
+  return options;
 }
 
 }  // namespace
 
 const std::vector<Method>& known_methods() {
   static const std::vector<Method> methods = {
-      {.name = "lattice", .heights = named_heights("lattice"), .estimate = lattice},
-      {.name = "lattice uncalibrated",
-       .heights = named_heights("lattice uncalibrated"),
-       .estimate = lattice_uncalibrated},
-      {.name = "lattice true-boxes",
-       .heights = named_heights("lattice true-boxes"),
-       .estimate = lattice_true_boxes},
-      {.name = "dhami2020",
-       .heights = {{"voxel-max", "dhami2020/voxel-max"},
-                   {"raw-max", "dhami2020/raw-max"},
-                   {"raw-p99", "dhami2020/raw-p99"}},
-       .estimate = dhami2020},
-      {.name = "dhami2020 true-boxes",
-       .heights = {{"voxel-max", "dhami2020/voxel-max true-boxes"},
-                   {"raw-max", "dhami2020/raw-max true-boxes"},
-                   {"raw-p99", "dhami2020/raw-p99 true-boxes"}},
-       .estimate = dhami2020_true_boxes},
+      lattice_method("lattice", false, {}),
+      lattice_method("lattice true-boxes", true, {}),
+      dhami2020_method("dhami2020", false, {}),
+      dhami2020_method("dhami2020 true-boxes", true, {}),
       {.name = "oracle-ground", .heights = {{"p99", "oracle-ground"}}, .estimate = oracle_ground},
-      {.name = "one-number", .heights = named_heights("one-number"), .estimate = one_number}};
+      {.name = "one-number",
+       .heights = rows_of("one-number", height_names()),
+       .estimate = one_number}};
   return methods;
 }
 
-const Method& method_named(const std::string& name) {
+Method method_named(const std::string& name) {
   const auto& methods = known_methods();
   const auto found = std::ranges::find(methods, name, &Method::name);
-  check(found != methods.end(), "no method " + name);
-  return *found;
+  if (found != methods.end()) return *found;
+  std::istringstream words(name);
+  std::string base;
+  words >> base;
+  const bool in_true_boxes = name.starts_with(base + std::string(kTrueBoxes));
+  if (in_true_boxes) words.ignore(static_cast<std::streamsize>(kTrueBoxes.size()));
+  if (base == "lattice")
+    return lattice_method(name, in_true_boxes, with_words(methods::lattice::settings(), words));
+  if (base == "dhami2020")
+    return dhami2020_method(name, in_true_boxes, with_words(methods::dhami2020::settings(), words));
+  std::vector<std::string> known;
+  for (const Method& method : methods) known.push_back(method.name);
+  throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
 }
 
 void require_known_methods(const std::vector<std::string>& names) {
-  std::vector<std::string> known;
-  for (const Method& method : known_methods()) known.push_back(method.name);
   for (const std::string& name : names) {
-    if (std::ranges::count(known, name) == 0)
-      throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
+    method_named(name);
     if (std::ranges::count(names, name) > 1)
       throw InputError("the method \"" + name + "\" is named twice");
   }

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "estimate/cloud_map.h"
+#include "cloud/cloud_map.h"
+#include "terrain/terrain.h"
+
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "score/score.h"
 
 namespace plotscan::farmbench {
@@ -19,9 +20,9 @@ namespace plotscan::farmbench {
 // name or docs/benchmark.md says so.
 struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
-  const estimate::CloudMap& map;       // its points in the rectangle of the plots and a margin
+  const cloud::CloudMap& map;          // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
-  const farm::Terrain& terrain;
+  const terrain::Terrain& terrain;
   std::uint64_t seed = 1;
   int threads = 1;
 };
@@ -33,7 +34,7 @@ struct MethodHeight {
 };
 
 struct Method {
-  std::string name;  // in a suite's `methods`
+  std::string name;  // in results; a suite's {lattice: {calibrated: false}} as one text
   std::vector<MethodHeight> heights;
   std::function<estimate::Estimate(const Field&)> estimate;
 };
@@ -41,10 +42,12 @@ struct Method {
 // Every method that a suite can name.
 const std::vector<Method>& known_methods();
 
-// The method of this name, which must be known.
-const Method& method_named(const std::string& name);
+// The method of this name: one of these, or an estimator's with settings of its own behind it,
+// "lattice calibrated=false". Throws InputError on another name, and on a setting that the method
+// lacks or cannot have.
+Method method_named(const std::string& name);
 
-// Throws InputError on a name that is not one of them, or stands there twice.
+// Throws InputError on a name that method_named refuses, or that stands there twice.
 void require_known_methods(const std::vector<std::string>& names);
 
 // The names of its heights.

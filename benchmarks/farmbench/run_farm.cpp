@@ -6,12 +6,13 @@
 #include <iterator>
 #include <limits>
 
+#include "cloud/cloud_map.h"
+#include "description/load_description.h"
+#include "farmfolder/write_farm.h"
+#include "planting/generate.h"
+
 #include "core/error.h"
 #include "core/manifest.h"
-#include "estimate/cloud_map.h"
-#include "farm/description.h"
-#include "farm/generate.h"
-#include "farm/write_farm.h"
 #include "farmbench/farm_view.h"
 #include "farmbench/methods.h"
 #include "farmbench/survey.h"
@@ -32,19 +33,19 @@ constexpr double kShown_m = 4;  // around the plots, on pages
 
 farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder,
                      int threads) {
-  const farm::FarmDescription description =
-      farm::load_description(suite_case.farm, suite_case.overrides);
-  farm::Farm made = farm::generate(description, seed);
+  const planting::FarmDescription description =
+      description::load_description(suite_case.farm, suite_case.overrides);
+  farm::Farm made = planting::generate(description, seed);
   lidar::measure_canopies(made, threads);
-  farm::write_farm(made, folder, true,
-                   {.command = "farmbench run",
-                    .options = {{"set", suite_case.overrides}},
-                    .inputs = farm::input_files(description)});
+  farmfolder::write_farm(made, folder, true,
+                         {.command = "farmbench run",
+                          .options = {{"set", suite_case.overrides}},
+                          .inputs = planting::input_files(description)});
   return made;
 }
 
 // What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
-estimate::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
+cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Eigen::Array2d low(kFar, kFar);
   Eigen::Array2d high(-kFar, -kFar);
@@ -122,8 +123,8 @@ FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
 json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                const std::string& build) {
   json files = json::array();
-  for (const fs::path& file :
-       farm::input_files(farm::load_description(suite_case.farm, suite_case.overrides))) {
+  for (const fs::path& file : planting::input_files(
+           description::load_description(suite_case.farm, suite_case.overrides))) {
     files.push_back({{"file", file.filename().string()}, {"hash", file_hash(file)}});
   }
   json document = {{"plotscan", version()},
@@ -145,12 +146,12 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const ScannedFarm scanned =
       scan_farm(run, farm, [&](double share) { report(progress, kFlown * share); });
   std::vector<score::TruePlot> truth = score::read_truth(folder / "farm");
-  const estimate::Area shown = field_area(truth, kShown_m);
+  const cloud::Area shown = field_area(truth, kShown_m);
   if (suite_case.survey) leave_to_survey(truth, *suite_case.survey);
   std::vector<score::TruePlot> plots;
   std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
-  const estimate::CloudMap map =
-      estimate::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
+  const cloud::CloudMap map =
+      cloud::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
   if (suite_case.without_plots) {
     truth.clear();
     plots.clear();

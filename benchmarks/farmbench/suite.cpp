@@ -5,9 +5,10 @@
 #include <set>
 #include <variant>
 
+#include "description/load_description.h"
+
 #include "core/error.h"
 #include "core/yaml_section.h"
-#include "farm/description.h"
 #include "farmbench/methods.h"
 #include "lidar/fly_settings.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostCases = 1000;
 constexpr std::size_t kMostSeeds = 10'000;
+constexpr std::size_t kMostMethods = 100;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
 
@@ -29,7 +31,7 @@ std::string read_name(const YamlSection& section) {
 
 void require_farm(const YamlSection& section, const SuiteCase& suite_case) {
   try {
-    farm::load_description(suite_case.farm, suite_case.overrides);
+    description::load_description(suite_case.farm, suite_case.overrides);
   } catch (const InputError& error) {
     section.fail("farm", std::string("does not hold: ") + error.what());
   }
@@ -68,22 +70,19 @@ void read_setting(const YamlSection& section, const std::string& key,
 lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions flight) {
   if (!parent.has("flight")) return flight;
   const YamlSection section = parent.section("flight");
-  std::vector<std::string> keys;
   for (const lidar::FlySetting& setting : lidar::fly_settings()) {
-    keys.push_back(setting.key);
     if (!section.has(setting.key)) continue;
     std::visit([&](const auto& value) { read_setting(section, setting.key, value, flight); },
                setting.value);
   }
-  section.allow_only(keys);
   return flight;
 }
 
-estimate::Area read_survey(const YamlSection& section) {
+cloud::Area read_survey(const YamlSection& section) {
   const std::vector<double> numbers = section.numbers("survey_m", 4, {-100'000, 100'000});
-  const estimate::Area area = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  const cloud::Area area = {numbers[0], numbers[1], numbers[2], numbers[3]};
   try {
-    estimate::require_area(area, "survey_m");
+    cloud::require_area(area, "survey_m");
   } catch (const InputError& error) {
     section.fail("survey_m", std::string("does not hold: ") + error.what());
   }
@@ -91,8 +90,6 @@ estimate::Area read_survey(const YamlSection& section) {
 }
 
 SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight) {
-  section.allow_only(
-      {"name", "farm", "set", "flight", "survey_m", "without_plots", "published_rmse_cm"});
   SuiteCase suite_case{.name = read_name(section),
                        .farm = section.file().parent_path() / section.text("farm"),
                        .flight = read_flight(section, flight)};
@@ -129,7 +126,6 @@ std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
   std::vector<std::uint64_t> seeds;
   if (root.is_list("seeds")) {
     for (const YamlSection& entry : root.list("seeds", kMostSeeds, "seed")) {
-      entry.allow_only({"seed"});
       seeds.push_back(entry.unsigned_integer("seed"));
       if (std::ranges::count(seeds, seeds.back()) > 1)
         root.fail("seeds", "name " + std::to_string(seeds.back()) + " twice");
@@ -137,20 +133,32 @@ std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
     return seeds;
   }
   const YamlSection range = root.section("seeds");
-  range.allow_only({"first", "count"});
   const auto first = static_cast<std::uint64_t>(range.integer("first", 0, 1'000'000'000));
   const std::int64_t count = range.integer("count", 1, kMostSeeds);
   for (std::int64_t i = 0; i < count; ++i) seeds.push_back(first + static_cast<std::uint64_t>(i));
   return seeds;
 }
 
+// A method's name, or a map from it to settings of its own, as one text.
+std::string read_method(const YamlSection& entry) {
+  const std::vector<std::string> keys = entry.keys();
+  if (keys.size() != 1) entry.fail("", "has to be a method's name, or name: {key: value}");
+  if (!entry.is_map(keys.front())) return entry.text("name");
+  std::string name = keys.front();
+  for (const auto& [key, value] : entry.section(keys.front()).texts())
+    name.append(" ").append(key).append("=").append(value);
+  return name;
+}
+
 std::vector<std::string> read_methods(const YamlSection& root) {
-  std::vector<std::string> known;
-  for (const Method& method : known_methods()) known.push_back(method.name);
   std::vector<std::string> methods;
-  for (const YamlSection& entry : root.list("methods", known.size(), "name")) {
-    entry.allow_only({"name"});
-    methods.push_back(known[entry.choice("name", known)]);
+  for (const YamlSection& entry : root.list("methods", kMostMethods, "name")) {
+    methods.push_back(read_method(entry));
+    try {
+      method_named(methods.back());
+    } catch (const InputError& error) {
+      root.fail("methods", std::string("do not hold: ") + error.what());
+    }
     if (std::ranges::count(methods, methods.back()) > 1)
       root.fail("methods", "name \"" + methods.back() + "\" twice");
   }
@@ -161,7 +169,6 @@ std::vector<std::string> read_truths(const YamlSection& root) {
   std::vector<std::string> truths;
   if (!root.has("truths")) return truths;
   for (const YamlSection& entry : root.list("truths", 100, "name")) {
-    entry.allow_only({"name"});
     truths.push_back(entry.text("name"));
   }
   return truths;
@@ -171,8 +178,6 @@ std::vector<std::string> read_truths(const YamlSection& root) {
 
 Suite load_suite(const std::filesystem::path& file) {
   const YamlSection root = YamlSection::load(file, {});
-  root.allow_only({"name", "cases", "seeds", "flight", "crop_margin_m", "methods", "truths",
-                   "published", "baseline"});
   Suite suite{.file = file,
               .name = read_name(root),
               .cases = read_cases(root),
@@ -187,13 +192,12 @@ Suite load_suite(const std::filesystem::path& file) {
   }
   if (root.has("published")) {
     const YamlSection published = root.section("published");
-    published.allow_only({"source", "methods"});
     suite.published = {.source = published.text("source"), .methods = {}};
     for (const YamlSection& entry : published.list("methods", 100, "row")) {
-      entry.allow_only({"row"});
       suite.published->methods.push_back(entry.text("row"));
     }
   }
+  root.refuse_unread();
   return suite;
 }
 

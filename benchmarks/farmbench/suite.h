@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "estimate/cloud_map.h"
+#include "cloud/cloud_map.h"
+
 #include "lidar/fly.h"
 
 namespace plotscan::farmbench {
@@ -21,7 +22,7 @@ struct SuiteCase {
   lidar::FlyOptions flight = {};            // the suite's, with what the case replaces in it
   std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
   // What is surveyed, where it is not the whole field: flown over, and all that the cloud keeps.
-  std::optional<estimate::Area> survey = std::nullopt;
+  std::optional<cloud::Area> survey = std::nullopt;
   // What stands in the farm's boxes are no plots but trees, say: every plot found is one too many.
   bool without_plots = false;
 };

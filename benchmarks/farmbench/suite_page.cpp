@@ -136,9 +136,11 @@ std::vector<TableRow> shown_rows(std::vector<TableRow> table) {
 
 json suite_document(const SuiteResult& result, const std::vector<TableRow>& table) {
   json series = json::array();
-  for (const std::string& method : result.methods)
-    for (const MethodHeight& height : method_named(method).heights)
-      series.push_back(series_of(result, method, height));
+  for (const std::string& name : result.methods) {
+    const Method method = method_named(name);
+    for (const MethodHeight& height : method.heights)
+      series.push_back(series_of(result, name, height));
+  }
   json document = {{"name", result.suite},
                    {"cases", cases_of(result)},
                    {"truths", shown_truths(result, table)},

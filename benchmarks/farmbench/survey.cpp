@@ -15,7 +15,7 @@ namespace plotscan::farmbench {
 namespace fs = std::filesystem;
 namespace {
 
-bool lies_in(const estimate::Area& area, const PlotBox& box) {
+bool lies_in(const cloud::Area& area, const PlotBox& box) {
   return std::ranges::all_of(box.corners(), [&](const Eigen::Vector2d& corner) {
     return corner.x() >= area[0] && corner.x() <= area[2] && corner.y() >= area[1] &&
            corner.y() <= area[3];
@@ -24,13 +24,13 @@ bool lies_in(const estimate::Area& area, const PlotBox& box) {
 
 }  // namespace
 
-void leave_to_survey(std::vector<score::TruePlot>& plots, const estimate::Area& survey) {
+void leave_to_survey(std::vector<score::TruePlot>& plots, const cloud::Area& survey) {
   for (score::TruePlot& plot : plots) plot.scored = lies_in(survey, plot.box);
   if (std::ranges::none_of(plots, &score::TruePlot::scored))
     throw InputError("no plot lies wholly in survey_m");
 }
 
-lidar::FlySummary fly_survey(const farm::Farm& farm, const estimate::Area& survey,
+lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                              const fs::path& folder, const lidar::FlyOptions& flight,
                              const ProgressReport& progress) {
   lidar::Site site = lidar::site_of(farm);
@@ -42,7 +42,7 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const estimate::Area& surve
   return lidar::fly(site, scene, folder, flight, true, progress);
 }
 
-void crop_cloud(const fs::path& cloud, const estimate::Area& area, const fs::path& cropped) {
+void crop_cloud(const fs::path& cloud, const cloud::Area& area, const fs::path& cropped) {
   const scan::CloudInfo info = scan::read_cloud_info(cloud);
   scan::PcdWriter writer(cropped, {.origin_m = info.origin_m});
   std::vector<scan::LabelledPoint> kept;

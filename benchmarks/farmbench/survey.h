@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "cloud/cloud_map.h"
+
 #include "core/progress.h"
-#include "estimate/cloud_map.h"
 #include "farm/farm.h"
 #include "lidar/fly.h"
 #include "score/score.h"
@@ -14,16 +15,16 @@
 namespace plotscan::farmbench {
 
 // Leaves those plots scored that lie wholly in what was surveyed. Throws InputError when none does.
-void leave_to_survey(std::vector<score::TruePlot>& plots, const estimate::Area& survey);
+void leave_to_survey(std::vector<score::TruePlot>& plots, const cloud::Area& survey);
 
 // Flies strips over the rectangle in place of the farm's plots, whose plants stand still. Throws
 // InputError as lidar::fly does.
-lidar::FlySummary fly_survey(const farm::Farm& farm, const estimate::Area& survey,
+lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                              const std::filesystem::path& folder, const lidar::FlyOptions& flight,
                              const ProgressReport& progress);
 
 // Writes those points of a cloud, with all that is known of them, that lie in the area.
-void crop_cloud(const std::filesystem::path& cloud, const estimate::Area& area,
+void crop_cloud(const std::filesystem::path& cloud, const cloud::Area& area,
                 const std::filesystem::path& cropped);
 
 }  // namespace plotscan::farmbench

@@ -29,7 +29,8 @@ Palette::Palette(const SuiteResult& result) {
   std::size_t places = 0;
   for (const std::string& name : result.methods) {
     std::optional<std::size_t> shared;
-    for (const MethodHeight& height : method_named(name).heights) {
+    const Method method = method_named(name);
+    for (const MethodHeight& height : method.heights) {
       if (!truths.contains(score::named_truth(height.height))) {
         place_of_row_[height.row] = places++;
         continue;

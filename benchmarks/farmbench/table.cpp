@@ -20,7 +20,7 @@ namespace {
 
 // One method on all farms of one case.
 struct CaseOfMethod {
-  const Method& method;
+  Method method;
   std::vector<score::FieldScore> fields = {};
   std::vector<double> seconds = {};
 };

@@ -10,11 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "cloud/cloud_map.h"
+#include "farmfolder/plot_table.h"
+#include "farmfolder/terrain_ply.h"
 #include "methods.h"
-
-#include "estimate/cloud_map.h"
-#include "farm/plot_table.h"
-#include "farm/terrain_ply.h"
 
 namespace {
 
@@ -27,7 +26,7 @@ struct PlotError {
 };
 
 PlotError error_of(const ground_error::PlotGround& ground, const PlotBox& box,
-                   const farm::Terrain& terrain, const Eigen::Vector3d& origin) {
+                   const terrain::Terrain& terrain, const Eigen::Vector3d& origin) {
   constexpr double kStep_m = 0.05;
   PlotError error;
   int count = 0;
@@ -67,10 +66,10 @@ struct Score {
 
 void measure(const std::filesystem::path& farm, const std::filesystem::path& scan, bool each,
              std::map<std::string, Score>& scores) {
-  const estimate::CloudMap map = estimate::read_map(scan / "cloud.pcd", {});
-  const farm::Terrain terrain = farm::read_terrain(farm / "truth/terrain.ply");
+  const cloud::CloudMap map = cloud::read_map(scan / "cloud.pcd", {});
+  const terrain::Terrain terrain = farmfolder::read_terrain(farm / "truth/terrain.ply");
   std::vector<PlotBox> boxes;
-  for (const farm::Plot& plot : farm::read_plots(farm / "truth/plots.geojson")) {
+  for (const farm::Plot& plot : farmfolder::read_plots(farm / "truth/plots.geojson")) {
     boxes.push_back(plot.box);
     boxes.back().center -= map.origin().head<2>();
   }

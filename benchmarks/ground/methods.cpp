@@ -7,12 +7,12 @@
 #include <map>
 #include <optional>
 
+#include "cloud/points_in_boxes.h"
+#include "methods/dhami2020/ground_plane.h"
+#include "methods/dhami2020/voxel_filter.h"
 #include <pcl/point_types.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
-#include "estimate/dhami2020/ground_plane.h"
-#include "estimate/dhami2020/voxel_filter.h"
-#include "estimate/points_in_boxes.h"
 #include "ground/surface.h"
 
 namespace plotscan::ground_error {
@@ -27,12 +27,12 @@ std::vector<PlotGround> planes(Points points, const Boxes& boxes) {
   constexpr double kVoxel_m = 0.05, kExtend_m = 0.5, kTolerance_m = 0.05;  // the authors' settings
   Boxes longer = boxes;
   for (PlotBox& box : longer) box.length_m += 2 * kExtend_m;
-  const std::vector<Eigen::Vector3f> voxels = estimate::voxel_filter(points, kVoxel_m);
+  const std::vector<Eigen::Vector3f> voxels = methods::dhami2020::voxel_filter(points, kVoxel_m);
   std::vector<PlotGround> grounds;
-  for (const std::vector<Eigen::Vector3f>& inside : estimate::points_in_boxes(voxels, longer)) {
+  for (const std::vector<Eigen::Vector3f>& inside : cloud::points_in_boxes(voxels, longer)) {
     std::vector<Eigen::Vector3d> of_plot;
     for (const Eigen::Vector3f& point : inside) of_plot.push_back(point.cast<double>());
-    const auto plane = estimate::find_ground_plane(of_plot, kTolerance_m);
+    const auto plane = methods::dhami2020::find_ground_plane(of_plot, kTolerance_m);
     grounds.push_back({.height = [plane](const Eigen::Vector2d& place) {
       if (!plane) return kNaN;
       const Eigen::Vector2d off = place - plane->centroid.head<2>();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "farmfolder/read_farm.h"
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -145,7 +146,7 @@ int run(int argc, char** argv) {
     std::cerr << "usage: lidarsim_speed FARM [FLIGHT] [--benchmark_...]\n";
     return 2;
   }
-  const farm::Farm farm = farm::read_farm(argv[1]);
+  const farm::Farm farm = farmfolder::read_farm(argv[1]);
   const Work work(farm, argc == 3 ? scan::read_trajectory(argv[2]) : middle_strip(farm));
   work_at_hand = &work;
   benchmark::RunSpecifiedBenchmarks();

@@ -3,13 +3,14 @@
 
 #include <fstream>
 
+#include "description/load_description.h"
+#include "farmfolder/write_farm.h"
+#include "planting/generate.h"
+
 #include "core/error.h"
 #include "core/random.h"
 #include "core/temporary_path.h"
 #include "core/text_file.h"
-#include "farm/description.h"
-#include "farm/generate.h"
-#include "farm/write_farm.h"
 #include "lidar/canopy_height.h"
 #include "lidar/fly.h"
 #include "scan/cloud_reader.h"
@@ -62,13 +63,14 @@ void thin(std::vector<Eigen::Vector3f>& points, std::size_t most, std::uint64_t 
 }
 
 void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
-  const farm::FarmDescription description = farm::load_description(plan.farm, plan.overrides);
-  farm::Farm farm = farm::generate(description, plan.seed);
+  const planting::FarmDescription description =
+      description::load_description(plan.farm, plan.overrides);
+  farm::Farm farm = planting::generate(description, plan.seed);
   lidar::measure_canopies(farm, threads);
-  farm::write_farm(farm, field.farm, true,
-                   {.command = "measure_plots run",
-                    .options = {{"set", plan.overrides}},
-                    .inputs = farm::input_files(description)});
+  farmfolder::write_farm(farm, field.farm, true,
+                         {.command = "measure_plots run",
+                          .options = {{"set", plan.overrides}},
+                          .inputs = planting::input_files(description)});
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <set>
 
+#include "methods/lattice/lattice.h"
+
 #include "core/error.h"
-#include "estimate/lattice/lattice.h"
 
 namespace plotscan::strata {
 
@@ -15,7 +16,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   estimate::Estimate estimate{.method = "lattice"};
   const auto start = std::chrono::steady_clock::now();
   try {
-    estimate = estimate::lattice(field.cloud, {.threads = threads});
+    estimate = methods::lattice::estimate_plots(field.cloud, {.threads = threads});
     measured.points = estimate.diagnostics.at("points_read");
   } catch (const InputError& error) {
     measured.failure = error.what();

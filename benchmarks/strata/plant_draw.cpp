@@ -49,7 +49,6 @@ PlantRanges read_plant_ranges(const std::filesystem::path& file) {
   PlantRanges ranges;
   for (const std::string& crop : document.keys()) {
     const YamlSection section = document.section(crop);
-    section.allow_only({"spread", "parameters", "stages"});
     ranges[crop].spread = section.pair("spread", {0, 0.5});
     const YamlSection parameters = section.section("parameters");
     for (const std::string& key : parameters.keys())
@@ -58,6 +57,7 @@ PlantRanges read_plant_ranges(const std::filesystem::path& file) {
     for (const std::string& stage : stages.keys())
       ranges[crop].stages.emplace_back(stage, stages.pair(stage, kPositive));
   }
+  document.refuse_unread();
   return ranges;
 }
 

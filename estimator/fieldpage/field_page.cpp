@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "farmfolder/terrain_ply.h"
+
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/text.h"
 #include "estimate/ground_grids.h"
-#include "farm/terrain_ply.h"
 #include "fieldpage/shown.h"
 #include "report/page.h"
 
@@ -75,7 +76,7 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   if (options.truth) {
     show_truth(field, estimate, score::read_truth(*options.truth));
     const fs::path terrain = *options.truth / "truth" / "terrain.ply";
-    if (fs::exists(terrain)) show_terrain(field, farm::read_terrain(terrain));
+    if (fs::exists(terrain)) show_terrain(field, farmfolder::read_terrain(terrain));
     field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
   }
   if (options.cloud) show_cloud(field, options, progress);

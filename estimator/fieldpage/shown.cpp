@@ -76,7 +76,7 @@ void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
   }
 }
 
-void show_terrain(report::ShownField& field, const farm::Terrain& terrain) {
+void show_terrain(report::ShownField& field, const terrain::Terrain& terrain) {
   if (!field.ground && field.plots.empty() && field.true_boxes.empty()) return;
   report::ShownGrid grid = field.ground ? *field.ground : grid_around(field);
   grid.standard_error_m.clear();

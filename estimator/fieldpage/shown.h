@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "terrain/terrain.h"
+
 #include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "report/shown_cloud.h"
 #include "report/shown_field.h"
 #include "score/score.h"
@@ -24,7 +25,7 @@ void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth);
 
 // The true ground at the nodes of the field's fitted ground, else around its plots.
-void show_terrain(report::ShownField& field, const farm::Terrain& terrain);
+void show_terrain(report::ShownField& field, const terrain::Terrain& terrain);
 
 // A fair sample of a cloud's positions, at most `most` of them. Throws InputError as
 // record::read_positions does.

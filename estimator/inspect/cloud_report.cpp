@@ -15,24 +15,24 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLongestSide_m = 10000;  // as estimate::require_area has it
+constexpr double kLongestSide_m = 10000;  // as cloud::require_area has it
 constexpr std::size_t kGroundClass = 2;
 
 void judge_density(CloudReport& report) {
   const double density = report.density.median;
   const auto too_few = [&](const char* how) {
     return formatted("%s points/m2 %s too few: plots are found from about %.0f on",
-                     estimate::density_text(density).c_str(), how, estimate::kPlotsFound_m2);
+                     cloud::density_text(density).c_str(), how, cloud::kPlotsFound_m2);
   };
-  if (density <= estimate::kPlotsLost_m2) {
+  if (density <= cloud::kPlotsLost_m2) {
     report.obstacles.push_back(too_few("are"));
-  } else if (density < estimate::kPlotsFound_m2) {
+  } else if (density < cloud::kPlotsFound_m2) {
     report.doubts.push_back(too_few("may be"));
   }
 }
 
 void judge_extent(CloudReport& report) {
-  const estimate::Area& field = report.density.field;
+  const cloud::Area& field = report.density.field;
   if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
     report.obstacles.emplace_back("the field is over 10 km long: give a part of it (--crop-box)");
 }
@@ -70,13 +70,13 @@ json time_json(const scan::CloudFacts& facts) {
 }  // namespace
 
 CloudReport inspect_cloud(const CloudFiles& cloud) {
-  estimate::TileCounter tiles;
+  cloud::TileCounter tiles;
   CloudReport report{
       .facts = record::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
       .density = {}};
-  const std::vector<estimate::TileCount> counts = tiles.counts();
+  const std::vector<cloud::TileCount> counts = tiles.counts();
   if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");
-  report.density = estimate::field_density(counts);
+  report.density = cloud::field_density(counts);
   judge_density(report);
   judge_extent(report);
   judge_classes(report);
@@ -108,7 +108,7 @@ std::string class_name(std::size_t number) {
 
 json to_json(const CloudReport& report) {
   const scan::CloudFacts& facts = report.facts;
-  const estimate::FieldDensity& density = report.density;
+  const cloud::FieldDensity& density = report.density;
   return {
       {"format", facts.format},
       {"points", facts.points},

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "cloud/field_density.h"
 #include <nlohmann/json.hpp>
 
 #include "core/cloud_files.h"
-#include "estimate/field_density.h"
 #include "scan/cloud_facts.h"
 
 namespace plotscan::inspect {
@@ -15,7 +15,7 @@ namespace plotscan::inspect {
 // A cloud before anything is measured in it.
 struct CloudReport {
   scan::CloudFacts facts;
-  estimate::FieldDensity density;
+  cloud::FieldDensity density;
   std::vector<std::string> obstacles = {};  // why it can carry no plots; none: it can
   std::vector<std::string> doubts = {};     // what may keep plots from being found
 };

@@ -4,9 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "cloud/points_in_boxes.h"
+#include "methods/dhami2020/voxel_filter.h"
+
 #include "core/statistics.h"
-#include "estimate/dhami2020/voxel_filter.h"
-#include "estimate/points_in_boxes.h"
 
 namespace plotscan::score {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 
 void append_heights(const Points& points, const Eigen::Vector3d& origin,
-                    const farm::Terrain& terrain, double tolerance_m,
+                    const terrain::Terrain& terrain, double tolerance_m,
                     std::vector<double>& heights_m) {
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d world = origin + point.cast<double>();
@@ -37,13 +38,13 @@ std::vector<PlotBox> extended_boxes(const std::vector<TruePlot>& plots,
 
 }  // namespace
 
-estimate::Estimate oracle_ground(const estimate::CloudMap& map, const std::vector<TruePlot>& plots,
-                                 const farm::Terrain& terrain,
-                                 const estimate::Dhami2020Options& options) {
-  const Points voxels = estimate::voxel_filter(map.points(), options.voxel_m);
+estimate::Estimate oracle_ground(const cloud::CloudMap& map, const std::vector<TruePlot>& plots,
+                                 const terrain::Terrain& terrain,
+                                 const methods::dhami2020::Options& options) {
+  const Points voxels = methods::dhami2020::voxel_filter(map.points(), options.voxel_m);
   const std::vector<PlotBox> boxes = extended_boxes(plots, map.origin(), options.extend_m);
-  const std::vector<Points> raw_by_plot = estimate::points_in_boxes(map.points(), boxes);
-  const std::vector<Points> voxels_by_plot = estimate::points_in_boxes(voxels, boxes);
+  const std::vector<Points> raw_by_plot = cloud::points_in_boxes(map.points(), boxes);
+  const std::vector<Points> voxels_by_plot = cloud::points_in_boxes(voxels, boxes);
   estimate::Estimate estimate{.method = "oracle-ground"};
   for (std::size_t i = 0; i < plots.size(); ++i) {
     std::vector<double> heights_m;

@@ -3,10 +3,11 @@
 
 #include <vector>
 
-#include "estimate/cloud_map.h"
-#include "estimate/dhami2020/dhami2020.h"
+#include "cloud/cloud_map.h"
+#include "methods/dhami2020/dhami2020.h"
+#include "terrain/terrain.h"
+
 #include "estimate/estimate.h"
-#include "farm/terrain.h"
 #include "score/score.h"
 
 namespace plotscan::score {
@@ -16,8 +17,8 @@ namespace plotscan::score {
 // the true box lengthened by extend_m at both ends; a point's height is its z minus the terrain's
 // under it, and those of more than plane_tolerance_m count. A plot without such a point, or beside
 // the terrain, has no height. Of `options`, only these three and voxel_m matter.
-estimate::Estimate oracle_ground(const estimate::CloudMap& map, const std::vector<TruePlot>& plots,
-                                 const farm::Terrain& terrain,
-                                 const estimate::Dhami2020Options& options = {});
+estimate::Estimate oracle_ground(const cloud::CloudMap& map, const std::vector<TruePlot>& plots,
+                                 const terrain::Terrain& terrain,
+                                 const methods::dhami2020::Options& options = {});
 
 }  // namespace plotscan::score

@@ -22,8 +22,6 @@ class CultivarFile {
       : file_(file), complete_(base == nullptr), cultivar_(base == nullptr ? Cultivar{} : *base) {}
 
   Cultivar read() {
-    file_.allow_only({"crop", "species", "default_stage", "sources", "plot", "colours",
-                      "reflectance", "parameters", "stages"});
     const std::string crop = file_.text("crop");
     if (!complete_ && crop != cultivar_.crop) {
       file_.fail("crop", "is " + crop + ", but the plant is a " + cultivar_.crop);
@@ -40,6 +38,7 @@ class CultivarFile {
     }
     cultivar_.default_stage = text(file_, "default_stage", cultivar_.default_stage);
     stage_named(cultivar_.default_stage, file_, "default_stage");
+    file_.refuse_unread();
     return std::move(cultivar_);
   }
 
@@ -71,7 +70,6 @@ class CultivarFile {
   }
 
   void read_plot(const YamlSection& plot) {
-    plot.allow_only({"plants_per_m2", "row_spacing_m", "source"});
     const auto number = [&](const char* key, double kept) {
       return plot.number(key, {1e-3, 1e4}, complete_ ? std::nullopt : std::optional(kept));
     };
@@ -119,7 +117,6 @@ class CultivarFile {
   }
 
   void read_parameter(const YamlSection& section, Parameter& parameter) const {
-    section.allow_only({"value", "range", "unit", "meaning", "source"});
     parameter.range = range(section, "range", parameter.range, parameter.range);
     const std::string unit = text(section, "unit", parameter.unit);
     if (!complete_ && unit != parameter.unit) {
@@ -155,8 +152,6 @@ class CultivarFile {
   }
 
   void read_stage(const YamlSection& section) {
-    section.allow_only({"name", "meaning", "values", "height_m", "leaf_area_index",
-                        "leaf_inclination_deg", "source"});
     const std::string name = section.text("name");
     if (complete_)
       cultivar_.stages.push_back(Stage{.name = name, .meaning = "", .values = {}, .source = ""});

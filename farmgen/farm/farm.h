@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "terrain/terrain.h"
 #include <Eigen/Geometry>
 
 #include "core/geodesy.h"
 #include "core/plot_box.h"
-#include "farm/terrain.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::farm {
@@ -83,7 +83,7 @@ struct Plot {
 struct Farm {
   std::string name;
   std::uint64_t seed = 0;
-  Terrain terrain;
+  terrain::Terrain terrain;
   std::vector<PlantModel> models;
   std::vector<Plot> plots;
   std::vector<Plant> plants;
@@ -94,10 +94,5 @@ struct Farm {
   // Of the ground, diffuse, at 903 nm, in [0, 1]; absent: mesh::kSoilReflectance.
   std::optional<double> soil_reflectance = {};
 };
-
-// Reads a farm folder (docs/farm-format.md) from its truth/ and models/. Throws InputError when a
-// file is missing, broken or not as the manifest hashed it, a number is not finite, or a path
-// leaves the folder.
-Farm read_farm(const std::filesystem::path& folder);
 
 }  // namespace plotscan::farm

@@ -22,7 +22,7 @@ Spread spread_of(const std::vector<double>& values) {
   return {.min = *least, .mean = total / static_cast<double>(values.size()), .max = *greatest};
 }
 
-void summarise_terrain(const Terrain& terrain, FarmSummary& summary) {
+void summarise_terrain(const terrain::Terrain& terrain, FarmSummary& summary) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : terrain.vertices()) box.extend(vertex);
   summary.terrain_size_m = box.sizes().head<2>();

@@ -3,13 +3,13 @@
 
 #include <numbers>
 
-#include "farm/sdf_elements.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace {
 
-using farm::sdf_numbers;
-using farm::XmlFile;
+using sdfxml::sdf_numbers;
+using sdfxml::XmlFile;
 
 // The VLP-16 as lidarsim has it (lidarsim/lidar/sensor.cpp): at 10 Hz its 18,084 firing sequences a
 // second are 1,808 azimuths a turn.
@@ -174,7 +174,7 @@ class Drone {
 
 EntityCounts write_drone_model(const ModelFolder& models, Lidar lidar, bool gps) {
   std::filesystem::create_directories(models.path / kDroneModel);
-  farm::XmlFile xml =
+  sdfxml::XmlFile xml =
       begin_model(models, kDroneModel, "A quadrotor with a VLP-16, moved by fly_drone.sh",
                   models.gazebo == Gazebo::sim);
   Drone drone(xml, models.gazebo, lidar);

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include "farm/sdf_elements.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -21,11 +21,11 @@ std::string mesh_uri(const std::string& model, const std::string& file) {
   return "model://" + model + "/meshes/" + file;
 }
 
-farm::XmlFile begin_model(const ModelFolder& models, const std::string& name,
-                          const std::string& description, bool is_static) {
+sdfxml::XmlFile begin_model(const ModelFolder& models, const std::string& name,
+                            const std::string& description, bool is_static) {
   const char* version = sdf_version(models.gazebo);
-  farm::write_model_config(models.path / name / "model.config", name, version, description);
-  farm::XmlFile xml(models.path / name / "model.sdf");
+  sdfxml::write_model_config(models.path / name / "model.config", name, version, description);
+  sdfxml::XmlFile xml(models.path / name / "model.sdf");
   xml.open("sdf");
   xml.attribute("version", version);
   xml.open("model", name);
@@ -33,7 +33,7 @@ farm::XmlFile begin_model(const ModelFolder& models, const std::string& name,
   return xml;
 }
 
-void end_model(farm::XmlFile& xml) {
+void end_model(sdfxml::XmlFile& xml) {
   xml.close();
   xml.close();
   xml.finish();
@@ -50,7 +50,7 @@ std::string colour_text(const Eigen::Vector3f& colour) {
   return text + "1";
 }
 
-void write_sim_material(farm::XmlFile& xml, const Eigen::Vector3f& colour,
+void write_sim_material(sdfxml::XmlFile& xml, const Eigen::Vector3f& colour,
                         const std::string& image) {
   const std::string rgba = colour_text(colour);
   xml.open("material");
@@ -68,23 +68,23 @@ void write_sim_material(farm::XmlFile& xml, const Eigen::Vector3f& colour,
   xml.close();
 }
 
-void write_box_collision(farm::XmlFile& xml, const CollisionBox& box, SurfaceClass label) {
+void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceClass label) {
   xml.open("collision", "box_collision");
-  xml.text("pose", farm::sdf_numbers(
+  xml.text("pose", sdfxml::sdf_numbers(
                        {box.center.x(), box.center.y(), box.center.z(), 0, 0, box.heading_rad}));
   xml.open("geometry");
   xml.open("box");
-  xml.text("size", farm::sdf_numbers({box.size.x(), box.size.y(), box.size.z()}));
+  xml.text("size", sdfxml::sdf_numbers({box.size.x(), box.size.y(), box.size.z()}));
   xml.close();
   xml.close();
   write_class(xml, label);
   xml.close();
 }
 
-void write_mesh_collision(farm::XmlFile& xml, const std::string& name, const std::string& uri,
+void write_mesh_collision(sdfxml::XmlFile& xml, const std::string& name, const std::string& uri,
                           const Eigen::Vector3d& scale, SurfaceClass label) {
   xml.open("collision", name);
-  farm::write_mesh_geometry(xml, uri, scale);
+  sdfxml::write_mesh_geometry(xml, uri, scale);
   write_class(xml, label);
   xml.close();
 }

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "sdfxml/elements.h"
+#include "sdfxml/xml_file.h"
 #include <Eigen/Geometry>
 
-#include "farm/sdf_elements.h"
-#include "farm/xml_file.h"
 #include "gazebo/export_options.h"
 #include "gazebo/labels.h"
 #include "mesh/mesh.h"
@@ -29,17 +29,17 @@ std::filesystem::path mesh_folder(const ModelFolder& models, const std::string& 
 std::string mesh_uri(const std::string& model, const std::string& file);
 
 // Begins models/NAME/model.sdf with a static model and writes its model.config; end_model ends it.
-farm::XmlFile begin_model(const ModelFolder& models, const std::string& name,
-                          const std::string& description, bool is_static = true);
-void end_model(farm::XmlFile& xml);
+sdfxml::XmlFile begin_model(const ModelFolder& models, const std::string& name,
+                            const std::string& description, bool is_static = true);
+void end_model(sdfxml::XmlFile& xml);
 
-using farm::write_class;
+using sdfxml::write_class;
 
 // "r g b 1", of an opaque colour.
 std::string colour_text(const Eigen::Vector3f& colour);
 
 // <material> of Gazebo Sim: diffuse colour, image (a URI, or "" for none), matt, both sides shown.
-void write_sim_material(farm::XmlFile& xml, const Eigen::Vector3f& colour,
+void write_sim_material(sdfxml::XmlFile& xml, const Eigen::Vector3f& colour,
                         const std::string& image);
 
 // <collision> with a box in the frame around it.
@@ -48,8 +48,8 @@ struct CollisionBox {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   double heading_rad = 0;
 };
-void write_box_collision(farm::XmlFile& xml, const CollisionBox& box, SurfaceClass label);
-void write_mesh_collision(farm::XmlFile& xml, const std::string& name, const std::string& uri,
+void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceClass label);
+void write_mesh_collision(sdfxml::XmlFile& xml, const std::string& name, const std::string& uri,
                           const Eigen::Vector3d& scale, SurfaceClass label);
 
 }  // namespace plotscan::gazebo

@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "sdfxml/elements.h"
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "core/output_folder.h"
-#include "farm/sdf_elements.h"
 #include "gazebo/drone.h"
 #include "gazebo/fly_script.h"
 #include "gazebo/readme.h"
@@ -28,7 +28,7 @@ constexpr double kMeshShare = 0.9;
 // The names of model folders have to differ: a plant model may be called like a plot or the drone.
 void require_different_names(const farm::Farm& farm, const std::vector<PlantGroups>& groups,
                              bool drone) {
-  std::set<std::string> taken = {farm::kTerrainModel};
+  std::set<std::string> taken = {sdfxml::kTerrainModel};
   if (drone) taken.insert(kDroneModel);
   for (const PlantGroups& group : groups) taken.insert(group.name);
   for (const farm::PlantModel& model : farm.models) {

@@ -7,7 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "farm/sdf_elements.h"
+#include "sdfxml/elements.h"
+
 #include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
@@ -59,7 +60,7 @@ std::vector<PlantGroups> by_plot(const farm::Farm& farm, const PlantsByPlace& so
   for (const auto& [place, plants] : sorted.by_plot) {
     const farm::Plot& plot = farm.plots[place.first];
     PlantGroup group = plot_group(farm, plot, plants);
-    models.push_back({.name = classed(farm::plot_element_name(plot.id), place.second),
+    models.push_back({.name = classed(sdfxml::plot_element_name(plot.id), place.second),
                       .label = place.second,
                       .origin = group.origin,
                       .links = {std::move(group)}});
@@ -72,7 +73,7 @@ std::vector<PlantGroups> by_row(const farm::Farm& farm, const PlantsByPlace& sor
   for (const auto& [place, plants] : sorted.by_plot) {
     const farm::Plot& plot = farm.plots[place.first];
     PlantGroup group = plot_group(farm, plot, plants);
-    group.link = classed(farm::plot_element_name(plot.id), place.second);
+    group.link = classed(sdfxml::plot_element_name(plot.id), place.second);
     group.mesh_prefix = group.link + "_";
     PlantGroups& row = rows[{plot.row, place.second}];
     if (row.links.empty()) {
@@ -105,7 +106,7 @@ void add_outside(const farm::Farm& farm, SurfaceClass label, const Plants& plant
                      .origin = on_ground(farm, middle, members),
                      .heading_rad = 0,
                      .plants = members};
-    const std::string name = many ? outside_model_name(++number) : farm::kPlantsOutsidePlots;
+    const std::string name = many ? outside_model_name(++number) : sdfxml::kPlantsOutsidePlots;
     models.push_back({.name = classed(name, label),
                       .label = label,
                       .origin = group.origin,

@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-#include "farm/sdf_elements.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -26,14 +26,14 @@ std::optional<std::uint32_t> number_at(std::string_view text, std::size_t begin,
 std::string row_model_name(int row) { return "row_" + std::to_string(row); }
 
 std::string plant_model_name(std::uint32_t plot, std::uint32_t plant) {
-  const std::string name = farm::plant_element_name(plant);
-  return plot == 0 ? name : farm::plot_element_name(plot) + "_" + name;
+  const std::string name = sdfxml::plant_element_name(plant);
+  return plot == 0 ? name : sdfxml::plot_element_name(plot) + "_" + name;
 }
 
 std::string weeds_name(const std::string& name) { return name + "_weeds"; }
 
 std::string outside_model_name(std::uint32_t tile) {
-  return farm::kPlantsOutsidePlots + ("_" + std::to_string(tile));
+  return sdfxml::kPlantsOutsidePlots + ("_" + std::to_string(tile));
 }
 
 std::optional<std::uint32_t> plot_in_name(std::string_view name) {

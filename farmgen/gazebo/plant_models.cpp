@@ -6,10 +6,10 @@
 #include <mutex>
 #include <set>
 
+#include "sdfxml/elements.h"
 #include <tbb/parallel_for.h>
 
 #include "core/text_file.h"
-#include "farm/sdf_elements.h"
 #include "farm/surface_colours.h"
 #include "gazebo/obj_file.h"
 #include "mesh/alpha_mask.h"
@@ -142,7 +142,7 @@ class MergedModelWriter {
   EntityCounts write(const PlantGroups& groups,
                      const std::vector<std::vector<MergedMesh>>& meshes) const {
     EntityCounts counts{.models = 1};
-    farm::XmlFile xml = begin_model(models_, groups.name, "Plants of the farm " + farm_.name);
+    sdfxml::XmlFile xml = begin_model(models_, groups.name, "Plants of the farm " + farm_.name);
     for (std::size_t i = 0; i < groups.links.size(); ++i)
       counts += write_link(xml, groups, groups.links[i], meshes[i]);
     end_model(xml);
@@ -150,12 +150,12 @@ class MergedModelWriter {
   }
 
  private:
-  EntityCounts write_link(farm::XmlFile& xml, const PlantGroups& groups, const PlantGroup& group,
+  EntityCounts write_link(sdfxml::XmlFile& xml, const PlantGroups& groups, const PlantGroup& group,
                           const std::vector<MergedMesh>& meshes) const {
     EntityCounts counts{.links = 1};
     xml.open("link", group.link);
     const Eigen::Vector3d place = group.origin - groups.origin;
-    if (!place.isZero(0)) xml.text("pose", farm::sdf_pose(place, Eigen::Quaterniond::Identity()));
+    if (!place.isZero(0)) xml.text("pose", sdfxml::sdf_pose(place, Eigen::Quaterniond::Identity()));
     for (const MergedMesh& mesh : meshes) {
       counts += write_mesh(xml, groups, mesh);
     }
@@ -167,12 +167,12 @@ class MergedModelWriter {
     return counts;
   }
 
-  EntityCounts write_mesh(farm::XmlFile& xml, const PlantGroups& groups,
+  EntityCounts write_mesh(sdfxml::XmlFile& xml, const PlantGroups& groups,
                           const MergedMesh& mesh) const {
     const std::string& name = surfaces_.names[mesh.material];
     const std::string uri = mesh_uri(groups.name, mesh.file);
     xml.open("visual", name);
-    farm::write_mesh_geometry(xml, uri);
+    sdfxml::write_mesh_geometry(xml, uri);
     if (options_.gazebo == Gazebo::sim)
       write_sim_material(xml, surfaces_.materials[mesh.material].colour, image_uri(mesh.material));
     write_class(xml, groups.label);
@@ -217,11 +217,11 @@ std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const fa
   for (std::size_t i = 0; i < farm.models.size(); ++i) {
     const std::string& name = farm.models[i].name;
     plants.push_back(write_single_mesh(models, name, surfaces.models[i], surfaces));
-    farm::XmlFile xml =
+    sdfxml::XmlFile xml =
         begin_model(models, name, "Plant of the farm " + farm.name + ", foot at the origin");
     xml.open("link", "link");
     xml.open("visual", "visual");
-    farm::write_mesh_geometry(xml, plants.back().uri);
+    sdfxml::write_mesh_geometry(xml, plants.back().uri);
     write_class(xml, classes[i]);
     xml.close();
     xml.close();
@@ -262,7 +262,7 @@ EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& fa
   ground.triangles = farm.terrain.triangles();
   std::vector<mesh::Material> materials;
   const std::vector<Surface> surfaces = surfaces_of(ground, materials);
-  const std::string name = farm::kTerrainModel;
+  const std::string name = sdfxml::kTerrainModel;
   const fs::path folder = mesh_folder(models, name);
   ObjFile obj(folder / (name + ".obj"), name + ".mtl", kGroundNormals);
   obj.use_material("soil");
@@ -273,10 +273,10 @@ EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& fa
   write_mtl(folder / (name + ".mtl"), {{.name = soil.name, .material = soil, .images = ""}});
 
   const std::string uri = mesh_uri(name, name + ".obj");
-  farm::XmlFile xml = begin_model(models, name, "Terrain of the farm " + farm.name);
+  sdfxml::XmlFile xml = begin_model(models, name, "Terrain of the farm " + farm.name);
   xml.open("link", "link");
   xml.open("visual", "visual");
-  farm::write_mesh_geometry(xml, uri);
+  sdfxml::write_mesh_geometry(xml, uri);
   write_class(xml, SurfaceClass::ground);
   xml.close();
   write_mesh_collision(xml, "collision", uri, Eigen::Vector3d::Ones(), SurfaceClass::ground);

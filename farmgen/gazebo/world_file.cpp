@@ -3,14 +3,15 @@
 
 #include <algorithm>
 
-#include "farm/sdf_elements.h"
+#include "sdfxml/elements.h"
+
 #include "gazebo/drone.h"
 #include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
 namespace {
 
-using farm::sdf_numbers;
+using sdfxml::sdf_numbers;
 
 // Where the drone waits: so far over the farm's middle.
 constexpr double kWaiting_m = 8;
@@ -28,8 +29,8 @@ class WorldFile {
     if (names_ != PluginNames::none) write_systems();
     write_scene();
     if (farm_.anchor) write_spherical_coordinates();
-    farm::write_sun(xml_);
-    include(farm::kTerrainModel, Eigen::Vector3d::Zero(), SurfaceClass::ground);
+    sdfxml::write_sun(xml_);
+    include(sdfxml::kTerrainModel, Eigen::Vector3d::Zero(), SurfaceClass::ground);
     for (const PlantGroups& group : world_.groups) include(group.name, group.origin, group.label);
     EntityCounts counts;
     if (options_.merge == Merge::none) {
@@ -119,7 +120,7 @@ class WorldFile {
     xml_.open("include");
     xml_.text("uri", "model://" + model);
     xml_.text("name", model);
-    xml_.text("pose", farm::sdf_pose(position, Eigen::Quaterniond::Identity()));
+    xml_.text("pose", sdfxml::sdf_pose(position, Eigen::Quaterniond::Identity()));
     write_label(label);
     xml_.close();
   }
@@ -130,11 +131,11 @@ class WorldFile {
     EntityCounts counts{.models = 1, .links = 1, .visuals = 1, .triangles = mesh.triangles};
     xml_.open("model", plant_model_name(plant.plot, plant.id));
     xml_.text("static", "true");
-    xml_.text("pose", farm::sdf_pose(plant.position, plant.rotation));
+    xml_.text("pose", sdfxml::sdf_pose(plant.position, plant.rotation));
     write_label(label);
     xml_.open("link", "link");
     xml_.open("visual", "visual");
-    farm::write_mesh_geometry(xml_, mesh.uri, plant.scale);
+    sdfxml::write_mesh_geometry(xml_, mesh.uri, plant.scale);
     write_class(xml_, label);
     xml_.close();
     if (options_.collision == Collision::mesh)
@@ -151,7 +152,7 @@ class WorldFile {
     return counts;
   }
 
-  farm::XmlFile xml_;
+  sdfxml::XmlFile xml_;
   const World& world_;
   const farm::Farm& farm_;
   const ExportOptions& options_;

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "core/printable.h"
 #include "core/text.h"
 
@@ -93,10 +95,46 @@ YAML::Node parse_map(const std::string& text, const std::filesystem::path& file)
   }
 }
 
+std::string path_below(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+// A scalar as a map with that one key.
+YAML::Node as_map(const YAML::Node& entry, const std::string& scalar_key) {
+  if (!entry.IsScalar() || scalar_key.empty()) return entry;
+  YAML::Node wrapped(YAML::NodeType::Map);
+  wrapped[scalar_key] = entry;
+  return wrapped;
+}
+
+std::string name_of(const YAML::Node& key) {
+  return key.IsScalar() ? key.Scalar() : "(a list or map)";
+}
+
+void require_known(const YamlDocument& document, const YamlDocument::Reading& reading,
+                   const std::vector<std::string>& known) {
+  std::set<std::string> seen;
+  for (const auto& entry : reading.node) {
+    const std::string key = name_of(entry.first);
+    const auto fail = [&](const std::string& message) {
+      document.fail(entry.first.Mark(), path_below(reading.path, key), message);
+    };
+    if (std::ranges::count(known, key) == 0)
+      fail("is not a known key; known here are " + joined(known, ", "));
+    if (!seen.insert(key).second) fail("is given twice");
+  }
+}
+
 }  // namespace
 
-void YamlOrigin::fail(const YAML::Mark& mark, const std::string& path,
-                      const std::string& message) const {
+YamlDocument::Reading& YamlDocument::reading(const YAML::Node& node, const std::string& path) {
+  const auto [place, is_new] = place_of_path_.emplace(path, readings_.size());
+  if (is_new) readings_.push_back({node, path});
+  return readings_[place->second];
+}
+
+void YamlDocument::fail(const YAML::Mark& mark, const std::string& path,
+                        const std::string& message) const {
   const std::string& text = path.empty() ? message : path + " " + message;
   for (auto assignment = overrides_.rbegin(); assignment != overrides_.rend(); ++assignment) {
     const std::string key = assignment->substr(0, assignment->find('='));
@@ -118,54 +156,68 @@ YamlSection YamlSection::parse(const std::string& text, const std::filesystem::p
                                const std::vector<std::string>& overrides) {
   const YAML::Node root = parse_map(text, file);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
-  return {std::make_shared<const YamlOrigin>(file, overrides), root, ""};
+  return {std::make_shared<YamlDocument>(file, overrides), root, ""};
 }
 
 std::string YamlSection::path_of(const std::string& key) const {
-  return path_.empty() ? key : path_ + "." + key;
+  return path_below(reading_->path, key);
+}
+
+YAML::Node YamlSection::value(const std::string& key) const {
+  std::vector<std::string>& asked = reading_->asked;
+  if (std::ranges::count(asked, key) == 0) asked.push_back(key);
+  return std::as_const(reading_->node)[key];
 }
 
 void YamlSection::fail(const std::string& key, const std::string& message) const {
-  const YAML::Node value = node_[key];
-  origin_->fail(value ? value.Mark() : node_.Mark(), path_of(key), message);
+  const YAML::Node at = std::as_const(reading_->node)[key];
+  document_->fail(at ? at.Mark() : reading_->node.Mark(), path_of(key), message);
+}
+
+// A key that nobody has asked for and that is spelt nearly so was meant.
+void YamlSection::fail_missing(const std::string& key) const {
+  std::vector<std::string> unread;
+  for (const auto& entry : reading_->node) {
+    const std::string other = name_of(entry.first);
+    if (std::ranges::count(reading_->asked, other) == 0) unread.push_back(other);
+  }
+  if (const auto misspelt = nearest_name(key, unread))
+    fail(*misspelt, "is not a known key, and " + key + " is missing");
+  fail(key, "is missing");
+}
+
+void YamlSection::refuse_unread() const {
+  for (const YamlDocument::Reading& reading : document_->readings())
+    require_known(*document_, reading, reading.asked);
 }
 
 void YamlSection::allow_only(const std::vector<std::string>& keys) const {
-  std::set<std::string> seen;
-  for (const auto& entry : node_) {
-    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "(a list or map)";
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      origin_->fail(entry.first.Mark(), path_of(key),
-                    "is not a known key; known here are " + joined(keys, ", "));
-    }
-    if (!seen.insert(key).second) {
-      origin_->fail(entry.first.Mark(), path_of(key), "is given twice");
-    }
-  }
+  require_known(*document_, *reading_, keys);
 }
 
-bool YamlSection::has(const std::string& key) const { return node_[key].IsDefined(); }
+bool YamlSection::has(const std::string& key) const { return value(key).IsDefined(); }
 
-bool YamlSection::is_list(const std::string& key) const {
-  return has(key) && node_[key].IsSequence();
-}
+bool YamlSection::is_list(const std::string& key) const { return value(key).IsSequence(); }
 
-bool YamlSection::is_map(const std::string& key) const { return has(key) && node_[key].IsMap(); }
+bool YamlSection::is_map(const std::string& key) const { return value(key).IsMap(); }
 
 std::vector<std::string> YamlSection::keys() const {
   std::vector<std::string> all;
-  for (const auto& entry : node_) all.push_back(entry.first.Scalar());
+  for (const auto& entry : reading_->node) {
+    all.push_back(entry.first.Scalar());
+    value(all.back());
+  }
   return all;
 }
 
 std::optional<std::string> YamlSection::scalar(const std::string& key, bool required) const {
-  const YAML::Node value = node_[key];
-  if (!value.IsDefined()) {
-    if (required) fail(key, "is missing");
+  const YAML::Node at = value(key);
+  if (!at.IsDefined()) {
+    if (required) fail_missing(key);
     return {};
   }
-  if (!value.IsScalar()) fail(key, "is not a single value");
-  return value.Scalar();
+  if (!at.IsScalar()) fail(key, "is not a single value");
+  return at.Scalar();
 }
 
 double YamlSection::number(const std::string& key, Range range,
@@ -224,16 +276,16 @@ std::pair<double, double> YamlSection::pair(
 
 std::vector<double> YamlSection::numbers(const std::string& key, std::size_t count,
                                          Range range) const {
-  const YAML::Node value = node_[key];
-  if (!value.IsDefined()) fail(key, "is missing");
+  const YAML::Node list = value(key);
+  if (!list.IsDefined()) fail_missing(key);
   const std::string counted = count == 2 ? "two" : std::to_string(count);
   const bool listed =
-      value.IsSequence() && value.size() == count &&
-      std::all_of(value.begin(), value.end(), [](const auto& entry) { return entry.IsScalar(); });
+      list.IsSequence() && list.size() == count &&
+      std::all_of(list.begin(), list.end(), [](const auto& entry) { return entry.IsScalar(); });
   if (!listed) fail(key, "is not a list of " + counted + " numbers in " + range.text());
   std::vector<double> all;
   std::vector<std::string> texts;
-  for (const auto& entry : value) {
+  for (const auto& entry : list) {
     const auto number = parsed<double>(entry.Scalar());
     texts.push_back(entry.Scalar());
     if (number && range.contains(*number)) all.push_back(*number);
@@ -246,40 +298,32 @@ std::vector<double> YamlSection::numbers(const std::string& key, std::size_t cou
 }
 
 YamlSection YamlSection::section(const std::string& key) const {
-  const YAML::Node value = node_[key];
-  if (!value.IsDefined()) fail(key, "is missing");
-  if (!value.IsMap()) fail(key, "is not a map of keys to values");
-  return {origin_, value, path_of(key)};
+  const YAML::Node map = value(key);
+  if (!map.IsDefined()) fail_missing(key);
+  if (!map.IsMap()) fail(key, "is not a map of keys to values");
+  return {document_, map, path_of(key)};
 }
 
 std::vector<YamlSection> YamlSection::list(const std::string& key, std::size_t longest,
                                            const std::string& scalar_key) const {
-  const YAML::Node value = node_[key];
-  if (!value.IsDefined()) fail(key, "is missing");
-  if (!value.IsSequence() || value.size() == 0 || value.size() > longest) {
+  const YAML::Node list = value(key);
+  if (!list.IsDefined()) fail_missing(key);
+  if (!list.IsSequence() || list.size() == 0 || list.size() > longest) {
     fail(key, "is not a list of 1 to " + std::to_string(longest) + " entries");
   }
   std::vector<YamlSection> entries;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string index = std::to_string(i);
-    YAML::Node entry;
-    entry.reset(value[i]);
-    if (entry.IsScalar() && !scalar_key.empty()) {
-      YAML::Node wrapped(YAML::NodeType::Map);
-      wrapped[scalar_key] = entry;
-      entry.reset(wrapped);
-    }
-    if (!entry.IsMap()) {
-      origin_->fail(entry.Mark(), path_of(key) + "." + index, "is not a map of keys to values");
-    }
-    entries.push_back({origin_, entry, path_of(key) + "." + index});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = path_below(path_of(key), std::to_string(i));
+    const YAML::Node entry = as_map(list[i], scalar_key);
+    if (!entry.IsMap()) document_->fail(entry.Mark(), path, "is not a map of keys to values");
+    entries.push_back({document_, entry, path});
   }
   return entries;
 }
 
 std::map<std::string, std::string> YamlSection::texts() const {
   std::map<std::string, std::string> all;
-  for (const auto& entry : node_) all[entry.first.Scalar()] = text(entry.first.Scalar());
+  for (const std::string& key : keys()) all[key] = text(key);
   return all;
 }
 

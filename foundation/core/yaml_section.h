@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -16,11 +18,23 @@
 
 namespace plotscan {
 
-// Where a value of a description comes from: a line of the file, or an override.
-class YamlOrigin {
+// A description: where its values come from, a line of the file or an override, and which of its
+// keys were asked for.
+class YamlDocument {
  public:
-  YamlOrigin(std::filesystem::path file, std::vector<std::string> overrides)
+  // A map of the document, and the keys that a reader asked it for, in that order.
+  struct Reading {
+    YAML::Node node;
+    std::string path;  // dotted, "" for the document
+    std::vector<std::string> asked = {};
+  };
+
+  YamlDocument(std::filesystem::path file, std::vector<std::string> overrides)
       : file_(std::move(file)), overrides_(std::move(overrides)) {}
+
+  // The reading of the map at the path: the same each time. It lives as long as the document.
+  Reading& reading(const YAML::Node& node, const std::string& path);
+  const std::deque<Reading>& readings() const { return readings_; }
 
   // Throws InputError: "file:line: message", or "--set key=value: message" where an override gave
   // the value at `path` (or what holds it).
@@ -31,10 +45,14 @@ class YamlOrigin {
  private:
   std::filesystem::path file_;
   std::vector<std::string> overrides_;  // "key=value"
+  std::deque<Reading> readings_ = {};
+  std::unordered_map<std::string, std::size_t> place_of_path_ = {};
 };
 
 // One map of a YAML document, read key by key. Every error is an InputError that names the place,
-// the key and what is allowed. Internal to the library's .cpp files (it holds yaml-cpp's types).
+// the key and what is allowed. A section remembers the keys that it was asked for: these are the
+// known ones, and refuse_unread refuses the others. Internal to the library's .cpp files (it holds
+// yaml-cpp's types).
 class YamlSection {
  public:
   // Parses the file and applies the overrides ("dotted.path=value", list entries by index from 0;
@@ -45,7 +63,11 @@ class YamlSection {
   static YamlSection parse(const std::string& text, const std::filesystem::path& file,
                            const std::vector<std::string>& overrides = {});
 
-  // Throws when the section holds a key other than these, or one of them twice.
+  // Throws when a section that was read of the document, whichever it is, holds a key that nobody
+  // asked for, or one twice. To be called once all is read.
+  void refuse_unread() const;
+  // Throws when the section holds a key other than these, or one of them twice: for keys that are
+  // names of something, as of a crop's parameters.
   void allow_only(const std::vector<std::string>& keys) const;
   bool has(const std::string& key) const;
   bool is_list(const std::string& key) const;
@@ -77,19 +99,22 @@ class YamlSection {
 
   // Throws InputError about a key of this section (or, where it is missing, about the section).
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
-  const std::filesystem::path& file() const { return origin_->file(); }
+  const std::filesystem::path& file() const { return document_->file(); }
 
  private:
-  YamlSection(std::shared_ptr<const YamlOrigin> origin, const YAML::Node& node, std::string path)
-      : origin_(std::move(origin)), node_(node), path_(std::move(path)) {}
+  YamlSection(std::shared_ptr<YamlDocument> document, const YAML::Node& node,
+              const std::string& path)
+      : document_(std::move(document)), reading_(&document_->reading(node, path)) {}
 
+  // The value at the key, which is known from here on.
+  YAML::Node value(const std::string& key) const;
+  [[noreturn]] void fail_missing(const std::string& key) const;
   std::string path_of(const std::string& key) const;
   // The scalar at the key; nothing where the key is missing and need not be there.
   std::optional<std::string> scalar(const std::string& key, bool required) const;
 
-  std::shared_ptr<const YamlOrigin> origin_;
-  YAML::Node node_;
-  std::string path_;  // dotted, "" for the document
+  std::shared_ptr<YamlDocument> document_;
+  YamlDocument::Reading* reading_;  // of the document
 };
 
 }  // namespace plotscan

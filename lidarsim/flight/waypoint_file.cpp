@@ -15,7 +15,6 @@ constexpr Range kHeading_deg{-360, 360};
 constexpr Range kHold_s{0, 3600};
 
 StatedWaypoint read_waypoint(const YamlSection& section) {
-  section.allow_only({"x_m", "y_m", "z_m", "altitude_m", "speed_m_s", "heading_deg", "hold_s"});
   if (section.has("z_m") == section.has("altitude_m"))
     section.fail("altitude_m", "either z_m or altitude_m must be given");
   StatedWaypoint stated;
@@ -35,11 +34,11 @@ StatedWaypoint read_waypoint(const YamlSection& section) {
 
 std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file) {
   const YamlSection root = YamlSection::load(file, {});
-  root.allow_only({"waypoints"});
   const std::vector<YamlSection> sections = root.list("waypoints", kMostWaypoints);
   if (sections.size() < 2) root.fail("waypoints", "must list at least two");
   std::vector<StatedWaypoint> waypoints;
   for (const YamlSection& section : sections) waypoints.push_back(read_waypoint(section));
+  root.refuse_unread();
   if (waypoints.back().waypoint.speed_m_s)
     sections.back().fail("speed_m_s", "is of the way from a waypoint on, and this is the last");
   return waypoints;

@@ -57,7 +57,7 @@ double step_of(const farm::Farm& farm) {
 }
 
 // Of a hit over its place; NaN beside the terrain.
-double height_of(const Scene& scene, const farm::Terrain& terrain, const Hit& hit, double top_m,
+double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit& hit, double top_m,
                  const Eigen::Vector2d& place) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(hit.range_m)) return kNone;
@@ -67,7 +67,7 @@ double height_of(const Scene& scene, const farm::Terrain& terrain, const Hit& hi
 }
 
 // Heights of what a line's rays hit.
-void measure_line(const Scene& scene, const farm::Terrain& terrain, const RayGrid& grid,
+void measure_line(const Scene& scene, const terrain::Terrain& terrain, const RayGrid& grid,
                   std::size_t line, double* heights_m) {
   const float top_m = scene.top_m() + kAbove_m;
   std::vector<Ray> rays;
@@ -83,8 +83,8 @@ void measure_line(const Scene& scene, const farm::Terrain& terrain, const RayGri
         height_of(scene, terrain, hits[i], static_cast<double>(top_m), grid.place(line, i));
 }
 
-farm::CanopyHeights canopy_of(const Scene& scene, const farm::Terrain& terrain, const PlotBox& box,
-                              double step_m) {
+farm::CanopyHeights canopy_of(const Scene& scene, const terrain::Terrain& terrain,
+                              const PlotBox& box, double step_m) {
   const RayGrid grid(box, step_m);
   std::vector<double> heights_m(grid.lines * grid.rays_a_line);
   tbb::parallel_for(std::size_t{0}, grid.lines, [&](std::size_t line) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/fly_place.h"
 
+#include "farmfolder/read_farm.h"
+
 #include "farm/farm.h"
 #include "gazebo/read_world.h"
 
@@ -24,7 +26,7 @@ PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceO
 PlaceScan fly_place(const fs::path& place, const fs::path& scan_folder, FlyPlaceOptions options,
                     const ProgressReport& progress) {
   if (!fs::is_directory(place)) return fly_world(place, scan_folder, options, progress);
-  const farm::Farm farm = farm::read_farm(place);
+  const farm::Farm farm = farmfolder::read_farm(place);
   // The farm's manifest holds the hashes of its other files.
   options.flight.inputs = {place / "manifest.json"};
   return {fly(farm, scan_folder, options.flight, options.replace, progress), {}};

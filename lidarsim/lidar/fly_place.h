@@ -22,7 +22,8 @@ struct PlaceScan {
 };
 
 // Scans a place by its path: a farm's folder, or the file of any SDF world or model, and writes the
-// scan folder as fly does. Throws InputError as farm::read_farm, gazebo::read_world and fly do.
+// scan folder as fly does. Throws InputError as farmfolder::read_farm, gazebo::read_world and fly
+// do.
 PlaceScan fly_place(const std::filesystem::path& place, const std::filesystem::path& scan_folder,
                     FlyPlaceOptions options, const ProgressReport& progress = {});
 

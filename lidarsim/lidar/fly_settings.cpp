@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/fly_settings.h"
 
-#include <algorithm>
+#include <utility>
 
-#include "core/csv.h"
-#include "core/error.h"
-#include "core/text.h"
 #include "lidar/beam.h"
 #include "lidar/returns.h"
 
@@ -15,31 +12,6 @@ namespace {
 constexpr const char* kWind = "Wind (docs/flight.md, docs/sway.md)";
 constexpr const char* kBeam = "Beam (docs/beam.md)";
 constexpr const char* kPoseErrors = "Pose errors (docs/pose-errors.md)";
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
-// The settings hand out references into what they are given; nothing is written through these.
-template <class Setting>
-const auto& value_of(const Setting& setting, const FlyOptions& options) {
-  return setting.of(const_cast<FlyOptions&>(options));  // NOLINT(*-const-cast)
-}
-
-template <class Value>
-nlohmann::json json_of(const Value& value) {
-  return value;
-}
-
-nlohmann::json json_of(const Eigen::Vector3d& value) { return {value.x(), value.y(), value.z()}; }
-
-void require_in_range(const std::string& flag, double value, const Range& range) {
-  if (range.contains(value)) return;
-  throw InputError(flag + " " + format_number(value) + " must be in " + range.text());
-}
 
 }  // namespace
 
@@ -269,14 +241,9 @@ nlohmann::json settings_json(const FlyOptions& options) {
   nlohmann::json document = nlohmann::json::object();
   for (const FlySetting& setting : fly_settings()) {
     if (!counts(setting, options)) continue;
-    std::visit(Overloaded{[&](const OptionalSetting& value) {
-                            const auto& set = value_of(value, options);
-                            if (set) document[setting.key] = *set;
-                          },
-                          [&](const auto& value) {
-                            document[setting.key] = json_of(value_of(value, options));
-                          }},
-               setting.value);
+    nlohmann::json value = std::visit(
+        [&](const auto& of) { return setting_json(value_of(of, options)); }, setting.value);
+    if (!value.is_null()) document[setting.key] = std::move(value);
   }
   return document;
 }
@@ -284,24 +251,7 @@ nlohmann::json settings_json(const FlyOptions& options) {
 void require_valid(const FlyOptions& options) {
   for (const FlySetting& setting : fly_settings()) {
     if (!counts(setting, options)) continue;
-    std::visit(Overloaded{[&](const TextSetting& text) {
-                            const std::string& value = value_of(text, options);
-                            if (text.choices.empty() || std::ranges::count(text.choices, value) > 0)
-                              return;
-                            throw InputError(setting.flag + " \"" + value + "\" must be one of " +
-                                             joined(text.choices, ", "));
-                          },
-                          [&](const VectorSetting& vector) {
-                            for (const double value : value_of(vector, options))
-                              require_in_range(setting.flag, value, vector.range);
-                          },
-                          [&](const OptionalSetting& number) {
-                            const auto& set = value_of(number, options);
-                            if (set) require_in_range(setting.flag, *set, number.range);
-                          },
-                          [&](const auto& number) {
-                            require_in_range(setting.flag, value_of(number, options), number.range);
-                          }},
+    std::visit([&](const auto& value) { plotscan::require_valid(setting.flag, value, options); },
                setting.value);
   }
 }

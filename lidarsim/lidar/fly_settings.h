@@ -1,43 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "core/range.h"
+#include "core/setting.h"
 #include "lidar/fly.h"
 
 namespace plotscan::lidar {
 
-struct NumberSetting {
-  Range range;
-  double& (*of)(FlyOptions&);
-};
-
-// What is not set is the sensor's or the flight's own.
-struct OptionalSetting {
-  Range range;
-  std::optional<double>& (*of)(FlyOptions&);
-};
-
-struct WholeSetting {
-  Range range;
-  int& (*of)(FlyOptions&);
-};
-
-struct VectorSetting {
-  Range range;  // of each of the three
-  Eigen::Vector3d& (*of)(FlyOptions&);
-};
-
-struct TextSetting {
-  std::vector<std::string> choices;  // empty: any text
-  std::string& (*of)(FlyOptions&);
-};
+// What is not set of an optional one is the sensor's or the flight's own.
+using NumberSetting = plotscan::NumberSetting<FlyOptions>;
+using OptionalSetting = plotscan::OptionalSetting<FlyOptions>;
+using WholeSetting = plotscan::WholeSetting<FlyOptions>;
+using VectorSetting = plotscan::VectorSetting<FlyOptions>;
+using TextSetting = plotscan::TextSetting<FlyOptions>;
 
 // One option of a flight: the command line, suites and manifests all know it from here.
 struct FlySetting {

@@ -14,7 +14,7 @@ namespace plotscan::lidar {
 
 // How a farm is made from its description.
 struct MakeFarmOptions {
-  std::vector<std::string> overrides = {};  // as farm::load_description takes them
+  std::vector<std::string> overrides = {};  // as description::load_description takes them
   std::optional<std::uint64_t> seed = {};   // else the description's, else 1
   int threads = 1;
   bool replace = false;  // a farm that is there

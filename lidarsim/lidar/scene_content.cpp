@@ -9,7 +9,7 @@
 namespace plotscan::lidar {
 namespace {
 
-mesh::Mesh shape_of(const farm::Terrain& terrain) {
+mesh::Mesh shape_of(const terrain::Terrain& terrain) {
   mesh::Mesh shape{.vertices = {}, .triangles = terrain.triangles()};
   for (const Eigen::Vector3d& vertex : terrain.vertices())
     shape.vertices.emplace_back(vertex.cast<float>());

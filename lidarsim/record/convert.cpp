@@ -7,6 +7,7 @@
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/text.h"
+#include "record/scan_folder.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::record {

@@ -61,6 +61,20 @@ std::unique_ptr<scan::PointWriter> create_ros(const Source& source,
   return std::make_unique<RosRecorder>(*source.flight, options, create);
 }
 
+// `create_file` makes the file and its topics.
+template <class CreateFile>
+Format ros_format(const std::string& name, const std::string& extension, CreateFile create_file) {
+  return {.name = name,
+          .extensions = {extension},
+          .is_recording = true,
+          .has_topics = true,
+          .needs_flight = true,
+          .open = open_ros,
+          .create = [=](const path& file, const Source& source, const WriteOptions&) {
+            return create_ros(source, [&](auto topics) { return create_file(file, topics); });
+          }};
+}
+
 }  // namespace
 
 const std::vector<Format>& formats() {
@@ -91,26 +105,8 @@ const std::vector<Format>& formats() {
       pcap_format(),
       pcapng_format(),
 #endif
-      {.name = "ROS 1 bag",
-       .extensions = {".bag"},
-       .is_recording = true,
-       .has_topics = true,
-       .needs_flight = true,
-       .open = open_ros,
-       .create =
-           [](const path& file, const Source& source, const WriteOptions&) {
-             return create_ros(source, [&](auto topics) { return ros::create_bag(file, topics); });
-           }},
-      {.name = "ROS 2 MCAP",
-       .extensions = {".mcap"},
-       .is_recording = true,
-       .has_topics = true,
-       .needs_flight = true,
-       .open = open_ros,
-       .create =
-           [](const path& file, const Source& source, const WriteOptions&) {
-             return create_ros(source, [&](auto topics) { return ros::create_mcap(file, topics); });
-           }},
+      ros_format("ROS 1 bag", ".bag", ros::create_bag),
+      ros_format("ROS 2 MCAP", ".mcap", ros::create_mcap),
   };
   return all;
 }

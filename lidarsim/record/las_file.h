@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "record/formats.h"
+#include "record/recording/format.h"
 
 namespace plotscan::record {
 

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/utc_time.h"
+#include "record/scan_folder.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::record {

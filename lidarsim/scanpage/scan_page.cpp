@@ -8,6 +8,7 @@
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/text.h"
+#include "record/scan_folder.h"
 #include "report/page.h"
 #include "report/shown_field.h"
 #include "scanpage/fitted_ground.h"

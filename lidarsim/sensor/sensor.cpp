@@ -40,10 +40,6 @@ constexpr int kMaxColumns = 1'000'000;
 // full, and so few that the drone turns little meanwhile.
 constexpr int kRisleyShots = 32;
 
-const std::vector<std::string> kSpinningKeys = {
-    "spin_hz", "firing_sequence_us", "columns_per_turn", "lasers", "packets", "spin_jitter_deg"};
-const std::vector<std::string> kRisleyKeys = {"shot_period_us", "prisms"};
-
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // The lasers fire within the firing sequence, which takes at least so long.
@@ -51,7 +47,6 @@ std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   std::vector<Laser> lasers;
   double before_us = 0;
   for (const YamlSection& section : root.list("lasers", kMaxLasers)) {
-    section.allow_only({"fires_us", "elevation_deg", "azimuth_deg", "offset_mm", "radius_mm"});
     const double fires_us = section.number("fires_us", {before_us, sequence_us});
     lasers.push_back({.elevation_rad = radians(section.number("elevation_deg", kElevation_deg)),
                       .azimuth_rad = radians(section.number("azimuth_deg", kAzimuth_deg, 0.0)),
@@ -68,10 +63,8 @@ std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
 }
 
 Beam read_beam(const YamlSection& section) {
-  section.allow_only({"divergence_mrad", "pulse_ns", "faintest", "least_separation_m"});
   const auto [along_mrad, across_mrad] = section.pair("divergence_mrad", kDivergence_mrad);
   const YamlSection faintest = section.section("faintest");
-  faintest.allow_only({"reflectance", "range_m"});
   return {.along_rad = 1e-3 * along_mrad,
           .across_rad = 1e-3 * across_mrad,
           .pulse_s = 1e-9 * section.number("pulse_ns", kPulse_ns),
@@ -83,7 +76,6 @@ Beam read_beam(const YamlSection& section) {
 std::optional<PacketFormat> read_packets(const YamlSection& root, const Sensor& sensor) {
   if (!root.has("packets")) return std::nullopt;
   const YamlSection section = root.section("packets");
-  section.allow_only({"product", "distance_mm"});
   const PacketFormat format{
       .product = static_cast<std::uint8_t>(section.integer("product", 0, 255)),
       .distance_step_m = 1e-3 * section.number("distance_mm", kDistanceStep_mm)};
@@ -98,7 +90,6 @@ std::optional<PacketFormat> read_packets(const YamlSection& root, const Sensor& 
 
 void read_spin(const YamlSection& root, Sensor& sensor) {
   const YamlSection spin = root.section("spin_hz");
-  spin.allow_only({"least", "most", "default"});
   sensor.min_spin_hz = spin.number("least", kSpin_hz);
   sensor.max_spin_hz = spin.number("most", {sensor.min_spin_hz, kSpin_hz.high});
   sensor.default_spin_hz = spin.number("default", {sensor.min_spin_hz, sensor.max_spin_hz});
@@ -139,7 +130,6 @@ void read_risley(const YamlSection& root, Sensor& sensor) {
   std::array<Wedge, 2> wedges;
   for (std::size_t i = 0; i < 2; ++i) {
     const YamlSection& section = sections[i];
-    section.allow_only({"wedge_deg", "refractive_index", "rpm", "phase_deg"});
     wedges[i] = {.slant_rad = radians(section.number("wedge_deg", kSlant_deg)),
                  .refractive_index = section.number("refractive_index", kRefractiveIndex),
                  .turns_hz = section.number("rpm", kPrism_rpm) / 60,
@@ -171,15 +161,11 @@ double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz) {
 Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
   const YamlSection root = YamlSection::parse(description, file);
   const bool is_risley = root.choice("kind", {"spinning", "risley"}) == 1;
-  std::vector<std::string> keys = {"name", "title", "kind", "range", "beam", "sources"};
-  std::ranges::copy(is_risley ? kRisleyKeys : kSpinningKeys, std::back_inserter(keys));
-  root.allow_only(keys);
   Sensor sensor{.name = root.text("name"),
                 .title = root.text("title"),
                 .lasers = {},
                 .description = description};
   const YamlSection range = root.section("range");
-  range.allow_only({"least_m", "most_m", "step_m"});
   sensor.min_range_m = range.number("least_m", kRange_m);
   sensor.max_range_m = range.number("most_m", {sensor.min_range_m, kRange_m.high});
   sensor.range_step_m = range.number("step_m", {0, 1}, 0.0);
@@ -190,11 +176,13 @@ Sensor parse_sensor(const std::string& description, const std::filesystem::path&
       source.text("source");
   }
   if (root.has("beam")) sensor.beam = read_beam(root.section("beam"));
-  if (is_risley)
+  if (is_risley) {
     read_risley(root, sensor);
-  else
+  } else {
     read_spinning(root, sensor);
-  sensor.packets = read_packets(root, sensor);
+    sensor.packets = read_packets(root, sensor);
+  }
+  root.refuse_unread();
   return sensor;
 }
 

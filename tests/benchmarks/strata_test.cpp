@@ -4,13 +4,13 @@
 #include <fstream>
 #include <numbers>
 
+#include "description/load_description.h"
+#include "planting/generate.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "farm/description.h"
-#include "farm/generate.h"
 #include "lidar/fly_settings.h"
 #include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
@@ -50,36 +50,38 @@ TEST_P(EveryStratum, HasFarmsThatCanBeMade) {
     GTEST_SKIP() << kSources.meshes << " is absent";
   for (int index = 0; index < 20; ++index) {
     const FieldPlan plan = plan_field("test", GetParam(), index, kSources);
-    const farm::FarmDescription description = farm::load_description(plan.farm, plan.overrides);
+    const planting::FarmDescription description =
+        description::load_description(plan.farm, plan.overrides);
     EXPECT_NO_THROW(lidar::require_valid(plan.flight)) << index;
     std::size_t places = 0;
-    for (const farm::PlotRowDescription& row : description.plots->rows) places += row.plots;
+    for (const planting::PlotRowDescription& row : description.plots->rows) places += row.plots;
     EXPECT_GE(places, 12U) << index;
     EXPECT_LE(places, GetParam() == "kentland" ? 112U : 45U) << index;
   }
   const FieldPlan plan = plan_field("test", GetParam(), 0, kSources);
   const farm::Farm farm =
-      farm::generate(farm::load_description(plan.farm, plan.overrides), plan.seed);
+      planting::generate(description::load_description(plan.farm, plan.overrides), plan.seed);
   EXPECT_FALSE(farm.plots.empty() || farm.plants.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EveryStratum, ::testing::ValuesIn(farm_strata()),
                          [](const auto& stratum) { return stratum.param; });
 
-farm::PlotGridDescription grid_of(const std::string& stratum, int index) {
+planting::PlotGridDescription grid_of(const std::string& stratum, int index) {
   const FieldPlan plan = plan_field("test", stratum, index, kSources);
-  return *farm::load_description(plan.farm, plan.overrides).plots;
+  return *description::load_description(plan.farm, plan.overrides).plots;
 }
 
 TEST(PlanField, StrataAreWhatTheirNamesSay) {
   for (int index = 0; index < 20; ++index) {
-    const farm::PlotGridDescription touching = grid_of("touching", index);
+    const planting::PlotGridDescription touching = grid_of("touching", index);
     EXPECT_EQ(std::min(touching.gap_width_m, touching.gap_length_m), 0.2);
-    const farm::PlotGridDescription maize = grid_of("maize", index);
+    const planting::PlotGridDescription maize = grid_of("maize", index);
     EXPECT_GE(std::min(maize.gap_width_m, maize.gap_length_m), 0.5);
     EXPECT_LE(std::max(maize.gap_width_m, maize.gap_length_m), 1.0);
     const FieldPlan drilled = plan_field("test", "drilled", index, kSources);
-    const farm::FarmDescription sown = farm::load_description(drilled.farm, drilled.overrides);
+    const planting::FarmDescription sown =
+        description::load_description(drilled.farm, drilled.overrides);
     const auto rows = sown.plants->cultivars.front().drill_rows;
     EXPECT_GE(rows, 2U);
     EXPECT_LE(rows, 5U);

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "description/load_description.h"
+#include "planting/generate.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "farm/description.h"
-#include "farm/generate.h"
+#include "farmbench/methods.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -40,24 +41,38 @@ std::string with(const std::string& line, const std::string& other) {
   return text.replace(text.find(line), line.size(), other);
 }
 
+TEST(LoadSuite, AMethodHasSettingsOfItsOwn) {
+  const TemporaryFolder folder;
+  const Suite suite = load_suite(
+      folder.write("s.yaml", with("[oracle-ground]",
+                                  "[lattice, lattice: {noise_m: 0.02, calibrated: false}, "
+                                  "dhami2020 true-boxes: {voxel_m: 0.1}]")));
+  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice calibrated=false noise_m=0.02",
+                                         "dhami2020 true-boxes voxel_m=0.1"));
+  EXPECT_EQ(method_named(suite.methods[1]).heights.front().row,
+            "lattice/max calibrated=false noise_m=0.02");
+  EXPECT_EQ(method_named(suite.methods[2]).heights.front().row,
+            "dhami2020/voxel-max true-boxes voxel_m=0.1");
+}
+
 TEST(LoadSuite, ThePapersProtocol) {
   const Suite suite = load_suite(kSuites / "paper.yaml");
   EXPECT_EQ(suite.name, "paper");
   EXPECT_THAT(suite.seeds, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10));
   ASSERT_EQ(suite.cases.size(), 3U);
-  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice uncalibrated", "dhami2020",
+  EXPECT_THAT(suite.methods, ElementsAre("lattice", "lattice calibrated=false", "dhami2020",
                                          "dhami2020 true-boxes", "oracle-ground", "one-number"));
   const double relief_m[] = {0, 0.5, 1};
   const double published_cm[] = {4.8, 6.1, 16.0};
   for (std::size_t i = 0; i < 3; ++i) {
-    const farm::FarmDescription farm = farm::load_description(suite.cases[i].farm);
+    const planting::FarmDescription farm = description::load_description(suite.cases[i].farm);
     EXPECT_EQ(farm.terrain.side_m, 80);
     EXPECT_EQ(farm.terrain.vertices, 150U);
     EXPECT_EQ(farm.terrain.relief_m, relief_m[i]);
     ASSERT_EQ(farm.plants->cultivars.size(), 1U);
     EXPECT_EQ(farm.plants->cultivars[0].count, 90U);
     ASSERT_EQ(farm.plots->rows.size(), 3U);
-    for (const farm::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
+    for (const planting::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
     EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
     EXPECT_EQ(suite.cases[i].flight.spin_jitter, "none") << "Gazebo's rays turn steadily";
   }
@@ -80,8 +95,8 @@ TEST_P(ShippedSuite, IsSound) {
   for (const std::uint64_t seed : suite.seeds) EXPECT_LT(seed, 1000U) << "others tune";
   for (const SuiteCase& suite_case : suite.cases) {
     if (suite_case.overrides.empty()) continue;  // a shipped world, which has tests of its own
-    const farm::Farm farm = farm::generate(
-        farm::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
+    const farm::Farm farm = planting::generate(
+        description::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
     EXPECT_FALSE(farm.plots.empty()) << suite_case.name;
     EXPECT_TRUE(suite_case.without_plots || !farm.plants.empty()) << suite_case.name;
   }
@@ -100,7 +115,7 @@ TEST(LoadSuite, HardFieldsAreHard) {
   const auto made = [&](const std::string& name, std::uint64_t seed) {
     const auto found = std::ranges::find(suite.cases, name, &SuiteCase::name);
     if (found == suite.cases.end()) throw std::runtime_error("no case " + name);
-    return farm::generate(farm::load_description(found->farm, found->overrides), seed);
+    return planting::generate(description::load_description(found->farm, found->overrides), seed);
   };
   EXPECT_NE(made("heading", 1).plots[0].box.heading_rad,
             made("heading", 2).plots[0].box.heading_rad);
@@ -172,7 +187,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{with("[4]", "[4, 4]"), ":4: seeds name 4 twice"},
         BadSuite{with("[4]", "{first: 1, count: 0}"), ":4: seeds.count 0 is not in [1, 10000]"},
         BadSuite{with("[4]", "4"), ":4: seeds is not a map"},
-        BadSuite{with("[oracle-ground]", "[magic]"), ":5: methods.0.name \"magic\" is not one of"},
+        BadSuite{with("[oracle-ground]", "[magic]"),
+                 ":5: methods do not hold: there is no method \"magic\"; there are lattice, "},
+        BadSuite{with("[oracle-ground]", "[lattice: {calibrated: maybe}]"),
+                 ":5: methods do not hold: calibrated \"maybe\" must be one of true, false"},
+        BadSuite{with("[oracle-ground]", "[lattice: {heading_deg: 400}]"),
+                 ":5: methods do not hold: heading_deg 400 must be in [-360, 360]"},
+        BadSuite{with("[oracle-ground]", "[lattice: {voxel_m: 1}]"),
+                 ":5: methods do not hold: \"voxel_m=1\" is not one of heading_deg, plot_width_m"},
+        BadSuite{with("[oracle-ground]", "[oracle-ground: {voxel_m: 1}]"),
+                 ":5: methods do not hold: there is no method \"oracle-ground voxel_m=1\""},
+        BadSuite{with("[oracle-ground]", "[{lattice: {rows: 2}, dhami2020: {}}]"),
+                 ":5: methods.0 has to be a method's name, or name: {key: value}"},
         BadSuite{with("[oracle-ground]", "[oracle-ground, oracle-ground]"), ":5: methods name"},
         BadSuite{with("name: mine", "name: a/b"), ":1: name \"a/b\" is not a name"},
         BadSuite{with("name: mine\n", ""), ":1: name is missing"},

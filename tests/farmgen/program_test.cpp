@@ -6,7 +6,7 @@
 #include <map>
 #include <regex>
 
-#include "farmgen/farm/example_farm.h"
+#include "farmgen/example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -41,5 +41,49 @@ TEST(YamlSection, AFileOfMillionsOfKeysIsRefusedBeforeItIsParsed) {
               HasSubstr("YAML is read up to 4000000"));
 }
 
+TEST(YamlSection, KeysThatNobodyAskedForAreRefused) {
+  const std::string text = "a: 1\nb: {c: 2, d: 3}\nlist:\n  - {e: 4}\n  - {e: 5, f: 6}\n";
+  const auto read = [&](const std::string& more, bool reads_all) {
+    const YamlSection root = YamlSection::parse(text + more, "f.yaml");
+    root.number("a", {0, 9});
+    root.has("z");
+    const YamlSection b = root.section("b");
+    b.number("c", {0, 9});
+    if (reads_all) b.number("d", {0, 9});
+    for (const YamlSection& entry : root.list("list", 9)) {
+      entry.number("e", {0, 9});
+      if (reads_all) entry.has("f");
+    }
+    root.refuse_unread();
+  };
+  const auto message = [&](const std::string& more, bool reads_all) {
+    return message_of<InputError>([&] { read(more, reads_all); });
+  };
+  EXPECT_NO_THROW(read("", true));
+  EXPECT_NO_THROW(read("z: 1\n", true)) << "what is asked for need not be read";
+  EXPECT_EQ(message("y: 1\n", true),
+            "f.yaml:6: y is not a known key; known here are a, z, b, list");
+  EXPECT_EQ(message("a: 2\n", true), "f.yaml:6: a is given twice");
+  EXPECT_EQ(message("", false), "f.yaml:2: b.d is not a known key; known here are c");
+}
+
+TEST(YamlSection, AKeyOfAnyEntryOfAListIsRefused) {
+  const YamlSection root = YamlSection::parse("list: [{e: 4}, {e: 5, f: 6}, 7]\n", "f.yaml");
+  for (const YamlSection& entry : root.list("list", 9, "e")) entry.number("e", {0, 9});
+  EXPECT_EQ(message_of<InputError>([&] { root.refuse_unread(); }),
+            "f.yaml:1: list.1.f is not a known key; known here are e");
+}
+
+TEST(YamlSection, AMissingKeyNamesTheOneThatIsSpeltNearlySo) {
+  const YamlSection root = YamlSection::parse("length_m: 1\nwidht_m: 2\n", "f.yaml");
+  const auto missing = [&](const char* key) {
+    return message_of<InputError>([&] { root.number(key, {0, 9}); });
+  };
+  EXPECT_EQ(missing("width_m"), "f.yaml:2: widht_m is not a known key, and width_m is missing");
+  EXPECT_EQ(missing("colour"), "f.yaml:1: colour is missing");
+  root.has("widht_m");
+  EXPECT_EQ(missing("width_m"), "f.yaml:1: width_m is missing") << "a known key is not misspelt";
+}
+
 }  // namespace
 }  // namespace plotscan

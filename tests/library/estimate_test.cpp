@@ -145,7 +145,7 @@ TEST_F(EstimateField, RefusesWhatTheProgramRefusesInTheSameWords) {
   EXPECT_EQ(message([&] { estimate_field(PointsView(none)); }),
             "the cloud has no point that is finite");
   EXPECT_THAT(message([&] { estimate_field(cloud_->positions(), {.plot_width_m = 1000}); }),
-              HasSubstr("the plots' width in metres is 1000; it is 0.1 to 100"));
+              HasSubstr("plot_width_m 1000 must be in [0.1, 100]"));
   EXPECT_THAT(message([&] {
                 estimate_field(cloud_->positions(), {.crop_box = {{900, 900, 901, 901}}});
               }),

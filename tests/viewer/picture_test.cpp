@@ -11,8 +11,8 @@ namespace {
 
 // A flat square of 20 m with one plot of one upright, dark green slab.
 farm::Farm slab_farm() {
-  farm::Terrain terrain({{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}},
-                        {{0, 1, 2}, {0, 2, 3}});
+  terrain::Terrain terrain({{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}},
+                           {{0, 1, 2}, {0, 2, 3}});
   farm::PlantModel slab{
       .name = "slab", .mesh = {.vertices = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}}, .height_m = 1};
   slab.mesh.vertices = {{-1, 0, 0}, {1, 0, 0}, {1, 0, 1}, {-1, 0, 1}};

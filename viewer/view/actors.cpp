@@ -84,7 +84,7 @@ struct ColouredPoints {
   std::vector<double> heights_m;
 };
 
-ColouredPoints points_in_field(const std::filesystem::path& cloud, const farm::Terrain& terrain,
+ColouredPoints points_in_field(const std::filesystem::path& cloud, const terrain::Terrain& terrain,
                                const Field& field) {
   const Eigen::AlignedBox2d shown(field.min().head<2>(), field.max().head<2>());
   ColouredPoints points;
@@ -143,7 +143,7 @@ Field field_of(const farm::Farm& farm, double margin_m) {
   return field;
 }
 
-void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Field& field) {
+void add_terrain(vtkRenderer& renderer, const terrain::Terrain& terrain, const Field& field) {
   mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
   for (const Eigen::Vector3d& vertex : terrain.vertices())
     mesh.vertices.emplace_back(vertex.cast<float>());
@@ -180,7 +180,8 @@ void add_plants(vtkRenderer& renderer, const farm::Farm& farm) {
 }
 
 HeightColours add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
-                        const farm::Terrain& terrain, const Field& field, const CloudLook& look) {
+                        const terrain::Terrain& terrain, const Field& field,
+                        const CloudLook& look) {
   const ColouredPoints points = points_in_field(cloud, terrain, field);
   const HeightColours colours{.top_m = std::max(0.1, quantile(points.heights_m, kTopShare))};
   const std::size_t stride =

@@ -21,7 +21,7 @@ using Field = Eigen::AlignedBox3d;
 Field field_of(const farm::Farm& farm, double margin_m);
 
 // The terrain's triangles within the field, shaded.
-void add_terrain(vtkRenderer& renderer, const farm::Terrain& terrain, const Field& field);
+void add_terrain(vtkRenderer& renderer, const terrain::Terrain& terrain, const Field& field);
 
 // Every plant as an instance of its mesh, in its materials' colours and textures; weeds are
 // reddish.
@@ -35,6 +35,6 @@ struct CloudLook {
 
 // The cloud's points within the field, coloured by height over the terrain. Returns the colours.
 HeightColours add_cloud(vtkRenderer& renderer, const std::filesystem::path& cloud,
-                        const farm::Terrain& terrain, const Field& field, const CloudLook& look);
+                        const terrain::Terrain& terrain, const Field& field, const CloudLook& look);
 
 }  // namespace plotscan::view

@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> outline_of(const farm::Farm& farm, const Field& fie
 }
 
 // The box on the ground, closed; pixels of a panel that begins at left_px.
-std::vector<Eigen::Vector2d> outline_in_picture(const PlotBox& box, const farm::Terrain& terrain,
+std::vector<Eigen::Vector2d> outline_in_picture(const PlotBox& box, const terrain::Terrain& terrain,
                                                 const Camera& camera,
                                                 const Eigen::Vector2i& size_px, double left_px) {
   std::vector<Eigen::Vector2d> outline;

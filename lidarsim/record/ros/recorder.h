@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "record/recording/flight_record.h"
 #include "record/ros/file.h"
-#include "record/scan_folder.h"
 #include "record/velodyne/encoder.h"
 #include "scan/point.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "record/scan_folder.h"
+#include "record/recording/flight_record.h"
 #include "record/velodyne/packet.h"
 #include "scan/point.h"
 #include "sensor/shots.h"

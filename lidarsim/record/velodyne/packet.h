@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 
+#include "record/recording/flight_record.h"
+
 namespace plotscan::record {
 
 // The UDP payloads of Velodyne's spinning sensors (VLP-16 User Manual 63-9243 Rev. D, section 9.3;
@@ -19,9 +21,6 @@ inline constexpr std::uint16_t kPositionPort = 8308;
 inline constexpr std::size_t kPacketBlocks = 12;
 inline constexpr std::size_t kBlockReturns = 32;
 inline constexpr std::uint16_t kAzimuthSteps = 36'000;  // of 0.01 degrees, a turn
-
-// Which returns of a shot the sensor reports; the numbers are those of the packet's mode byte.
-enum class ReturnMode : std::uint8_t { strongest = 0x37, last = 0x38, dual = 0x39 };
 
 struct PacketReturn {
   std::uint16_t distance = 0;     // along the beam, in the product's steps; 0: no return

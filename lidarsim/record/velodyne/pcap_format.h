@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "record/formats.h"
+#include "record/recording/format.h"
 
 namespace plotscan::record {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "record/scan_folder.h"
+#include "record/recording/flight_record.h"
 #include "scan/point.h"
 
 namespace plotscan::record {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "record/scan_folder.h"
+#include "record/recording/flight_record.h"
 #include "record/velodyne/nmea.h"
 #include "record/velodyne/packet.h"
 

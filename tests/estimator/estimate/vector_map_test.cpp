@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run_on_farm.h"
+#include "../methods/run_on_farm.h"
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,20 +79,21 @@ void add(OGRLayer& layer, OGRFeature& feature, const OGRPolygon& polygon) {
 const Eigen::Vector2d kUtm(512'000, 4'123'000);
 
 // The farm in zone 17, a cloud whose file is silent.
-RunOptions run_over_utm(const TemporaryFolder& folder) {
+methods::RunOptions run_over_utm(const TemporaryFolder& folder) {
   std::string text;
   for (Eigen::Vector3d point : kFarm.points()) {
     point.head<2>() += kUtm;
     for (int axis = 0; axis < 3; ++axis) text += std::to_string(point[axis]) + ' ';
     text += '\n';
   }
-  RunOptions options{.cloud = folder.write("utm.xyz", text), .output = folder.path() / "estimate"};
+  methods::RunOptions options{.cloud = folder.write("utm.xyz", text),
+                              .output = folder.path() / "estimate"};
   options.cloud.crs = "EPSG:32617";
   options.method = "dhami2020";
   return options;
 }
 
-nlohmann::json properties_of(const RunOptions& options, std::size_t feature) {
+nlohmann::json properties_of(const methods::RunOptions& options, std::size_t feature) {
   const auto written = nlohmann::json::parse(read_text(options.output / "plots.geojson"));
   return written["features"][feature]["properties"];
 }
@@ -100,7 +101,7 @@ nlohmann::json properties_of(const RunOptions& options, std::size_t feature) {
 // Ids and attributes of every type come back, the plots lie where the map has them.
 TEST(VectorMap, AGeoPackageComesBackWithHeights) {
   const TemporaryFolder folder;
-  RunOptions options = run_over_utm(folder);
+  methods::RunOptions options = run_over_utm(folder);
   options.boxes = folder.path() / "plots.gpkg";
   {
     Map map(*options.boxes, "GPKG");
@@ -121,7 +122,7 @@ TEST(VectorMap, AGeoPackageComesBackWithHeights) {
     second.SetField("plot_id", "0101");
     add(layer, second, polygon_of(corners_of(kFarm.box(0, 0), kUtm)));
   }
-  const Estimate estimate = run(options);
+  const Estimate estimate = methods::run(options);
   ASSERT_EQ(estimate.plots.size(), 2u);
   EXPECT_EQ(estimate.plots[0].id, PlotId("A-12"));
   EXPECT_EQ(estimate.plots[1].id, PlotId("0101"));
@@ -140,7 +141,7 @@ TEST(VectorMap, AGeoPackageComesBackWithHeights) {
 // A shapefile knows its system by the .prj alone, and numbers by their digits.
 TEST(VectorMap, AShapefileIsRead) {
   const TemporaryFolder folder;
-  RunOptions options = run_over_utm(folder);
+  methods::RunOptions options = run_over_utm(folder);
   options.boxes = folder.path() / "plots.shp";
   const auto write = [&](int epsg) {
     Map map(*options.boxes, "ESRI Shapefile");
@@ -152,7 +153,7 @@ TEST(VectorMap, AShapefileIsRead) {
     add(layer, feature, polygon_of(corners_of(kFarm.box(1, 3), kUtm)));
   };
   write(32617);
-  const Estimate estimate = run(options);
+  const Estimate estimate = methods::run(options);
   ASSERT_EQ(estimate.plots.size(), 1u);
   EXPECT_EQ(estimate.plots[0].id, 207u);
   EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 3), 1e-3);
@@ -160,14 +161,14 @@ TEST(VectorMap, AShapefileIsRead) {
   fs::remove(*options.boxes);
   write(32618);
   options.replace = true;
-  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+  EXPECT_THAT(message_of<InputError>([&] { methods::run(options); }),
               HasSubstr("is in the coordinate system EPSG:32618, and the cloud is in EPSG:32617"));
 }
 
 // Longitude comes first in the files, whatever EPSG's axes say.
 TEST(VectorMap, DegreesAreConverted) {
   const TemporaryFolder folder;
-  RunOptions options = run_over_utm(folder);
+  methods::RunOptions options = run_over_utm(folder);
   options.boxes = folder.path() / "degrees.gpkg";
   {
     Map map(*options.boxes, "GPKG");
@@ -181,7 +182,7 @@ TEST(VectorMap, DegreesAreConverted) {
     OGRFeature feature(layer.GetLayerDefn());
     add(layer, feature, polygon_of(lonlat));
   }
-  const Estimate estimate = run(options);
+  const Estimate estimate = methods::run(options);
   EXPECT_EQ(estimate.diagnostics["boxes"]["from_degrees"], true);
   ASSERT_EQ(estimate.plots.size(), 1u);
   EXPECT_LT((estimate.plots[0].box.center - kFarm.box(1, 2).center - kUtm).norm(), 1e-3);

@@ -101,8 +101,8 @@ TEST_F(FieldPage, ShowsTheTrueGroundOfAnyField) {
   report::ShownField field;
   for (const double x : {-20'000.0, 20'000.0})
     field.plots.push_back({.id = "1", .box = {.center = {x, 0}, .width_m = 1, .length_m = 4}});
-  show_terrain(
-      field, farm::Terrain({{-30'000, -100, 0}, {30'000, -100, 600}, {0, 100, 300}}, {{0, 1, 2}}));
+  show_terrain(field, terrain::Terrain({{-30'000, -100, 0}, {30'000, -100, 600}, {0, 100, 300}},
+                                       {{0, 1, 2}}));
   ASSERT_TRUE(field.terrain.has_value());
   const report::ShownGrid& grid = *field.terrain;
   EXPECT_LT(grid.z_m.size(), 2'000'000U);

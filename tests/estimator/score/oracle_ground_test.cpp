@@ -12,8 +12,8 @@ namespace plotscan::score {
 namespace {
 
 // Two triangles that meet in a ridge along y at x = 0, 1 m high, falling by 0.1 m a metre.
-farm::Terrain ridge() {
-  return farm::Terrain(
+terrain::Terrain ridge() {
+  return terrain::Terrain(
       {{-10, -10, 0}, {0, -10, 1}, {10, -10, 0}, {-10, 10, 0}, {0, 10, 1}, {10, 10, 0}},
       {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
 }
@@ -21,7 +21,7 @@ farm::Terrain ridge() {
 double ridge_z(double x) { return 1 - 0.1 * std::abs(x); }
 
 struct Field {
-  estimate::CloudMap map{estimate::Area{-9.5, -9.5, 9.5, 9.5}};
+  cloud::CloudMap map{cloud::Area{-9.5, -9.5, 9.5, 9.5}};
   std::vector<TruePlot> plots;
 };
 
@@ -69,10 +69,10 @@ TEST(OracleGround, TakesThePercentileOverTheTrueTerrain) {
 TEST(OracleGround, SeesTheBoxAndItsEndsOnly) {
   const std::vector<TruePlot> plots = {
       {.id = 1, .box = {.center = {0, 0}, .width_m = 1, .length_m = 2, .heading_rad = 0}}};
-  const farm::Terrain flat({{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}},
-                           {{0, 1, 2}, {0, 2, 3}});
+  const terrain::Terrain flat({{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}},
+                              {{0, 1, 2}, {0, 2, 3}});
   const auto height_with = [&](const Eigen::Vector3d& point) {
-    estimate::CloudMap map(estimate::Area{-4, -4, 4, 4});
+    cloud::CloudMap map(cloud::Area{-4, -4, 4, 4});
     map.add(std::vector<Eigen::Vector3d>{{0, 0, 0.04}, point});
     return oracle_ground(map, plots, flat, {.extend_m = 0.5}).plots[0].heights_m;
   };
@@ -83,7 +83,7 @@ TEST(OracleGround, SeesTheBoxAndItsEndsOnly) {
 }
 
 TEST(OracleGround, APlotBesideTheTerrainHasNoHeight) {
-  estimate::CloudMap map(estimate::Area{-20, -20, 20, 20});
+  cloud::CloudMap map(cloud::Area{-20, -20, 20, 20});
   map.add(std::vector<Eigen::Vector3d>{{15, 0, 0.7}});
   const std::vector<TruePlot> plots = {
       {.id = 1, .box = {.center = {15, 0}, .width_m = 1, .length_m = 2, .heading_rad = 0}}};

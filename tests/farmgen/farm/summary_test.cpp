@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/summary.h"
 
-#include "example_farm.h"
+#include "../example_farm.h"
+#include "description/load_description.h"
+#include "planting/generate.h"
 #include <gtest/gtest.h>
 
-#include "farm/generate.h"
 #include "mesh/measure.h"
 
 namespace plotscan::farm {
@@ -14,7 +15,7 @@ using plotscan::testing::TemporaryFolder;
 
 TEST(Summary, CountsWhatTheFarmHolds) {
   const TemporaryFolder folder;
-  const Farm farm = generate(load_description(write_example(folder)), 3);
+  const Farm farm = planting::generate(description::load_description(write_example(folder)), 3);
   const FarmSummary summary = summarise(farm);
   EXPECT_EQ(summary.terrain_size_m, Eigen::Vector2d(20, 20));
   EXPECT_EQ(summary.plots, 5u);
@@ -41,8 +42,8 @@ TEST(Summary, CountsWhatTheFarmHolds) {
 
 TEST(Summary, AddsUpEveryCultivarsPlots) {
   const TemporaryFolder folder;
-  const Farm farm = generate(
-      load_description(
+  const Farm farm = planting::generate(
+      description::load_description(
           write_example(folder),
           {"plants.design=cycle", "plants.missing={rate: 0.2}",
            "plants.cultivars=[{name: flat, lodging: {plots_rate: 1, angle_deg: [40, 50]}}, "

@@ -5,10 +5,12 @@
 #include <memory>
 #include <string>
 
+#include "description/load_description.h"
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
+#include "planting/generate.h"
 #include "temporary_folder.h"
 
-#include "farm/generate.h"
-#include "farm/write_farm.h"
 #include "gazebo/export_world.h"
 
 namespace plotscan::gazebo {
@@ -49,10 +51,10 @@ class ExportExample {
     folder_.write("leaf.png", png());
     folder_.write("thistle.obj", kThistle);
     folder_.write("thistle.mtl", kThistleMaterials);
-    farm::write_farm(
-        farm::generate(farm::load_description(folder_.write("example.yaml", text())), 5),
+    farmfolder::write_farm(
+        planting::generate(description::load_description(folder_.write("example.yaml", text())), 5),
         farm_folder(), false, {.command = "test"});
-    farm_ = std::make_unique<farm::Farm>(farm::read_farm(farm_folder()));
+    farm_ = std::make_unique<farm::Farm>(farmfolder::read_farm(farm_folder()));
     for (farm::Plant& plant : farm_->plants) {
       if (plant.id % 5 == 0) plant.kind = farm::PlantKind::weed;
       if (plant.id % 7 == 0)

@@ -6,13 +6,13 @@
 #include <sstream>
 
 #include "farmgen/gazebo/export_example.h"
+#include "sdfxml/elements.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
-#include "farm/sdf_elements.h"
 #include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
@@ -108,7 +108,7 @@ TEST(Export, MergedMeshesAreTheUnionOfThePlacedPlantsByMaterial) {
                            gazebo == Gazebo::classic && !look.closed, expected);
             }
             const bool weed = kind == farm::PlantKind::weed;
-            const std::string part = farm::plot_element_name(plot.id);
+            const std::string part = sdfxml::plot_element_name(plot.id);
             const std::string link = weed ? weeds_name(part) : part;
             const std::string row = row_model_name(plot.row);
             const std::string model = merge == Merge::plot ? link : (weed ? weeds_name(row) : row);
@@ -229,7 +229,7 @@ TEST(Export, TheCountsAreThoseOfTheWorld) {
 
 TEST(Export, APlantModelCalledAsAPlotIsRefused) {
   const ExportExample example;
-  for (const std::string& name : {farm::plot_element_name(1), std::string("drone")}) {
+  for (const std::string& name : {sdfxml::plot_element_name(1), std::string("drone")}) {
     farm::Farm farm = example.farm();
     farm.models[0].name = name;
     const std::string message = testing::message_of<InputError>([&] {

@@ -7,12 +7,12 @@
 
 #include "farmgen/gazebo/export_example.h"
 #include "gazebo_vector.h"
+#include "sdfxml/elements.h"
 #include <gtest/gtest.h>
 #include <sdf/sdf.hh>
 #include <tinyxml2.h>
 
 #include "core/error.h"
-#include "farm/sdf_elements.h"
 #include "gazebo/naming.h"
 
 namespace plotscan::gazebo {
@@ -132,7 +132,7 @@ TEST(ExportLoading, MergedModelsStandAtTheirPlotsWithTheirClass) {
         const Eigen::Vector3d place(
             plot.box.center.x(), plot.box.center.y(),
             *example.farm().terrain.height(plot.box.center.x(), plot.box.center.y()));
-        const std::string plot_name = farm::plot_element_name(plot.id);
+        const std::string plot_name = sdfxml::plot_element_name(plot.id);
         for (const std::string& part : {plot_name, weeds_name(plot_name)}) {
           const bool weed = part != plot_name;
           const std::string row = row_model_name(plot.row);
@@ -229,8 +229,8 @@ TEST(ExportLoading, BoxesHoldTheirPlants) {
   sdf::Root root;
   load(example.path() / "world", "world.sdf", root);
   for (const farm::Plant& plant : example.farm().plants) {
-    const std::string name = plant.plot == 0 ? std::string(farm::kPlantsOutsidePlots)
-                                             : farm::plot_element_name(plant.plot);
+    const std::string name = plant.plot == 0 ? std::string(sdfxml::kPlantsOutsidePlots)
+                                             : sdfxml::plot_element_name(plant.plot);
     const bool weed = plant.kind == farm::PlantKind::weed;
     const sdf::Model& model = *root.WorldByIndex(0)->ModelByName(weed ? weeds_name(name) : name);
     const sdf::Collision& collision = *model.LinkByIndex(0)->CollisionByIndex(0);

@@ -2,12 +2,14 @@
 // A farm and the worlds exported from it, read back, are the same to a laser.
 #include <cmath>
 
-#include "farmgen/farm/example_farm.h"
+#include "description/load_description.h"
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
+#include "farmgen/example_farm.h"
+#include "planting/generate.h"
 #include "simulated.h"
 #include <gtest/gtest.h>
 
-#include "farm/generate.h"
-#include "farm/write_farm.h"
 #include "gazebo/export_world.h"
 #include "gazebo/read_world.h"
 
@@ -22,11 +24,11 @@ using testing::TemporaryFolder;
 // Five plots and weeds in and between them, as read back from its folder.
 farm::Farm farm_with_weeds(const TemporaryFolder& folder) {
   const auto description =
-      folder.write("weedy.yaml", farm::example_description() +
+      folder.write("weedy.yaml", testing::example_description() +
                                      "weeds: {per_m2: 2, models: [{crop: wheat, name: weed}]}\n");
-  farm::write_farm(farm::generate(farm::load_description(description), 3), folder.path() / "farm",
-                   false, {.command = "farmgen generate"});
-  return farm::read_farm(folder.path() / "farm");
+  farmfolder::write_farm(planting::generate(description::load_description(description), 3),
+                         folder.path() / "farm", false, {.command = "farmgen generate"});
+  return farmfolder::read_farm(folder.path() / "farm");
 }
 
 Points scan_of(const SceneContent& content) {

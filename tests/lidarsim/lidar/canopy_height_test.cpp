@@ -2,6 +2,8 @@
 // The canopy's true heights against closed forms and against every triangle tried one by one.
 #include "lidar/canopy_height.h"
 
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
 #include "moeller_trumbore.h"
 #include "small_farm.h"
 #include "temporary_folder.h"
@@ -9,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "core/statistics.h"
-#include "farm/write_farm.h"
 #include "mesh/alpha_mask.h"
 
 namespace plotscan::lidar {
@@ -159,11 +160,11 @@ TEST(CanopyHeight, ComesBackWithTheFarm) {
   farm::Farm farm = testing::small_farm();
   for (std::size_t i = 0; i < farm.plants.size(); ++i)
     farm.plants[i].id = static_cast<std::uint32_t>(i + 1);
-  farm::write_farm(farm, folder.path() / "without", false, {.command = "test"});
-  EXPECT_FALSE(farm::read_farm(folder.path() / "without").plots[0].canopy);
+  farmfolder::write_farm(farm, folder.path() / "without", false, {.command = "test"});
+  EXPECT_FALSE(farmfolder::read_farm(folder.path() / "without").plots[0].canopy);
   measure_canopies(farm, 1);
-  farm::write_farm(farm, folder.path() / "with", false, {.command = "test"});
-  const farm::Farm again = farm::read_farm(folder.path() / "with");
+  farmfolder::write_farm(farm, folder.path() / "with", false, {.command = "test"});
+  const farm::Farm again = farmfolder::read_farm(folder.path() / "with");
   ASSERT_TRUE(again.plots[1].canopy);
   EXPECT_EQ(again.plots[1].canopy->p95, farm.plots[1].canopy->p95);
   EXPECT_EQ(again.plots[1].canopy->p99, farm.plots[1].canopy->p99);

@@ -17,7 +17,7 @@ using testing::WorldShot;
 constexpr double kHeight_m = 8;
 constexpr SimulateOptions kNoiseless = {.range_noise_m = 0, .seed = 1, .threads = 2};
 
-farm::Farm farm_of(farm::Terrain terrain) {
+farm::Farm farm_of(terrain::Terrain terrain) {
   return {.name = "test",
           .seed = 1,
           .terrain = std::move(terrain),
@@ -63,7 +63,7 @@ TEST(Ranges, ToATiltedPlane) {
   // z = 0.1 x - 0.2 y
   const auto z = [](double x, double y) { return 0.1 * x - 0.2 * y; };
   constexpr double s = 1000;
-  const farm::Terrain tilted(
+  const terrain::Terrain tilted(
       {{-s, -s, z(-s, -s)}, {s, -s, z(s, -s)}, {s, s, z(s, s)}, {-s, s, z(-s, s)}},
       {{0, 1, 2}, {0, 2, 3}});
   expect_ranges_to_plane(farm_of(tilted), Eigen::Vector3d(-0.1, 0.2, 1), 0);

@@ -14,13 +14,13 @@
 namespace plotscan::testing {
 
 // A square of flat ground at height z, two triangles.
-inline farm::Terrain flat_terrain(double half_side_m, double z_m) {
+inline terrain::Terrain flat_terrain(double half_side_m, double z_m) {
   const double s = half_side_m;
   return {{{-s, -s, z_m}, {s, -s, z_m}, {s, s, z_m}, {-s, s, z_m}}, {{0, 1, 2}, {0, 2, 3}}};
 }
 
 // A grid of triangles over a wavy surface.
-inline farm::Terrain wavy_terrain(double half_side_m, std::uint32_t cells) {
+inline terrain::Terrain wavy_terrain(double half_side_m, std::uint32_t cells) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (std::uint32_t j = 0; j <= cells; ++j) {

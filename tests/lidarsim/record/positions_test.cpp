@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "record/convert.h"
 #include "record/ros/cloud.h"
+#include "record/scan_folder.h"
 
 namespace plotscan::record {
 namespace {

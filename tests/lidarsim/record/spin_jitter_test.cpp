@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "record/convert.h"
+#include "record/scan_folder.h"
 #include "record/velodyne/encoder.h"
 
 namespace plotscan::record {

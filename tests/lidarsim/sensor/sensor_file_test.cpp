@@ -127,9 +127,12 @@ TEST(SensorFile, KeysAreChecked) {
   EXPECT_THAT(refusal(kSpinning, "title:", "name: other\ntitle:"),
               HasSubstr("name is given twice"));
   EXPECT_THAT(refusal(kSpinning, "kind: spinning", "kind: risley"),
-              HasSubstr("is not a known key; known here are name, title, kind"));
-  EXPECT_THAT(refusal(kRisley, "shot_period_us: 4", "spin_hz: {least: 5}"),
-              HasSubstr("mine.yaml:5: spin_hz is not a known key"));
+              HasSubstr("shot_period_us is missing"));
+  EXPECT_THAT(refusal(kRisley, "shot_period_us: 4", "shot_period_us: 4\nspin_hz: {least: 5}"),
+              HasSubstr("mine.yaml:6: spin_hz is not a known key; known here are kind, name"));
+  EXPECT_THAT(refusal(kRisley, "shot_period_us: 4",
+                      "shot_period_us: 4\npackets: {product: 1, distance_mm: 2}"),
+              HasSubstr("mine.yaml:6: packets is not a known key"));
   EXPECT_THAT(refusal(kSpinning, "sources: [\"my desk\"]", "sources: []"), HasSubstr("sources"));
   EXPECT_THAT(refusal(kSpinning, "sources: [\"my desk\"]", "sources: {a: b}"),
               HasSubstr("sources"));
@@ -193,7 +196,8 @@ TEST(SensorFile, LasersAreChecked) {
   for (int i = 0; i < 129; ++i) many += "  - {fires_us: 0, elevation_deg: 1}\n";
   EXPECT_THAT(refusal(kSpinning, "lasers:\n", many),
               HasSubstr("mine.yaml:8: lasers is not a list of 1 to 128 entries"));
-  EXPECT_THAT(refusal(kSpinning, "lasers:", "rays:"), HasSubstr("rays is not a known key"));
+  EXPECT_THAT(refusal(kSpinning, "lasers:", "laser:"),
+              HasSubstr("laser is not a known key, and lasers is missing"));
   EXPECT_THAT(refusal(kSpinning, "fires_us: 0", "fires_us: 30"),
               HasSubstr("mine.yaml:9: lasers.1.fires_us 20 is not in [30, 100]"));
   EXPECT_THAT(refusal(kSpinning, second, "{fires_us: 101, elevation_deg: 5}"),

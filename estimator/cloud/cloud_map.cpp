@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/cloud_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "cloud/field_finder.h"
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/statistics.h"
+#include "record/positions.h"
+
+namespace plotscan::cloud {
+namespace {
+
+// float32 relative to the area's centre resolves 0.5 mm at 5 km.
+constexpr double kLongestSide_m = 10000;
+
+// Of the first points of the area: a stray one among them must not become the origin.
+double median_z(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<double> z(points.size());
+  std::ranges::transform(points, z.begin(), [](const Eigen::Vector3d& point) { return point.z(); });
+  return quantile(std::move(z), 0.5);
+}
+
+}  // namespace
+
+std::string text_of(const Area& area) {
+  return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
+         "," + format_number(area[3]);
+}
+
+void require_area(const Area& area, const std::string& option) {
+  const bool finite = std::ranges::all_of(area, [](double value) { return std::isfinite(value); });
+  if (!finite || area[0] >= area[2] || area[1] >= area[3]) {
+    throw InputError(option + " " + text_of(area) +
+                     " is no rectangle; it is x0,y0,x1,y1 in metres with x0 < x1 and y0 < y1");
+  }
+  if (std::max(area[2] - area[0], area[3] - area[1]) > kLongestSide_m) {
+    throw InputError(option + " " + text_of(area) + " is longer than 10 km on a side");
+  }
+}
+
+CloudMap::CloudMap(const Area& area) : area_(area) {
+  origin_.head<2>() << std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2);
+}
+
+void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
+  points_read_ += world_points.size();
+  std::vector<Eigen::Vector3d> inside;
+  std::ranges::copy_if(world_points, std::back_inserter(inside),
+                       [this](const Eigen::Vector3d& point) {
+                         return point.x() >= area_[0] && point.x() <= area_[2] &&
+                                point.y() >= area_[1] && point.y() <= area_[3];
+                       });
+  if (points_.empty() && !inside.empty()) origin_.z() = std::round(median_z(inside));
+  for (const Eigen::Vector3d& point : inside) {
+    if (std::abs(point.z() - origin_.z()) > kLongestSide_m) continue;
+    points_.emplace_back((point - origin_).cast<float>());
+  }
+}
+
+CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
+                  const ProgressReport& progress) {
+  Area field{};
+  if (area) {
+    require_area(*area, "crop box");
+    field = *area;
+  } else {
+    FieldFinder finder;
+    record::read_positions(cloud, [&](auto points) { finder.add(points); });
+    field = finder.field();
+    require_area(field, cloud.name() + ": the scanned field");
+  }
+  if (progress) progress(0.2);
+  CloudMap map(field);
+  record::read_positions(cloud, [&](auto points) { map.add(points); });
+  if (map.points().empty()) {
+    throw InputError(cloud.name() + ": none of its " + std::to_string(map.points_read()) +
+                     " points lies in the crop box " + text_of(field));
+  }
+  if (progress) progress(0.4);
+  return map;
+}
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/cloud_files.h"
+#include "core/progress.h"
+
+namespace plotscan::cloud {
+
+// An axis-parallel rectangle of the horizontal plane: x0, y0, x1, y1, world frame, metres.
+using Area = std::array<double, 4>;
+
+// Throws InputError naming `option` unless x0 < x1 and y0 < y1, all finite, and no side is over
+// 10 km.
+void require_area(const Area& area, const std::string& option);
+
+// "x0,y0,x1,y1".
+std::string text_of(const Area& area);
+
+// The merged map inside an area, at the scans' full density. Positions are kept as float32 relative
+// to an origin in double precision (12 bytes a point, better than 0.5 mm in the largest area).
+class CloudMap {
+ public:
+  // An empty map. The origin is the area's centre rounded to whole metres, so that a cloud moved by
+  // whole metres gives the same relative positions.
+  explicit CloudMap(const Area& area);
+
+  // Keeps those of the points (world frame, metres) that lie in the area.
+  void add(std::span<const Eigen::Vector3d> world_points);
+
+  const Area& area() const { return area_; }
+  const Eigen::Vector3d& origin() const { return origin_; }
+  // Relative to origin().
+  const std::vector<Eigen::Vector3f>& points() const { return points_; }
+  // How many points add() was given.
+  std::size_t points_read() const { return points_read_; }
+
+ private:
+  Area area_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> points_;
+  std::size_t points_read_ = 0;
+};
+
+// Streams a cloud into a map of the area; without one, of the field that
+// FieldFinder finds in a first pass over the file. Memory is bounded by the points inside the area.
+// Throws InputError on a broken cloud or when no point lies in the area.
+CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
+                  const ProgressReport& progress = {});
+
+}  // namespace plotscan::cloud

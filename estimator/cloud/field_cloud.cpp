@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/field_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cloud/field_density.h"
+#include "cloud/field_hull.h"
+#include "cloud/outliers.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/error.h"
+#include "core/stage.h"
+#include "core/statistics.h"
+#include "record/positions.h"
+
+namespace plotscan::cloud {
+namespace {
+
+bool overlap(Tile tile, const Area& area) {
+  return tile.x + 1.0 > area[0] && tile.x <= area[2] && tile.y + 1.0 > area[1] && tile.y <= area[3];
+}
+
+// The middle of the area at the height of the tiles' first points, whole metres.
+Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
+  std::vector<double> z;
+  for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
+    z.push_back(point_of(tiles.tiles[i], tiles.of(i).front(), Eigen::Vector3d::Zero()).z());
+  return {std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2),
+          std::floor(quantile(std::move(z), 0.5))};
+}
+
+TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int threads) {
+  std::vector<Eigen::Vector3f> points(tiles.keys.size());
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, tiles.tiles.size(), [&](std::size_t tile) {
+      for (std::size_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i)
+        points[i] = point_of(tiles.tiles[tile], tiles.keys[i], origin);
+    });
+  });
+  return {std::move(tiles.tiles), std::move(tiles.begin), std::move(points)};
+}
+
+// A tile at the area's edge reaches out of it.
+void crop(FieldCloud& field) {
+  const Eigen::Array2d low(field.area[0], field.area[1]);
+  const Eigen::Array2d high(field.area[2], field.area[3]);
+  const auto outside = [&](const Eigen::Vector3f& point) {
+    const Eigen::Array2d place = field.origin.head<2>() + point.head<2>().cast<double>();
+    return (place < low).any() || (place > high).any();
+  };
+  field.counts.outside += std::erase_if(field.points, outside);
+}
+
+}  // namespace
+
+FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::string& name) {
+  Stage stage("field");
+  FieldCloud field;
+  std::optional<FieldHull> hull;
+  std::vector<TileCount> tile_counts = store.tile_counts();
+  if (!options.area) hull = find_field(tile_counts);
+  field.area = options.area ? *options.area : hull->bounds();
+  require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
+  if (options.area) {
+    std::erase_if(tile_counts,
+                  [&](const TileCount& count) { return !overlap(count.tile, field.area); });
+  }
+  if (!tile_counts.empty()) field.density_m2 = field_density(tile_counts).median;
+  TiledKeys tiles =
+      store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
+  const TileStore::Counts& counts = store.counts();
+  field.counts = {.read = counts.added,
+                  .outside = counts.unwanted + counts.out_of_range,
+                  .repeated = counts.repeated,
+                  .thinned = counts.thinned};
+  field.origin = origin_of(tiles, field.area);
+  TiledPoints points = points_of(std::move(tiles), field.origin, options.threads);
+  field.counts.outliers = drop_outliers(points, {.threads = options.threads});
+  field.points = std::move(points.points);
+  if (options.area) crop(field);
+  field.counts.kept = field.points.size();
+  if (field.points.empty()) {
+    throw InputError(name, "none of its " + std::to_string(counts.added) +
+                               " points lies in the crop box " + text_of(field.area));
+  }
+  stage.found(std::to_string(field.points.size()) + " points");
+  return field;
+}
+
+namespace {
+
+// Reports up to `done` of the whole work.
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double done,
+                             const ProgressReport& progress) {
+  const Stage stage("reading");
+  const double expected = record::expected_points(cloud);
+  double read = 0;
+  const auto add = [&](std::span<const Eigen::Vector3d> points) {
+    store.add(points);
+    read += static_cast<double>(points.size());
+    if (progress) progress(done * std::min(1.0, read / expected));
+  };
+  return record::read_positions(cloud, add, {.leave_out_marked = true});
+}
+
+}  // namespace
+
+FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
+                      const ProgressReport& progress) {
+  if (options.area) require_area(*options.area, "crop box");
+  TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
+  constexpr double kRead = 0.5;  // of the time
+  const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);
+  const std::string name =
+      cloud.only_classes.empty() ? cloud.name() : cloud.name() + ", points of the given classes";
+  FieldCloud field = take_field(store, options, name);
+  field.counts.read += summary.not_finite + summary.marked + summary.left_out;
+  field.counts.not_finite = summary.not_finite;
+  field.counts.marked = summary.marked;
+  field.counts.left_out = summary.left_out;
+  if (progress) progress(1);
+  return field;
+}
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/field_density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "cloud/field_hull.h"
+
+#include "core/statistics.h"
+#include "core/text.h"
+
+namespace plotscan::cloud {
+namespace {
+
+constexpr int kCoarsest_m = 256;
+constexpr double kTypicalCount = 16;
+constexpr double kMostSquares = 1e6;
+
+std::uint64_t tile_key(Tile tile) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(tile.x)) << 32 |
+         static_cast<std::uint32_t>(tile.y);
+}
+Tile tile_of(std::uint64_t key) {
+  return {static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key)};
+}
+
+// Points by square, numbered by its south-west corner over its edge.
+std::map<Tile, std::uint64_t> squares_of(std::span<const TileCount> counts, int edge_m) {
+  const auto below = [&](std::int32_t at) {
+    return static_cast<std::int32_t>(std::floor(static_cast<double>(at) / edge_m));
+  };
+  std::map<Tile, std::uint64_t> squares;
+  for (const auto& [tile, points] : counts) squares[{below(tile.x), below(tile.y)}] += points;
+  return squares;
+}
+
+// Counts of the squares that lie in the hull, with all that touch them where `whole` says so: the
+// hull reaches over the scanned edge by a square.
+std::vector<double> counts_inside(const std::map<Tile, std::uint64_t>& squares,
+                                  const FieldHull& hull, int edge_m, bool whole) {
+  const auto holds = [&](int x, int y) {
+    return hull.holds({x * edge_m + edge_m / 2, y * edge_m + edge_m / 2});
+  };
+  const Area bounds = hull.bounds();
+  std::vector<double> counts;
+  for (int y = static_cast<int>(std::floor(bounds[1] / edge_m)); y * edge_m < bounds[3]; ++y) {
+    for (int x = static_cast<int>(std::floor(bounds[0] / edge_m)); x * edge_m < bounds[2]; ++x) {
+      const int reach = whole ? 1 : 0;
+      bool inside = true;
+      for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx) inside = inside && holds(x + dx, y + dy);
+      const auto found = squares.find({x, y});
+      if (inside) counts.push_back(found == squares.end() ? 0 : static_cast<double>(found->second));
+    }
+  }
+  return counts;
+}
+
+double area_of(const std::vector<Eigen::Vector2d>& corners) {
+  double twice_m2 = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& a = corners[i];
+    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+    twice_m2 += a.x() * b.y() - b.x() * a.y();
+  }
+  return twice_m2 / 2;
+}
+
+double mean_density(std::span<const TileCount> counts, const FieldHull& hull, double area_m2) {
+  double points = 0;
+  for (const auto& [tile, count] : counts)
+    if (hull.holds(tile)) points += static_cast<double>(count);
+  return points / area_m2;
+}
+
+// Squares of fewer than two points on average have no median of kTypicalCount.
+int first_edge(double mean_per_m2, double area_m2) {
+  int edge_m = 1;
+  while (edge_m < kCoarsest_m &&
+         (mean_per_m2 * edge_m * edge_m < 2 || area_m2 > kMostSquares * edge_m * edge_m))
+    edge_m *= 2;
+  return edge_m;
+}
+
+}  // namespace
+
+void TileCounter::add(std::span<const Eigen::Vector3d> points) {
+  constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
+  for (const Eigen::Vector3d& point : points) {
+    if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) {
+      ++out_of_range_;
+      continue;
+    }
+    ++count_by_tile_[tile_key({static_cast<std::int32_t>(std::floor(point.x())),
+                               static_cast<std::int32_t>(std::floor(point.y()))})];
+  }
+}
+
+std::vector<TileCount> TileCounter::counts() const {
+  std::vector<TileCount> counts;
+  counts.reserve(count_by_tile_.size());
+  for (const auto& [key, points] : count_by_tile_) counts.push_back({tile_of(key), points});
+  std::ranges::sort(counts, {}, &TileCount::tile);
+  return counts;
+}
+
+FieldDensity field_density(std::span<const TileCount> counts) {
+  const FieldHull hull = find_field(counts);
+  FieldDensity density{.field = hull.bounds(), .area_m2 = area_of(hull.corners())};
+  const double mean = mean_density(counts, hull, density.area_m2);
+  density.square_m = first_edge(mean, density.area_m2);
+  for (;; density.square_m *= 2) {
+    const int edge_m = density.square_m;
+    const double square_m2 = static_cast<double>(edge_m) * edge_m;
+    std::vector<double> inside;
+    if (density.area_m2 <= kMostSquares * square_m2) {
+      const std::map<Tile, std::uint64_t> squares = squares_of(counts, edge_m);
+      inside = counts_inside(squares, hull, edge_m, true);
+      if (inside.empty()) inside = counts_inside(squares, hull, edge_m, false);
+    }
+    const double median = quantile(inside, 0.5);
+    if (median < kTypicalCount && edge_m < kCoarsest_m) continue;
+    // A field that is smaller than a square, or without end.
+    density.median = inside.empty() ? mean : median / square_m2;
+    density.least5 = inside.empty() ? mean : quantile(std::move(inside), 0.05) / square_m2;
+    return density;
+  }
+}
+
+std::string density_text(double per_m2) {
+  return formatted(per_m2 < 100 ? "%.3g" : "%.0f", per_m2);
+}
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "cloud/cloud_map.h"
+#include "cloud/tile_store.h"
+#include <Eigen/Core>
+
+namespace plotscan::cloud {
+
+// Points a square metre at which plots were found, and at which they were not any more
+// (docs/real-clouds.md).
+inline constexpr double kPlotsFound_m2 = 65;
+inline constexpr double kPlotsLost_m2 = 20;
+// Plots are not searched below, even ones much larger than those.
+inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 2;
+
+// Counts points by tile. Memory follows the area over which they lie.
+class TileCounter {
+ public:
+  void add(std::span<const Eigen::Vector3d> points);  // metres
+  // In the tiles' order.
+  std::vector<TileCount> counts() const;
+  // Points farther away than a tile's number reaches.
+  std::uint64_t out_of_range() const { return out_of_range_; }
+
+ private:
+  std::unordered_map<std::uint64_t, std::uint64_t> count_by_tile_;
+  std::uint64_t out_of_range_ = 0;
+};
+
+// How densely a field was scanned.
+struct FieldDensity {
+  Area field{};        // bounds of the densely scanned field (find_field), metres
+  double area_m2 = 0;  // of its outline
+  // Of the squares inside of the outline, an empty one too: points a square metre, median and 5 %
+  // quantile.
+  double median = 0;
+  double least5 = 0;
+  int square_m = 1;  // the smallest of 1, 2, 4, ... 256 m with 16 points in the median square
+};
+
+// At least one tile.
+FieldDensity field_density(std::span<const TileCount> counts);
+
+// Points a square metre, as people read them: "3040", "12.5", "0.6".
+std::string density_text(double per_m2);
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/plot_box.h"
+#include "estimate/estimate.h"
+
+namespace plotscan::estimate {
+
+// Plots that have the given boxes (world frame), in the frame of a map's origin, numbered from 1.
+std::vector<PlotEstimate> given_plots(const std::vector<PlotBox>& boxes,
+                                      const Eigen::Vector3d& origin);
+
+}  // namespace plotscan::estimate

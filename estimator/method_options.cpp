@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "method_options.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
+
+#include "core/csv.h"
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+// Groups of options, each named as the method that it belongs to.
+constexpr const char* kLattice = "lattice";
+constexpr const char* kDhami2020 = "dhami2020";
+
+template <class Options>
+CLI::Option* shaped(CLI::Option* option, const NumberSetting<Options>& setting) {
+  return option->type_name("FLOAT in " + setting.range.text())
+      ->default_str(format_number(value_of(setting, Options{})));
+}
+template <class Options>
+CLI::Option* shaped(CLI::Option* option, const OptionalSetting<Options>& setting) {
+  return option->type_name("FLOAT in " + setting.range.text());
+}
+template <class Options, class Value>
+CLI::Option* shaped(CLI::Option* option, const RangedSetting<Options, Value>& setting) {
+  return option->type_name("INT in " + setting.range.text());
+}
+template <class Options>
+CLI::Option* shaped(CLI::Option* option, const OptionalTextSetting<Options>& setting) {
+  return option->type_name("TEXT")->check(CLI::IsMember(setting.choices));
+}
+template <class Options>
+CLI::Option* shaped(CLI::Option* option, const AreaSetting<Options>&) {
+  return option->type_name("FLOAT,FLOAT,FLOAT,FLOAT");
+}
+
+template <class Setting>
+CLI::Option* added(CLI::App& command, const std::string& flag, const std::string& help,
+                   const Setting& setting, GivenSettings& given) {
+  const auto take = [&given, flag](const std::string& text) { given[flag] = text; };
+  return shaped(command.add_option_function<std::string>(flag, take, help), setting);
+}
+
+// "--no-level" turns `level` off.
+template <class Options>
+CLI::Option* added(CLI::App& command, const std::string& flag, const std::string& help,
+                   const FlagSetting<Options>&, GivenSettings& given) {
+  const char* text = flag.starts_with("--no-") ? "false" : "true";
+  return command.add_flag_callback(
+      flag, [&given, flag, text] { given[flag] = text; }, help);
+}
+
+// An option that another method has as well belongs to no method's group.
+template <class Options>
+void declare(CLI::App& command, const std::vector<MethodSetting<Options>>& settings,
+             const char* group, GivenSettings& given) {
+  CLI::Option* boxes = command.get_option("--boxes");
+  for (const MethodSetting<Options>& setting : settings) {
+    if (setting.flag.empty()) continue;
+    if (CLI::Option* shared = command.get_option_no_throw(setting.flag)) {
+      shared->group(boxes->get_group());
+      continue;
+    }
+    CLI::Option* option = std::visit(
+        [&](const auto& value) { return added(command, setting.flag, setting.help, value, given); },
+        setting.value);
+    option->group(group);
+    if (setting.searches) option->excludes(boxes);
+  }
+}
+
+template <class Options>
+const MethodSetting<Options>* with_flag(const std::vector<MethodSetting<Options>>& settings,
+                                        const std::string& flag) {
+  const auto found = std::ranges::find(settings, flag, &MethodSetting<Options>::flag);
+  return found == settings.end() ? nullptr : &*found;
+}
+
+template <class Options>
+void take(const GivenSettings& given, const std::vector<MethodSetting<Options>>& settings,
+          const std::string& method, const char* other, Options& options) {
+  for (const auto& [flag, text] : given) {
+    const MethodSetting<Options>* setting = with_flag(settings, flag);
+    if (setting == nullptr)
+      throw InputError(flag + " belongs to --method " + other + ", and the method is " + method);
+    assign(*setting, flag, text, options);
+  }
+}
+
+}  // namespace
+
+void declare_methods(CLI::App& command, GivenSettings& given) {
+  declare(command, methods::lattice::settings(), kLattice, given);
+  declare(command, methods::dhami2020::settings(), kDhami2020, given);
+}
+
+void take_settings(const GivenSettings& given, methods::RunOptions& options) {
+  if (options.method == kLattice) {
+    take(given, methods::lattice::settings(), options.method, kDhami2020, options.lattice);
+  } else {
+    take(given, methods::dhami2020::settings(), options.method, kLattice, options.dhami2020);
+  }
+}
+
+}  // namespace plotscan

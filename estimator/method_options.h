@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "methods/run.h"
+
+#include "core/program.h"
+
+namespace plotscan {
+
+// What a command line gives of the methods' settings: their texts by the options' names.
+using GivenSettings = std::map<std::string, std::string>;
+
+// An option for every setting of a method that has one. `given` outlives the command.
+void declare_methods(CLI::App& command, GivenSettings& given);
+
+// Sets what was given in the options of the method that they name. Throws InputError on a value
+// that the setting cannot have, and on an option of another method, which would have no effect.
+void take_settings(const GivenSettings& given, methods::RunOptions& options);
+
+}  // namespace plotscan

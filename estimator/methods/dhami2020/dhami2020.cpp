@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/dhami2020/dhami2020.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "cloud/surroundings.h"
+#include "methods/dhami2020/ground_level.h"
+#include "methods/dhami2020/k_means.h"
+#include "methods/dhami2020/lattice.h"
+#include "methods/dhami2020/oriented_box.h"
+#include "methods/dhami2020/plot_grid.h"
+#include "methods/dhami2020/plot_heights.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/dhami2020/voting.h"
+#include "methods/dhami2020/voxel_filter.h"
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "estimate/given_plots.h"
+
+namespace plotscan::methods::dhami2020 {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+using nlohmann::json;
+
+constexpr double kDegrees = std::numbers::pi / 180;
+constexpr int kMostPlots = 100000;
+constexpr int kMostThreads = 1024;
+
+// The z filter: what stands more than min_height_m above the levelled ground.
+Points canopy_of(const Points& voxels, const GroundLevel& level, double min_height_m) {
+  Points canopy;
+  std::ranges::copy_if(voxels, std::back_inserter(canopy), [&](const Eigen::Vector3f& point) {
+    return level.height_of(point) > min_height_m;
+  });
+  return canopy;
+}
+
+// The points in an area given in the world frame.
+Points inside(const Points& points, const cloud::Area& area, const Eigen::Vector3d& origin) {
+  Points kept;
+  std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
+    const Eigen::Vector3d world = origin + point.cast<double>();
+    return world.x() >= area[0] && world.x() <= area[2] && world.y() >= area[1] &&
+           world.y() <= area[3];
+  });
+  return kept;
+}
+
+Clustering cluster(const Points& canopy, std::size_t voxels, const Options& options) {
+  if (canopy.size() < static_cast<std::size_t>(options.plots)) {
+    throw NothingToMeasure(
+        "only " + std::to_string(canopy.size()) + " of the map's " + std::to_string(voxels) +
+        " voxels lie in the searched area and more than " + format_number(options.min_height_m) +
+        " m above its ground, too few for " + std::to_string(options.plots) +
+        " plots; check the crop box, the minimum height and the number of plots");
+  }
+  return k_means(canopy,
+                 {.clusters = options.plots, .seed = options.seed, .threads = options.threads});
+}
+
+// Each cluster flattened and boxed.
+std::vector<PlotBox> cluster_boxes(const Points& canopy, const Clustering& clustering) {
+  std::vector<std::vector<Eigen::Vector2d>> flat(clustering.centers.size());
+  for (std::size_t i = 0; i < canopy.size(); ++i) {
+    flat[clustering.cluster_of[i]].emplace_back(canopy[i].head<2>().cast<double>());
+  }
+  std::vector<PlotBox> boxes;
+  for (std::vector<Eigen::Vector2d>& points : flat) {
+    const PlotBox box = minimum_area_box(std::move(points));
+    if (box.width_m > 0) boxes.push_back(box);
+  }
+  if (boxes.empty()) {
+    throw NothingToMeasure("no cluster of the points above the ground has an area; " +
+                           std::string("is the number of plots right?"));
+  }
+  return boxes;
+}
+
+// The plot's heading, width and length, each voted by the clusters' boxes.
+PlotBox voted_box(const std::vector<PlotBox>& boxes, const Options& options, json& diagnostics) {
+  std::vector<double> headings, widths, lengths;
+  for (const PlotBox& box : boxes) {
+    headings.push_back(box.heading_rad);
+    widths.push_back(box.width_m);
+    lengths.push_back(box.length_m);
+  }
+  const Vote heading = vote_heading(headings, options.orientation_bin_rad);
+  const Vote width = vote(widths, options.width_bin_m);
+  const Vote length = vote(lengths, options.length_bin_m);
+  diagnostics["votes"] = {{"clusters", boxes.size()},
+                          {"heading", heading.votes},
+                          {"width", width.votes},
+                          {"length", length.votes}};
+  diagnostics["plot"] = {{"heading_deg", heading.value / kDegrees},
+                         {"width_m", width.value},
+                         {"length_m", length.value}};
+  return {.width_m = width.value, .length_m = length.value, .heading_rad = heading.value};
+}
+
+json to_json(const Lattice& lattice) {
+  json document = {{"agreeing_clusters", lattice.agreeing}, {"rms_m", lattice.rms_m}};
+  if (lattice.many_rows) document["row_step_m"] = lattice.steps.col(0).norm();
+  if (lattice.many_columns) document["column_step_m"] = lattice.steps.col(1).norm();
+  return document;
+}
+
+// Section IV-B: the plots of the map in its own frame.
+std::vector<estimate::PlotEstimate> find_plots(const cloud::CloudMap& map, const Points& voxels,
+                                               const Options& options, json& diagnostics) {
+  const cloud::Area area = options.crop_box.value_or(map.area());
+  const GroundLevel level =
+      options.level ? fit_ground_level(voxels) : GroundLevel{.offset_m = -map.origin().z()};
+  const Points canopy = inside(canopy_of(voxels, level, options.min_height_m), area, map.origin());
+  const Points learnt =
+      options.learn_box ? inside(canopy, *options.learn_box, map.origin()) : canopy;
+  const Clustering clustering = cluster(learnt, voxels.size(), options);
+  const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
+  const PlotBox plot = voted_box(boxes, options, diagnostics);
+  std::vector<Eigen::Vector2d> centers;
+  centers.reserve(boxes.size());
+  for (const PlotBox& box : boxes) centers.push_back(box.center);
+  std::optional<Lattice> lattice = fit_lattice(centers, plot);
+  diagnostics["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
+                                 {"slope_x", level.slope.x()},
+                                 {"slope_y", level.slope.y()}};
+  diagnostics["canopy_voxels"] = canopy.size();
+  diagnostics["canopy_share"] =
+      static_cast<double>(canopy.size()) / static_cast<double>(voxels.size());
+  diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
+                            {"iterations", clustering.iterations}};
+  if (!lattice)
+    throw NothingToMeasure(
+        "the clusters form no grid of plots; check the crop box and the number of plots");
+  if (options.learn_box) {
+    if (!lattice->many_rows || !lattice->many_columns) {
+      throw InputError(
+          "the plots in the learn box lie in one line, which tells nothing of the grid's other "
+          "step; " +
+          std::string("a learn box holds at least 2 x 2 plots"));
+    }
+    lattice = carried_over(*lattice, plot, canopy);
+  }
+  diagnostics["grid"] = to_json(*lattice);
+  const std::size_t most = options.learn_box ? kMostPlots : options.plots;
+  std::vector<estimate::PlotEstimate> plots =
+      fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
+  if (plots.empty())
+    throw NothingToMeasure(
+        "no box of the grid holds canopy; check the crop box and the minimum height");
+  return plots;
+}
+
+bool holds(const cloud::Area& outer, const cloud::Area& inner) {
+  return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] &&
+         inner[3] <= outer[3];
+}
+
+void require_count(int count, int most, const std::string& name) {
+  if (count >= 1 && count <= most) return;
+  throw InputError(name + " is " + std::to_string(count) + "; it is 1 to " + std::to_string(most));
+}
+
+}  // namespace
+
+void require_sound(const Options& options) {
+  if (options.boxes.empty()) {
+    require_count(options.plots, kMostPlots, "the number of plots");
+  } else if (options.learn_box) {
+    throw InputError("a learn box and given boxes exclude each other");
+  }
+  if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
+  if (options.learn_box) cloud::require_area(*options.learn_box, "learn box");
+  if (options.learn_box && options.crop_box && !holds(*options.crop_box, *options.learn_box)) {
+    throw InputError("the learn box reaches out of the crop box");
+  }
+  require_settings(settings(), options);
+  require_count(options.threads, kMostThreads, "the number of threads");
+}
+
+estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& options,
+                                  const ProgressReport& progress) {
+  require_sound(options);
+  estimate::Estimate estimate{.method = "dhami2020"};
+  const Points voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
+  estimate.diagnostics = {{"points_read", map.points_read()},
+                          {"points_in_area", map.points().size()},
+                          {"outside", map.points_read() - map.points().size()},
+                          {"area_m", map.area()},
+                          {"voxels", voxels.size()}};
+  if (progress) progress(0.6);
+  estimate.plots = options.boxes.empty()
+                       ? find_plots(map, voxels, options, estimate.diagnostics)  // IV-B
+                       : estimate::given_plots(options.boxes, map.origin());
+  if (progress) progress(0.8);
+  measure_heights(estimate.plots, map.points(), voxels, options);  // IV-C
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
+  if (progress) progress(1);
+  return estimate;
+}
+
+estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
+                                  const ProgressReport& progress) {
+  require_sound(options);
+  std::optional<cloud::Area> area = options.crop_box;
+  if (!area && !options.boxes.empty()) area = cloud::surroundings(options.boxes, options.extend_m);
+  return estimate_plots(cloud::read_map(cloud, area, progress), options, progress);
+}
+
+}  // namespace plotscan::methods::dhami2020

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/dhami2020/settings.h"
+
+namespace plotscan::methods::dhami2020 {
+namespace {
+
+using Box = AreaSetting<Options>;
+using Flag = FlagSetting<Options>;
+using Number = NumberSetting<Options>;
+using Whole = WholeSetting<Options>;
+
+constexpr int kMostPlots = 100000;
+
+}  // namespace
+
+const std::vector<MethodSetting<Options>>& settings() {
+  static const std::vector<MethodSetting<Options>> all = {
+      {.key = "plots",
+       .flag = "--plots",
+       .help =
+           "how many plots lie in the field, or in --learn-box (1 to 100000; dhami2020 needs it)",
+       .value = Whole{{0, kMostPlots}, [](Options& o) -> int& { return o.plots; }},
+       .searches = true},
+      {.key = "learn_box",
+       .flag = "--learn-box",
+       .help = "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
+               "the grid over the whole field, in the cloud's units",
+       .value = Box{[](Options& o) -> std::optional<cloud::Area>& { return o.learn_box; }},
+       .searches = true},
+      {.key = "voxel_m",
+       .flag = "--voxel",
+       .help = "edge of the voxel filter's cells, metres",
+       .value = Number{{0.005, 1}, [](Options& o) -> double& { return o.voxel_m; }}},
+      {.key = "min_height_m",
+       .flag = "--min-height",
+       .help = "points this far above the levelled ground are crop, metres",
+       .value = Number{{0, 10}, [](Options& o) -> double& { return o.min_height_m; }}},
+      {.key = "level",
+       .flag = "--no-level",
+       .help = "take z = 0 for the ground instead of levelling the map",
+       .value = Flag{[](Options& o) -> bool& { return o.level; }}},
+      {.key = "orientation_bin_rad",
+       .flag = "",
+       .help = "bin of the vote for the plots' orientation, radians",
+       .value = Number{{0.001, 1.5}, [](Options& o) -> double& { return o.orientation_bin_rad; }}},
+      {.key = "width_bin_m",
+       .flag = "",
+       .help = "bin of the vote for their width, metres",
+       .value = Number{{0.001, 100}, [](Options& o) -> double& { return o.width_bin_m; }}},
+      {.key = "length_bin_m",
+       .flag = "",
+       .help = "bin of the vote for their length, metres",
+       .value = Number{{0.001, 100}, [](Options& o) -> double& { return o.length_bin_m; }}},
+      {.key = "extend_m",
+       .flag = "--extend",
+       .help = "lengthen each end of a box by this to show the ground, metres",
+       .value = Number{{0, 10}, [](Options& o) -> double& { return o.extend_m; }}},
+      {.key = "plane_tolerance_m",
+       .flag = "--plane-tolerance",
+       .help = "distance to the ground plane within which RANSAC takes a point for ground, metres",
+       .value = Number{{0.001, 1}, [](Options& o) -> double& { return o.plane_tolerance_m; }}},
+  };
+  return all;
+}
+
+}  // namespace plotscan::methods::dhami2020

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "plots/plot_field.h"
+
+namespace plotscan::methods::lattice {
+
+// What a manifest says of a field: its layout and the signs that its plots are some
+// (docs/estimate-format.md).
+nlohmann::json json_of(const plots::PlotField& field);
+
+}  // namespace plotscan::methods::lattice

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/lattice/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "cloud/field_density.h"
+#include "cloud/point_account.h"
+#include "cloud/points_in_boxes.h"
+#include "cloud/surroundings.h"
+#include "methods/lattice/field_report.h"
+#include "methods/lattice/settings.h"
+#include "methods/lattice/work_estimate.h"
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/stage.h"
+#include "core/text.h"
+#include "estimate/given_plots.h"
+#include "ground/surface.h"
+#include "heights/measure_heights.h"
+#include "plots/find_plots.h"
+
+namespace plotscan::methods::lattice {
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+using nlohmann::json;
+
+constexpr int kMostThreads = 1024;
+constexpr double kGroundAround_m = 4;  // read around given boxes, to see the ground beside them
+
+void report(const ProgressReport& progress, double share) {
+  if (progress) progress(share);
+}
+
+// Shares of the whole work done after its stages, as on a flight of 7.7 million points.
+constexpr double kField = 0.2, kGround = 0.7, kAbove = 0.72, kPlots = 0.95;
+
+ground::Surface ground_of(const cloud::FieldCloud& cloud, const Options& options,
+                          const ProgressReport& progress) {
+  const Stage stage("ground");
+  const Points& points = cloud.ground_points.empty() ? cloud.points : cloud.ground_points;
+  const auto so_far = [&](double share) { report(progress, kField + share * (kGround - kField)); };
+  return ground::fit_surface(
+      points, {.noise_m = options.noise_m, .threads = options.threads, .progress = so_far});
+}
+
+// What is ahead, for whoever wants to know.
+void tell_work(const cloud::FieldCloud& cloud, const Options& options) {
+  if (!options.tell) return;
+  const cloud::Area& area = cloud.area;
+  options.tell(estimate_work({.points = cloud.counts.read,
+                              .rectangle_m2 = (area[2] - area[0]) * (area[3] - area[1]),
+                              .density_m2 = cloud.density_m2},
+                             options.threads));
+}
+
+// The points of the field that are of the ground's classes, in its frame.
+Points ground_told(const CloudFiles& cloud, const cloud::FieldCloud& field,
+                   const Options& options) {
+  CloudFiles of_classes = cloud;
+  of_classes.only_classes = options.ground_classes;
+  cloud::FieldCloud told =
+      cloud::read_field(of_classes, {.area = field.area, .threads = options.threads});
+  const Eigen::Vector3f moved = (told.origin - field.origin).cast<float>();
+  for (Eigen::Vector3f& point : told.points) point += moved;
+  return std::move(told.points);
+}
+
+// (x, y, height above the ground) of the points that have ground within reach, in their order.
+Points above_ground(Points points, const ground::Surface& surface, int threads) {
+  const Stage stage("heights above the ground");
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+      const double ground_z = surface.height(points[i].head<2>().cast<double>());
+      points[i].z() = static_cast<float>(points[i].z() - ground_z);
+    });
+  });
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return std::isnan(point.z()); });
+  return points;
+}
+
+plots::Hints hints_of(const Options& options) {
+  plots::Hints hints{.width_m = options.plot_width_m,
+                     .length_m = options.plot_length_m,
+                     .rows = options.rows,
+                     .columns = options.columns,
+                     .plots = options.plots};
+  if (options.heading_deg) hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  return hints;
+}
+
+// The plots that the field shows, or the given ones, in the map's own frame.
+std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
+                                             double noise_m, const Options& options,
+                                             json& diagnostics) {
+  if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
+  const std::string too_few = formatted(
+      "too few points to show plots: about %.0f a square metre are needed", cloud::kPlotsFound_m2);
+  if (cloud.density_m2 < cloud::kLeastSearched_m2) {
+    diagnostics["nothing"] = too_few;
+    return {};
+  }
+  constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
+  if (noise_m > kMostNoise_m) {
+    diagnostics["nothing"] = formatted(
+        "heights scatter by %.1f m about the lowest: no ground that plots could stand on", noise_m);
+    return {};
+  }
+  Stage stage("plots");
+  const plots::PlotField field =
+      plots::find_plots(heights, noise_m, hints_of(options), options.threads);
+  stage.found(std::to_string(field.plots.size()) + " plots");
+  diagnostics["field"] = json_of(field);
+  if (!field.nothing.empty())
+    diagnostics["nothing"] = cloud.density_m2 < cloud::kPlotsFound_m2
+                                 ? too_few + " (" + field.nothing + ")"
+                                 : field.nothing;
+  std::vector<estimate::PlotEstimate> found;
+  for (const plots::FoundPlot& plot : field.plots) {
+    found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
+                     .row = plot.row,
+                     .column = plot.column,
+                     .box = plot.box});
+    found.back().confidence = plot.confidence;
+    if (!field.rival.empty())
+      found.back().flags.push_back("the canopy shows " + field.rival + " more clearly");
+    if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
+  }
+  return found;
+}
+
+void take(const heights::PlotHeights& measured, estimate::PlotEstimate& plot) {
+  plot.points = measured.points;
+  for (const auto& [name, height] : measured.heights) {
+    plot.heights_m[name] = height.value_m;
+    plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
+  }
+  plot.flags.insert(plot.flags.end(), measured.flags.begin(), measured.flags.end());
+}
+
+void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
+             const ground::Surface& surface, const Options& options, json& diagnostics) {
+  const Stage stage("plots' heights");
+  std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
+  for (const estimate::PlotEstimate& plot : plots) boxes.push_back(plot.box);
+  const std::vector<Points> inside = cloud::points_in_boxes(heights, boxes);
+  std::vector<heights::PlotPoints> clouds;
+  for (std::size_t i = 0; i < plots.size(); ++i) clouds.push_back({boxes[i], inside[i]});
+  const heights::FieldHeights measured = heights::measure_heights(
+      clouds, surface,
+      {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
+  for (std::size_t i = 0; i < plots.size(); ++i) take(measured.plots[i], plots[i]);
+  if (!measured.crops.empty()) diagnostics["crops"] = measured.crops;
+}
+
+json describe(const cloud::FieldCloud& cloud) {
+  const cloud::FieldCounts& counts = cloud.counts;
+  return {{"points_read", counts.read},        {"points_in_area", counts.kept},
+          {"not_finite", counts.not_finite},   {"marked", counts.marked},
+          {"left_out", counts.left_out},       {"outside", counts.outside},
+          {"repeated", counts.repeated},       {"thinned", counts.thinned},
+          {"outliers", counts.outliers},       {"area_m", cloud.area},
+          {"density_per_m2", cloud.density_m2}};
+}
+
+json describe(const ground::Surface& surface) {
+  std::size_t within = 0;
+  std::size_t seen = 0;
+  for (std::size_t node = 0; node < surface.z_m.size(); ++node) {
+    within += std::isfinite(surface.z_m[node]);
+    seen += std::isfinite(surface.z_m[node]) && surface.seen[node];
+  }
+  return {
+      {"cell_m", surface.cell_m},
+      {"nodes", within},
+      {"unknown_share", 1 - static_cast<double>(within) / static_cast<double>(surface.z_m.size())},
+      {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
+      {"noise_m", surface.noise_m}};
+}
+
+ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
+  surface.origin += by.head<2>();
+  for (float& z : surface.z_m) z += static_cast<float>(by.z());
+  return surface;
+}
+
+}  // namespace
+
+void require_sound(const Options& options) {
+  if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
+  require_settings(settings(), options);
+  require_in_range("threads", options.threads, {1, kMostThreads});
+}
+
+std::optional<cloud::Area> area_to_read(const Options& options) {
+  if (options.crop_box || options.boxes.empty()) return options.crop_box;
+  const cloud::Area boxes = cloud::surroundings(options.boxes, 0);
+  return cloud::Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m,
+                     boxes[2] + kGroundAround_m, boxes[3] + kGroundAround_m};
+}
+
+estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
+                                  const ProgressReport& progress) {
+  require_sound(options);
+  estimate::Estimate estimate{.method = "lattice"};
+  estimate.diagnostics = describe(cloud);
+  tell_work(cloud, options);
+  const ground::Surface surface = ground_of(cloud, options, progress);
+  const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
+  if (heights.empty())
+    throw NothingToMeasure(
+        "the cloud shows no ground (" + cloud::point_account(estimate.diagnostics) + "; " +
+        cloud::density_text(cloud.density_m2) + " points/m2); cut it to the field with --crop-box");
+  report(progress, kAbove);
+  estimate.diagnostics["ground"] = describe(surface);
+  estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
+  report(progress, kPlots);
+  measure(estimate.plots, heights, surface, options, estimate.diagnostics);
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();
+  estimate.ground = moved(surface, cloud.origin);
+  report(progress, 1);
+  return estimate;
+}
+
+estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
+                                  const ProgressReport& progress) {
+  require_sound(options);
+  cloud::FieldCloud field =
+      cloud::read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+                        [&](double share) { report(progress, kField * share); });
+  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
+  return estimate_plots(std::move(field), options, progress);
+}
+
+}  // namespace plotscan::methods::lattice

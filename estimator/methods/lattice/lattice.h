@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cloud/cloud_map.h"
+#include "cloud/field_cloud.h"
+#include "methods/lattice/work_estimate.h"
+
+#include "core/plot_box.h"
+#include "core/progress.h"
+#include "estimate/estimate.h"
+
+namespace plotscan::methods::lattice {
+
+// What may be told to the lattice method; it needs none of it. Ranges: settings.cpp.
+struct Options {
+  std::optional<cloud::Area> crop_box = {};  // use only the points in here
+  std::optional<double> heading_deg = {};    // of the plots' length, counter-clockwise from x
+  std::optional<double> plot_width_m = {};   // of every plot
+  std::optional<double> plot_length_m = {};  // of every plot
+  std::optional<int> rows = {};              // of plots; they follow each other along the length
+  std::optional<int> columns = {};           // of plots; along the width
+  std::optional<int> plots = {};             // how many there are
+  std::vector<PlotBox> boxes = {};           // given boxes: no detection, heights only
+  std::optional<double> noise_m = {};        // sigma of the points' heights, else estimated
+  bool calibrated = true;                    // plants' heights from the canopy's (docs/methods.md)
+  std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
+  std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
+  int threads = 1;
+  // Told once the field is read, before the work of it.
+  std::function<void(const WorkEstimate&)> tell = {};
+};
+
+// Throws InputError when an option is out of its range.
+void require_sound(const Options& options);
+
+// Finds the plots of a field and measures each one's heights "mean", "max", "p50", "p90", "p95" and
+// "p99" of its plants, and "canopy_p95" and "canopy_p99" of its canopy, with standard errors, 95 %
+// intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
+// without a lattice of plots has an estimate without plots; diagnostics["nothing"] says why.
+// Throws InputError on options out of range and on a cloud without ground.
+estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
+                                  const ProgressReport& progress = {});
+
+// The part of a cloud that the method looks at: the crop box; else the given boxes and the ground
+// around them; else nothing, which is the scanned field.
+std::optional<cloud::Area> area_to_read(const Options& options);
+
+// The same from a cloud, of area_to_read. Throws InputError on a broken cloud, and as above.
+estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
+                                  const ProgressReport& progress = {});
+
+}  // namespace plotscan::methods::lattice

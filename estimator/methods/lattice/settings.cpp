@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/lattice/settings.h"
+
+#include "heights/measure_heights.h"
+
+namespace plotscan::methods::lattice {
+namespace {
+
+using Flag = FlagSetting<Options>;
+using Optional = OptionalSetting<Options>;
+using OptionalText = OptionalTextSetting<Options>;
+using OptionalWhole = OptionalWholeSetting<Options>;
+using Wholes = WholesSetting<Options>;
+
+constexpr int kMostPlots = 100000;
+
+}  // namespace
+
+const std::vector<MethodSetting<Options>>& settings() {
+  static const std::vector<MethodSetting<Options>> all = {
+      {.key = "heading_deg",
+       .flag = "--heading",
+       .help = "direction of the plots' length, counter-clockwise from x (degrees)",
+       .value = Optional{{-360, 360},
+                         [](Options& o) -> std::optional<double>& { return o.heading_deg; }}},
+      {.key = "plot_width_m",
+       .flag = "--plot-width",
+       .help = "of every plot (metres)",
+       .value = Optional{{0.1, 100},
+                         [](Options& o) -> std::optional<double>& { return o.plot_width_m; }}},
+      {.key = "plot_length_m",
+       .flag = "--plot-length",
+       .help = "of every plot (metres)",
+       .value = Optional{{0.1, 100},
+                         [](Options& o) -> std::optional<double>& { return o.plot_length_m; }}},
+      {.key = "rows",
+       .flag = "--rows",
+       .help = "rows of plots; they follow each other along the length",
+       .value = OptionalWhole{{1, kMostPlots},
+                              [](Options& o) -> std::optional<int>& { return o.rows; }}},
+      {.key = "columns",
+       .flag = "--columns",
+       .help = "columns of plots; along the width",
+       .value = OptionalWhole{{1, kMostPlots},
+                              [](Options& o) -> std::optional<int>& { return o.columns; }}},
+      {.key = "plots",
+       .flag = "--plots",
+       .help = "how many plots lie in the field, or in --learn-box (dhami2020 needs it)",
+       .value = OptionalWhole{{1, kMostPlots},
+                              [](Options& o) -> std::optional<int>& { return o.plots; }},
+       .searches = true},
+      {.key = "crop",
+       .flag = "--crop",
+       .help = "soybean, wheat or maize (default: told from the canopy)",
+       .value = OptionalText{heights::crop_names(),
+                             [](Options& o) -> std::optional<std::string>& { return o.crop; }}},
+      {.key = "noise_m",
+       .flag = "--noise",
+       .help = "sigma of the points' heights (metres; default: estimated from bare ground)",
+       .value = Optional{{0, 0.5}, [](Options& o) -> std::optional<double>& { return o.noise_m; }}},
+      {.key = "ground_classes",
+       .flag = "--ground-class",
+       .help = "ASPRS classes that alone may carry the ground, with commas, where the surveyor's "
+               "filter is trusted: 2 is ground (default: every point may)",
+       .value = Wholes{{0, 255}, [](Options& o) -> std::vector<int>& { return o.ground_classes; }}},
+      {.key = "calibrated",
+       .flag = "--no-calibration",
+       .help = "give the canopy's own mean and percentiles for the plants'",
+       .value = Flag{[](Options& o) -> bool& { return o.calibrated; }}},
+  };
+  return all;
+}
+
+}  // namespace plotscan::methods::lattice

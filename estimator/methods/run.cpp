@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/run.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "cloud/field_density.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/output_file.h"
+#include "core/output_folder.h"
+#include "core/plot_features.h"
+#include "core/statistics.h"
+#include "core/text.h"
+#include "estimate/plot_map.h"
+#include "estimate/plot_tables.h"
+#include "record/positions.h"
+
+namespace plotscan::methods {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+template <class Value>
+json to_json(const std::optional<Value>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json options_json(const estimate::NumberingOptions& options) {
+  constexpr std::array<const char*, 4> kCorners = {"sw", "se", "nw", "ne"};
+  const estimate::Corner corner = options.first_corner.value_or(estimate::Corner::sw);
+  json document = {{"first_corner", kCorners.at(static_cast<std::size_t>(corner))}};
+  document["plot_names"] = options.names.has_value();
+  if (options.names) return document;
+  document["first_number"] = options.first_number.value_or(1);
+  document["numbering"] = options.numbering == PlotNumbering::serpentine ? "serpentine" : "zigzag";
+  return document;
+}
+
+json options_json(const RecordingOptions& options) {
+  json document = {{"sensor", to_json(options.sensor)}};
+  if (options.trajectory) document["trajectory"] = options.trajectory->filename().string();
+  if (const auto& mount = options.mount_rpy_deg)
+    document["mount_rpy_deg"] = {mount->x(), mount->y(), mount->z()};
+  if (!options.topic.empty()) document["topic"] = options.topic;
+  return document;
+}
+
+json options_json(const RunOptions& options) {
+  json document = options.method == "lattice"
+                      ? settings_json(lattice::settings(), options.lattice)
+                      : settings_json(dhami2020::settings(), options.dhami2020);
+  document["method"] = options.method;
+  document["crop_box"] = to_json(options.crop_box);
+  const CloudFiles& cloud = options.cloud;
+  document["unit_m"] = cloud.units ? json(cloud.units->horizontal_m) : json(nullptr);
+  document["crs"] = to_json(cloud.crs);
+  if (cloud.recording.any()) document["recording"] = options_json(cloud.recording);
+  document["leave_out_classes"] = cloud.leave_out_classes;
+  document["given_boxes"] = options.boxes.has_value();
+  document["id"] = to_json(options.id);
+  if (options.numbering.any()) document["numbering"] = options_json(options.numbering);
+  return document;
+}
+
+// What every method is told, beside what is its own.
+template <class Options>
+Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
+  options.crop_box = run.crop_box;
+  options.threads = run.threads;
+  options.boxes.clear();
+  for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
+  return options;
+}
+
+estimate::Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
+                              const std::vector<PlotFeature>& boxes,
+                              const ProgressReport& progress) {
+  if (run.method == "lattice")
+    return lattice::estimate_plots(cloud, completed(run.lattice, run, boxes), progress);
+  dhami2020::Options options = completed(run.dhami2020, run, boxes);
+  options.seed = run.seed;
+  return dhami2020::estimate_plots(cloud, options, progress);
+}
+
+void require_sound(const RunOptions& options) {
+  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
+    throw InputError("there is no method \"" + options.method + "\"; there is " +
+                     joined(method_names(), ", "));
+  }
+  const estimate::NumberingOptions& numbering = options.numbering;
+  if (options.boxes && numbering.any())
+    throw InputError("plots in given boxes keep their ids: they are neither numbered nor named");
+  if (numbering.names && (numbering.first_number || numbering.numbering))
+    throw InputError("plots are numbered or named by a table, not both");
+  if (options.id && !options.boxes && !numbering.names)
+    throw InputError("an id is a property of given boxes or a column of plot names; give either");
+}
+
+// These files and the others that the user gives.
+std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions& options) {
+  if (options.cloud.recording.trajectory) files.push_back(*options.cloud.recording.trajectory);
+  if (options.boxes) files.push_back(*options.boxes);
+  if (options.numbering.names) files.push_back(*options.numbering.names);
+  return files;
+}
+
+// A table replaces no input, and does not lie in the folder that is replaced as a whole.
+void require_own_place(const fs::path& table, const fs::path& folder,
+                       const std::vector<fs::path>& inputs) {
+  std::error_code ignored;
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(table, input, ignored)) throw InputError(table, "is an input of the run");
+  }
+  const fs::path within =
+      fs::weakly_canonical(table).lexically_relative(fs::weakly_canonical(folder));
+  if (!within.empty() && *within.begin() != "..")
+    throw InputError(table, "lies in the estimate folder, which has a heights.csv of its own");
+}
+
+// The plots as the user wants them called.
+void name(const RunOptions& options, const estimate::PlotMap& map,
+          const estimate::NamedPlaces& places, estimate::Estimate& estimate) {
+  if (options.boxes) {
+    estimate::take_names(map, estimate);
+  } else if (options.numbering.names) {
+    estimate::name_plots(options.numbering, places, estimate);
+  } else if (options.numbering.any()) {
+    estimate::number_plots(options.numbering, estimate);
+  }
+}
+
+std::optional<cloud::Area> in_metres(std::optional<cloud::Area> area, double unit_m) {
+  if (area) std::ranges::transform(*area, area->begin(), [&](double at) { return unit_m * at; });
+  return area;
+}
+
+// The areas of the options in metres.
+RunOptions in_metres(RunOptions options, double unit_m) {
+  options.crop_box = in_metres(options.crop_box, unit_m);
+  options.dhami2020.learn_box = in_metres(options.dhami2020.learn_box, unit_m);
+  return options;
+}
+
+// What the cloud's file says of its coordinates; the units that results are written in.
+void take_system(const scan::CloudSystem& system, const RunOptions& options,
+                 estimate::Estimate& estimate) {
+  estimate.crs = system.crs;
+  if (!system.zone && (options.cloud.units || system.units != CoordinateUnits{}))
+    estimate.units = system.units;
+  estimate.diagnostics["notes"] = system.notes;
+}
+
+}  // namespace
+
+const std::vector<std::string>& method_names() {
+  static const std::vector<std::string> names = {"lattice", "dhami2020"};
+  return names;
+}
+
+estimate::Estimate run(const RunOptions& options, const ProgressReport& progress) {
+  require_sound(options);
+  CloudFiles cloud = options.cloud;
+  cloud.files = cloud_files_of(options.cloud.files);
+  Manifest manifest{.command = "estimator run",
+                    .seed = options.seed,
+                    .options = options_json(options),
+                    .inputs = with_tables(cloud.files, options)};
+  OutputFolder folder(options.output, options.replace, "estimator run",
+                      with_tables(options.cloud.files, options));
+  std::optional<OutputFile> table;
+  if (options.csv) {
+    require_own_place(*options.csv, options.output, manifest.inputs);
+    table.emplace(*options.csv, options.replace);
+  }
+  const scan::CloudSystem system = record::read_cloud_system(cloud);
+  const double unit_m = system.units.horizontal_m;
+  estimate::PlotMap map;
+  if (options.boxes) map = estimate::read_plot_map(*options.boxes, system.crs, unit_m, options.id);
+  estimate::NamedPlaces places;
+  if (options.numbering.names)
+    places = estimate::read_named_places(*options.numbering.names, options.id);
+  estimate::Estimate estimate = run_method(cloud, in_metres(options, unit_m), map.plots, progress);
+  take_system(system, options, estimate);
+  name(options, map, places, estimate);
+  estimate::write_estimate(folder.path(), estimate);
+  manifest.results = {{"plots", estimate.plots.size()},
+                      {"heights", height_summary(estimate)},
+                      {"diagnostics", estimate.diagnostics}};
+  write_manifest(folder.path(), manifest);
+  if (table) estimate::write_traits(table->path(), estimate);
+  folder.commit();
+  if (table) table->commit();
+  return estimate;
+}
+
+void require_measured(const estimate::Estimate& estimate) {
+  const bool measured = std::ranges::any_of(
+      estimate.plots, [](const estimate::PlotEstimate& plot) { return !plot.heights_m.empty(); });
+  if (measured) return;
+  const json& diagnostics = estimate.diagnostics;
+  std::string found;
+  if (diagnostics.contains("density_per_m2"))
+    found = " (" + cloud::density_text(diagnostics["density_per_m2"].get<double>()) + " points/m2)";
+  if (!estimate.plots.empty()) {
+    throw NothingToMeasure("no plot has enough points for a height" + found +
+                           "; check that the boxes and the cloud are of one field, and fly lower "
+                           "where points are few");
+  }
+  throw NothingToMeasure("no plots: " + diagnostics.value("nothing", "none were found") + found +
+                         "; say where they are with --crop-box or --boxes, or fly lower where "
+                         "points are few");
+}
+
+json height_summary(const estimate::Estimate& estimate) {
+  std::map<std::string, std::vector<double>> heights_m;
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    for (const auto& [name, height_m] : plot.heights_m) heights_m[name].push_back(height_m);
+  }
+  json summary = json::object();
+  for (const auto& [name, values] : heights_m) {
+    summary[name] = {{"plots", values.size()},
+                     {"median_m", quantile(values, 0.5)},
+                     {"min_m", std::ranges::min(values)},
+                     {"max_m", std::ranges::max(values)}};
+  }
+  return summary;
+}
+
+}  // namespace plotscan::methods

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "methods/dhami2020/dhami2020.h"
+#include "methods/lattice/lattice.h"
+#include <nlohmann/json.hpp>
+
+#include "core/cloud_files.h"
+#include "core/progress.h"
+#include "estimate/plot_numbers.h"
+
+namespace plotscan::methods {
+
+// One run of a method, from files to an estimate folder.
+struct RunOptions {
+  CloudFiles cloud;  // files and folders, as cloud_files_of takes them
+  std::filesystem::path output;
+  std::string method = "lattice";                   // one of method_names()
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
+  estimate::NumberingOptions numbering = {};        // of the plots that are found, without boxes
+  std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
+  std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
+  bool replace = false;                           // an estimate folder, a table that exists
+  // Use only the points in here. In the cloud's own coordinates, as are the given boxes and
+  // dhami2020's learn box; metres of UTM where the cloud is in degrees.
+  std::optional<cloud::Area> crop_box = {};
+  lattice::Options lattice = {};      // crop box, boxes, threads are taken from here
+  dhami2020::Options dhami2020 = {};  // as above, and the seed
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+
+// The methods that `run` knows, the default first.
+const std::vector<std::string>& method_names();
+
+// Runs the method and writes the estimate folder (docs/estimate-format.md). Methods count in
+// metres: the cloud's own coordinates become metres here and at reading, and become its own again
+// in write_estimate. With given boxes, plots keep the map's ids and attributes (plot_map.h). Throws
+// InputError on bad input; nothing is left behind then.
+estimate::Estimate run(const RunOptions& options, const ProgressReport& progress = {});
+
+// Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says
+// why, how dense the cloud is, and what to do next.
+void require_measured(const estimate::Estimate& estimate);
+
+// How many plots have each height, and its median, least and greatest value, metres.
+nlohmann::json height_summary(const estimate::Estimate& estimate);
+
+}  // namespace plotscan::methods

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "description/load_description.h"
+
+#include "description/models_section.h"
+#include "description/plants_section.h"
+#include "description/plots_section.h"
+#include "description/terrain_section.h"
+#include "description/values.h"
+#include "description/weeds_section.h"
+#include "planting/layout_table.h"
+
+#include "core/error.h"
+#include "core/yaml_section.h"
+
+namespace plotscan::description {
+namespace {
+
+constexpr Range kLatitude = {-89, 89};  // at a pole there is no north
+constexpr Range kLongitude = {-180, 180};
+constexpr Range kAltitude = {-1000, 10000};
+
+Anchor read_anchor(const YamlSection& section) {
+  return {.latitude_deg = section.number("latitude_deg", kLatitude),
+          .longitude_deg = section.number("longitude_deg", kLongitude),
+          .altitude_m = section.number("altitude_m", kAltitude, 0.0)};
+}
+
+planting::LayoutDescription read_layout(const YamlSection& section) {
+  planting::LayoutDescription layout;
+  layout.plants = file_at(section, "plants");
+  if (section.has("plots")) layout.plots = file_at(section, "plots");
+  if (section.has("columns")) {
+    const YamlSection columns = section.section("columns");
+    columns.allow_only(planting::layout_columns());
+    layout.columns = columns.texts();
+  }
+  return layout;
+}
+
+void read_random_plants(const YamlSection& root, planting::FarmDescription& description) {
+  if (!description.plots) root.fail("plots", "is missing");
+  description.plants = read_plants(root.section("plants"), *description.plots, description.models);
+}
+
+void read_explicit_plants(const YamlSection& root, planting::FarmDescription& description) {
+  if (root.has("plants")) root.fail("layout", "takes the place of plants; give one of the two");
+  const YamlSection section = root.section("layout");
+  description.layout = read_layout(section);
+  read_models(section, description.models);
+  if (description.plots && description.layout->plots) {
+    section.fail("plots", "takes the place of the plot grid; give one of the two");
+  }
+}
+
+}  // namespace
+
+planting::FarmDescription load_description(const std::filesystem::path& file,
+                                           const std::vector<std::string>& overrides) {
+  const YamlSection root = YamlSection::load(file, overrides);
+  planting::FarmDescription description;
+  description.source = file;
+  description.name = name_at(root, "name", file.stem().string());
+  if (root.has("seed")) description.seed = root.unsigned_integer("seed");
+  if (root.has("anchor")) description.anchor = read_anchor(root.section("anchor"));
+  description.terrain = read_terrain(root.section("terrain"));
+  if (root.has("plots")) description.plots = read_plot_grid(root.section("plots"));
+  if (root.has("layout")) {
+    read_explicit_plants(root, description);
+  } else {
+    read_random_plants(root, description);
+  }
+  if (root.has("weeds")) description.weeds = read_weeds(root.section("weeds"), description.models);
+  root.refuse_unread();
+  return description;
+}
+
+}  // namespace plotscan::description

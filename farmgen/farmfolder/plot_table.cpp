@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmfolder/plot_table.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <unordered_set>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/plot_features.h"
+#include "core/text_file.h"
+
+namespace plotscan::farmfolder {
+namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180;
+
+struct HeightAttribute {
+  const char* name;
+  double farm::PlotHeights::*value;
+};
+constexpr std::array<HeightAttribute, 7> kHeights = {
+    {{"height_mean_m", &farm::PlotHeights::mean},
+     {"height_max_m", &farm::PlotHeights::max},
+     {"height_p50_m", &farm::PlotHeights::p50},
+     {"height_p90_m", &farm::PlotHeights::p90},
+     {"height_p95_m", &farm::PlotHeights::p95},
+     {"height_p99_m", &farm::PlotHeights::p99},
+     {"height_hand3_m", &farm::PlotHeights::hand3}}};
+
+struct CanopyAttribute {
+  const char* name;
+  double farm::CanopyHeights::*value;
+};
+constexpr std::array<CanopyAttribute, 2> kCanopies = {
+    {{"canopy_p95_m", &farm::CanopyHeights::p95}, {"canopy_p99_m", &farm::CanopyHeights::p99}}};
+
+// The attributes of one feature, with errors that name the file and the feature.
+class Attributes {
+ public:
+  Attributes(const std::filesystem::path& file, std::size_t feature, const nlohmann::json& values)
+      : file_(file), feature_(feature), values_(values) {}
+
+  bool has(const char* name) const { return values_.contains(name); }
+
+  double number(const char* name) const {
+    const auto found = values_.find(name);
+    if (found == values_.end() || !found->is_number()) fail(name, "is missing or not a number");
+    const double value = found->get<double>();
+    if (!std::isfinite(value)) fail(name, "is not finite");
+    return value;
+  }
+
+  std::string text(const char* name) const {
+    const auto found = values_.find(name);
+    if (found == values_.end() || !found->is_string()) fail(name, "is missing or not a text");
+    return found->get<std::string>();
+  }
+
+  std::uint32_t whole(const char* name, double low) const {
+    const double value = number(name);
+    if (value != std::floor(value) || value < low || value > kMost) {
+      fail(name, "is not a whole number in [" + std::to_string(static_cast<int>(low)) + ", " +
+                     std::to_string(static_cast<std::uint32_t>(kMost)) + "]");
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+ private:
+  static constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+
+  [[noreturn]] void fail(const char* name, const std::string& what) const {
+    throw InputError(file_, "feature " + std::to_string(feature_) + ": " + name + " " + what);
+  }
+
+  const std::filesystem::path& file_;
+  std::size_t feature_;
+  const nlohmann::json& values_;
+};
+
+void require_different_ids(const std::filesystem::path& path,
+                           const std::vector<farm::Plot>& plots) {
+  std::unordered_set<std::uint32_t> ids;
+  for (const farm::Plot& plot : plots) {
+    if (!ids.insert(plot.id).second)
+      throw InputError(path, "plot " + std::to_string(plot.id) + " is given twice");
+  }
+}
+
+// What truth/plots.geojson says of a plot beside its box (docs/farm-format.md).
+nlohmann::json plot_attributes(const farm::Plot& plot) {
+  nlohmann::json attributes = {
+      {"plot_number", plot.id},     {"row_number", plot.row},
+      {"col_number", plot.column},  {"rep_number", plot.rep},
+      {"block_number", plot.block}, {"accession_name", plot.accession},
+      {"plants", plot.plant_count}, {"plants_missing", plot.missing_plants},
+      {"weeds", plot.weed_count},   {"lodging_deg", plot.lodging_rad / kDegrees}};
+  for (const auto& [name, value] : kHeights) attributes[name] = plot.heights.*value;
+  if (plot.canopy) {
+    for (const auto& [name, value] : kCanopies) attributes[name] = *plot.canopy.*value;
+  }
+  return attributes;
+}
+
+// Nothing where the farm was made without.
+std::optional<farm::CanopyHeights> canopy_of(const Attributes& attributes) {
+  if (!attributes.has(kCanopies.front().name)) return std::nullopt;
+  farm::CanopyHeights canopy;
+  for (const auto& [name, value] : kCanopies) canopy.*value = attributes.number(name);
+  return canopy;
+}
+
+std::vector<PlotFeature> features_of(const std::vector<farm::Plot>& plots) {
+  std::vector<PlotFeature> features;
+  features.reserve(plots.size());
+  for (const farm::Plot& plot : plots) {
+    features.push_back({.box = plot.box, .properties = plot_attributes(plot)});
+  }
+  return features;
+}
+
+}  // namespace
+
+void write_plots(const std::filesystem::path& path, const std::vector<farm::Plot>& plots) {
+  write_plot_features(path, features_of(plots));
+}
+
+void write_plots_wgs84(const std::filesystem::path& path, const std::vector<farm::Plot>& plots,
+                       const Anchor& anchor) {
+  write_plot_features_wgs84(path, features_of(plots), [&](const Eigen::Vector2d& corner) {
+    const GeodeticPoint point = geodetic_from_world(anchor, {corner.x(), corner.y(), 0});
+    return Eigen::Vector2d(point.longitude_deg, point.latitude_deg);
+  });
+}
+
+std::vector<farm::Plot> read_plots(const std::filesystem::path& path) {
+  std::vector<farm::Plot> plots;
+  for (const PlotFeature& feature : read_plot_features(path)) {
+    const Attributes attributes(path, plots.size() + 1, feature.properties);
+    farm::Plot plot{.id = attributes.whole("plot_number", 1),
+                    .row = static_cast<int>(attributes.whole("row_number", 1)),
+                    .column = static_cast<int>(attributes.whole("col_number", 1)),
+                    .box = feature.box,
+                    .plant_count = attributes.whole("plants", 0),
+                    .heights = {},
+                    .rep = static_cast<int>(attributes.whole("rep_number", 1)),
+                    .block = static_cast<int>(attributes.whole("block_number", 1)),
+                    .accession = attributes.text("accession_name"),
+                    .missing_plants = attributes.whole("plants_missing", 0),
+                    .weed_count = attributes.whole("weeds", 0),
+                    .lodging_rad = attributes.number("lodging_deg") * kDegrees};
+    for (const auto& [name, value] : kHeights) plot.heights.*value = attributes.number(name);
+    plot.canopy = canopy_of(attributes);
+    plots.push_back(std::move(plot));
+  }
+  require_different_ids(path, plots);
+  return plots;
+}
+
+std::vector<farm::Plot> read_plot_boxes(const std::filesystem::path& path) {
+  std::vector<farm::Plot> plots;
+  for (const PlotFeature& feature : read_plot_features(path)) {
+    const auto place = static_cast<std::uint32_t>(plots.size() + 1);
+    const Attributes attributes(path, place, feature.properties);
+    const auto whole_or = [&](const char* name, std::uint32_t fallback) {
+      return feature.properties.contains(name) ? attributes.whole(name, 1) : fallback;
+    };
+    farm::Plot plot{.id = whole_or("plot_number", place),
+                    .row = static_cast<int>(whole_or("row_number", 1)),
+                    .column = static_cast<int>(whole_or("col_number", place)),
+                    .box = feature.box,
+                    .plant_count = 0,
+                    .heights = {},
+                    .rep = static_cast<int>(whole_or("rep_number", 1)),
+                    .block = static_cast<int>(whole_or("block_number", 1))};
+    if (feature.properties.contains("accession_name")) {
+      plot.accession = attributes.text("accession_name");
+    }
+    plots.push_back(std::move(plot));
+  }
+  require_different_ids(path, plots);
+  return plots;
+}
+
+void write_trial_layout(const std::filesystem::path& path, const std::string& trial,
+                        const std::vector<farm::Plot>& plots) {
+  TextFile out(path);
+  out << "plot_name,accession_name,plot_number,block_number,rep_number,row_number,col_number,"
+         "center_x_m,center_y_m,width_m,length_m,heading_deg\n";
+  for (const farm::Plot& plot : plots) {
+    out << trial << "_" << plot.id << "," << csv_field(plot.accession) << "," << plot.id << ","
+        << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
+    for (const double value : {plot.box.center.x(), plot.box.center.y(), plot.box.width_m,
+                               plot.box.length_m, plot.box.heading_rad / kDegrees}) {
+      out << "," << value;
+    }
+    out << "\n";
+  }
+  out.close();
+}
+
+}  // namespace plotscan::farmfolder

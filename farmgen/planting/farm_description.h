@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planting/model_description.h"
+#include "planting/plants_description.h"
+#include "planting/plots_description.h"
+#include "planting/weeds_description.h"
+#include "terrain/terrain_description.h"
+
+#include "core/geodesy.h"
+
+namespace plotscan::planting {
+
+// A farm as its author describes it: what docs/farm-format.md says of farm.yaml, with the ranges
+// checked, angles in radians and paths resolved against the file's folder.
+
+// Plants placed one by one by a table.
+struct LayoutDescription {
+  std::filesystem::path plants;                // CSV
+  std::map<std::string, std::string> columns;  // our name of a column -> the table's
+  std::optional<std::filesystem::path> plots;  // GeoJSON, in place of a plot grid
+};
+
+struct FarmDescription {
+  std::filesystem::path source;  // the YAML file
+  std::string name;
+  std::optional<std::uint64_t> seed;
+  std::optional<Anchor> anchor;
+  terrain::TerrainDescription terrain;
+  std::optional<PlotGridDescription> plots;
+  std::vector<ModelDescription> models;
+  // One of the two.
+  std::optional<PlantsDescription> plants;
+  std::optional<LayoutDescription> layout;
+  std::optional<WeedsDescription> weeds;
+};
+
+// Every file that a farm made from the description depends on, the description first.
+std::vector<std::filesystem::path> input_files(const FarmDescription& description);
+
+}  // namespace plotscan::planting

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planting/generate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "farmfolder/plot_table.h"
+#include "planting/plant_layout.h"
+#include "planting/plant_models.h"
+#include "planting/plot_layout.h"
+#include "planting/sown_plants.h"
+#include "planting/weeds.h"
+#include "terrain/make_terrain.h"
+
+#include "core/error.h"
+#include "core/statistics.h"
+#include "farm/heights.h"
+
+namespace plotscan::planting {
+namespace {
+
+// The plots of a farm whose plants a table places.
+std::vector<farm::Plot> laid_out_plots(const FarmDescription& description,
+                                       const std::optional<PlotGridDescription>& grid,
+                                       std::uint64_t seed) {
+  if (!grid) {
+    return description.layout->plots ? farmfolder::read_plot_boxes(*description.layout->plots)
+                                     : std::vector<farm::Plot>();
+  }
+  std::vector<farm::Plot> plots = grid_plots(*grid);
+  std::erase_if(plots, [&](const farm::Plot& plot) { return is_missing(*grid, plot.id, seed); });
+  return plots;
+}
+
+std::vector<farm::Plot> plots_of(const std::vector<SownPlot>& sown) {
+  std::vector<farm::Plot> plots;
+  for (const SownPlot& plot : sown) {
+    plots.push_back(plot.plot);
+    plots.back().missing_plants = plot.cultivar->count;  // until they are grown
+  }
+  return plots;
+}
+
+std::vector<PlotBox> boxes_of(const std::vector<farm::Plot>& plots) {
+  std::vector<PlotBox> boxes;
+  for (const farm::Plot& plot : plots) boxes.push_back(plot.box);
+  return boxes;
+}
+
+// The weeds come behind the crop, so that no plant of the crop changes its id.
+void add_weeds(const FarmDescription& description, farm::Farm& farm) {
+  for (farm::Plant& weed : draw_weeds(*description.weeds, farm.plots, farm.models, farm.terrain,
+                                      description.source, farm.seed)) {
+    weed.id = static_cast<std::uint32_t>(farm.plants.size() + 1);
+    farm.plants.push_back(weed);
+  }
+}
+
+// How far the plant's stem leans from the vertical.
+double lean_of(const farm::Plant& plant) {
+  return 2 * std::asin(std::min(1.0, std::hypot(plant.rotation.x(), plant.rotation.y())));
+}
+
+// Counts, heights and leans of each plot's plants; of the weeds, the count.
+void measure_plots(farm::Farm& farm) {
+  std::unordered_map<std::uint32_t, std::vector<double>> heights;
+  std::unordered_map<std::uint32_t, std::vector<double>> leans;
+  std::unordered_map<std::uint32_t, std::uint32_t> weeds;
+  for (const farm::Plant& plant : farm.plants) {
+    if (plant.kind == farm::PlantKind::weed) {
+      ++weeds[plant.plot];
+    } else {
+      heights[plant.plot].push_back(plant.height_m);
+      leans[plant.plot].push_back(lean_of(plant));
+    }
+  }
+  for (farm::Plot& plot : farm.plots) {
+    const std::vector<double>& own = heights[plot.id];
+    plot.plant_count = static_cast<std::uint32_t>(own.size());
+    plot.heights = farm::plot_heights(own, farm.seed, plot.id);
+    plot.missing_plants -= std::min(plot.missing_plants, plot.plant_count);
+    plot.weed_count = weeds[plot.id];
+    if (!own.empty()) plot.lodging_rad = mean(leans[plot.id]);
+  }
+}
+
+}  // namespace
+
+farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
+  std::optional<PlotGridDescription> grid = description.plots;
+  if (grid) grid = turned(*grid, seed);
+  std::vector<SownPlot> sown;
+  if (description.plants) sown = sow(*grid, *description.plants, seed);
+  std::vector<farm::Plot> plots =
+      description.plants ? plots_of(sown) : laid_out_plots(description, grid, seed);
+  terrain::MadeTerrain ground =
+      terrain::make_terrain(description.terrain, boxes_of(plots), seed, description.source);
+  farm::Farm farm{.name = description.name,
+                  .seed = seed,
+                  .terrain = std::move(ground.terrain),
+                  .models = make_models(description.models, description.source),
+                  .plots = std::move(plots),
+                  .plants = {},
+                  .anchor = description.anchor,
+                  .terrain_origin_m = ground.origin_m,
+                  .soil_reflectance = description.terrain.reflectance};
+  require_on_terrain(farm.plots, farm.terrain, description.source);
+  if (description.plots && farm.plots.empty()) {
+    throw InputError(description.source, "plots: all " +
+                                             std::to_string(plots_of(*description.plots)) +
+                                             " are missing; a lower missing_rate leaves some");
+  }
+  farm.plants = description.plants
+                    ? grow_plants(sown, farm.models, farm.terrain, description.source, seed)
+                    : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+  if (description.weeds) add_weeds(description, farm);
+  measure_plots(farm);
+  return farm;
+}
+
+}  // namespace plotscan::planting

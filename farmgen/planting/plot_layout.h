@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "planting/farm_description.h"
+
+#include "core/trial_layout.h"
+#include "farm/farm.h"
+
+namespace plotscan::planting {
+
+// The grid's places in the order of their numbers, those that are missing among them.
+TrialLayout layout_of(const PlotGridDescription& grid);
+
+// All plots of a grid in the order of their numbers, without plants, those that are missing among
+// them. Each box's length axis is the axis from row to row.
+std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid);
+
+// The grid with the heading that the seed draws for it, uniform in [0, 360) degrees, where it is to
+// be random; else as it is.
+PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed);
+
+// The numbers of two plots of which one lies on the other, the lower first; nothing where none
+// does.
+std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
+    const std::vector<farm::Plot>& plots);
+
+// Whether the plot of that number is missing: named by the description, or drawn.
+bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed);
+
+// Throws InputError (naming `source`, where the plots come from) when a corner of a plot lies off
+// the terrain, saying which, how far, and what would fit.
+void require_on_terrain(const std::vector<farm::Plot>& plots, const terrain::Terrain& terrain,
+                        const std::filesystem::path& source);
+
+// Finds the plot that holds a point.
+class PlotFinder {
+ public:
+  // Keeps a reference to `plots`.
+  explicit PlotFinder(const std::vector<farm::Plot>& plots);
+  // The id of the first plot whose box contains the point, 0 for none. Constant expected time.
+  std::uint32_t plot_at(const Eigen::Vector2d& point) const;
+
+ private:
+  const std::vector<farm::Plot>& plots_;
+  std::optional<terrain::TriangleGrid> grid_;  // triangles 2 i and 2 i + 1 are the box of plot i
+};
+
+}  // namespace plotscan::planting

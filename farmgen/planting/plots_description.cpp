@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planting/plots_description.h"
+
+#include <algorithm>
+
+namespace plotscan::planting {
+
+std::uint64_t plots_of(const PlotGridDescription& grid) {
+  std::uint64_t plots = 0;
+  for (const PlotRowDescription& row : grid.rows) plots += row.plots;
+  return plots;
+}
+
+std::uint32_t columns_of(const PlotGridDescription& grid) {
+  std::uint32_t columns = 0;
+  for (const PlotRowDescription& row : grid.rows) columns = std::max(columns, row.plots);
+  return columns;
+}
+
+}  // namespace plotscan::planting

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "planting/plants_description.h"
+
+#include "farm/farm.h"
+
+namespace plotscan::planting {
+
+// A plot, what is sown into it, and its first seed's number among all seeds of the grid.
+struct SownPlot {
+  farm::Plot plot;
+  const CultivarDescription* cultivar = nullptr;
+  std::uint64_t first_seed = 1;
+};
+
+// The plots of the grid that are not missing, with the cultivar and the seeds of each. The seeds of
+// missing plots count, so that nothing else changes when a plot is missing.
+std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescription& plants,
+                          std::uint64_t seed);
+
+// The plants that come up: position uniform in the plot or drilled in rows, yaw uniform in
+// [0, 2 pi) or along the row, each axis' scale uniform in [min, max] or, along z, from a drawn
+// height; one of the cultivar's models; feet on the terrain, heights measured, ids from 1. What is
+// drawn for a plant depends on the farm's seed and its own seed's number alone. Throws InputError
+// (naming `source`, the description) when a plot lies over a hole of the terrain, or a model would
+// have to be stretched too far for its drawn height.
+std::vector<farm::Plant> grow_plants(const std::vector<SownPlot>& plots,
+                                     const std::vector<farm::PlantModel>& models,
+                                     const terrain::Terrain& terrain,
+                                     const std::filesystem::path& source, std::uint64_t seed);
+
+}  // namespace plotscan::planting

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "terrain/triangle_grid.h"
+#include <Eigen/Core>
+
+namespace plotscan::terrain {
+
+// A triangulated height field: z as a function of (x, y), world frame, metres. Immutable.
+class Terrain {
+ public:
+  // Throws InputError when a vertex is not finite, a triangle names a missing vertex, or no
+  // triangle has an area when seen from above. Triangles without such area are dropped, the others
+  // are turned to run counter-clockwise seen from above.
+  Terrain(std::vector<Eigen::Vector3d> vertices,
+          std::vector<std::array<std::uint32_t, 3>> triangles);
+
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+
+  // Height of the surface at (x, y), of the highest where triangles lie over each other: exact at
+  // vertices, to rounding along edges; absent outside the triangles. Constant expected time.
+  std::optional<double> height(double x, double y) const;
+
+ private:
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  TriangleGrid grid_;
+};
+
+}  // namespace plotscan::terrain

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include "core/geodesy.h"
+#include "core/utc_time.h"
+#include "scan/trajectory.h"
+#include "sensor/sensor.h"
+#include "sensor/shots.h"
+
+namespace plotscan::record {
+
+// Which returns of a shot the sensor reports; the numbers are those of the mode byte in Velodyne's
+// packets.
+enum class ReturnMode : std::uint8_t { strongest = 0x37, last = 0x38, dual = 0x39 };
+
+// What is known of a flight beside its points: enough to turn each point back into the range that
+// the sensor measured, and to say when and where on Earth that was.
+struct FlightRecord {
+  sensor::Sensor sensor;
+  double spin_hz = 10;                         // 0 of a sensor that does not spin
+  Eigen::Isometry3d body_from_lidar;           // as stated; the true one may differ
+  scan::Trajectory reported;                   // what places the points
+  UtcTime start;                               // at time 0 of the points and the trajectory
+  std::optional<Anchor> anchor = {};           // of the world frame's origin
+  ReturnMode returns = ReturnMode::strongest;  // what the sensor reports of a shot
+  sensor::SpinJitter spin_jitter = {};
+
+  // The shots as the points were placed.
+  sensor::ShotPlan placed() const {
+    return {sensor, spin_hz, body_from_lidar, reported, spin_jitter};
+  }
+};
+
+}  // namespace plotscan::record

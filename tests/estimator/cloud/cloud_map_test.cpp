@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/cloud_map.h"
+
+#include "cloud/field_finder.h"
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace plotscan::cloud {
+namespace {
+
+using plotscan::testing::message_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(CloudMap, KeepsWhatLiesInItsArea) {
+  CloudMap map({0, 0, 10, 10});
+  map.add(std::vector<Eigen::Vector3d>{{1, 1, 0}, {11, 1, 0}, {1, -0.1, 0}});
+  map.add(std::vector<Eigen::Vector3d>{{10, 10, 2}});
+  EXPECT_EQ(map.points().size(), 2u);
+  EXPECT_EQ(map.points_read(), 4u);
+}
+
+TEST(CloudMap, KeepsMillimetresInMapGridCoordinates) {
+  CloudMap map({499990, 4999990, 500010, 5000010});
+  const Eigen::Vector3d point(500003.123, 5000004.567, 512.345);
+  map.add(std::vector{point});
+  EXPECT_LT((map.origin() + map.points().front().cast<double>() - point).norm(), 1e-5);
+}
+
+TEST(CloudMap, StrayPointsDoNotCoarsenTheOthers) {
+  CloudMap map({0, 0, 10, 10});
+  map.add(std::vector<Eigen::Vector3d>{{1, 1, 1e9}, {2, 2, 0.125}, {3, 3, 0.25}, {99, 99, -1e8}});
+  ASSERT_EQ(map.points().size(), 2u);
+  EXPECT_NEAR(map.origin().z() + map.points()[1].z(), 0.25, 1e-6);
+}
+
+TEST(CloudMap, RefusesAreasThatAreNone) {
+  EXPECT_THAT(message_of<InputError>([] {
+                require_area({0, 0, -1, 5}, "crop box");
+              }),
+              HasSubstr("crop box 0,0,-1,5 is no rectangle"));
+  EXPECT_THAT(message_of<InputError>([] {
+                require_area({0, 0, 1, 20000}, "crop box");
+              }),
+              HasSubstr("longer than 10 km"));
+  EXPECT_THROW(require_area({0, 0, 1, std::nan("")}, "crop box"), InputError);
+}
+
+// Density falls off around the field as it does around a flight.
+TEST(FieldFinder, FindsTheDenseCoreOfAScan) {
+  FieldFinder finder;
+  RandomStream random(1, random_purpose("test/field"), 0);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 200000; ++i)
+    points.emplace_back(random.uniform(-30, 10), random.uniform(5, 25), 0);
+  for (int i = 0; i < 100000; ++i)  // surroundings, ten times thinner
+    points.emplace_back(random.uniform(-50, 50), random.uniform(-50, 50), 0);
+  for (int i = 0; i < 1000; ++i)  // a dense spot apart from the field
+    points.emplace_back(random.uniform(40, 41), random.uniform(40, 41), 0);
+  finder.add(points);
+  EXPECT_THAT(finder.field(), ElementsAre(-30, 5, 10, 25));
+}
+
+TEST(FieldFinder, HasNoFieldWithoutPoints) { EXPECT_THROW(FieldFinder().field(), InputError); }
+
+std::string pcd_of(const std::string& rows, int count) {
+  return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+         std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+         std::to_string(count) + "\nDATA ascii\n" + rows;
+}
+
+TEST(ReadMap, ReadsACropBoxFromAFile) {
+  const plotscan::testing::TemporaryFolder folder;
+  const auto file = folder.write("cloud.pcd", pcd_of("1 2 3\n4 5 6\n70 80 9\n", 3));
+  const CloudMap map = read_map(file, Area{0, 0, 10, 10});
+  EXPECT_EQ(map.points_read(), 3u);
+  ASSERT_EQ(map.points().size(), 2u);
+  EXPECT_LT((map.origin() + map.points()[1].cast<double>() - Eigen::Vector3d(4, 5, 6)).norm(),
+            1e-6);
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_map(file, Area{-9, -9, -8, -8});
+              }),
+              HasSubstr("none of its 3 points lies in the crop box -9,-9,-8,-8"));
+}
+
+}  // namespace
+}  // namespace plotscan::cloud

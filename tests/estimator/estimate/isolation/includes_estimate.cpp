@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// The control: the same translation unit without the farm compiles.
-#include "estimate/estimate.h"
-
-std::size_t plots_of(const plotscan::estimate::Estimate& estimate) { return estimate.plots.size(); }

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/run.h"
+#include "run_on_farm.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/plot_features.h"
+#include "core/random.h"
+
+namespace plotscan::methods {
+namespace {
+
+namespace fs = std::filesystem;
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using testing::kFarm;
+using testing::small_run;
+using testing::write_cloud;
+
+// A breeder's map of two plots of the farm, and what the method makes of it.
+RunOptions run_in_boxes(const TemporaryFolder& folder, const nlohmann::json& of_first,
+                        const nlohmann::json& of_second) {
+  RunOptions options = small_run(folder, kFarm);
+  options.dhami2020.plots = 0;
+  options.boxes = folder.path() / "map.geojson";
+  write_plot_features(*options.boxes, {{.box = kFarm.box(1, 2), .properties = of_first},
+                                       {.box = kFarm.box(0, 0), .properties = of_second}});
+  return options;
+}
+
+nlohmann::json properties_of(const RunOptions& options, std::size_t feature) {
+  const auto written = nlohmann::json::parse(read_text(options.output / "plots.geojson"));
+  return written["features"][feature]["properties"];
+}
+
+TEST(Run, KeepsTheNamesOfGivenPlots) {
+  const TemporaryFolder folder;
+  const RunOptions options =
+      run_in_boxes(folder, {{"plot_number", 42}, {"row_number", 2}, {"col_number", 3}},
+                   {{"plot_number", 8000000000123}});
+  const estimate::Estimate estimate = run(options);
+  ASSERT_EQ(estimate.plots.size(), 2u);
+  EXPECT_EQ(estimate.plots[0].id, 42u);
+  EXPECT_EQ(estimate.plots[0].row, 2);
+  EXPECT_EQ(estimate.plots[0].column, 3);
+  EXPECT_EQ(estimate.plots[1].id, 8000000000123u);
+  EXPECT_NEAR(estimate.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-4);
+  EXPECT_NEAR(estimate.plots[1].heights_m.at("raw-max"), kFarm.height_m(0, 0), 1e-4);
+  EXPECT_EQ(properties_of(options, 1)["plot_number"], 8000000000123);
+  EXPECT_EQ(estimate::read_estimate(options.output).plots[1].id, 8000000000123u);
+}
+
+TEST(Run, GivesTheMapBackWithHeightsAdded) {
+  const TemporaryFolder folder;
+  const nlohmann::json first = {{"plot_id", "A-12"},   {"cultivar", "Rock, \"early\""},
+                                {"sown", nullptr},     {"checks", {1, 2}},
+                                {"row_number", "R02"}, {"density", 30.5}};
+  const RunOptions options = run_in_boxes(folder, first, {{"plot_id", "0101"}});
+  run(options);
+  const nlohmann::json properties = properties_of(options, 0);
+  for (const auto& [name, value] : first.items()) EXPECT_EQ(properties[name], value) << name;
+  EXPECT_NEAR(properties["height_raw-max_m"].get<double>(), kFarm.height_m(1, 2), 1e-4);
+  EXPECT_FALSE(properties.contains("plot_number"));
+  EXPECT_EQ(properties_of(options, 1)["plot_id"], "0101");
+  const estimate::Estimate read = estimate::read_estimate(options.output);
+  EXPECT_EQ(read.plots[0].id, PlotId("A-12"));
+  EXPECT_EQ(read.plots[1].id, PlotId("0101"));
+  const std::string table = read_text(options.output / "heights.csv");
+  EXPECT_THAT(table, ::testing::StartsWith("plot_id,row_number,col_number,center_x_m"));
+  EXPECT_THAT(table, HasSubstr(",checks,cultivar,density,sown\n"));
+  EXPECT_THAT(table, HasSubstr("\nA-12,R02,0,"));
+  EXPECT_THAT(table, HasSubstr(R"(,"[1,2]","Rock, ""early""",30.5,)"));
+  EXPECT_THAT(table, HasSubstr("\n0101,0,0,"));
+}
+
+// A map with heights, such as a farm's truth: they must not pass for measured ones.
+TEST(Run, CallsGivenHeightsGiven) {
+  const TemporaryFolder folder;
+  const RunOptions options =
+      run_in_boxes(folder, {{"height_hand3_m", 9.5}, {"height_raw-max_m", 9.5}, {"points", 7}}, {});
+  run(options);
+  const nlohmann::json properties = properties_of(options, 0);
+  EXPECT_EQ(properties["given_height_hand3_m"], 9.5);
+  EXPECT_EQ(properties["given_height_raw-max_m"], 9.5);
+  EXPECT_EQ(properties["given_points"], 7);
+  EXPECT_EQ(properties["plot_number"], 1);
+  const estimate::Estimate read = estimate::read_estimate(options.output);
+  EXPECT_FALSE(read.plots[0].heights_m.contains("hand3"));
+  EXPECT_NEAR(read.plots[0].heights_m.at("raw-max"), kFarm.height_m(1, 2), 1e-4);
+}
+
+TEST(Run, TakesTheIdFromTheNamedProperty) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_number", 1}, {"barcode", "x7"}},
+                                    {{"plot_number", 1}, {"barcode", "x8"}});
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  EXPECT_THAT(message(), HasSubstr("feature 1 and feature 2 have the same plot_number \"1\""));
+  EXPECT_THAT(message(), HasSubstr("--id"));
+  options.id = "Barcode";
+  EXPECT_THAT(message(), HasSubstr("barcode"));
+  EXPECT_FALSE(fs::exists(options.output));
+  options.id = "barcode";
+  EXPECT_EQ(run(options).plots[1].id, PlotId("x8"));
+  EXPECT_EQ(properties_of(options, 1)["plot_number"], 1);
+  EXPECT_EQ(estimate::read_estimate(options.output).plots[1].id, PlotId("x8"));
+}
+
+TEST(Run, RefusesAMapInWhichSomePlotsHaveNoId) {
+  const TemporaryFolder folder;
+  const RunOptions options = run_in_boxes(folder, {{"name", "north"}}, {{"name", " "}});
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+              HasSubstr("feature 2 has no id in its property \"name\""));
+}
+
+TEST(Run, NumbersAndNamesThePlotsThatItFinds) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.numbering.first_number = 101;
+  run(options);
+  EXPECT_EQ(properties_of(options, 7)["plot_number"], 108);
+  EXPECT_THAT(read_text(options.output / "heights.csv"), HasSubstr("\n101,1,1,"));
+  std::string table = "row,column,plot,sown\n";
+  for (int row = 1; row <= 2; ++row) {
+    for (int column = 1; column <= 4; ++column) {
+      table += std::to_string(row) + "," + std::to_string(column) + ",p" + std::to_string(row) +
+               std::to_string(column) + ",May\n";
+    }
+  }
+  options.numbering = {.names = folder.write("book.csv", table)};
+  options.id = "plot";
+  options.replace = true;
+  run(options);
+  EXPECT_EQ(properties_of(options, 7)["plot"], "p24");
+  EXPECT_EQ(properties_of(options, 7)["sown"], "May");
+  EXPECT_EQ(properties_of(options, 7)["row_number"], 2);
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  options.numbering.first_number = 1;
+  EXPECT_THAT(message(), HasSubstr("not both"));
+  options.numbering = {};
+  EXPECT_THAT(message(), HasSubstr("give either"));
+}
+
+TEST(Run, WritesATableForDatabases) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_id", "A-12"}, {"cultivar", "Rock, early"}},
+                                    {{"plot_id", "0101"}, {"row_number", 7}});
+  options.csv = folder.path() / "traits.csv";
+  const estimate::Estimate estimate = run(options);
+  const CsvTable table = read_csv_table(*options.csv);
+  EXPECT_THAT(table.columns,
+              ::testing::ElementsAre("observationunit_name", "row_number", "col_number", "cultivar",
+                                     "plot_id", "height_raw-max_m", "height_raw-p99_m",
+                                     "height_voxel-max_m", "flags"));
+  ASSERT_EQ(table.lines.size(), 2u);
+  const double height_m = estimate.plots[0].heights_m.at("raw-max");
+  EXPECT_EQ(table.lines[0].fields[0], "A-12");
+  EXPECT_EQ(table.lines[0].fields[1], "") << "of no grid";
+  EXPECT_EQ(table.lines[0].fields[3], "Rock, early");
+  EXPECT_EQ(table.lines[0].fields[5], format_number(height_m));
+  EXPECT_EQ(table.lines[1].fields[0], "0101");
+  EXPECT_EQ(table.lines[1].fields[1], "7");
+}
+
+TEST(Run, PutsATableWhereItHarmsNothing) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_id", "A"}}, {{"plot_id", "B"}});
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  options.csv = folder.write("traits.csv", "kept");
+  EXPECT_THAT(message(), HasSubstr("--force"));
+  EXPECT_EQ(read_text(*options.csv), "kept");
+  options.replace = true;
+  options.csv = options.boxes;
+  EXPECT_THAT(message(), HasSubstr("is an input"));
+  options.csv = options.output / "traits.csv";
+  EXPECT_THAT(message(), HasSubstr("lies in the estimate folder"));
+  EXPECT_FALSE(fs::exists(options.output));
+}
+
+// A tile of a folder is an input though nobody named it.
+TEST(Run, PutsATableOverNoTile) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.csv = write_cloud(folder.path() / "tiles" / "one.pcd", kFarm.points());
+  options.cloud = CloudFiles(folder.path() / "tiles");
+  options.replace = true;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("is an input"));
+}
+
+}  // namespace
+}  // namespace plotscan::methods

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/run.h"
+
+#include "run_on_farm.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/plot_features.h"
+#include "core/random.h"
+
+namespace plotscan::methods {
+namespace {
+
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using testing::kFarm;
+using testing::small_run;
+using testing::write_cloud;
+
+TEST(Run, WritesAFolderFromWhichTheRunCanBeRepeated) {
+  const TemporaryFolder folder;
+  const RunOptions options = small_run(folder, kFarm);
+  const estimate::Estimate estimate = run(options);
+  EXPECT_EQ(estimate.plots.size(), 8u);
+  const estimate::Estimate read = estimate::read_estimate(options.output);
+  EXPECT_EQ(read.method, "dhami2020");
+  ASSERT_EQ(read.plots.size(), 8u);
+  EXPECT_EQ(read.plots[3].heights_m, estimate.plots[3].heights_m);
+  const auto manifest = read_manifest(options.output);
+  EXPECT_EQ(manifest["command"], "estimator run");
+  EXPECT_EQ(manifest["options"]["plots"], 8);
+  EXPECT_EQ(manifest["inputs"][0]["hash"], file_hash(options.cloud.files.front()));
+  EXPECT_EQ(manifest["results"]["plots"], 8);
+  EXPECT_EQ(manifest["results"]["heights"]["raw-max"]["plots"], 8);
+  EXPECT_EQ(manifest["results"]["diagnostics"]["votes"]["clusters"], 8);
+}
+
+// So many points drawn in a box of side x side x height metres.
+std::vector<Eigen::Vector3d> scattered(std::uint64_t count, double side_m, double height_m) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    RandomStream random(2, random_purpose("test/scattered"), i);
+    points.emplace_back(random.uniform(0, side_m), random.uniform(0, side_m),
+                        random.uniform(0, height_m));
+  }
+  return points;
+}
+
+estimate::Estimate estimate_of(const std::vector<Eigen::Vector3d>& points) {
+  const TemporaryFolder folder;
+  return run({.cloud = write_cloud(folder.path() / "scan" / "cloud.pcd", points),
+              .output = folder.path() / "estimate"});
+}
+
+// Half a kilometre of town with a point on 250 square metres: over 200 s and 2.4 GB once.
+TEST(Run, SaysOfASparseCloudThatItCannotShowPlots) {
+  const estimate::Estimate estimate = estimate_of(scattered(1000, 500, 0.05));
+  EXPECT_TRUE(estimate.plots.empty());
+  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("65 a square metre"));
+  EXPECT_GT(estimate.diagnostics["ground"]["cell_m"], 5);
+}
+
+TEST(Run, SaysOfACloudWithoutGroundThatItHasNone) {
+  const estimate::Estimate estimate = estimate_of(scattered(300000, 20, 3));
+  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("no ground"));
+}
+
+TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  run(options);
+  const std::string first = read_text(options.output / "manifest.json");
+  options.cloud = CloudFiles(folder.path() / "scan");
+  options.threads = 2;
+  options.replace = true;
+  run(options);
+  EXPECT_EQ(read_text(options.output / "manifest.json"), first);
+}
+
+TEST(Run, KnowsWhenNothingWasMeasured) {
+  estimate::Estimate estimate{.method = "lattice",
+                              .diagnostics = {{"density_per_m2", 1.5}, {"nothing", "a reason"}}};
+  const auto message = [&] {
+    return message_of<NothingToMeasure>([&] { require_measured(estimate); });
+  };
+  EXPECT_THAT(message(), HasSubstr("no plots: a reason (1.5 points/m2)"));
+  estimate.plots = {{.id = 1, .box = {}}, {.id = 2, .box = {}}};
+  EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1.5 points/m2)"));
+  estimate.plots[1].heights_m["max"] = 0.5;
+  EXPECT_NO_THROW(require_measured(estimate));
+}
+
+TEST(Run, LeavesNothingBehindOnBadInput) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  const auto message = [&] { return message_of<InputError>([&] { run(options); }); };
+  options.method = "magic";
+  EXPECT_THAT(message(), HasSubstr("no method \"magic\""));
+  options.method = "dhami2020";
+  options.dhami2020.plots = 0;
+  EXPECT_THAT(message(), HasSubstr("number of plots"));
+  options.boxes = folder.write("none.geojson", R"({"features":[]})");
+  EXPECT_THAT(message(), HasSubstr("has no plots"));
+  options.cloud = folder.path() / "missing.pcd";
+  EXPECT_THAT(message(), HasSubstr("missing.pcd"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_THAT(entry.path().filename().string(), ::testing::AnyOf("scan", "none.geojson"));
+  }
+}
+
+}  // namespace
+}  // namespace plotscan::methods

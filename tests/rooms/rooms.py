@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Reads which folder includes headers of which, and fails where folders go round in a circle, where a file includes a
+header that is in no folder, or where docs/architecture.md does not name a folder that has headers.
+
+usage: rooms.py SOURCE_FOLDER
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOTS = ("foundation", "farmgen", "lidarsim", "estimator", "benchmarks", "library", "viewer")
+INCLUDE = re.compile(r'^\s*#include "([^"]+/[^"/]+)"', re.MULTILINE)
+
+
+def sources(source):
+    for root in ROOTS:
+        for path in sorted((source / root).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                yield root, path
+
+
+def folder_of(source, header):
+    """The folder that a header is included from, "estimator/methods/lattice"; nothing where it is in none."""
+    return next((str(Path(root, header).parent) for root in ROOTS if (source / root / header).exists()), None)
+
+
+def arrows(source):
+    """Folder -> {folder that it includes: a file that does}, and what is included and is nowhere (but is made)."""
+    found, lost = {}, []
+    for _, path in sources(source):
+        folder = path.parent.relative_to(source).as_posix()
+        uses = found.setdefault(folder, {})
+        for header in INCLUDE.findall(path.read_text()):
+            other = folder_of(source, header)
+            if other is None:
+                lost.append(f"{path}: includes {header}, which is nowhere")
+            elif other != folder:
+                uses.setdefault(other, path)
+    return found, lost
+
+
+def circle(found):
+    """Folders of which each includes the next and the last the first; nothing where there is no circle."""
+    done, path = set(), []
+
+    def visit(folder):
+        if folder in path:
+            return path[path.index(folder):] + [folder]
+        if folder in done:
+            return None
+        path.append(folder)
+        for other in found.get(folder, {}):
+            if round_trip := visit(other):
+                return round_trip
+        done.add(path.pop())
+        return None
+
+    return next(filter(None, map(visit, found)), None)
+
+
+def main(source):
+    found, mistakes = arrows(source)
+    if round_trip := circle(found):
+        mistakes.append("folders in a circle: " + " -> ".join(round_trip))
+        mistakes += [f"  {found[a][b]} includes {b}/" for a, b in zip(round_trip, round_trip[1:])]
+    page = (source / "docs/architecture.md").read_text()
+    mistakes += [f"docs/architecture.md does not name {folder}" for folder in found
+                 if folder not in ROOTS and folder not in page]
+    print("\n".join(mistakes) or f"{len(found)} folders, no circle")
+    return 1 if mistakes else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))
