@@ -83,14 +83,17 @@ Points above_ground(Points points, const ground::Surface& surface, int threads) 
   return points;
 }
 
+std::string too_few(const std::string& for_what) {
+  return formatted("too few points to show %s: about %.0f a square metre are needed",
+                   for_what.c_str(), kPlotsFound_m2);
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& heights, double noise_m,
                                    const LatticeOptions& options, json& diagnostics) {
   if (!options.boxes.empty()) return given_plots(options.boxes, cloud.origin);
-  const std::string too_few = formatted(
-      "too few points to show plots: about %.0f a square metre are needed", kPlotsFound_m2);
   if (cloud.density_m2 < kLeastSearched_m2) {
-    diagnostics["nothing"] = too_few;
+    diagnostics["nothing"] = too_few("plots");
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
@@ -105,8 +108,9 @@ std::vector<PlotEstimate> plots_of(const FieldCloud& cloud, const Points& height
   stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics["field"] = json_of(field);
   if (!field.nothing.empty())
-    diagnostics["nothing"] =
-        cloud.density_m2 < kPlotsFound_m2 ? too_few + " (" + field.nothing + ")" : field.nothing;
+    diagnostics["nothing"] = cloud.density_m2 < kPlotsFound_m2
+                                 ? too_few("plots") + " (" + field.nothing + ")"
+                                 : field.nothing;
   std::vector<PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
@@ -154,6 +158,18 @@ json describe(const FieldCloud& cloud) {
           {"repeated", counts.repeated},       {"thinned", counts.thinned},
           {"outliers", counts.outliers},       {"area_m", cloud.area},
           {"density_per_m2", cloud.density_m2}};
+}
+
+// Of a cloud none of whose points has ground beneath it.
+std::string no_ground_because(const FieldCloud& cloud, const json& diagnostics) {
+  const Area& area = cloud.area;
+  const double kept_m2 =
+      static_cast<double>(cloud.counts.kept) / ((area[2] - area[0]) * (area[3] - area[1]));
+  const std::string seen =
+      " (" + point_account(diagnostics) + "; " + density_text(cloud.density_m2) + " points/m2); ";
+  if (std::min(kept_m2, cloud.density_m2) < kLeastSearched_m2)
+    return too_few("ground and plots") + seen + "fly lower or slower for more points";
+  return "the cloud shows no ground" + seen + "cut it to the field with --crop-box";
 }
 
 json describe(const ground::Surface& surface) {
@@ -220,10 +236,8 @@ Estimate lattice(FieldCloud cloud, const LatticeOptions& options, const Progress
   tell_work(cloud, options);
   const ground::Surface surface = ground_of(cloud, options, progress);
   const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
-  if (heights.empty())
-    throw NothingToMeasure("the cloud shows no ground (" + point_account(estimate.diagnostics) +
-                           "; " + density_text(cloud.density_m2) +
-                           " points/m2); cut it to the field with --crop-box");
+  estimate.diagnostics["without_ground"] = cloud.counts.kept - heights.size();
+  if (heights.empty()) throw NothingToMeasure(no_ground_because(cloud, estimate.diagnostics));
   report(progress, kAbove);
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
@@ -238,7 +252,11 @@ Estimate lattice(FieldCloud cloud, const LatticeOptions& options, const Progress
 Estimate lattice(const CloudFiles& cloud, const LatticeOptions& options,
                  const ProgressReport& progress) {
   require_sound(options);
-  FieldCloud field = read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+  const bool around_boxes = !options.crop_box && !options.boxes.empty();
+  FieldCloud field = read_field(cloud,
+                                {.area = area_to_read(options),
+                                 .area_name = around_boxes ? "given boxes" : "crop box",
+                                 .threads = options.threads},
                                 [&](double share) { report(progress, kField * share); });
   if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
   return lattice(std::move(field), options, progress);
