@@ -14,7 +14,8 @@ namespace {
 
 void say_points(const Program& program, const scan::CloudFacts& facts) {
   std::string left_out;
-  if (facts.not_finite > 0) left_out += formatted(", %zu more are not finite", facts.not_finite);
+  if (facts.not_finite > 0)
+    left_out += formatted(", %zu more have no finite place", facts.not_finite);
   if (facts.marked > 0) left_out += formatted(", %zu marked as withheld or noise", facts.marked);
   program.say("format     " + facts.format);
   program.say(formatted("points     %zu%s", facts.points, left_out.c_str()));
@@ -29,9 +30,12 @@ void say_extent(const Program& program, const scan::CloudFacts& facts) {
   }
 }
 
-void say_system(const Program& program, const scan::CloudSystem& system) {
+void say_system(const Program& program, const scan::CloudSystem& system, bool told) {
+  const bool is_stated =
+      told || !system.crs.empty() || system.zone || system.units != CoordinateUnits{};
   const std::string x_y = system.zone ? "degrees" : unit_name(system.units.horizontal_m);
-  program.say("units      " + x_y + ", z in " + unit_name(system.units.vertical_m));
+  program.say("units      " + x_y + ", z in " + unit_name(system.units.vertical_m) +
+              (is_stated ? "" : ", as nothing else is stated (--units)"));
   program.say("system     " + (system.crs.empty() ? "not stated" : scan::crs_name(system.crs)));
   for (const std::string& note : system.notes) program.say("note       " + note);
 }
@@ -86,7 +90,7 @@ void run_info(const Program& program, const CloudArguments& arguments) {
   if (cloud.files.size() > 1) program.say(formatted("files      %zu", cloud.files.size()));
   say_points(program, report.facts);
   say_extent(program, report.facts);
-  say_system(program, report.facts.system);
+  say_system(program, report.facts.system, cloud.units.has_value());
   say_density(program, report.density);
   say_fields(program, report.facts);
   say_verdict(program, report);

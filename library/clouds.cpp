@@ -91,8 +91,10 @@ void write_cloud(const std::filesystem::path& file, std::span<const Point> point
                  const WriteCloudOptions& options, const Progress& progress) {
   boundary::guarded([&] {
     OutputFile out(file, options.replace);
-    record::write_points(source_of(points, options), out.path(), {.encoding = options.encoding},
-                         progress);
+    const record::Source source = source_of(points, options);
+    const record::WriteOptions write{.encoding = options.encoding};
+    record::require_writable(source, file, write);
+    record::write_points(source, out.path(), write, progress);
     out.commit();
   });
 }

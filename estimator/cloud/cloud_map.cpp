@@ -11,6 +11,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/statistics.h"
+#include "core/text.h"
 #include "record/positions.h"
 
 namespace plotscan::cloud {
@@ -29,8 +30,9 @@ double median_z(const std::vector<Eigen::Vector3d>& points) {
 }  // namespace
 
 std::string text_of(const Area& area) {
-  return format_number(area[0]) + "," + format_number(area[1]) + "," + format_number(area[2]) +
-         "," + format_number(area[3]);
+  std::vector<std::string> millimetres;
+  for (const double at : area) millimetres.push_back(format_number(std::round(1000 * at) / 1000));
+  return joined(millimetres, ",");
 }
 
 void require_area(const Area& area, const std::string& option) {

@@ -44,6 +44,19 @@ TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int thread
   return {std::move(tiles.tiles), std::move(tiles.begin), std::move(points)};
 }
 
+// "; they lie in -25,-22,25,26", of the tiles' outer edges; "" without any.
+std::string extent_of(std::span<const TileCount> tiles) {
+  if (tiles.empty()) return "";
+  Tile low = tiles.front().tile;
+  Tile high = low;
+  for (const auto& [tile, points] : tiles) {
+    low = {std::min(low.x, tile.x), std::min(low.y, tile.y)};
+    high = {std::max(high.x, tile.x), std::max(high.y, tile.y)};
+  }
+  return "; they lie in " + text_of({static_cast<double>(low.x), static_cast<double>(low.y),
+                                     high.x + 1.0, high.y + 1.0});
+}
+
 // A tile at the area's edge reaches out of it.
 void crop(FieldCloud& field) {
   const Eigen::Array2d low(field.area[0], field.area[1]);
@@ -62,9 +75,12 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   FieldCloud field;
   std::optional<FieldHull> hull;
   std::vector<TileCount> tile_counts = store.tile_counts();
+  const std::string extent = extent_of(tile_counts);
+  if (!options.area && tile_counts.empty())
+    throw InputError(name, "its points lie beyond any place on Earth");
   if (!options.area) hull = find_field(tile_counts);
   field.area = options.area ? *options.area : hull->bounds();
-  require_area(field.area, options.area ? "crop box" : name + ": the scanned field");
+  require_area(field.area, options.area ? options.area_name : name + ": the scanned field");
   if (options.area) {
     std::erase_if(tile_counts,
                   [&](const TileCount& count) { return !overlap(count.tile, field.area); });
@@ -84,8 +100,9 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   if (options.area) crop(field);
   field.counts.kept = field.points.size();
   if (field.points.empty()) {
-    throw InputError(name, "none of its " + std::to_string(counts.added) +
-                               " points lies in the crop box " + text_of(field.area));
+    throw InputError(name, "none of its " + std::to_string(counts.added) + " points lies in the " +
+                               options.area_name + " " + text_of(field.area) + " (metres)" +
+                               extent);
   }
   stage.found(std::to_string(field.points.size()) + " points");
   return field;
@@ -111,7 +128,7 @@ scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double d
 
 FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {
-  if (options.area) require_area(*options.area, "crop box");
+  if (options.area) require_area(*options.area, options.area_name);
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   constexpr double kRead = 0.5;  // of the time
   const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);

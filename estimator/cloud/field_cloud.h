@@ -19,6 +19,7 @@ namespace plotscan::cloud {
 
 struct FieldOptions {
   std::optional<Area> area = std::nullopt;  // else the densely scanned field is found (FieldHull)
+  std::string area_name = "crop box";       // what messages call it
   // Most points kept in a cell of 0.125 m. 256, or 16,384 a square metre, takes 0.1 % of a flight
   // of 3,400 points a square metre (128 would take 6 %), and bounds a hectare to 164 million
   // points.

@@ -10,7 +10,7 @@ namespace plotscan::ground {
 namespace {
 
 // Cells on either side whose layers count for a node, and those that stand in where these are few:
-// their mean square is worth kPrior layers.
+// their mean is worth kPrior layers.
 constexpr int kNear = 2;
 constexpr int kFar = 6;
 constexpr float kPrior = 0.3f;
@@ -20,6 +20,9 @@ constexpr float kAbove = 2.5f;
 constexpr float kMostLeverage = 0.8f;
 // From so many returns a layer on, noise and ground can be told apart.
 constexpr double kTelling = 8;
+// The spread of errors over the squared mean of their square roots: 1.48 of normal ones, less of
+// what lies between few returns (docs/ground.md, step 7).
+constexpr float kSpreadOfRoots = 1.18f;
 
 // Where the ground shows itself at a node.
 struct Shown {
@@ -27,12 +30,22 @@ struct Shown {
   float more_m2 = 0;  // mean square of a single place beside off_m's; negative: off_m's own noise
 };
 
-// Squared distances of the ground that is shown from the surface, by node.
-struct Squares {
-  explicit Squares(std::size_t size) : m2(size), nodes(size) {}
-  Field m2;
+// Sizes of the distances of the ground that is shown from the surface, by node.
+struct Sizes {
+  Sizes(std::size_t count, bool noise_is_shown) : many(noise_is_shown), size(count), nodes(count) {}
+  bool many;    // whether noise and ground are told apart
+  Field size;   // of a distance (size_of)
   Field nodes;  // 1 where there is one; pooled: how many
 };
+
+// What is pooled of a squared distance: itself, from which noise is taken; where returns are few,
+// its fourth root, since a few roofs and woods would make a mean of squares.
+float size_of(float square_m2, bool many) {
+  return many ? square_m2 : std::sqrt(std::sqrt(square_m2));
+}
+float spread_of(float mean_size, bool many) {
+  return many ? std::sqrt(mean_size) : kSpreadOfRoots * mean_size * mean_size;
+}
 
 // Whether most layers have returns enough to tell the noise from the ground.
 bool shows_noise(const Layer& layer) {
@@ -57,57 +70,55 @@ Shown shown_at(std::size_t i, const Layer& layer, const Fitted& fitted, bool man
 // from what the surface would be without it as its leverage tells (Cook and Weisberg, 1982, section
 // 2.2; cited from memory).
 template <class Counts>
-void add(const Layer& layer, const Fitted& fitted, bool many, const Counts& counts,
-         Squares& squares) {
+void add(const Layer& layer, const Fitted& fitted, const Counts& counts, Sizes& sizes) {
   for (std::size_t i = 0; i < fitted.z_m.size(); ++i) {
-    const Shown shown = shown_at(i, layer, fitted, many);
+    const Shown shown = shown_at(i, layer, fitted, sizes.many);
     if (!std::isfinite(shown.off_m) || !counts(i, shown.off_m)) continue;
     const float leverage =
         std::min(kMostLeverage, fitted.evidence.data[i] * fitted.sd_m[i] * fitted.sd_m[i]);
     const float alone = shown.off_m / (1 - leverage);
-    squares.m2[i] = alone * alone + shown.more_m2;
-    squares.nodes[i] = 1;
+    sizes.size[i] = size_of(alone * alone + shown.more_m2, sizes.many);
+    sizes.nodes[i] = 1;
   }
 }
 
-Squares pooled(const Grid& grid, int around, Squares squares) {
-  pool(grid, around, squares.m2);
-  pool(grid, around, squares.nodes);
-  return squares;
+Sizes pooled(const Grid& grid, int around, Sizes sizes) {
+  pool(grid, around, sizes.size);
+  pool(grid, around, sizes.nodes);
+  return sizes;
 }
 
-// Root mean square around each node.
-Field rms_around(const Grid& grid, const Squares& squares) {
-  double sum_m2 = 0, nodes = 0;
+// Spread of the distances around each node.
+Field spread_around(const Grid& grid, const Sizes& sizes) {
+  double sum = 0, nodes = 0;
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
-    sum_m2 += squares.m2[i];
-    nodes += squares.nodes[i];
+    sum += sizes.size[i];
+    nodes += sizes.nodes[i];
   }
-  const auto usual = static_cast<float>(std::max(0.0, sum_m2 / std::max(1.0, nodes)));
-  const Squares far = pooled(grid, kFar, squares);
-  const Squares near = pooled(grid, kNear, squares);
-  Field rms_m(grid.nodes());
+  const auto usual = static_cast<float>(std::max(0.0, sum / std::max(1.0, nodes)));
+  const Sizes far = pooled(grid, kFar, sizes);
+  const Sizes near = pooled(grid, kNear, sizes);
+  Field spread_m(grid.nodes());
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
-    const float wide = std::max(0.0f, far.m2[i] + kPrior * usual) / (far.nodes[i] + kPrior);
-    const float here = std::max(0.0f, near.m2[i] + kPrior * wide) / (near.nodes[i] + kPrior);
-    rms_m[i] = std::sqrt(here);
+    const float wide = std::max(0.0f, far.size[i] + kPrior * usual) / (far.nodes[i] + kPrior);
+    const float here = std::max(0.0f, near.size[i] + kPrior * wide) / (near.nodes[i] + kPrior);
+    spread_m[i] = spread_of(here, sizes.many);
   }
-  return rms_m;
+  return spread_m;
 }
 
 }  // namespace
 
 Field misfit(const Grid& grid, const Layer& layer, const Fitted& fitted) {
-  const bool many = shows_noise(layer);
-  Squares squares(grid.nodes());
+  Sizes sizes(grid.nodes(), shows_noise(layer));
   add(
-      layer, fitted, many, [](std::size_t, float off_m) { return off_m < 0; }, squares);
-  const Field below_m = rms_around(grid, squares);
+      layer, fitted, [](std::size_t, float off_m) { return off_m < 0; }, sizes);
+  const Field below_m = spread_around(grid, sizes);
   const auto as_near = [&](std::size_t i, float off_m) {
     return off_m >= 0 && off_m < kAbove * std::hypot(fitted.sd_m[i], below_m[i]);
   };
-  add(layer, fitted, many, as_near, squares);
-  return rms_around(grid, squares);
+  add(layer, fitted, as_near, sizes);
+  return spread_around(grid, sizes);
 }
 
 }  // namespace plotscan::ground

@@ -16,6 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kLongestSide_m = 10000;  // as cloud::require_area has it
+constexpr double kShortestSide_m = 0.1;   // of the smallest plots
 constexpr std::size_t kGroundClass = 2;
 
 void judge_density(CloudReport& report) {
@@ -32,6 +33,8 @@ void judge_density(CloudReport& report) {
 }
 
 void judge_extent(CloudReport& report) {
+  if (report.facts.bounds_m.sizes().head<2>().maxCoeff() < kShortestSide_m)
+    report.obstacles.emplace_back("all points lie within 10 cm of one place");
   const cloud::Area& field = report.density.field;
   if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
     report.obstacles.emplace_back("the field is over 10 km long: give a part of it (--crop-box)");

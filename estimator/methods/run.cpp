@@ -199,6 +199,25 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
   return estimate;
 }
 
+namespace {
+
+// What helps where there are no plots, by what was seen.
+std::string next_step(const estimate::Estimate& estimate) {
+  const double density_m2 = estimate.diagnostics.value("density_per_m2", cloud::kPlotsFound_m2);
+  std::vector<std::string> steps;
+  if (density_m2 >= cloud::kLeastSearched_m2) {
+    steps = {"say where plots are with --boxes", "cut the cloud to them with --crop-box"};
+  }
+  if (density_m2 < cloud::kPlotsFound_m2) steps.emplace_back("fly lower or slower for more points");
+  if (!estimate.units && estimate.crs.empty())
+    steps.emplace_back("give --units where coordinates are not metres");
+  const std::string last = steps.back();
+  steps.pop_back();
+  return steps.empty() ? last : joined(steps, ", ") + ", or " + last;
+}
+
+}  // namespace
+
 void require_measured(const estimate::Estimate& estimate) {
   const bool measured = std::ranges::any_of(
       estimate.plots, [](const estimate::PlotEstimate& plot) { return !plot.heights_m.empty(); });
@@ -213,8 +232,7 @@ void require_measured(const estimate::Estimate& estimate) {
                            "where points are few");
   }
   throw NothingToMeasure("no plots: " + diagnostics.value("nothing", "none were found") + found +
-                         "; say where they are with --crop-box or --boxes, or fly lower where "
-                         "points are few");
+                         "; " + next_step(estimate));
 }
 
 json height_summary(const estimate::Estimate& estimate) {

@@ -53,11 +53,13 @@ scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options
 
 const Format& writable_format(const fs::path& out) {
   const Format* format = find_format(out);
-  if (format == nullptr || !format->create) {
-    throw InputError(out,
-                     "cannot be written: its name must end in one of " + writable_extensions());
-  }
-  return *format;
+  if (format != nullptr && format->create) return *format;
+  const std::string laz = out.extension() == ".laz"
+                              ? "; .laz where built with LASzip (liblaszip-dev on Debian 13 and "
+                                "Ubuntu 24.04)"
+                              : "";
+  throw InputError(out,
+                   "cannot be written: its name must end in one of " + writable_extensions() + laz);
 }
 
 void require_options(const Format& format, const fs::path& out, const WriteOptions& options) {
@@ -75,8 +77,7 @@ void require_options(const Format& format, const fs::path& out, const WriteOptio
 
 }  // namespace
 
-ConvertSummary write_points(const Source& source, const fs::path& out, const WriteOptions& options,
-                            const ProgressReport& progress) {
+void require_writable(const Source& source, const fs::path& out, const WriteOptions& options) {
   const Format& format = writable_format(out);
   require_options(format, out, options);
   if (format.needs_flight && !source.flight) {
@@ -85,8 +86,12 @@ ConvertSummary write_points(const Source& source, const fs::path& out, const Wri
                               " says nothing; give a scan folder, or --trajectory FILE (and "
                               "--sensor, --spin, --mount, --start)");
   }
+}
+
+ConvertSummary write_points(const Source& source, const fs::path& out, const WriteOptions& options,
+                            const ProgressReport& progress) {
   ConvertSummary summary;
-  const auto writer = format.create(out, source, options);
+  const auto writer = writable_format(out).create(out, source, options);
   source.stream([&](std::span<const scan::LabelledPoint> points) {
     writer->write(points);
     summary.points += points.size();
@@ -112,9 +117,13 @@ ConvertSummary convert_within(const fs::path& in, const fs::path& out,
   if (is_trajectory(out)) {
     summary = write_poses(trajectory_of(in, options), file.path());
   } else if (is_trajectory(in)) {
-    throw InputError(in, "is a trajectory; it is converted to .tum, .txt or .csv");
+    throw InputError(in,
+                     "is a trajectory by its extension, which is converted to .tum, .txt or .csv; "
+                     "a cloud as text is called .xyz here");
   } else {
-    summary = write_points(open(in, options), file.path(), options.write, progress);
+    const Source source = open(in, options);
+    require_writable(source, out, options.write);
+    summary = write_points(source, file.path(), options.write, progress);
   }
   file.commit();
   return summary;

@@ -36,8 +36,13 @@ ConvertSummary convert(const std::filesystem::path& in, const std::filesystem::p
 ConvertSummary convert_within(const std::filesystem::path& in, const std::filesystem::path& out,
                               const ConvertOptions& options, const ProgressReport& progress = {});
 
-// The second half of convert, after open_source: the points of an open source to a file of `out`'s
-// extension, which may not appear whole.
+// Throws InputError where the points of an open source cannot be written to a file of `out`'s name:
+// an extension that no format has, options of another format, no flight where one is needed.
+void require_writable(const Source& source, const std::filesystem::path& out,
+                      const WriteOptions& options);
+
+// The second half of convert, after open_source and require_writable: the points of an open source
+// to a file of `out`'s extension, which may not appear whole.
 ConvertSummary write_points(const Source& source, const std::filesystem::path& out,
                             const WriteOptions& options, const ProgressReport& progress = {});
 

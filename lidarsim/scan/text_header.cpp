@@ -50,6 +50,15 @@ bool is_point(const std::vector<std::string_view>& columns) {
   return std::ranges::count_if(columns, [](auto word) { return number_of(word).has_value(); }) >= 3;
 }
 
+// A point whose numbers have decimal commas.
+bool has_decimal_commas(std::string_view line) {
+  std::string pointed(line);
+  std::ranges::replace(pointed, ',', '.');
+  std::vector<std::string_view> columns;
+  split_columns(pointed, separator_of(pointed), columns);
+  return pointed != line && is_point(columns);
+}
+
 // What stands in front of the points.
 struct TextHeader {
   std::string first_point;
@@ -95,6 +104,10 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
       header.first_point = line;
       if (text->size() != line.size()) layout.body_offset += text->size() - line.size();
       return header;
+    }
+    if (!is_comment(line) && has_decimal_commas(line)) {
+      throw InputError(file, lines.line(),
+                       "has numbers with decimal commas; write them with points (sed 'y/,/./')");
     }
     take_header_line(lines, line, header);
   }

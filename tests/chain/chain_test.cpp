@@ -139,7 +139,7 @@ TEST_F(Chain, SaysThatThereIsNothingToMeasure) {
                                 points);
   const Finished finished = run("estimator run bare.ply -o estimate", folder_.path().string());
   EXPECT_EQ(finished.exit_code, 3) << finished.output << finished.errors;
-  for (const char* word : {"no plots: ", "points/m2", "--crop-box", "--boxes", "fly lower"})
+  for (const char* word : {"no plots: ", "points/m2", "--crop-box", "--boxes", "--units"})
     EXPECT_NE(finished.errors.find(word), std::string::npos) << word << '\n' << finished.errors;
   EXPECT_TRUE(exists("estimate/ground.asc"));
   EXPECT_TRUE(exists("estimate/plots.geojson"));

@@ -97,15 +97,18 @@ plots::Hints hints_of(const Options& options) {
   return hints;
 }
 
+std::string too_few(const std::string& for_what) {
+  return formatted("too few points to show %s: about %.0f a square metre are needed",
+                   for_what.c_str(), cloud::kPlotsFound_m2);
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              double noise_m, const Options& options,
                                              json& diagnostics) {
   if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
-  const std::string too_few = formatted(
-      "too few points to show plots: about %.0f a square metre are needed", cloud::kPlotsFound_m2);
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
-    diagnostics["nothing"] = too_few;
+    diagnostics["nothing"] = too_few("plots");
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
@@ -121,7 +124,7 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
   diagnostics["field"] = json_of(field);
   if (!field.nothing.empty())
     diagnostics["nothing"] = cloud.density_m2 < cloud::kPlotsFound_m2
-                                 ? too_few + " (" + field.nothing + ")"
+                                 ? too_few("plots") + " (" + field.nothing + ")"
                                  : field.nothing;
   std::vector<estimate::PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
@@ -172,6 +175,18 @@ json describe(const cloud::FieldCloud& cloud) {
           {"density_per_m2", cloud.density_m2}};
 }
 
+// Of a cloud none of whose points has ground beneath it.
+std::string no_ground_because(const cloud::FieldCloud& cloud, const json& diagnostics) {
+  const cloud::Area& area = cloud.area;
+  const double kept_m2 =
+      static_cast<double>(cloud.counts.kept) / ((area[2] - area[0]) * (area[3] - area[1]));
+  const std::string seen = " (" + cloud::point_account(diagnostics) + "; " +
+                           cloud::density_text(cloud.density_m2) + " points/m2); ";
+  if (std::min(kept_m2, cloud.density_m2) < cloud::kLeastSearched_m2)
+    return too_few("ground and plots") + seen + "fly lower or slower for more points";
+  return "the cloud shows no ground" + seen + "cut it to the field with --crop-box";
+}
+
 json describe(const ground::Surface& surface) {
   std::size_t within = 0;
   std::size_t seen = 0;
@@ -216,10 +231,8 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
   tell_work(cloud, options);
   const ground::Surface surface = ground_of(cloud, options, progress);
   const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
-  if (heights.empty())
-    throw NothingToMeasure(
-        "the cloud shows no ground (" + cloud::point_account(estimate.diagnostics) + "; " +
-        cloud::density_text(cloud.density_m2) + " points/m2); cut it to the field with --crop-box");
+  estimate.diagnostics["without_ground"] = cloud.counts.kept - heights.size();
+  if (heights.empty()) throw NothingToMeasure(no_ground_because(cloud, estimate.diagnostics));
   report(progress, kAbove);
   estimate.diagnostics["ground"] = describe(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
@@ -234,8 +247,12 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
+  const bool around_boxes = !options.crop_box && !options.boxes.empty();
   cloud::FieldCloud field =
-      cloud::read_field(cloud, {.area = area_to_read(options), .threads = options.threads},
+      cloud::read_field(cloud,
+                        {.area = area_to_read(options),
+                         .area_name = around_boxes ? "given boxes" : "crop box",
+                         .threads = options.threads},
                         [&](double share) { report(progress, kField * share); });
   if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
   return estimate_plots(std::move(field), options, progress);

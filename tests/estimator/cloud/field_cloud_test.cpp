@@ -108,13 +108,25 @@ TEST(FieldCloud, TakesTheCropBoxToThePoint) {
   EXPECT_EQ(field.counts.outside + field.counts.kept, 20000u);
 }
 
+TEST(FieldCloud, RefusesPointsBeyondAnyPlace) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("far.xyz", "1e300 0 0\n-1e299 1 0\n");
+  EXPECT_THAT(message_of<InputError>([&] { read_field(file, {}); }),
+              HasSubstr("far.xyz: its points lie beyond any place on Earth"));
+}
+
 TEST(FieldCloud, RefusesACropBoxWithoutPoints) {
   const TemporaryFolder folder;
   const auto file = folder.write("cloud.pcd", pcd_of(field_points(3, {0, 0, 0})));
   EXPECT_THAT(message_of<InputError>([&] {
                 read_field(file, {.area = Area{90, 90, 91, 91}});
               }),
-              HasSubstr("none of its 3 points lies in the crop box 90,90,91,91"));
+              HasSubstr("none of its 3 points lies in the crop box 90,90,91,91 (metres); they "
+                        "lie in "));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_field(file, {.area = Area{90, 90, 91, 91}, .area_name = "given boxes"});
+              }),
+              HasSubstr("lies in the given boxes 90,90"));
   EXPECT_THROW(read_field(file, {.area = Area{1, 1, 0, 0}}), InputError);
 }
 

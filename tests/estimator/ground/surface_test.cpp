@@ -258,7 +258,7 @@ TEST(FitSurface, GivesHonestStandardErrorsWherePointsAreFew) {
     int returns_m2;
     double most_inside;  // intervals that hold everything say nothing
   };
-  for (const auto& [returns_m2, most_inside] : {Case{1, 0.98}, Case{3, 0.995}}) {
+  for (const auto& [returns_m2, most_inside] : {Case{1, 0.95}, Case{3, 0.985}}) {
     Coverage coverage;
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const Terrain terrain = rough_terrain(seed, seed % 2 == 0 ? 0.02 : 0.04, seed < 4 ? 0 : 0.3);

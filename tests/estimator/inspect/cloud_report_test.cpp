@@ -56,6 +56,14 @@ TEST(CloudReport, SaysWhetherPlotsCanBeFound) {
   EXPECT_EQ(to_json(dense)["can_carry_plots"], true);
 }
 
+TEST(CloudReport, OnePlaceCarriesNoPlots) {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int i = 0; i < 500; ++i) text += "3 4 5\n3.05 4.05 6\n";
+  EXPECT_THAT(inspect_cloud(folder.write("place.xyz", text)).obstacles,
+              ElementsAre(HasSubstr("within 10 cm of one place")));
+}
+
 // Two points at the ends of the world, and a field of 9 km2.
 TEST(CloudReport, ThinCloudsHaveADensity) {
   const TemporaryFolder folder;

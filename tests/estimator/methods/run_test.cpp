@@ -16,8 +16,10 @@ namespace {
 
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::kFarm;
+using ::testing::Not;
 using testing::small_run;
 using testing::write_cloud;
 
@@ -64,6 +66,17 @@ TEST(Run, SaysOfASparseCloudThatItCannotShowPlots) {
   EXPECT_GT(estimate.diagnostics["ground"]["cell_m"], 5);
 }
 
+// 5,000 times one point, and a point a hectare: none carries a ground, and no crop box helps.
+TEST(Run, SaysOfPointsThatAreTooFewForAGroundWhatIsNeeded) {
+  for (const auto& points :
+       {std::vector<Eigen::Vector3d>(5000, {1, 2, 3}), scattered(1000, 3000, 50)}) {
+    const std::string message =
+        message_of<NothingToMeasure>([&] { require_measured(estimate_of(points)); });
+    EXPECT_THAT(message, AllOf(HasSubstr("about 65 a square metre"), HasSubstr("fly lower"),
+                               Not(HasSubstr("--crop-box"))));
+  }
+}
+
 TEST(Run, SaysOfACloudWithoutGroundThatItHasNone) {
   const estimate::Estimate estimate = estimate_of(scattered(300000, 20, 3));
   EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("no ground"));
@@ -87,9 +100,17 @@ TEST(Run, KnowsWhenNothingWasMeasured) {
   const auto message = [&] {
     return message_of<NothingToMeasure>([&] { require_measured(estimate); });
   };
-  EXPECT_THAT(message(), HasSubstr("no plots: a reason (1.5 points/m2)"));
+  EXPECT_THAT(message(), HasSubstr("no plots: a reason (1.5 points/m2); fly lower or slower"));
+  EXPECT_THAT(message(), HasSubstr("--units"));
+  estimate.crs = "EPSG:32617";
+  EXPECT_THAT(message(), Not(HasSubstr("--units")));
+  EXPECT_THAT(message(), Not(HasSubstr("--boxes")));
+  estimate.diagnostics["density_per_m2"] = 40;
+  EXPECT_THAT(message(), AllOf(HasSubstr("--boxes"), HasSubstr("fly lower")));
+  estimate.diagnostics["density_per_m2"] = 1.5e3;
+  EXPECT_THAT(message(), AllOf(HasSubstr("--boxes"), Not(HasSubstr("fly lower"))));
   estimate.plots = {{.id = 1, .box = {}}, {.id = 2, .box = {}}};
-  EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1.5 points/m2)"));
+  EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1500 points/m2)"));
   estimate.plots[1].heights_m["max"] = 0.5;
   EXPECT_NO_THROW(require_measured(estimate));
 }

@@ -166,14 +166,20 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   EXPECT_THAT(refusal(scan_, "out.las", {.write = {.encoding = "ascii"}}), HasSubstr("but one"));
   EXPECT_THAT(refusal(scan_, "out.pcd", {.write = {.crs = "utm"}}), HasSubstr("for LAS"));
   EXPECT_THAT(refusal(scan_, "out.las", {.write = {.crs = "moon"}}), HasSubstr("local or utm"));
-  EXPECT_THAT(refusal(scan_, "out.xyz"), HasSubstr("must end in one of .pcd"));
+  EXPECT_THAT(refusal(scan_, "out.xyz"), HasSubstr("/out.xyz: cannot be written: its name must "
+                                                   "end in one of .pcd"));
+  if (find_format("out.laz") == nullptr) {
+    EXPECT_THAT(refusal(scan_, "out.laz"), HasSubstr("liblaszip-dev"));
+  }
+  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag"), HasSubstr("/out.bag: a ROS 1 bag needs"));
   EXPECT_THAT(refusal(scan_, "taken.pcd"), HasSubstr("--force"));
   EXPECT_THAT(refusal(scan_, "none/out.pcd"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder_.path() / "absent.pcd", "out.pcd"), HasSubstr("no such file"));
   EXPECT_THAT(refusal(folder_.path() / "archive.xyz", "out.pcd"), HasSubstr("neither"));
   EXPECT_THAT(refusal(folder_.path() / "empty", "out.pcd"), HasSubstr("no manifest.json"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.tum"), HasSubstr("no trajectory"));
-  EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"), HasSubstr("is a trajectory"));
+  EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"),
+              HasSubstr("is a trajectory by its extension"));
   EXPECT_THAT(refusal(scan_, "out.pcd", {.flight = FlightOptions{}}), HasSubstr("by itself"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.pcd", {.flight = FlightOptions{}}),
               HasSubstr("only with --trajectory"));

@@ -49,6 +49,14 @@ TEST_F(TextCloud, EverySeparatorIsRead) {
   EXPECT_FALSE(summary_.system.zone);
 }
 
+TEST_F(TextCloud, DecimalCommasAreNamed) {
+  for (const char* text : {"x;y;z\n512345,6789;4123456,7891;-1,5\n", "1,5 2,5 3\n1,5 2,5 3,25\n",
+                           "# a b c\n0,5\t2\t3\n"}) {
+    EXPECT_THAT(refusal(text), HasSubstr("decimal commas")) << text;
+  }
+  EXPECT_THAT(refusal("x;y;z\n1,5;2,5;3\n"), HasSubstr("cloud.txt:2: "));
+}
+
 TEST_F(TextCloud, HeadersNameTheColumns) {
   EXPECT_EQ(read("//X Y Z R G B\n512345.6789 4123456.7891 -1.5 1 2 3\n0.001 20 3 4 5 6\n"),
             kPoints);
