@@ -211,7 +211,8 @@ void declare_run(Program& program) {
   RunArguments& arguments = *shared;
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
-                      [&program, shared] { run_estimate(program, *shared); });
+                      [&program, shared] { run_estimate(program, *shared); },
+                      {.seed = "seed of the clustering of dhami2020", .threads = true});
   arguments.command = &run;
   auto& options = arguments.options;
   declare_cloud(run, arguments.cloud);

@@ -130,8 +130,10 @@ void add_options(CLI::App& fly, Arguments& arguments) {
 int main(int argc, char** argv) {
   Program program("lidarsim", "Scan virtual farms and SDF worlds with a simulated LiDAR drone.");
   Arguments arguments;
-  CLI::App& fly = program.command("fly", "Fly over a farm or an SDF world and write the scan.",
-                                  [&] { run_fly(program, arguments); });
+  CLI::App& fly =
+      program.command("fly", "Fly over a farm or an SDF world and write the scan.",
+                      [&] { run_fly(program, arguments); },
+                      {.seed = "seed of range noise, wind and pose errors", .threads = true});
   add_options(fly, arguments);
   declare_convert(program);
   declare_sensors(program);

@@ -35,8 +35,9 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
 
 void declare_view(Program& program) {
   const auto options = std::make_shared<scanpage::PageOptions>();
-  CLI::App& view = program.command("view", "Make a page of a scan, to be opened in a browser.",
-                                   [&program, options] { view_scan(program, *options); });
+  CLI::App& view =
+      program.command("view", "Make a page of a scan, to be opened in a browser.",
+                      [&program, options] { view_scan(program, *options); }, {.threads = true});
   view.add_option("SCAN", options->scan,
                   "scan folder, cloud (PCD, PLY, LAS, text) or recording that knows its poses "
                   "(bag, MCAP)")

@@ -85,9 +85,12 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
   say_summary(program, summary, options.output.string());
 }
 
+constexpr const char* kSeed = "seed of the bootstrap that makes the table's intervals";
+
 void declare_run(Program& program, farmbench::RunOptions& options) {
   CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
-                                  [&program, &options] { run_suite(program, options); });
+                                  [&program, &options] { run_suite(program, options); },
+                                  {.seed = kSeed, .threads = true});
   run.add_option("SUITE", options.suite,
                  "suite (YAML), or the name of a shipped one, such as paper")
       ->required();
@@ -115,7 +118,8 @@ int main(int argc, char** argv) {
   std::string results;
   CLI::App& report = program.command(
       "report", "Make the table and reports again from results.json.",
-      [&] { say_summary(program, farmbench::report(results, program.common().seed), results); });
+      [&] { say_summary(program, farmbench::report(results, program.common().seed), results); },
+      {.seed = kSeed});
   report.add_option("RESULTS", results, "results folder of farmbench run")->required();
   return program.run(argc, argv);
 }
