@@ -122,31 +122,37 @@ void run_estimate(const Program& program, RunArguments arguments) {
 void declare_lattice(CLI::App& run, RunArguments& arguments) {
   const std::string group = kLatticeGroup;
   auto& method = arguments.options.lattice;
-  run.add_option("--heading", arguments.heading_deg,
-                 "direction of the plots' length, counter-clockwise from x (degrees)")
+  run.add_option(
+         "--heading", arguments.heading_deg,
+         "direction of the plots' length, degrees counter-clockwise from x (default: found)")
       ->group(group);
-  run.add_option("--plot-width", method.hints.width_m, "of every plot (metres)")->group(group);
-  run.add_option("--plot-length", method.hints.length_m, "of every plot (metres)")->group(group);
+  run.add_option("--plot-width", method.hints.width_m,
+                 "width of every plot, metres (default: found)")
+      ->group(group);
+  run.add_option("--plot-length", method.hints.length_m,
+                 "length of every plot, metres (default: found)")
+      ->group(group);
   run.add_option("--rows", method.hints.rows,
-                 "rows of plots; they follow each other along the length")
+                 "number of rows, which follow each other along the plots' length (default: found)")
       ->group(group);
-  run.add_option("--columns", method.hints.columns, "columns of plots; along the width")
+  run.add_option("--columns", method.hints.columns,
+                 "number of columns, along the plots' width (default: found)")
       ->group(group);
-  run.add_option("--crop", method.crop, "soybean, wheat or maize (default: told from the canopy)")
+  run.add_option("--crop", method.crop, "crop of the field (default: recognised from the canopy)")
       ->check(CLI::IsMember(heights::crop_names()))
       ->group(group);
   run.add_option("--noise", method.noise_m,
                  "sigma of the points' heights (metres; default: estimated from bare ground)")
       ->group(group);
   run.add_option("--ground-class", method.ground_classes,
-                 "ASPRS classes that alone may carry the ground, with commas, where the surveyor's "
-                 "filter is trusted: 2 is ground (default: every point may)")
+                 "only points of these ASPRS classes may be ground, separated by commas; 2 is "
+                 "ground (default: every point may)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255))
       ->group(group);
   run.add_flag("--no-calibration", arguments.no_calibration,
-               "give the canopy's own mean and percentiles for the plants'")
+               "report the canopy's own mean and percentiles as the plants'")
       ->group(group);
 }
 
@@ -155,8 +161,8 @@ void declare_dhami2020(CLI::App& run, RunArguments& arguments) {
   auto& method = arguments.options.dhami2020;
 
   run.add_option("--learn-box", arguments.learn_box,
-                 "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
-                 "the grid over the whole field, in the cloud's units")
+                 "x0,y0,x1,y1 in the cloud's units: learn box size and grid in this part of the "
+                 "field, which has --plots plots, and extend the grid over the whole field")
       ->delimiter(',')
       ->expected(4)
       ->excludes("--boxes")
@@ -185,7 +191,8 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
                  "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
                  "name, id)");
   run.add_option("--first-number", arguments.options.numbering.first_number,
-                 "number of the first plot that is found; the others follow along the rows")
+                 "number of the first plot that is found; the others follow along the rows "
+                 "(default: 1)")
       ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1000000000}))
       ->excludes("--boxes");
   run.add_option("--numbering", arguments.numbering,
@@ -194,13 +201,13 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
       ->check(CLI::IsMember({"zigzag", "serpentine"}))
       ->excludes("--boxes");
   run.add_option("--first-corner", arguments.first_corner,
-                 "sw, se, nw or ne: where row 1 and column 1 are, once plots are numbered or named "
+                 "corner of the field with row 1 and column 1, where plots are numbered or named "
                  "(default: sw)")
       ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
       ->excludes("--boxes");
   run.add_option("--plot-names", arguments.plot_names,
-                 "table (CSV) with columns row, column, an id and others: the plots that are found "
-                 "are called so, and keep the other columns")
+                 "table (CSV) with columns row, column, an id and others: plots that are found get "
+                 "the id and the other columns of their place")
       ->excludes("--boxes", "--first-number", "--numbering");
 }
 
@@ -218,35 +225,37 @@ void declare_run(Program& program) {
   declare_cloud(run, arguments.cloud);
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,
-                 "lattice: needs nothing but the cloud; dhami2020: the paper's pipeline, needs "
+                 "lattice: needs only the cloud; dhami2020: the paper's method, needs "
                  "--plots")
       ->check(CLI::IsMember(estimate::method_names()))
       ->capture_default_str();
   run.add_option("--crop-box", arguments.crop_box,
-                 "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "
+                 "x0,y0,x1,y1 in the cloud's units: use only the points in this box (default: the "
                  "densely scanned field)")
       ->delimiter(',')
       ->expected(4);
   run.add_option(
          "--leave-out-class", arguments.cloud.cloud.leave_out_classes,
-         "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
+         "ASPRS classes of points to leave out, separated by commas: 3,4,5 is vegetation, 6 "
+         "buildings")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
-  run.add_option("--boxes", arguments.boxes,
-                 "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
-                 "longitude and latitude "
-                 "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
-                 "and attributes, search none");
+  run.add_option(
+      "--boxes", arguments.boxes,
+      "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
+      "longitude and latitude "
+      "where the cloud is in UTM or degrees: heights are measured in its boxes, its ids and "
+      "attributes kept, and no plots searched for");
   declare_names(run, arguments);
   run.add_option("--csv", arguments.csv,
-                 "also write this table, a line a plot, for breeding databases: "
+                 "also write a table (CSV) for breeding databases, one line for each plot: "
                  "observationunit_name, attributes, heights (metres)");
   run.add_option("--plots", arguments.plots,
                  "how many plots lie in the field, or in --learn-box (1 to 100000; dhami2020 needs "
                  "it)")
       ->excludes("--boxes");
-  run.add_flag("--force", options.replace, "replace an estimate folder, a table that exists");
+  run.add_flag("--force", options.replace, "replace an existing estimate folder and table");
   declare_lattice(run, arguments);
   declare_dhami2020(run, arguments);
 }

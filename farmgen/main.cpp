@@ -208,9 +208,8 @@ int main(int argc, char** argv) {
                                    [&] { run_info(program, arguments); });
   info.add_option("FOLDER", arguments.input, "farm folder written by generate")->required();
 
-  CLI::App& check =
-      program.command("check", "Say whether a description is sound, and what it makes.",
-                      [&] { run_check(program, arguments); }, {.seed = kFarmSeed});
+  CLI::App& check = program.command("check", "Check a farm description, and print what it makes.",
+                                    [&] { run_check(program, arguments); }, {.seed = kFarmSeed});
   add_farm_options(check, arguments);
 
   add_export_command(program);

@@ -122,7 +122,7 @@ void add_plant_command(Program& program) {
   CLI::App& plant = program.command("plant", "Grow a plant mesh from parameters and a seed.",
                                     [&program, arguments] { run_plant(program, *arguments); },
                                     {.seed = "seed of the plant"});
-  plant.add_option("CROP", arguments->options.crop, joined(crop::crops(), ", "))
+  plant.add_option("CROP", arguments->options.crop, "one of " + joined(crop::crops(), ", "))
       ->required()
       ->check(CLI::IsMember(crop::crops()));
   plant.add_option("--stage", arguments->options.stage,
@@ -147,8 +147,8 @@ void add_plant_command(Program& program) {
     throw CLI::Success();
   };
   plant.add_flag_callback("--list", list,
-                          "print the crop's stages and parameters, each with its default, unit "
-                          "and range, and grow nothing; of all crops where none is named");
+                          "only print the crop's stages and its parameters with defaults, units "
+                          "and ranges; without CROP, those of all crops");
 }
 
 }  // namespace plotscan

@@ -128,13 +128,14 @@ void Program::add_common_options(CLI::App& command, const Uses& uses) {
         ->default_str(std::to_string(common_.seed));
   }
   if (uses.threads)
-    command.add_option("-j,--threads", common_.threads, "by default one for each processor, as 0")
-        ->check(CLI::Range(0, 1024));
+    command.add_option("-j,--threads", common_.threads, "threads to work with")
+        ->check(CLI::Range(0, 1024))
+        ->default_str("0, one for each processor");
   if (uses.json) command.add_flag("--json", common_.json, "print the result as one JSON document");
   command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
   command.add_flag("-q,--quiet", quiet_, "say nothing but errors");
-  command.set_version_flag("--version", name_ + " " + version())->group("Common options");
-  command.set_help_flag("-h,--help", "print this help message and exit")->group("Common options");
+  command.set_version_flag("--version", name_ + " " + version(), "print the version and exit");
+  command.set_help_flag("-h,--help", "print this help and exit");
 }
 
 int Program::run(int argc, char** argv) {
