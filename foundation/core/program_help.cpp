@@ -41,19 +41,13 @@ std::string excluded_by(const CLI::Option& option) {
   return joined(names, ", ");
 }
 
-bool says_default(const std::string& description) {
-  return description.find("default") != std::string::npos;
-}
-
 std::string notes_of(const CLI::Option& option) {
   std::vector<std::string> notes;
   if (option.get_required() && !option.get_positional()) notes.push_back("required");
   const std::string range = range_of(option);
   if (!range.empty()) notes.push_back(range);
-  const std::string usual = option.get_default_str();
-  if (takes_value(option) && !usual.empty() && usual != "[]" &&
-      !says_default(option.get_description()))
-    notes.push_back("default: " + usual);
+  const std::string usual = default_of(option);
+  if (!usual.empty()) notes.push_back("default: " + usual);
   const std::string others = excluded_by(option);
   if (!others.empty()) notes.push_back("not with " + others);
   return notes.empty() ? "" : " [" + joined(notes, "; ") + "]";
