@@ -36,12 +36,11 @@ void declare_recording(CLI::App& command, CloudArguments& arguments) {
 void declare_frame(CLI::App& command, CloudArguments& arguments) {
   command
       .add_option("--units", arguments.units,
-                  "of the cloud's coordinates, whatever its file states: m, ft, us-ft (default: "
-                  "what the file states, else metres)")
+                  "unit of the cloud's coordinates (default: what the file states, else metres)")
       ->check(CLI::IsMember({"m", "ft", "us-ft"}));
   command.add_option("--crs", arguments.cloud.crs,
-                     "of the cloud's coordinates, whatever its file states: EPSG:CODE of UTM in "
-                     "metres (EPSG:32617) or of longitude and latitude (EPSG:4326)");
+                     "coordinate system of the cloud: EPSG:CODE of UTM in metres (EPSG:32617) or "
+                     "of longitude and latitude (EPSG:4326) (default: what the file states)");
   declare_recording(command, arguments);
 }
 

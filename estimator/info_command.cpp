@@ -101,8 +101,9 @@ void run_info(const Program& program, const CloudArguments& arguments) {
 
 void declare_info(Program& program) {
   const auto arguments = std::make_shared<CloudArguments>();
-  CLI::App& info = program.command("info", "Say what a cloud is, and whether it can carry plots.",
-                                   [&program, arguments] { run_info(program, *arguments); });
+  CLI::App& info =
+      program.command("info", "Print what a cloud holds, and whether plots can be found in it.",
+                      [&program, arguments] { run_info(program, *arguments); });
   declare_cloud(info, *arguments);
 }
 

@@ -44,7 +44,7 @@ void declare_report(Program& program) {
   const auto shared = std::make_shared<ReportArguments>();
   fieldpage::PageOptions& options = shared->options;
   CLI::App& report =
-      program.command("report", "Make a page of an estimate, to be opened in a browser.",
+      program.command("report", "Make a report of an estimate, to open in a browser (HTML).",
                       [&program, shared] { make_page(program, *shared); });
   report
       .add_option(

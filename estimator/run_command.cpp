@@ -102,21 +102,23 @@ void run_estimate(const Program& program, const RunArguments& arguments) {
 // Which of the cloud's points and plots are measured.
 void declare_parts(CLI::App& run, RunArguments& arguments) {
   run.add_option("--crop-box", arguments.crop_box,
-                 "x0,y0,x1,y1: use only the points in here, in the cloud's units (default: the "
+                 "x0,y0,x1,y1 in the cloud's units: use only the points in this box (default: the "
                  "densely scanned field)")
       ->delimiter(',')
       ->expected(4);
   run.add_option(
          "--leave-out-class", arguments.cloud.cloud.leave_out_classes,
-         "ASPRS classes of points to leave out, with commas: 3,4,5 is vegetation, 6 buildings")
+         "ASPRS classes of points to leave out, separated by commas: 3,4,5 is vegetation, 6 "
+         "buildings")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
-  run.add_option("--boxes", arguments.boxes,
-                 "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
-                 "longitude and latitude "
-                 "where the cloud is in UTM or degrees: measure heights in its boxes, keep its ids "
-                 "and attributes, search none");
+  run.add_option(
+      "--boxes", arguments.boxes,
+      "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
+      "longitude and latitude "
+      "where the cloud is in UTM or degrees: heights are measured in its boxes, its ids and "
+      "attributes kept, and no plots searched for");
 }
 
 // What the plots are called.
@@ -126,7 +128,8 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
                  "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
                  "name, id)");
   run.add_option("--first-number", arguments.options.numbering.first_number,
-                 "number of the first plot that is found; the others follow along the rows")
+                 "number of the first plot that is found; the others follow along the rows "
+                 "(default: 1)")
       ->check(CLI::Range(std::uint32_t{0}, std::uint32_t{1000000000}))
       ->excludes("--boxes");
   run.add_option("--numbering", arguments.numbering,
@@ -135,13 +138,13 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
       ->check(CLI::IsMember({"zigzag", "serpentine"}))
       ->excludes("--boxes");
   run.add_option("--first-corner", arguments.first_corner,
-                 "sw, se, nw or ne: where row 1 and column 1 are, once plots are numbered or named "
+                 "corner of the field with row 1 and column 1, where plots are numbered or named "
                  "(default: sw)")
       ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
       ->excludes("--boxes");
   run.add_option("--plot-names", arguments.plot_names,
-                 "table (CSV) with columns row, column, an id and others: the plots that are found "
-                 "are called so, and keep the other columns")
+                 "table (CSV) with columns row, column, an id and others: plots that are found get "
+                 "the id and the other columns of their place")
       ->excludes("--boxes", "--first-number", "--numbering");
 }
 
@@ -152,21 +155,22 @@ void declare_run(Program& program) {
   RunArguments& arguments = *shared;
   CLI::App& run =
       program.command("run", "Find the plots of a cloud and measure their crop heights.",
-                      [&program, shared] { run_estimate(program, *shared); });
+                      [&program, shared] { run_estimate(program, *shared); },
+                      {.seed = "seed of the clustering of dhami2020", .threads = true});
   auto& options = arguments.options;
   declare_cloud(run, arguments.cloud);
   run.add_option("-o,--output", options.output, "estimate folder to write")->required();
   run.add_option("--method", options.method,
-                 "lattice: needs nothing but the cloud; dhami2020: the paper's pipeline, needs "
+                 "lattice: needs only the cloud; dhami2020: the paper's method, needs "
                  "--plots")
       ->check(CLI::IsMember(methods::method_names()))
       ->capture_default_str();
   declare_parts(run, arguments);
   declare_names(run, arguments);
   run.add_option("--csv", arguments.csv,
-                 "also write this table, a line a plot, for breeding databases: "
+                 "also write a table (CSV) for breeding databases, one line for each plot: "
                  "observationunit_name, attributes, heights (metres)");
-  run.add_flag("--force", options.replace, "replace an estimate folder, a table that exists");
+  run.add_flag("--force", options.replace, "replace an existing estimate folder and table");
   declare_methods(run, arguments.settings);
 }
 

@@ -105,10 +105,10 @@ void declare_score(Program& program) {
       ->required();
   score.add_option("-o,--output", output,
                    "folder to write scores.json and plots.csv to (default: write nothing)");
-  score.add_option(
-      "--min-iou", options.score.min_iou,
-      "least overlap of a found plot's box with the true one, intersection over union");
-  score.add_flag("--force", options.replace, "replace a scores folder that exists");
+  score.add_option("--min-iou", options.score.min_iou,
+                   "a plot is found where its box overlaps the true one by at least this "
+                   "intersection over union");
+  score.add_flag("--force", options.replace, "replace an existing scores folder");
 }
 
 }  // namespace plotscan

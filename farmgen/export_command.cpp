@@ -97,7 +97,8 @@ void run_export(const Program& program, const ExportArguments& arguments) {
 void add_export_command(Program& program) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App& command = program.command("export", "Write a farm folder as a world for Gazebo.",
-                                      [&program, arguments] { run_export(program, *arguments); });
+                                      [&program, arguments] { run_export(program, *arguments); },
+                                      {.threads = true});
   command.add_option("FARM", arguments->farm, "farm folder written by generate")->required();
   add_choice(
       command, "--gazebo", arguments->gazebo,

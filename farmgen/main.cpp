@@ -23,6 +23,8 @@ namespace {
 
 using namespace plotscan;
 
+constexpr const char* kFarmSeed = "seed of the farm (default: the description's, else 1)";
+
 struct Arguments {
   std::string input;
   std::string output;
@@ -179,10 +181,8 @@ void run_check(const Program& program, const Arguments& arguments) {
 
 void add_farm_options(CLI::App& command, Arguments& arguments) {
   command
-      .add_option(
-          "FARM", arguments.input,
-          "farm description (YAML), or the name of a shipped one, such as paper_half; its seed "
-          "counts where --seed is absent")
+      .add_option("FARM", arguments.input,
+                  "farm description (YAML), or the name of a shipped one, such as paper_half")
       ->required();
   command
       .add_option("--set", arguments.assignments,
@@ -198,9 +198,9 @@ int main(int argc, char** argv) {
   Program program("farmgen", "Generate virtual phenotyping farms with known truth.");
   Arguments arguments;
 
-  CLI::App& generate =
-      program.command("generate", "Make a farm folder from a description and a seed.",
-                      [&] { run_generate(program, arguments); });
+  CLI::App& generate = program.command(
+      "generate", "Make a farm folder from a description and a seed.",
+      [&] { run_generate(program, arguments); }, {.seed = kFarmSeed, .threads = true});
   add_farm_options(generate, arguments);
   generate.add_option("-o,--output", arguments.output, "farm folder to write")->required();
   generate.add_flag("--force", arguments.force, "replace a farm that is already there");
@@ -209,9 +209,8 @@ int main(int argc, char** argv) {
                                    [&] { run_info(program, arguments); });
   info.add_option("FOLDER", arguments.input, "farm folder written by generate")->required();
 
-  CLI::App& check =
-      program.command("check", "Say whether a description is sound, and what it makes.",
-                      [&] { run_check(program, arguments); });
+  CLI::App& check = program.command("check", "Check a farm description, and print what it makes.",
+                                    [&] { run_check(program, arguments); }, {.seed = kFarmSeed});
   add_farm_options(check, arguments);
 
   add_export_command(program);

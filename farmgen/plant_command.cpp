@@ -2,6 +2,7 @@
 #include "plant_command.h"
 
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -101,12 +102,15 @@ std::string keys_help(const crop::Cultivar& cultivar) {
   return text;
 }
 
-std::string crops_help() {
+// --list: of one crop, or of all where none is named.
+std::string list_of(const std::string& crop) {
   std::string text;
   for (const std::string& name : crop::crops()) {
+    if (!crop.empty() && name != crop) continue;
     const crop::Cultivar cultivar = crop::cultivar(name);
-    text += name + " (" + cultivar.species + ")\nStages:\n" + stages_help(cultivar) +
-            "Keys of --set with default, unit and range:\n" + keys_help(cultivar) + "\n";
+    text += (text.empty() ? "" : "\n") + name + " (" + cultivar.species + ")\nStages:\n" +
+            stages_help(cultivar) + "Keys of --set with default, unit and range:\n" +
+            keys_help(cultivar);
   }
   return text;
 }
@@ -116,16 +120,18 @@ std::string crops_help() {
 void add_plant_command(Program& program) {
   const auto arguments = std::make_shared<PlantArguments>();
   CLI::App& plant = program.command("plant", "Grow a plant mesh from parameters and a seed.",
-                                    [&program, arguments] { run_plant(program, *arguments); });
-  plant.add_option("CROP", arguments->options.crop, joined(crop::crops(), ", "))
+                                    [&program, arguments] { run_plant(program, *arguments); },
+                                    {.seed = "seed of the plant"});
+  plant.add_option("CROP", arguments->options.crop, "one of " + joined(crop::crops(), ", "))
       ->required()
       ->check(CLI::IsMember(crop::crops()));
   plant.add_option("--stage", arguments->options.stage,
-                   "growth stage, see below; the crop's default where absent");
+                   "growth stage, as --list names them (default: the crop's own)");
   plant.add_option("--cultivar", arguments->options.cultivar_file,
                    "YAML file of a cultivar, over the crop's own");
   plant
-      .add_option("--set", arguments->options.assignments, "key=value, see below; may be repeated")
+      .add_option("--set", arguments->options.assignments,
+                  "key=value of a parameter, as --list names them; may be repeated")
       ->expected(1)
       ->take_all();
   plant.add_option("--detail", arguments->detail, "scan: every leaf's shape; light: few triangles")
@@ -136,7 +142,13 @@ void add_plant_command(Program& program) {
   plant.add_option("-o,--output", arguments->output, "mesh to write (OBJ, metres, z up)")
       ->required();
   plant.add_flag("--force", arguments->force, "replace a mesh that is already there");
-  plant.footer(crops_help());
+  const auto list = [crop = &arguments->options.crop] {
+    std::cout << list_of(*crop);
+    throw CLI::Success();
+  };
+  plant.add_flag_callback("--list", list,
+                          "only print the crop's stages and its parameters with defaults, units "
+                          "and ranges; without CROP, those of all crops");
 }
 
 }  // namespace plotscan

@@ -81,8 +81,8 @@ void declare_convert(Program& program) {
                   "file to write; its extension says the format (docs/formats.md)")
       ->required();
   convert.add_option("--topic", arguments->options.topic,
-                     "of a bag or MCAP: the topic of its clouds; by default /velodyne_points, or "
-                     "the only one");
+                     "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or "
+                     "the only one)");
   convert.add_option("--encoding", arguments->options.write.encoding,
                      "of PCD: binary (default), compressed (keeps the whole cloud in memory) or "
                      "ascii; of PLY: binary or ascii");

@@ -70,6 +70,15 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting, const 
   return fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
 }
 
+// --help and completions read the choices of the type's name; FlyOptions are checked as a whole.
+CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
+                         const lidar::TextSetting& value, lidar::FlyOptions& options) {
+  CLI::Option* option =
+      fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
+  if (!value.choices.empty()) option->type_name("TEXT:{" + joined(value.choices, ",") + "}");
+  return option;
+}
+
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
                          const lidar::OptionalSetting& value, lidar::FlyOptions& options) {
   return fly.add_option(setting.flag, value.of(options), setting.help);
@@ -80,9 +89,11 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
   const auto read = [&vector = value.of(options)](const std::vector<double>& numbers) {
     vector = Eigen::Vector3d(numbers.at(0), numbers.at(1), numbers.at(2));
   };
+  const Eigen::Vector3d& usual = value.of(options);
   return fly.add_option_function<std::vector<double>>(setting.flag, read, setting.help)
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->default_str(formatted("%g,%g,%g", usual.x(), usual.y(), usual.z()));
 }
 
 void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight,
@@ -119,7 +130,7 @@ void add_options(CLI::App& fly, Arguments& arguments) {
   fly.add_option("--format", options.formats,
                  "also write the scan as ply, las, laz (with LASzip), pcap, bag or mcap "
                  "(docs/formats.md) beside "
-                 "cloud.pcd; several with commas, or repeated")
+                 "cloud.pcd; separated by commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);
   fly.add_flag("--force", arguments.options.replace, "replace an existing scan folder");
@@ -130,8 +141,10 @@ void add_options(CLI::App& fly, Arguments& arguments) {
 int main(int argc, char** argv) {
   Program program("lidarsim", "Scan virtual farms and SDF worlds with a simulated LiDAR drone.");
   Arguments arguments;
-  CLI::App& fly = program.command("fly", "Fly over a farm or an SDF world and write the scan.",
-                                  [&] { run_fly(program, arguments); });
+  CLI::App& fly =
+      program.command("fly", "Fly over a farm or an SDF world and write the scan.",
+                      [&] { run_fly(program, arguments); },
+                      {.seed = "seed of range noise, wind and pose errors", .threads = true});
   add_options(fly, arguments);
   declare_convert(program);
   declare_sensors(program);

@@ -35,8 +35,9 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
 
 void declare_view(Program& program) {
   const auto options = std::make_shared<scanpage::PageOptions>();
-  CLI::App& view = program.command("view", "Make a page of a scan, to be opened in a browser.",
-                                   [&program, options] { view_scan(program, *options); });
+  CLI::App& view =
+      program.command("view", "Make a page of a scan, to open in a browser (HTML).",
+                      [&program, options] { view_scan(program, *options); }, {.threads = true});
   view.add_option("SCAN", options->scan,
                   "scan folder, cloud (PCD, PLY, LAS, text) or recording that knows its poses "
                   "(bag, MCAP)")
@@ -47,8 +48,8 @@ void declare_view(Program& program) {
   view.add_option("--points", options->points, "points on the page, at most (1 to 5000000)")
       ->capture_default_str();
   view.add_option("--topic", options->source.topic,
-                  "of a bag or MCAP: the topic of its clouds; by default /velodyne_points, or the "
-                  "only one");
+                  "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or the "
+                  "only one)");
   view.add_flag("--force", options->replace, "replace an existing page");
 }
 

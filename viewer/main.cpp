@@ -159,11 +159,11 @@ void declare_plants(plotscan::Program& program, PlantsArguments& arguments) {
   plants.add_option("-o,--output", arguments.png, "the PNG to write")->required();
   plants
       .add_option("--labels", arguments.labels,
-                  "names under the plants, with commas between; else the files' names")
+                  "names under the plants, separated by commas (default: the files' names)")
       ->delimiter(',')
       ->allow_extra_args(false);
   plants.add_option("--columns", arguments.options.columns,
-                    "plants in a row; else as many as makes them largest");
+                    "plants in a row (default: 0, as many as makes them largest)");
   plants.add_option("--up", arguments.up, "axis that points up in the meshes")
       ->check(CLI::IsMember({"z", "y"}));
   add_view_options(plants, arguments.options);
@@ -186,7 +186,7 @@ void declare_plot(plotscan::Program& program, EstimateArguments& arguments) {
   add_estimate_arguments(plot, arguments);
   plot.add_option("--plot", arguments.plot, "id of the plot")->required();
   plot.add_option("--heights", arguments.side.heights,
-                  "heights to draw, with commas between, such as mean,p95,max")
+                  "heights to draw, separated by commas (default: mean,p95,max)")
       ->delimiter(',')
       ->allow_extra_args(false);
   plot.add_option("--beyond", arguments.side.beyond_m, "shown before and behind the plot (metres)");

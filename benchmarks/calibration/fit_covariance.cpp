@@ -78,9 +78,10 @@ Cost cost_of(const Parameters& parameters, const Farms& farms) {
   return cost;
 }
 
-// Resilient propagation (Riedmiller and Braun 1993, cited from memory): each parameter takes steps
-// of its own length against its slope's sign, longer while the sign stays and shorter where it
-// turns.
+// Resilient propagation (Riedmiller and Braun 1993) in its variant iRPROP- (Igel and Huesken 2000):
+// each parameter takes steps of its own length against its slope's sign, 1.2 times as long while
+// the sign stays, half as long where it turns, and there it rests for a step. First and longest
+// step are our choice.
 Parameters least_cost(Parameters parameters, const Farms& farms) {
   constexpr int kSteps = 120;
   constexpr double kLonger = 1.2;

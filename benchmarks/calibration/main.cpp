@@ -147,8 +147,9 @@ void run_fit(const Program& program, const FitArguments& arguments) {
 int main(int argc, char** argv) {
   Program program("heightcal", "Calibrate crop heights on virtual farms (docs/plot-heights.md).");
   SampleArguments arguments;
-  CLI::App& sample = program.command("sample", "Fly over farms of every plant library.",
-                                     [&] { run_sample(program, arguments); });
+  CLI::App& sample =
+      program.command("sample", "Fly over farms of every plant library.",
+                      [&] { run_sample(program, arguments); }, {.threads = true, .json = false});
   sample.add_option("LIBRARIES", arguments.libraries, "plant libraries (YAML)")->required();
   sample
       .add_option("-o,--output", arguments.output,
@@ -159,7 +160,7 @@ int main(int argc, char** argv) {
                   "heights above the true terrain in place of the fitted one");
   FitArguments fit_arguments;
   CLI::App& fit = program.command("fit", "Fit the calibration to samples.",
-                                  [&] { run_fit(program, fit_arguments); });
+                                  [&] { run_fit(program, fit_arguments); }, {.json = false});
   fit.add_option("SAMPLES", fit_arguments.samples, "folders of samples")->required();
   fit.add_option("-o,--output", fit_arguments.output, "calibration (JSON) to write")->required();
   return program.run(argc, argv);

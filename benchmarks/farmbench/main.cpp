@@ -85,20 +85,26 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
   say_summary(program, summary, options.output.string());
 }
 
+constexpr const char* kSeed = "seed of the bootstrap that makes the table's intervals";
+
 void declare_run(Program& program, farmbench::RunOptions& options) {
   CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
-                                  [&program, &options] { run_suite(program, options); });
+                                  [&program, &options] { run_suite(program, options); },
+                                  {.seed = kSeed, .threads = true});
   run.add_option("SUITE", options.suite,
                  "suite (YAML), or the name of a shipped one, such as paper")
       ->required();
   run.add_option("-o,--output", options.output,
                  "results folder; farms whose results it holds are not run again")
       ->required();
-  run.add_option("--jobs", options.jobs, "farms at a time; 0 is one for each thread (-j)")
+  run.add_option("--jobs", options.jobs,
+                 "farms that run at a time (default: 0, one for each thread)")
       ->check(CLI::Range(0, 1024));
-  run.add_option("--seeds", options.seeds,
-                 "so many seeds of each case, from the suite's first one, not the suite's");
-  run.add_option("--methods", options.methods, "these methods (a,b) in place of the suite's")
+  run.add_option(
+      "--seeds", options.seeds,
+      "number of seeds of each case, from the suite's first one on (default: the suite's)");
+  run.add_option("--methods", options.methods,
+                 "methods to run, separated by commas (default: the suite's)")
       ->delimiter(',');
   run.add_flag("--keep-clouds", options.keep_clouds,
                "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
@@ -114,8 +120,9 @@ int main(int argc, char** argv) {
   declare_run(program, options);
   std::string results;
   CLI::App& report = program.command(
-      "report", "Make the table and reports again from results.json.",
-      [&] { say_summary(program, farmbench::report(results, program.common().seed), results); });
+      "report", "Make the table and the report again from results.json.",
+      [&] { say_summary(program, farmbench::report(results, program.common().seed), results); },
+      {.seed = kSeed});
   report.add_option("RESULTS", results, "results folder of farmbench run")->required();
   return program.run(argc, argv);
 }

@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App& command = program.command(
       "run", "Draw fields from a word, fly, estimate and score (docs/benchmark.md).",
-      [&] { run(program, arguments); });
+      [&] { run(program, arguments); }, {.threads = true});
   command
       .add_option("--secret", arguments.secret,
                   "word that fields are drawn from: another word, other fields")

@@ -92,7 +92,7 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
 }
 
 // Half of a hull: the points that turn left (Andrew, "Another efficient algorithm for convex hulls
-// in two dimensions", 1979; cited from memory).
+// in two dimensions", Information Processing Letters 9(5), 1979, 216-219).
 template <class Iterator>
 void append_chain(Iterator first, Iterator last, std::vector<Eigen::Vector2d>& hull) {
   const std::size_t start = hull.size();

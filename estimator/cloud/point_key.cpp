@@ -28,7 +28,8 @@ std::int64_t metres_of(std::uint64_t steps) {
 }
 
 // A bijection of 36-bit numbers: xors with their own upper half and products with odd numbers, as
-// in MurmurHash3's finalizer (Appleby; cited from memory).
+// in MurmurHash3's fmix64 (A. Appleby, smhasher, src/MurmurHash3.cpp), which has the second factor;
+// the first is 2^64 over the golden ratio. Shifts and width are our choice.
 constexpr std::uint64_t kFactors[2] = {0x9e3779b97f4a7c15u & low_bits(kMixedBits),
                                        0xff51afd7ed558ccdu & low_bits(kMixedBits)};
 constexpr std::uint64_t mixed(std::uint64_t bits) {

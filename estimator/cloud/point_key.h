@@ -24,7 +24,7 @@ struct Tile {
 // metre of height, and the whole metres of its height. Keys in their order are thus sorted by cell,
 // and in a cell they are in an order as good as drawn by lot, which neither the points' order nor a
 // shift of the cloud by whole metres changes: the first k of a cell are a bottom-k sample (Cohen
-// and Kaplan, "Summarizing data using bottom-k sketches", PODC 2007; cited from memory).
+// and Kaplan, "Summarizing data using bottom-k sketches", PODC 2007, 225-234).
 struct PlacedKey {
   Tile tile;
   std::uint64_t key = 0;

@@ -19,9 +19,9 @@ struct EsriGrid {
 };
 
 // Reads an ESRI ASCII raster: ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter,
-// cellsize and, if it likes, NODATA_value (else -9999), then the values from north to south, each
-// line from west to east (ArcGIS, "Esri ASCII raster format", from memory). At least 2 x 2 nodes.
-// Throws InputError naming file and line.
+// cellsize and an optional NODATA_value (else -9999), then the values from north to south, each
+// line from west to east (ArcMap 10.6, "Esri ASCII raster format"; the default of NODATA_value as
+// ArcWorkstation 8.3's help has it). At least 2 x 2 nodes. Throws InputError naming file and line.
 EsriGrid read_esri_grid(const std::filesystem::path& path);
 
 }  // namespace plotscan::estimate

@@ -66,9 +66,10 @@ Shown shown_at(std::size_t i, const Layer& layer, const Fitted& fitted, bool man
   return {.off_m = layer.z_m[i] - fitted.z_m[i], .more_m2 = many ? 0 : layer.scatter[i]};
 }
 
-// Adds the nodes for which counts(node, distance) holds. Ground that pulled the surface is as far
-// from what the surface would be without it as its leverage tells (Cook and Weisberg, 1982, section
-// 2.2; cited from memory).
+// Adds the nodes for which counts(node, distance) holds. Ground that pulled the surface counts by
+// its deleted residual, r / (1 - leverage): its distance from the surface fitted without it (Cook
+// and Weisberg, "Residuals and Influence in Regression", 1982; the formula as in statsmodels,
+// OLSInfluence.resid_press).
 template <class Counts>
 void add(const Layer& layer, const Fitted& fitted, const Counts& counts, Sizes& sizes) {
   for (std::size_t i = 0; i < fitted.z_m.size(); ++i) {

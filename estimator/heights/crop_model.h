@@ -8,9 +8,11 @@
 
 namespace plotscan::heights {
 
-// Which crop a canopy is of, by the calibration's farms: indicators of the crops are kriged
-// (Goovaerts 1997, cited from memory), and the scores become probabilities by a softmax of the
-// sharpness that was the likeliest for farms left out.
+// Which crop a canopy is of, by the calibration's farms: indicators of the crops (1 for farms of
+// it, 0 for others) are kriged, as categorical indicator kriging does (Goovaerts, "Geostatistics
+// for Natural Resources Evaluation", 1997; the book was not at hand). The scores become
+// probabilities by a softmax, our choice, of the sharpness that was the likeliest for farms left
+// out.
 class CropModel {
  public:
   explicit CropModel(const Calibration& calibration);

@@ -24,8 +24,8 @@ struct CloudReport {
 // cloud.
 CloudReport inspect_cloud(const CloudFiles& cloud);
 
-// ASPRS' standard classes ("LAS Specification 1.4 - R15", table 17; cited from memory): "ground";
-// "" for those that are reserved or a user's.
+// ASPRS' standard classes ("LAS Specification 1.4 - R15", table 17, "ASPRS Standard Point Classes
+// (Point Data Record Formats 6-10)"): "ground"; "" for those that are reserved or a user's.
 std::string class_name(std::size_t number);
 
 nlohmann::json to_json(const CloudReport& report);

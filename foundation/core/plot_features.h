@@ -28,8 +28,8 @@ struct PlotFeature {
 // so in a "coordinate_system" member, as RFC 7946 section 4 allows by prior arrangement. Each
 // feature also carries its box exactly: center_x_m, center_y_m, width_m, length_m, heading_deg.
 // Where the metres are those of a known system, `crs` names it, and so does a member "crs" of the
-// file: "EPSG:<code>" as GeoJSON 2008 (section 3; cited from memory) has it, which GIS programs
-// read; else as the text itself.
+// file, as "The GeoJSON Format Specification" of 2008 has it (section 3.1, a named CRS), which GIS
+// programs read: "EPSG:<code>", which that section calls a legacy identifier; else the text itself.
 // With `units`, the polygons are in these in place of metres, and a member "coordinate_units_m"
 // says so (metres to one unit, "x_y" and "z"); the attributes stay metres.
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,

@@ -24,6 +24,7 @@
 #include "core/nearest_name.h"
 #include "core/printable.h"
 #include "core/program_completion.h"
+#include "core/program_help.h"
 #include "core/program_pages.h"
 #include "core/progress_display.h"
 #include "core/text.h"
@@ -83,6 +84,7 @@ Program::Program(std::string name, const std::string& description)
     : name_(std::move(name)), app_(description, name_) {
   app_.set_version_flag("--version", name_ + " " + version());
   app_.require_subcommand(1);
+  app_.formatter(std::make_shared<HelpFormatter>());
   // For whoever packages the programs: no group, so that --help does not show them.
   add_page("--print-manual", &manual_page);
   add_page("--print-bash-completion", &bash_completion);
@@ -99,37 +101,49 @@ void Program::add_page(const std::string& flag, std::string (*page)(const CLI::A
 }
 
 CLI::App& Program::command(const std::string& name, const std::string& description,
-                           std::function<void()> run) {
+                           std::function<void()> run, const Uses& uses) {
   CLI::App& command = *app_.add_subcommand(name, description);
   command.option_defaults()->always_capture_default();
-  command.set_version_flag("--version", name_ + " " + version());
-  const CLI::Option* seed =
-      command
-          .add_option_function<std::string>(
-              "--seed", [this](const std::string& text) { common_.seed = seed_of(text); },
-              "seed of all random numbers, 0 and up")
-          ->type_name("UINT")
-          ->default_str(std::to_string(common_.seed));
-  command.add_option("-j,--threads", common_.threads, "threads; 0 is one for each processor")
-      ->check(CLI::Range(0, 1024));
-  command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
-  command.add_flag("-q,--quiet", quiet_, "say nothing but errors");
-  command.add_flag("--json", common_.json, "print the result as one JSON document");
-  command.callback([this, seed, run = std::move(run)] {
-    common_.seed_given = seed->count() > 0;
+  command.callback([this, run = std::move(run)] {
     if (common_.threads == 0)
       common_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     if (quiet_ > 0) common_.verbosity = -1;
     log_to_stderr(common_.verbosity, name_);
     run();
   });
+  commands_.emplace_back(&command, uses);
   return command;
+}
+
+void Program::add_common_options(CLI::App& command, const Uses& uses) {
+  command.set_help_flag();  // --help tells options in the order of their declaration
+  command.option_defaults()->group("Common options");
+  if (uses.seed != nullptr) {
+    const auto take = [this](const std::string& text) {
+      common_.seed = seed_of(text);
+      common_.seed_given = true;
+    };
+    command.add_option_function<std::string>("--seed", take, uses.seed)
+        ->type_name("UINT")
+        ->default_str(std::to_string(common_.seed));
+  }
+  if (uses.threads)
+    command.add_option("-j,--threads", common_.threads, "threads to work with")
+        ->check(CLI::Range(0, 1024))
+        ->default_str("0, one for each processor");
+  if (uses.json) command.add_flag("--json", common_.json, "print the result as one JSON document");
+  command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
+  command.add_flag("-q,--quiet", quiet_, "say nothing but errors");
+  command.set_version_flag("--version", name_ + " " + version(), "print the version and exit");
+  command.set_help_flag("-h,--help", "print this help and exit");
 }
 
 int Program::run(int argc, char** argv) {
   // Else a file size limit would kill the process in place of telling it.
   std::signal(SIGXFSZ, SIG_IGN);
   remove_unfinished_work_on_interrupt();
+  for (const auto& [command, uses] : std::exchange(commands_, {}))
+    add_common_options(*command, uses);
   const int code = caught_run(argc, argv);
   errno = 0;
   std::cout.flush();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,15 @@
 
 namespace plotscan {
 
-// The options that every command of every program takes.
+// What a command uses, and so takes, besides -v and -q.
+struct Uses {
+  const char* seed =
+      nullptr;           // --seed: what it is the seed of, and its default where that is not 1
+  bool threads = false;  // -j
+  bool json = true;      // --json
+};
+
+// The options that commands share.
 struct CommonOptions {
   std::uint64_t seed = 1;   // --seed
   bool seed_given = false;  // whether the user gave --seed
@@ -28,9 +37,11 @@ struct CommonOptions {
 //   int main(int argc, char** argv) {
 //     Program program("farmgen", "Generate virtual phenotyping farms.");
 //     GenerateArguments arguments;
-//     CLI::App& generate = program.command("generate", "Generate a farm.", [&] {
-//     run_generate(program, arguments); }); generate.add_option("FARM", arguments.farm, "farm
-//     description (YAML)")->required(); return program.run(argc, argv);
+//     CLI::App& generate = program.command("generate", "Generate a farm.",
+//                                          [&] { run_generate(program, arguments); },
+//                                          {.seed = "seed of the farm", .threads = true});
+//     generate.add_option("FARM", arguments.farm, "farm description (YAML)")->required();
+//     return program.run(argc, argv);
 //   }
 //
 // Exit codes: 0 done, 2 bad input or usage (InputError, CLI11's parse errors), 3 nothing to measure
@@ -40,9 +51,10 @@ class Program {
  public:
   Program(std::string name, const std::string& description);
 
-  // Adds a sub-command with the common options; `run` is called when it is chosen.
+  // Adds a sub-command, which takes those of the common options that it uses, behind its own; `run`
+  // is called when it is chosen.
   CLI::App& command(const std::string& name, const std::string& description,
-                    std::function<void()> run);
+                    std::function<void()> run, const Uses& uses = {});
 
   int run(int argc, char** argv);
 
@@ -62,6 +74,7 @@ class Program {
   ProgressReport progress(const std::string& label) const;
 
  private:
+  void add_common_options(CLI::App& command, const Uses& uses);
   int caught_run(int argc, char** argv);
   int guarded_run(int argc, char** argv);
   // What is wrong with the arguments (without the program's name), and what was meant.
@@ -72,6 +85,7 @@ class Program {
 
   std::string name_;
   CLI::App app_;
+  std::vector<std::pair<CLI::App*, Uses>> commands_;
   CommonOptions common_;
   int quiet_ = 0;
 };

@@ -34,4 +34,10 @@ std::vector<std::string> flags_of(const CLI::Option& option) {
 
 bool takes_value(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
+std::string default_of(const CLI::Option& option) {
+  const std::string usual = option.get_default_str();
+  const bool stated = option.get_description().find("default") != std::string::npos;
+  return !takes_value(option) || stated || usual == "[]" ? "" : usual;
+}
+
 }  // namespace plotscan

@@ -22,4 +22,7 @@ std::vector<std::string> flags_of(const CLI::Option& option);
 
 bool takes_value(const CLI::Option& option);
 
+// The default of an option that has one, where its description does not state it; else empty.
+std::string default_of(const CLI::Option& option);
+
 }  // namespace plotscan

@@ -13,7 +13,7 @@
 namespace plotscan::lidar {
 
 // Which of a shot's returns a sensor reports; `dual` both the strongest and the last, and where
-// these are the same the second strongest, as Velodyne has it (from memory of its manuals).
+// these are the same the second strongest (VLP-16 User Manual 63-9243, page 57).
 enum class ReturnMode { strongest, last, dual };
 
 // "strongest", "last", "dual", in the order of the enumeration.

@@ -26,8 +26,8 @@ struct CloudSummary {
 
 struct PositionOptions {
   // Leaves out what a LAS file marks as not to be processed: points that are withheld, and those of
-  // the classes 7 (low noise) and 18 (high noise). LAS Specification 1.4 - R15, tables 8, 16, 17
-  // (cited from memory).
+  // the classes 7 (low noise) and 18 (high noise). LAS Specification 1.4 - R15, tables 8 and 16
+  // (withheld, by point format) and 17 (classes).
   bool leave_out_marked = false;
 };
 

@@ -26,8 +26,9 @@ inline constexpr std::uint16_t kExtraBytesRecord = 4;
 inline constexpr std::string_view kProjectionUser = "LASF_Projection";
 inline constexpr std::uint16_t kWktRecord = 2112;
 inline constexpr std::uint16_t kGeoKeysRecord = 34735;
-// Keys of GeoTIFF (OGC 19-008r4, section 7; cited from memory): the kind of coordinate system, and
-// a projected one's EPSG code and units.
+// Keys of GeoTIFF 1.1 (OGC 19-008r4, clause 7: GTModelTypeGeoKey, ProjectedCRSGeoKey, Units
+// GeoKeys; numbers as in libgeotiff's geokeys_v1_1.inc): the kind of coordinate system, and a
+// projected one's EPSG code and units.
 inline constexpr std::uint16_t kModelKey = 1024;
 inline constexpr std::uint16_t kGeographicModel = 2;  // degrees
 inline constexpr std::uint16_t kProjectedKey = 3072;

@@ -185,7 +185,8 @@ struct StatedUnits {
   WktUnits keys = {};
 };
 
-// Of EPSG's code of a unit of length (cited from memory); notes one that is not known.
+// Of EPSG's code of a unit of length (EPSG data set v10.076: metre, foot, US survey foot); notes
+// one that is not known.
 std::optional<double> unit_of_code(std::uint16_t code, CloudLayout& layout) {
   if (code == 9001) return 1;
   if (code == 9002) return kFoot_m;

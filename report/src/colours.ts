@@ -1,5 +1,6 @@
 // Colours that colour-blind readers tell apart: Okabe and Ito (Color Universal Design, 2008) for kinds,
-// viridis, cividis and plasma (matplotlib) for amounts, blue over grey to orange for signs. From memory.
+// viridis, cividis and plasma for amounts (matplotlib's, in the ten steps of plotly.py's sequential.py), blue over
+// grey to orange for signs, our choice.
 
 export type Rgb = [number, number, number];
 

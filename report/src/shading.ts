@@ -1,5 +1,5 @@
 // Eye-dome lighting: points that lie behind their neighbours on the screen are darker, so that shape
-// shows without normals (Boucheny, 2009; from memory). Colours and depths come from a picture of the
+// shows without normals (C. Boucheny's thesis, 2009; VTK has it as vtkEDLShading). Colours and depths come from a picture of the
 // points alone; depths are handed on, so that what is drawn afterwards stands among the points.
 import * as THREE from "three";
 

@@ -61,7 +61,7 @@ export function oneNumber(pairs: Pair[]): number {
 const kMostGroups = 50;
 
 // Standard error of a statistic by the jackknife, a farm left out at a time, of a single farm a plot at a
-// time (Efron and Tibshirani 1993, chapter 11; from memory). More than 50 are left out in 50 groups.
+// time (Efron and Tibshirani 1993, chapter 11). More than 50 are left out in 50 groups.
 export function standardError(pairs: Pair[], statistic: (pairs: Pair[]) => number): number {
   const farms = byFarm(pairs);
   const single = farms.length > 1 ? farms : pairs.map((pair) => [pair]);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The programs as a user runs them: farm, flight, scan, estimate, score.
+#include <algorithm>
+#include <map>
+#include <regex>
+
 #include "programs.h"
 #include "small_farm.h"
 #include "temporary_folder.h"
@@ -205,18 +209,51 @@ TEST_F(Chain, NeverReplacesWhatItDidNotWrite) {
   succeed(generate + " --force");
 }
 
-TEST_F(Chain, EveryCommandExplainsItself) {
-  for (const std::string command :
-       {"farmgen generate", "farmgen info", "farmgen check", "farmgen plant", "lidarsim fly",
-        "estimator run", "estimator score", "farmbench run", "measure_plots run",
-        "plotview picture", "plotview field", "plotview plot"}) {
+TEST_F(Chain, EveryCommandExplainsTheCommonOptionsThatItUses) {
+  const std::string seed = " --seed";
+  const std::string threads = " --threads";
+  for (const auto& [command, uses] :
+       std::map<std::string, std::string>{{"farmgen generate", seed + threads},
+                                          {"farmgen info", ""},
+                                          {"farmgen check", seed},
+                                          {"farmgen plant", seed},
+                                          {"farmgen export", threads},
+                                          {"lidarsim fly", seed + threads},
+                                          {"lidarsim convert", ""},
+                                          {"lidarsim sensors", ""},
+                                          {"lidarsim view", threads},
+                                          {"estimator run", seed + threads},
+                                          {"estimator info", ""},
+                                          {"estimator score", ""},
+                                          {"estimator report", ""},
+                                          {"farmbench run", seed + threads},
+                                          {"farmbench report", seed},
+                                          {"measure_plots run", threads},
+                                          {"plotview picture", ""},
+                                          {"plotview field", ""},
+                                          {"plotview plot", ""}}) {
     const std::string help = succeed(command + " --help").output;
-    for (const char* option :
-         {"--help", "--version", "--seed", "--threads", "--verbose", "--quiet", "--json"}) {
-      EXPECT_NE(help.find(option), std::string::npos) << command << " --help lacks " << option;
+    const std::string common = help.substr(std::min(help.size(), help.find("Common options:")));
+    for (const char* option : {"--help", "--version", "--verbose", "--quiet", "--json"})
+      EXPECT_NE(common.find(option), std::string::npos) << command << " --help lacks " << option;
+    for (const std::string& option : {seed, threads}) {
+      const bool used = uses.find(option) != std::string::npos;
+      EXPECT_EQ(help.find(option.substr(1)) != std::string::npos, used) << command << option;
     }
     EXPECT_NE(succeed(command + " --version").output.find(version()), std::string::npos);
   }
+}
+
+TEST_F(Chain, HelpTellsDefaultsRangesAndWhatIsExcluded) {
+  const std::string pages =
+      succeed("lidarsim fly --help").output + succeed("estimator run --help").output;
+  const std::string help = std::regex_replace(pages, std::regex("\\s+"), " ");
+  for (const char* text :
+       {"--altitude FLOAT metres above the mean ground of the plots, 0.5 to 120 "
+        "[default: 8; not with --flight, --waypoints]",
+        "--mount FLOAT x 3", "[default: 0,90,0]", "--returns {strongest,last,dual}", "[required]",
+        "[0 to 255]", "[0 to 1024; default: 0, one for each processor]"})
+    EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 
 }  // namespace

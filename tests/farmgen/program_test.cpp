@@ -159,12 +159,19 @@ TEST_F(Farmgen, MakesPlants) {
   EXPECT_LT(mine["leaf_area_m2"], 0.4 * light["leaf_area_m2"].get<double>());
 }
 
-TEST_F(Farmgen, PlantHelpListsCropsStagesAndKeys) {
-  const std::string help = run("plant --help").out;
-  for (const char* text : {"soybean (Glycine max", "maize", "R3", "(default)", "leaflet_length_m",
-                           "by stage", "[0.01, 0.3]"}) {
-    EXPECT_THAT(help, HasSubstr(text));
+TEST_F(Farmgen, PlantListsStagesAndKeysOfACropOrOfAll) {
+  const std::string soybean = run("plant soybean --list").out;
+  for (const char* text :
+       {"soybean (Glycine max", "R3", "(default)", "leaflet_length_m", "by stage", "[0.01, 0.3]"}) {
+    EXPECT_THAT(soybean, HasSubstr(text));
   }
+  EXPECT_THAT(soybean, ::testing::Not(HasSubstr("maize")));
+  const std::string all = run("plant --list").out;
+  EXPECT_THAT(all, HasSubstr(soybean));
+  EXPECT_THAT(all, HasSubstr("maize (Zea mays"));
+  EXPECT_EQ(run("plant oat --list").exit_code, 2);
+  const std::string help = run("plant --help").out;
+  EXPECT_LT(std::ranges::count(help, '\n'), 40);
 }
 
 TEST_F(Farmgen, ExportsWorlds) {

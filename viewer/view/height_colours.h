@@ -10,7 +10,7 @@
 namespace plotscan::view {
 
 // Heights as colours from light to dark, in an order that colour-blind readers see too: Brewer's
-// YlGn of nine (C. A. Brewer, colorbrewer2.org, from memory).
+// YlGn of nine (C. A. Brewer, colorbrewer2.org; values as in d3-scale-chromatic's YlGn).
 struct HeightColours {
   double top_m = 1;  // this and above have the darkest
 

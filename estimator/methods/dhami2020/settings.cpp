@@ -23,8 +23,9 @@ const std::vector<MethodSetting<Options>>& settings() {
        .searches = true},
       {.key = "learn_box",
        .flag = "--learn-box",
-       .help = "x0,y0,x1,y1: learn box size and grid in here, where --plots plots lie, and carry "
-               "the grid over the whole field, in the cloud's units",
+       .help =
+           "x0,y0,x1,y1 in the cloud's units: learn box size and grid in this part of the field, "
+           "which has --plots plots, and extend the grid over the whole field",
        .value = Box{[](Options& o) -> std::optional<cloud::Area>& { return o.learn_box; }},
        .searches = true},
       {.key = "voxel_m",
