@@ -37,7 +37,19 @@ inline PlotBox plot_at(double x, double y) {
   return box;
 }
 
-// A made-up crop of domes on bare ground: each a paraboloid of its own height, as wide as
+// How far below its dome's surface a return stops, as a share of the height: all on one leaf, 7 cm
+// wide, stop at one depth, some go on to a leaf below.
+inline double leaf_depth(double along, double across, RandomStream& random) {
+  constexpr double kLeaf_m = 0.07, kDeepest = 0.3, kPassing = 0.15;
+  const auto place = [](double metres) {
+    return static_cast<std::uint64_t>(metres / kLeaf_m + 1e6);
+  };
+  RandomStream leaf(place(along), random_purpose("test/leaf"), place(across));
+  const double depth = kDeepest * leaf.uniform() * leaf.uniform();
+  return random.uniform() < kPassing ? random.uniform(depth, 0.8) : depth;
+}
+
+// A made-up crop of domes of leaves on bare ground: each a paraboloid of its own height, as wide as
 // 0.4 of it. Seen straight down by evenly scattered returns with noise.
 inline std::vector<Eigen::Vector3f> dome_returns(const PlotBox& box, double scale, double noise_m,
                                                  int returns, std::uint64_t seed) {
@@ -59,6 +71,7 @@ inline std::vector<Eigen::Vector3f> dome_returns(const PlotBox& box, double scal
           std::hypot(along - dome.along, across - dome.across) / (0.4 * dome.height_m);
       if (share < 1) height = std::max(height, dome.height_m * (1 - share * share));
     }
+    height *= 1 - leaf_depth(along, across, random);
     const Eigen::Vector2d place =
         box.center + along * box.length_axis() + across * box.width_axis();
     points.emplace_back(static_cast<float>(place.x()), static_cast<float>(place.y()),
