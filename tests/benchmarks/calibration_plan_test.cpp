@@ -2,11 +2,10 @@
 #include <set>
 
 #include "calibration/farm_plan.h"
+#include "description/load_description.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "farm/description.h"
 
 namespace plotscan::calibration {
 namespace {
@@ -35,7 +34,7 @@ TEST(CalibrationPlan, HasFarmsThatCanBeMadeOfEveryLibrary) {
     for (int number = 0; number < 3; ++number) {
       const FarmPlan plan = plan_farm(libraries[i], i, number);
       EXPECT_TRUE(seeds.insert(plan.seed).second) << plan.library << " " << number;
-      EXPECT_NO_THROW(farm::load_description(kFolder / "farm.yaml", plan.overrides))
+      EXPECT_NO_THROW(description::load_description(kFolder / "farm.yaml", plan.overrides))
           << plan.library << " " << number;
     }
   }
