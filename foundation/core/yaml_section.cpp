@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/printable.h"
 #include "core/text.h"
 
@@ -118,7 +119,18 @@ YamlSection YamlSection::parse(const std::string& text, const std::filesystem::p
                                const std::vector<std::string>& overrides) {
   const YAML::Node root = parse_map(text, file);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
-  return {std::make_shared<const YamlOrigin>(file, overrides), root, ""};
+  YamlSection document{std::make_shared<const YamlOrigin>(file, overrides), root, ""};
+  document.take_format();
+  return document;
+}
+
+void YamlSection::take_format() {
+  const std::optional<std::string> text = scalar("format", false);
+  if (!text) return;
+  const auto number = parsed<std::uint64_t>(*text);
+  const std::string error = format_error(number ? nlohmann::json(*number) : nlohmann::json());
+  if (!error.empty()) fail("format", error);
+  node_.remove("format");
 }
 
 std::string YamlSection::path_of(const std::string& key) const {
