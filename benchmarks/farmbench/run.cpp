@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
@@ -235,7 +236,9 @@ RunSummary report(const fs::path& output, std::uint64_t seed) {
   const std::string text = read_text(file);
   RunSummary summary;
   try {
-    summary.result = suite_result_from_json(json::parse(text));
+    const json document = json::parse(text);
+    require_known_format(document, file);
+    summary.result = suite_result_from_json(document);
     require_known_methods(summary.result.methods);
     for (FarmResult& farm : summary.result.farms)
       read_times(output, farm.case_name + "-" + std::to_string(farm.seed), farm);

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/format.h"
+
 namespace plotscan::farmbench {
 
 using nlohmann::json;
@@ -28,8 +30,11 @@ json to_json(const SuiteResult& result) {
   }
   json farms = json::array();
   for (const FarmResult& farm : result.farms) farms.push_back(to_json(farm));
-  json document = {
-      {"suite", result.suite}, {"cases", cases}, {"methods", result.methods}, {"farms", farms}};
+  json document = {{"format", kFormat},
+                   {"suite", result.suite},
+                   {"cases", cases},
+                   {"methods", result.methods},
+                   {"farms", farms}};
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "estimate/estimate.h"
@@ -40,7 +41,10 @@ void write_scores(const Scores& scores, const RunOptions& options) {
 json to_json(const Scores& scores) {
   json heights = json::array();
   for (const HeightScore& score : scores.heights) heights.push_back(to_json(score));
-  return {{"boxes", to_json(scores.boxes)}, {"heights", heights}, {"field", to_json(scores.field)}};
+  return {{"format", kFormat},
+          {"boxes", to_json(scores.boxes)},
+          {"heights", heights},
+          {"field", to_json(scores.field)}};
 }
 
 Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,

@@ -11,6 +11,7 @@
 #include <xxhash.h>
 
 #include "core/error.h"
+#include "core/format.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -54,6 +55,7 @@ std::string file_hash(const fs::path& path) {
 
 void write_manifest(const fs::path& folder, const Manifest& manifest) {
   nlohmann::ordered_json document;
+  document["format"] = kFormat;
   document["plotscan"] = version();
   document["command"] = manifest.command;
   document["seed"] = manifest.seed;
@@ -81,6 +83,7 @@ nlohmann::json read_manifest(const fs::path& folder) {
   try {
     nlohmann::json manifest = nlohmann::json::parse(read_text(path));
     if (!manifest.is_object()) throw InputError(path, "not a manifest: a JSON object is expected");
+    require_known_format(manifest, path);
     return manifest;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(path, std::string("not JSON: ") + error.what());

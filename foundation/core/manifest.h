@@ -28,8 +28,8 @@ struct Manifest {
       nlohmann::json::object();  // counts worth knowing without opening the files
 };
 
-// Writes folder/manifest.json with version, command, seed, options, the inputs' names and hashes,
-// and the hash of every other file in `folder`, hidden ones apart.
+// Writes folder/manifest.json with format (core/format.h), version, command, seed, options, the
+// inputs' names and hashes, and the hash of every other file in `folder`, hidden ones apart.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 
 // Throws InputError naming the file when one below folder/`part` ("truth") is not as write_manifest
@@ -40,7 +40,8 @@ void require_unchanged(const std::filesystem::path& folder, const std::string& p
 // it, in their order. Throws InputError as read_manifest does.
 std::vector<std::filesystem::path> unlisted_files(const std::filesystem::path& folder);
 
-// Throws InputError when the folder has no manifest.json that can be parsed.
+// Throws InputError when the folder has no manifest.json that can be parsed, or one of a newer
+// format.
 nlohmann::json read_manifest(const std::filesystem::path& folder);
 
 }  // namespace plotscan

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/geodesy.h"
 #include "core/rectangle_fit.h"
 #include "core/text.h"
@@ -66,6 +67,7 @@ json collection(const std::vector<PlotFeature>& plots, const std::string& coordi
   json features = json::array();
   for (const PlotFeature& plot : plots) features.push_back(feature_of(plot, projection));
   return {{"type", "FeatureCollection"},
+          {"format", kFormat},
           {"coordinate_system", coordinate_system},
           {"features", features}};
 }
@@ -263,6 +265,7 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
 
 PlacedPlots placed_plots(const json& document, const std::filesystem::path& path,
                          const std::string& crs, double unit_m) {
+  if (document.contains("coordinate_system")) require_known_format(document, path);  // ours
   const Positions positions = positions_of(document, path, crs, unit_m);
   PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document)};
   for (const json& feature : document.at("features"))

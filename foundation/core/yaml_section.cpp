@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/format.h"
 #include "core/nearest_name.h"
 #include "core/printable.h"
 #include "core/text.h"
@@ -156,7 +157,18 @@ YamlSection YamlSection::parse(const std::string& text, const std::filesystem::p
                                const std::vector<std::string>& overrides) {
   const YAML::Node root = parse_map(text, file);
   for (const std::string& assignment : overrides) apply_override(root, assignment);
-  return {std::make_shared<YamlDocument>(file, overrides), root, ""};
+  YamlSection document{std::make_shared<YamlDocument>(file, overrides), root, ""};
+  document.take_format();
+  return document;
+}
+
+void YamlSection::take_format() {
+  const std::optional<std::string> text = scalar("format", false);
+  if (!text) return;
+  const auto number = parsed<std::uint64_t>(*text);
+  const std::string error = format_error(number ? nlohmann::json(*number) : nlohmann::json());
+  if (!error.empty()) fail("format", error);
+  reading_->node.remove("format");
 }
 
 std::string YamlSection::path_of(const std::string& key) const {

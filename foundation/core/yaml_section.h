@@ -55,8 +55,9 @@ class YamlDocument {
 // yaml-cpp's types).
 class YamlSection {
  public:
-  // Parses the file and applies the overrides ("dotted.path=value", list entries by index from 0;
-  // the value is YAML). The document must be a map.
+  // Parses the file, whose key "format" may say which it is of (core/format.h), and applies the
+  // overrides ("dotted.path=value", list entries by index from 0; the value is YAML). The document
+  // must be a map.
   static YamlSection load(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);
   // The same from a text; errors name it as `file`.
@@ -110,6 +111,8 @@ class YamlSection {
   YAML::Node value(const std::string& key) const;
   [[noreturn]] void fail_missing(const std::string& key) const;
   std::string path_of(const std::string& key) const;
+  // Checks the document's key "format" and removes it.
+  void take_format();
   // The scalar at the key; nothing where the key is missing and need not be there.
   std::optional<std::string> scalar(const std::string& key, bool required) const;
 

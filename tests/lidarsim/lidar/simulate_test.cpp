@@ -160,6 +160,29 @@ TEST(Simulate, RangesBeyondTheLimitsLeaveNoPoint) {
 }
 
 // A shot's noise is the same whatever else is seen.
+// A drone, a head and lasers four times as slow fire the same shots: the same points, later.
+TEST(Simulate, ASlowerTimeLeavesThePointsWhereTheyAre) {
+  const farm::Farm farm = testing::small_farm();
+  const auto points_at = [&](double slower) {
+    sensor::Sensor sensor = testing::exact_vlp16();
+    sensor.sequence_s *= slower;
+    for (sensor::Laser& laser : sensor.lasers) laser.fires_s *= slower;
+    const scan::Trajectory flight({{.time_s = 0, .position_m = {-4, 0.3, 4}},
+                                   {.time_s = 0.2 * slower, .position_m = {4, 0.3, 4}}});
+    const sensor::ShotPlan plan(sensor, 20 / slower, testing::spin_along_flight(), flight);
+    return testing::simulated(farm, sensor, plan, {.range_noise_m = 0.02});
+  };
+  const Points points = points_at(1);
+  const Points later = points_at(4);
+  ASSERT_GT(points.size(), 10000u);
+  ASSERT_EQ(later.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_LT((testing::position(later[i]) - testing::position(points[i])).norm(), 1e-5);
+    ASSERT_NEAR(later[i].time, 4 * points[i].time, 1e-9);
+    ASSERT_EQ(later[i].plant, points[i].plant);
+  }
+}
+
 TEST(Simulate, NoiseBelongsToTheShotAndTheSeed) {
   const sensor::Sensor sensor = testing::exact_vlp16();
   const auto wide = errors_by_shot(flat_farm(), sensor, {.seed = 3});
