@@ -193,8 +193,12 @@ void YamlSection::fail_missing(const std::string& key) const {
     const std::string other = name_of(entry.first);
     if (std::ranges::count(reading_->asked, other) == 0) unread.push_back(other);
   }
-  if (const auto misspelt = nearest_name(key, unread))
-    fail(*misspelt, "is not a known key, and " + key + " is missing");
+  const auto misspelt = nearest_name(key, unread);
+  for (const auto& entry : reading_->node) {
+    if (misspelt && name_of(entry.first) == *misspelt)
+      document_->fail(entry.first.Mark(), path_of(*misspelt),
+                      "is not a known key, and " + key + " is missing");
+  }
   fail(key, "is missing");
 }
 

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "../synthetic_farm.h"
+#include "estimator/synthetic_farm.h"
 #include "temporary_folder.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../methods/run_on_farm.h"
+#include "estimator/methods/run_on_farm.h"
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

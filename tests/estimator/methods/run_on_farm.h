@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../synthetic_farm.h"
+#include "estimator/synthetic_farm.h"
 #include "methods/run.h"
 #include "temporary_folder.h"
 

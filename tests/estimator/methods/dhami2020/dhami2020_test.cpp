@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "synthetic_farm.h"
+#include "estimator/synthetic_farm.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
