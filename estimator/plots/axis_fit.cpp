@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "plots/drill_rows.h"
+#include "plots/plot_parts.h"
 #include "plots/steps.h"
 
 namespace plotscan::plots {
@@ -133,6 +134,25 @@ std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& 
   return fits;
 }
 
+std::vector<std::vector<double>> middles_of(const Line& line, const AxisFit& fit) {
+  std::vector<std::vector<double>> middles;
+  for (std::size_t i = 0; i < fit.begins.size(); ++i) {
+    middles.emplace_back();
+    for (const int begin : fit.begins[i])
+      middles.back().push_back(line.profiles[i].centroid(begin, begin + fit.shape.size));
+  }
+  return middles;
+}
+
+std::vector<std::vector<int>> rounded(const std::vector<std::vector<double>>& lines) {
+  std::vector<std::vector<int>> whole;
+  for (const std::vector<double>& line : lines) {
+    whole.emplace_back();
+    for (const double place : line) whole.back().push_back(static_cast<int>(std::lround(place)));
+  }
+  return whole;
+}
+
 }  // namespace
 
 Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
@@ -151,22 +171,14 @@ AxisFit put_together(const Line& line, AxisFit fit) {
   fit.seen_shape = fit.shape;
   fit.seen = fit.begins;
   if (line.hint.side_m || has_told_count(line, fit)) return fit;  // the bands are the plots
-  std::vector<std::vector<double>> middles;
-  for (std::size_t i = 0; i < fit.begins.size(); ++i) {
-    middles.emplace_back();
-    for (const int begin : fit.begins[i])
-      middles.back().push_back(line.profiles[i].centroid(begin, begin + fit.shape.size));
-  }
-  const double cell_m = line.cell_m;
-  const auto plots = drilled_plots(middles, kMostSpacing_m / cell_m, kLeastGap_m / cell_m);
-  if (!plots) return fit;
-  fit.drilled = true;
-  fit.shape.size = static_cast<int>(std::lround(plots->width()));
-  fit.begins.clear();
-  for (const std::vector<double>& begins : plots->begins) {
-    fit.begins.emplace_back();
-    for (const double begin : begins)
-      fit.begins.back().push_back(static_cast<int>(std::lround(begin)));
+  if (const auto plots = drilled_plots(middles_of(line, fit), kMostSpacing_m / line.cell_m,
+                                       kLeastGap_m / line.cell_m)) {
+    fit.drilled = true;
+    fit.shape.size = static_cast<int>(std::lround(plots->width()));
+    fit.begins = rounded(plots->begins);
+  } else if (auto joined = joined_parts(line.profiles, fit.begins, fit.shape.size)) {
+    fit.shape.size = joined->size;
+    fit.begins = std::move(joined->begins);
   }
   return fit;
 }

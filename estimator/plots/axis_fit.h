@@ -47,7 +47,7 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
 // all profiles, or on each its own. Its misfit is infinite where there are none.
 AxisFit fit_axis(const Line& line, bool shared);
 
-// The same where its bands are drill rows: of whole plots.
+// The same where its bands are drill rows, or other parts of plots: of whole plots.
 AxisFit put_together(const Line& line, AxisFit fit);
 
 std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile);

@@ -84,7 +84,7 @@ class Estimate(ExampleScan):
             plotscan.estimate_field(numpy.zeros((0, 3)))
 
     def test_bad_options_are_refused(self):
-        with self.assertRaisesRegex(ValueError, 'no crop "rice"; there is maize'):
+        with self.assertRaisesRegex(ValueError, 'crop "rice" must be one of maize'):
             plotscan.estimate_field(self.cloud, crop="rice")
         with self.assertRaisesRegex(TypeError, "widht"):
             plotscan.estimate_files(self.scan, self.folder / "x", widht=3)
