@@ -163,9 +163,10 @@ YamlSection YamlSection::parse(const std::string& text, const std::filesystem::p
 }
 
 void YamlSection::take_format() {
-  const std::optional<std::string> text = scalar("format", false);
-  if (!text) return;
-  const auto number = parsed<std::uint64_t>(*text);
+  const YAML::Node& root = reading_->node;
+  const YAML::Node format = root["format"];
+  if (!format) return;
+  const auto number = format.IsScalar() ? parsed<std::uint64_t>(format.Scalar()) : std::nullopt;
   const std::string error = format_error(number ? nlohmann::json(*number) : nlohmann::json());
   if (!error.empty()) fail("format", error);
   reading_->node.remove("format");

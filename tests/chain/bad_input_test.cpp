@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "belongs to --method dhami2020"},
         BadCommand{"estimator run truncated.pcd -o out --noise=-1", "noise"},
         BadCommand{"estimator run truncated.pcd -o out --method dhami2020 --plots=-3", "plots"},
-        BadCommand{"estimator run index.ply -o out --boxes broken.yaml", "not a GeoJSON"},
+        BadCommand{"estimator run index.ply -o out --boxes broken.yaml", "is no map of plots"},
         BadCommand{"estimator run index.ply -o out --boxes estimate/plots.geojson --id plot",
                    "no plot has an id in a property \"plot\""},
         BadCommand{"estimator run index.ply -o out --id plot", "give either"},

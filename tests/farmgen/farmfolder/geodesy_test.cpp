@@ -168,7 +168,8 @@ TEST(Geodesy, AnchorsOffTheEarthAreRefused) {
   EXPECT_THAT(message({"anchor.latitude_deg=1", "anchor.longitude_deg=200"}),
               HasSubstr("anchor.longitude_deg 200 is not in [-180, 180]"));
   EXPECT_THAT(message({"anchor.latitude_deg=1"}), HasSubstr("anchor.longitude_deg is missing"));
-  EXPECT_THAT(message({"anchor.lat=1"}), HasSubstr("anchor.lat is not a known key"));
+  EXPECT_THAT(message({"anchor.latitude_deg=1", "anchor.longitude_deg=2", "anchor.lat=1"}),
+              HasSubstr("anchor.lat is not a known key"));
 }
 
 }  // namespace
