@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/text.h"
 #include "scan/cloud_layout.h"
 #include "scan/las_crs.h"
@@ -225,6 +226,16 @@ bool is_geographic(const std::string& wkt) {
 }
 
 // Where the points lie is said elsewhere: a wrong count of records does no harm to them.
+// GeoTIFF lets a file leave out the unit of a system of EPSG's (OGC 19-008r4, requirements of
+// ProjLinearUnitsGeoKey): UTM counts in metres, of others it is not known here.
+void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
+  const std::string crs = "EPSG:" + std::to_string(layout.crs_epsg);
+  if (layout.crs_epsg == 0 || stated.wkt.horizontal_m || stated.keys.horizontal_m) return;
+  if (utm_system(crs) || is_geographic(crs)) return;
+  layout.notes.push_back("it states no unit, and that of its system, " + crs +
+                         ", is not known here: taken for metres; --units says otherwise");
+}
+
 std::string count_note(std::uint64_t promised, std::uint64_t found) {
   return "the header promises " + std::to_string(promised) + " variable length records, " +
          std::to_string(found) + " are whole; the others were not looked at";
@@ -287,6 +298,7 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
       read_records(file, file.number<std::uint64_t>(235), count, true, header, layout, units);
   }
   layout.units = units_of(units);
+  note_unknown_unit(units, layout);
   return layout;
 }
 

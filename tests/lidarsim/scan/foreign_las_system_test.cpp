@@ -51,6 +51,21 @@ TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
                   .summary.system.zone.has_value());
 }
 
+// New York Long Island in US survey feet (EPSG:2263): the file need not say so.
+TEST_F(ForeignLasFile, ASystemOfUnknownUnitIsNoted) {
+  const auto notes_of = [&](std::uint16_t code) {
+    const std::array<std::uint16_t, 8> numbers = {1, 1, 0, 1, 3072, 0, 1, code};
+    return read({.records = record("LASF_Projection", 34735,
+                                   {reinterpret_cast<const char*>(numbers.data()), sizeof numbers}),
+                 .record_count = 1},
+                {{}})
+        .summary.system.notes;
+  };
+  EXPECT_THAT(notes_of(2263), ElementsAre(HasSubstr("EPSG:2263, is not known here")));
+  EXPECT_TRUE(notes_of(32617).empty());
+  EXPECT_TRUE(notes_of(26917).empty());
+}
+
 constexpr double kUsFoot = 1200.0 / 3937.0;
 
 std::string wkt_record(const std::string& wkt) { return record("LASF_Projection", 2112, wkt); }
