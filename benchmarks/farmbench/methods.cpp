@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "estimate/dhami2020/dhami2020.h"
 #include "estimate/lattice/lattice.h"
+#include "farmbench/method_rows.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 
@@ -77,13 +78,6 @@ estimate::Estimate one_number(const Field& field) {
   return estimate;
 }
 
-// "lattice/max true-boxes": of a method's name, what comes after its first word follows the height.
-std::string row_name(const std::string& method, const std::string& height) {
-  const std::size_t space = method.find(' ');
-  if (space == std::string::npos) return method + "/" + height;
-  return method.substr(0, space) + "/" + height + method.substr(space);
-}
-
 // The heights that have a truth of their name, in rows named after the method.
 std::vector<MethodHeight> named_heights(const std::string& method) {
   std::vector<MethodHeight> heights;
@@ -133,12 +127,6 @@ void require_known_methods(const std::vector<std::string>& names) {
     if (std::ranges::count(names, name) > 1)
       throw InputError("the method \"" + name + "\" is named twice");
   }
-}
-
-std::set<std::string> heights_of(const Method& method) {
-  std::set<std::string> names;
-  for (const MethodHeight& height : method.heights) names.insert(height.height);
-  return names;
 }
 
 }  // namespace plotscan::farmbench

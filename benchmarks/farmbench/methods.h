@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -46,8 +45,5 @@ const Method& method_named(const std::string& name);
 
 // Throws InputError on a name that is not one of them, or stands there twice.
 void require_known_methods(const std::vector<std::string>& names);
-
-// The names of its heights.
-std::set<std::string> heights_of(const Method& method);
 
 }  // namespace plotscan::farmbench

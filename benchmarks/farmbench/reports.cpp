@@ -6,7 +6,7 @@
 
 #include "farmbench/change_chart.h"
 #include "farmbench/format.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "farmbench/suite_page.h"
 #include "farmbench/text_file.h"
 
@@ -220,7 +220,7 @@ std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const s
 std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::vector<TableRow> rows;
   for (const std::string& name : result.methods) {
-    const std::string& height = method_named(name).heights.front().row;
+    const std::string height = heights_of(result, name).front().row;
     for (const CaseInfo& info : result.cases) {
       const auto row = std::ranges::find_if(table, [&](const TableRow& candidate) {
         return candidate.method == height && candidate.case_name == info.name;

@@ -10,13 +10,9 @@
 #include "core/manifest.h"
 #include "estimate/cloud_map.h"
 #include "farm/description.h"
-#include "farm/generate.h"
-#include "farm/write_farm.h"
+#include "farmbench/farm_scan.h"
 #include "farmbench/farm_view.h"
 #include "farmbench/methods.h"
-#include "farmbench/survey.h"
-#include "lidar/canopy_height.h"
-#include "lidar/fly.h"
 #include "lidar/fly_settings.h"
 
 namespace plotscan::farmbench {
@@ -29,19 +25,6 @@ using nlohmann::json;
 constexpr double kFlown = 0.5;
 constexpr double kRead = 0.6;
 constexpr double kShown_m = 4;  // around the plots, on pages
-
-farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder,
-                     int threads) {
-  const farm::FarmDescription description =
-      farm::load_description(suite_case.farm, suite_case.overrides);
-  farm::Farm made = farm::generate(description, seed);
-  lidar::measure_canopies(made, threads);
-  farm::write_farm(made, folder, true,
-                   {.command = "farmbench run",
-                    .options = {{"set", suite_case.overrides}},
-                    .inputs = farm::input_files(description)});
-  return made;
-}
 
 // What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
 estimate::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
@@ -57,25 +40,6 @@ estimate::Area field_area(const std::vector<score::TruePlot>& plots, double marg
   low -= margin_m;
   high += margin_m;
   return {low.x(), low.y(), high.x(), high.y()};
-}
-
-// A farm's scan and the cloud that methods get of it.
-struct ScannedFarm {
-  lidar::FlySummary flown;
-  fs::path cloud;
-};
-
-ScannedFarm scan_farm(const FarmRun& run, const farm::Farm& farm, const ProgressReport& progress) {
-  const auto& [suite, suite_case, seed, folder, threads, view] = run;
-  lidar::FlyOptions flight = suite_case.flight;
-  flight.seed = seed;
-  flight.threads = threads;
-  const fs::path scan = folder / "scan";
-  if (!suite_case.survey)
-    return {lidar::fly(farm, scan, flight, true, progress), scan / "cloud.pcd"};
-  const lidar::FlySummary flown = fly_survey(farm, *suite_case.survey, scan, flight, progress);
-  crop_cloud(scan / "cloud.pcd", *suite_case.survey, folder / "survey.pcd");
-  return {flown, folder / "survey.pcd"};
 }
 
 // What a method says of a field, and how it went.
@@ -141,12 +105,12 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
 
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const auto& [suite, suite_case, seed, folder, threads, view] = run;
-  const farm::Farm farm = make_farm(suite_case, seed, folder / "farm", threads);
+  const FarmPlace place{suite_case, seed, folder, threads};
+  const farm::Farm farm = make_farm(place);
   const ScannedFarm scanned =
-      scan_farm(run, farm, [&](double share) { report(progress, kFlown * share); });
-  std::vector<score::TruePlot> truth = score::read_truth(folder / "farm");
+      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
+  std::vector<score::TruePlot> truth = standing_plots(place);
   const estimate::Area shown = field_area(truth, kShown_m);
-  if (suite_case.survey) leave_to_survey(truth, *suite_case.survey);
   std::vector<score::TruePlot> plots;
   std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
   const estimate::CloudMap map =

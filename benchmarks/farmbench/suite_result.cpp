@@ -33,6 +33,7 @@ json to_json(const SuiteResult& result) {
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};
+  if (!result.entered.empty()) document["entered"] = result.entered;
   if (!result.truths.empty()) document["truths"] = result.truths;
   if (result.baseline) document["baseline"] = *result.baseline;
   return document;
@@ -42,6 +43,7 @@ SuiteResult suite_result_from_json(const json& document) {
   SuiteResult result{.suite = document.at("suite"),
                      .cases = {},
                      .methods = document.at("methods"),
+                     .entered = document.value("entered", std::vector<std::string>()),
                      .truths = document.value("truths", std::vector<std::string>()),
                      .published = {},
                      .baseline = {},
