@@ -72,6 +72,10 @@ void declare_run(Program& program, farmbench::RunOptions& options) {
       ->check(CLI::ExistingFile);
   run.add_option("--methods", options.methods, "these methods (a,b) in place of the suite's")
       ->delimiter(',');
+  run.add_option(
+         "--enter", options.entered,
+         "NAME=COMMAND: a program as a further method (docs/submissions.md); may be repeated")
+      ->allow_extra_args(false);
   run.add_flag("--keep-clouds", options.keep_clouds,
                "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
   run.add_flag("--force", options.force, "run every farm again");

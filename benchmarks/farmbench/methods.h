@@ -18,6 +18,7 @@ namespace plotscan::farmbench {
 // name or docs/benchmark.md says so.
 struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
+  const std::filesystem::path& poses;  // as the drone reported them, poses.csv of the scan
   const estimate::CloudMap& map;       // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
   const farm::Terrain& terrain;

@@ -47,13 +47,30 @@ void require_sound(const RunOptions& options) {
   require_own_folder(options.output, kCommand);
 }
 
-// The suite with the methods that the options put in place of its own.
+// Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
+void take_methods(Suite& suite, const std::vector<std::string>& names) {
+  std::vector<std::string> own;
+  for (const std::string& name : names) {
+    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
+      own.push_back(name);
+    else if (std::ranges::count(names, name) > 1)
+      throw InputError("the method \"" + name + "\" is named twice");
+  }
+  require_known_methods(own);
+  suite.methods = names;
+}
+
+// The suite with the methods that the options put in place of its own, or beside them.
 Suite suite_of(const RunOptions& options) {
   Suite suite =
       chosen_suite({.file = options.suite, .seeds = options.seeds, .secret = options.secret});
-  if (options.methods.empty()) return suite;
-  require_known_methods(options.methods);
-  suite.methods = options.methods;
+  if (!options.methods.empty()) take_methods(suite, options.methods);
+  for (const std::string& entered : options.entered) {
+    suite.commands.push_back(command_method(entered, options.suite));
+    suite.methods.push_back(suite.commands.back().name);
+    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
+      throw InputError("the method \"" + suite.methods.back() + "\" is named twice");
+  }
   return suite;
 }
 

@@ -26,6 +26,7 @@ struct RunOptions {
   // Of a blind contest: the file that seeds are drawn from (entry/suite_choice.h).
   std::optional<std::filesystem::path> secret = std::nullopt;
   std::vector<std::string> methods = {};  // these in place of the suite's
+  std::vector<std::string> entered = {};  // "NAME=COMMAND": programs beside them
   std::string build;       // identifies the program, so that no other program's farms are kept
   std::uint64_t seed = 1;  // of the bootstrap
 };

@@ -67,6 +67,17 @@ MethodRun run_method(const Method& method, const Field& field,
   return run;
 }
 
+MethodRun run_command(const CommandMethod& method, const Field& field,
+                      const std::vector<score::TruePlot>& truth) {
+  CommandResult ran = run_command_method(method, field);
+  return {.estimate = ran.estimate,
+          .result = {.method = method.name,
+                     .seconds = ran.seconds,
+                     .peak_memory_mb = ran.peak_memory_mb,
+                     .failure = ran.failure,
+                     .score = score::score_field(truth, ran.estimate)}};
+}
+
 void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
@@ -98,6 +109,10 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
                    {"flight", lidar::settings_json(suite_case.flight)},
                    {"crop_margin_m", suite.crop_margin_m},
                    {"methods", suite.methods}};
+  for (const CommandMethod& command : suite.commands) {
+    if (std::ranges::count(suite.methods, command.name) > 0)
+      document["commands"].push_back(made_from(command));
+  }
   if (suite_case.survey) document["survey_m"] = *suite_case.survey;
   if (suite_case.without_plots) document["without_plots"] = true;
   return document;
@@ -121,14 +136,19 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   }
   report(progress, kRead);
   FarmResult result = result_of(run, scanned.flown);
+  const fs::path poses = folder / "scan" / "poses.csv";
   const Field field{.cloud = scanned.cloud,
+                    .poses = poses,
                     .map = map,
                     .plots = plots,
                     .terrain = farm.terrain,
                     .seed = seed,
                     .threads = threads};
   for (const std::string& name : suite.methods) {
-    MethodRun method = run_method(method_named(name), field, truth);
+    const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
+    MethodRun method = command == suite.commands.end()
+                           ? run_method(method_named(name), field, truth)
+                           : run_command(*command, field, truth);
     result.methods.push_back(std::move(method.result));
     if (view && result.methods.size() == 1) {
       write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMostCases = 1000;
 constexpr std::size_t kMostSeeds = 10'000;
+constexpr std::size_t kMostMethods = 100;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
 
@@ -144,17 +145,22 @@ std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
   return seeds;
 }
 
-std::vector<std::string> read_methods(const YamlSection& root) {
+void read_methods(const YamlSection& root, Suite& suite) {
   std::vector<std::string> known;
   for (const Method& method : known_methods()) known.push_back(method.name);
-  std::vector<std::string> methods;
-  for (const YamlSection& entry : root.list("methods", known.size(), "name")) {
-    entry.allow_only({"name"});
-    methods.push_back(known[entry.choice("name", known)]);
-    if (std::ranges::count(methods, methods.back()) > 1)
-      root.fail("methods", "name \"" + methods.back() + "\" twice");
+  for (const YamlSection& entry : root.list("methods", kMostMethods, "name")) {
+    if (entry.has("command")) {
+      if (std::ranges::count(known, entry.text("name")) > 0)
+        entry.fail("name", "\"" + entry.text("name") + "\" is one of Plotscan's methods");
+      suite.commands.push_back(read_command_method(entry, read_name(entry)));
+      suite.methods.push_back(suite.commands.back().name);
+    } else {
+      entry.allow_only({"name"});
+      suite.methods.push_back(known[entry.choice("name", known)]);
+    }
+    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
+      root.fail("methods", "name \"" + suite.methods.back() + "\" twice");
   }
-  return methods;
 }
 
 std::vector<std::string> read_truths(const YamlSection& root) {
@@ -177,8 +183,9 @@ Suite load_suite(const std::filesystem::path& file) {
               .name = read_name(root),
               .cases = read_cases(root),
               .seeds = read_seeds(root),
-              .methods = read_methods(root),
+              .methods = {},
               .truths = read_truths(root)};
+  read_methods(root, suite);
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
   if (root.has("baseline")) {
     std::vector<std::string> names;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/suite_result.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace plotscan::farmbench {
@@ -15,6 +16,9 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
                      .published = suite.published,
                      .baseline = suite.baseline,
                      .farms = std::move(farms)};
+  for (const CommandMethod& command : suite.commands) {
+    if (std::ranges::count(suite.methods, command.name) > 0) result.entered.push_back(command.name);
+  }
   for (const SuiteCase& suite_case : suite.cases)
     result.cases.push_back({suite_case.name, suite_case.published_rmse_cm});
   return result;

@@ -6,6 +6,8 @@ through the ground around it.
   farmbench export SUITE -o TASK --boxes
   plane_p99.py TASK SUBMISSION
   farmbench score SUBMISSION --suite SUITE
+
+or as a command of a suite: plane_p99.py {cloud} {boxes_csv} {out_csv}
 """
 import json
 import pathlib
@@ -36,16 +38,20 @@ def height(xyz, box):
     return np.quantile(plot[:, 2] - np.c_[plot[:, :2], np.ones(len(plot))] @ plane, 0.99)
 
 
-def main(task, submission):
+def measure(cloud, boxes, out):
+    xyz = read_cloud(cloud)
+    rows = [f"{box[0]:.0f},{height(xyz, box[1:]):.4f}" for box in np.genfromtxt(boxes, delimiter=",", skip_header=1, ndmin=2)]
+    out.write_text("\n".join(["plot_number,height_p99_m", *rows]) + "\n")
+
+
+def enter(task, submission):
     submission.mkdir()
     (submission / "submission.json").write_text(json.dumps({"method": "plane-p99"}))
     shutil.copy(task / "task.json", submission)
     for field in json.loads((task / "task.json").read_text())["fields"]:
         folder = task / field["field"]
-        xyz = read_cloud(folder / "cloud.pcd")
-        boxes = np.genfromtxt(folder / "boxes.csv", delimiter=",", skip_header=1, ndmin=2)
-        rows = [f"{box[0]:.0f},{height(xyz, box[1:]):.4f}" for box in boxes]
-        (submission / f"{field['field']}.csv").write_text("\n".join(["plot_number,height_p99_m", *rows]) + "\n")
+        measure(folder / "cloud.pcd", folder / "boxes.csv", submission / f"{field['field']}.csv")
 
 
-main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+paths = [pathlib.Path(argument) for argument in sys.argv[1:]]
+(measure if len(paths) == 3 else enter)(*paths)
