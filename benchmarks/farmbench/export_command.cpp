@@ -5,6 +5,7 @@
 
 #include "core/data_folder.h"
 #include "core/text.h"
+#include "farmbench/export/dataset.h"
 #include "farmbench/export/export_suite.h"
 
 namespace plotscan {
@@ -23,13 +24,47 @@ void run_export(const Program& program, farmbench::ExportOptions options) {
                         1e-6 * static_cast<double>(summary.points)));
 }
 
+// The command line that writes the same data set.
+std::string dataset_command(const std::string& suite, const farmbench::ExportOptions& options) {
+  std::string command = "farmbench export " + suite + " --dataset -o DIR";
+  if (options.suite.seeds) command += " --seeds " + std::to_string(*options.suite.seeds);
+  if (options.suite.secret) command += " --secret-file SECRET";
+  return command;
+}
+
+void run_dataset(const Program& program, const farmbench::ExportOptions& options) {
+  farmbench::DatasetOptions dataset{
+      .suite = options.suite,
+      .output = options.output,
+      .replace = options.replace,
+      .command = dataset_command(options.suite.file.string(), options),
+      .threads = program.common().threads};
+  dataset.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  const farmbench::DatasetSummary summary =
+      farmbench::export_dataset(dataset, program.progress(dataset.suite.file.stem().string()));
+  program.result({{"output", options.output.string()},
+                  {"farms", summary.farms},
+                  {"scans", summary.scans},
+                  {"points", summary.points}});
+  program.say(formatted("%s: %zu farms, %zu scans, %.1f million points; README.md is its card",
+                        options.output.c_str(), summary.farms, summary.scans,
+                        1e-6 * static_cast<double>(summary.points)));
+}
+
 }  // namespace
 
 void declare_export(Program& program) {
   const auto options = std::make_shared<farmbench::ExportOptions>();
-  CLI::App& command =
-      program.command("export", "Write a suite's clouds without labels, for others to measure.",
-                      [&program, options] { run_export(program, *options); });
+  const auto dataset = std::make_shared<bool>(false);
+  CLI::App& command = program.command(
+      "export",
+      "Write a suite's clouds for others: without labels to measure, or with them to learn.",
+      [&program, options, dataset] {
+        if (*dataset)
+          run_dataset(program, *options);
+        else
+          run_export(program, *options);
+      });
   command.add_option("SUITE", options->suite.file, "suite (YAML), or the name of a shipped one")
       ->required();
   command.add_option("-o,--output", options->output, "folder to write")->required();
@@ -39,6 +74,11 @@ void declare_export(Program& program) {
       ->delimiter(',');
   command.add_flag("--boxes", options->parts.boxes,
                    "give the plots' boxes too (boxes.csv, boxes.geojson)");
+  command
+      .add_flag("--dataset", *dataset,
+                "write labelled scans to learn from in place of a task (docs/dataset.md)")
+      ->excludes("--format")
+      ->excludes("--boxes");
   command.add_option("--seeds", options->suite.seeds,
                      "so many seeds of each case, from the suite's first one, not the suite's");
   command
