@@ -55,6 +55,7 @@ endif()
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(libcrypto REQUIRED IMPORTED_TARGET libcrypto)
 # Without it lidarsim neither writes nor reads Velodyne's recordings.
 pkg_check_modules(pcap QUIET IMPORTED_TARGET libpcap)
 # Without it LAZ and COPC are refused. Debian 13 and Ubuntu 24.04 have it (liblaszip-dev), Debian 12 has not.

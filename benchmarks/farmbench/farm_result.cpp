@@ -43,14 +43,19 @@ FarmResult farm_result_from_json(const json& document) {
 
 json times_of(const FarmResult& result) {
   json times = json::object();
-  for (const MethodResult& method : result.methods) times[method.method] = method.seconds;
+  for (const MethodResult& method : result.methods) {
+    times[method.method] = {{"seconds", method.seconds}};
+    if (method.peak_memory_mb > 0) times[method.method]["peak_memory_mb"] = method.peak_memory_mb;
+  }
   return times;
 }
 
 void set_times(FarmResult& result, const json& times) {
   for (MethodResult& method : result.methods) {
     const auto taken = times.find(method.method);
-    if (taken != times.end()) method.seconds = taken->get<double>();
+    if (taken == times.end()) continue;
+    method.seconds = taken->at("seconds").get<double>();
+    method.peak_memory_mb = taken->value("peak_memory_mb", 0.0);
   }
 }
 

@@ -13,8 +13,9 @@ namespace plotscan::farmbench {
 
 // One method on one farm.
 struct MethodResult {
-  std::string method;   // Method::name
-  double seconds = 0;   // from the map in memory to the heights; 0: not known
+  std::string method;         // Method::name
+  double seconds = 0;         // from the map in memory to the heights; 0: not known
+  double peak_memory_mb = 0;  // of a program of others; 0: not known
   std::string failure;  // why the method gave up, "" when it did not; every plot is missed then
   nlohmann::json diagnostics = nlohmann::json::object();  // Estimate::diagnostics
   score::FieldScore score;
@@ -36,10 +37,10 @@ nlohmann::json to_json(const FarmResult& result);
 // Throws nlohmann::json::exception on anything that to_json does not write.
 FarmResult farm_result_from_json(const nlohmann::json& document);
 
-// The seconds of each method, by its name.
+// The seconds of each method, and the megabytes where they are known, by its name.
 nlohmann::json times_of(const FarmResult& result);
-// Takes over the seconds of the methods that are named. Throws nlohmann::json::exception where one
-// is no number.
+// Takes them over of the methods that are named. Throws nlohmann::json::exception on anything that
+// times_of does not write.
 void set_times(FarmResult& result, const nlohmann::json& times);
 
 }  // namespace plotscan::farmbench

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "farmbench/method_rows.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 
@@ -52,13 +53,6 @@ estimate::Estimate one_number(const Field& field) {
   for (const score::TruePlot& plot : field.plots)
     estimate.plots.push_back({.id = plot.id, .box = plot.box, .heights_m = means_m});
   return estimate;
-}
-
-// "lattice/max true-boxes": of a method's name, what comes after its first word follows the height.
-std::string row_name(const std::string& method, const std::string& height) {
-  const std::size_t space = method.find(' ');
-  if (space == std::string::npos) return method + "/" + height;
-  return method.substr(0, space) + "/" + height + method.substr(space);
 }
 
 // Heights in rows named after the method.
@@ -156,12 +150,6 @@ void require_known_methods(const std::vector<std::string>& names) {
     if (std::ranges::count(names, name) > 1)
       throw InputError("the method \"" + name + "\" is named twice");
   }
-}
-
-std::set<std::string> heights_of(const Method& method) {
-  std::set<std::string> names;
-  for (const MethodHeight& height : method.heights) names.insert(height.height);
-  return names;
 }
 
 }  // namespace plotscan::farmbench

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@ namespace plotscan::farmbench {
 // name or docs/benchmark.md says so.
 struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
+  const std::filesystem::path& poses;  // as the drone reported them, poses.csv of the scan
   const cloud::CloudMap& map;          // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
   const terrain::Terrain& terrain;
@@ -49,8 +49,5 @@ Method method_named(const std::string& name);
 
 // Throws InputError on a name that method_named refuses, or that stands there twice.
 void require_known_methods(const std::vector<std::string>& names);
-
-// The names of its heights.
-std::set<std::string> heights_of(const Method& method);
 
 }  // namespace plotscan::farmbench

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "farmbench/change_chart.h"
+#include "farmbench/failures.h"
 #include "farmbench/format.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "farmbench/suite_page.h"
 #include "farmbench/text_file.h"
 
@@ -100,6 +101,9 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
                      "over farms. Bias a farm: rms of the farms' own biases; within farms: rms of "
                      "the errors less their farm's. All columns and truths are in table.csv.\n" +
                      plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
+  const std::vector<std::string> failures = failure_lines(result);
+  if (!failures.empty()) text += "\n## Methods that gave up\n\n";
+  for (const std::string& failure : failures) text += "- " + failure + "\n";
   for (const std::string& truth : shown_truths(result, table)) {
     if (!result.baseline) break;
     text += "\n## RMSE in cm (and its change against " + *result.baseline + "), truth " + truth +
@@ -220,7 +224,7 @@ std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const s
 std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
   std::vector<TableRow> rows;
   for (const std::string& name : result.methods) {
-    const std::string height = method_named(name).heights.front().row;
+    const std::string height = heights_of(result, name).front().row;
     for (const CaseInfo& info : result.cases) {
       const auto row = std::ranges::find_if(table, [&](const TableRow& candidate) {
         return candidate.method == height && candidate.case_name == info.name;
@@ -267,6 +271,9 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
   }
   for (const auto& more : {within_lines(named_rows(table)), trust_lines(named_rows(table))})
     lines.insert(lines.end(), more.begin(), more.end());
+  const std::vector<std::string> failures = failure_lines(result);
+  if (!failures.empty()) lines.insert(lines.end(), {"", "Gave up:"});
+  lines.insert(lines.end(), failures.begin(), failures.end());
   if (result.published) {
     lines.emplace_back("");
     lines.push_back("publ.: RMSE of the method in " + result.published->source);

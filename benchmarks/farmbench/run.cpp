@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -16,11 +15,13 @@
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
+#include "farmbench/entries.h"
 #include "farmbench/farm_queue.h"
 #include "farmbench/farm_view.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "farmbench/reports.h"
 #include "farmbench/run_farm.h"
+#include "farmbench/suite_choice.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
@@ -30,7 +31,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kCommand = "farmbench run";
-constexpr int kMostSeeds = 10'000;
 
 // One farm of the suite and where its result lies.
 struct Task {
@@ -45,23 +45,33 @@ struct Task {
 void require_sound(const RunOptions& options) {
   if (options.jobs < 1 || options.jobs > 1024)
     throw InputError("the number of jobs is " + std::to_string(options.jobs) + "; it is 1 to 1024");
-  if (options.seeds && (*options.seeds < 1 || *options.seeds > kMostSeeds))
-    throw InputError("the number of seeds is " + std::to_string(*options.seeds) +
-                     "; it is 1 to 10000");
   require_own_folder(options.output, kCommand);
 }
 
-// The suite with the seeds and methods that the options put in place of its own.
-Suite chosen_suite(const RunOptions& options) {
-  Suite suite = load_suite(options.suite);
-  if (options.seeds) {
-    const std::uint64_t first = suite.seeds.front();
-    suite.seeds.resize(static_cast<std::size_t>(*options.seeds));
-    std::iota(suite.seeds.begin(), suite.seeds.end(), first);
+// Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
+void take_methods(Suite& suite, const std::vector<std::string>& names) {
+  std::vector<std::string> own;
+  for (const std::string& name : names) {
+    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
+      own.push_back(name);
+    else if (std::ranges::count(names, name) > 1)
+      throw InputError("the method \"" + name + "\" is named twice");
   }
-  if (options.methods.empty()) return suite;
-  require_known_methods(options.methods);
-  suite.methods = options.methods;
+  require_known_methods(own);
+  suite.methods = names;
+}
+
+// The suite with the methods that the options put in place of its own, or beside them.
+Suite suite_of(const RunOptions& options) {
+  Suite suite =
+      chosen_suite({.file = options.suite, .seeds = options.seeds, .secret = options.secret});
+  if (!options.methods.empty()) take_methods(suite, options.methods);
+  for (const std::string& entered : options.entered) {
+    suite.commands.push_back(command_method(entered, options.suite));
+    suite.methods.push_back(suite.commands.back().name);
+    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
+      throw InputError("the method \"" + suite.methods.back() + "\" is named twice");
+  }
   return suite;
 }
 
@@ -207,7 +217,7 @@ void write_run_manifest(const RunOptions& options, const std::vector<Task>& task
 RunSummary run(const RunOptions& options, const ProgressReport& progress,
                const FarmReport& finished) {
   require_sound(options);
-  const Suite suite = chosen_suite(options);
+  const Suite suite = suite_of(options);
   std::vector<Task> tasks = plan(suite, options);
   const auto resumed =
       std::ranges::count_if(tasks, [](const Task& task) { return task.result.has_value(); });
@@ -223,6 +233,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
   RunSummary summary{.result = result_of(suite, std::move(farms)),
                      .table = {},
                      .resumed = static_cast<std::size_t>(resumed)};
+  add_entries(options.output, summary.result);
   summary.table = make_table(summary.result, options.seed);
   folder.keep();
   write_text(options.output / "results.json", to_json(summary.result).dump(1) + "\n");
@@ -231,26 +242,32 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
   return summary;
 }
 
-RunSummary report(const fs::path& output, std::uint64_t seed) {
+SuiteResult read_results(const fs::path& output) {
   const fs::path file = output / "results.json";
   const std::string text = read_text(file);
-  RunSummary summary;
   try {
     const json document = json::parse(text);
     require_known_format(document, file);
-    summary.result = suite_result_from_json(document);
-    require_known_methods(summary.result.methods);
-    for (FarmResult& farm : summary.result.farms)
+    SuiteResult result = suite_result_from_json(document);
+    require_methods(result);
+    for (FarmResult& farm : result.farms)
       read_times(output, farm.case_name + "-" + std::to_string(farm.seed), farm);
-    summary.resumed = summary.result.farms.size();
-    summary.table = make_table(summary.result, seed);
+    return result;
   } catch (const json::exception& error) {
     throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
   } catch (const InputError& error) {
     throw InputError(file, error.what());
+  }
+}
+
+RunSummary report(const fs::path& output, std::uint64_t seed) {
+  RunSummary summary{.result = read_results(output), .table = {}};
+  summary.resumed = summary.result.farms.size();
+  try {
+    summary.table = make_table(summary.result, seed);
   } catch (const std::logic_error& error) {  // what make_table takes for granted was edited away
-    throw InputError(file, std::string("its parts do not fit together (") + error.what() +
-                               "); farmbench run writes it anew");
+    throw InputError(output / "results.json", std::string("its parts do not fit together (") +
+                                                  error.what() + "); farmbench run writes it anew");
   }
   write_reports(output, summary.result, summary.table);
   return summary;

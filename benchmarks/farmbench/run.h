@@ -23,7 +23,10 @@ struct RunOptions {
   bool keep_clouds = false;                 // keep each farm and its scan in output/clouds
   bool force = false;                       // run again what has been run
   std::optional<int> seeds = std::nullopt;  // so many from the suite's first one, not the suite's
-  std::vector<std::string> methods = {};    // these in place of the suite's
+  // Of a blind contest: the file that seeds are drawn from (entry/suite_choice.h).
+  std::optional<std::filesystem::path> secret = std::nullopt;
+  std::vector<std::string> methods = {};  // these in place of the suite's
+  std::vector<std::string> entered = {};  // "NAME=COMMAND": programs beside them
   std::string build;       // identifies the program, so that no other program's farms are kept
   std::uint64_t seed = 1;  // of the bootstrap
 };
@@ -45,6 +48,9 @@ using FarmReport = std::function<void(const FarmResult& farm, double seconds)>;
 // that is no results folder, and as run_farm does.
 RunSummary run(const RunOptions& options, const ProgressReport& progress = {},
                const FarmReport& finished = {});
+
+// Reads output/results.json and output/times. Throws InputError where these do not fit together.
+SuiteResult read_results(const std::filesystem::path& output);
 
 // Makes the reports again from output/results.json and output/times. Throws InputError where these
 // do not fit together.

@@ -13,11 +13,9 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "farmbench/farm_scan.h"
 #include "farmbench/farm_view.h"
 #include "farmbench/methods.h"
-#include "farmbench/survey.h"
-#include "lidar/canopy_height.h"
-#include "lidar/fly.h"
 #include "lidar/fly_settings.h"
 
 namespace plotscan::farmbench {
@@ -30,19 +28,6 @@ using nlohmann::json;
 constexpr double kFlown = 0.5;
 constexpr double kRead = 0.6;
 constexpr double kShown_m = 4;  // around the plots, on pages
-
-farm::Farm make_farm(const SuiteCase& suite_case, std::uint64_t seed, const fs::path& folder,
-                     int threads) {
-  const planting::FarmDescription description =
-      description::load_description(suite_case.farm, suite_case.overrides);
-  farm::Farm made = planting::generate(description, seed);
-  lidar::measure_canopies(made, threads);
-  farmfolder::write_farm(made, folder, true,
-                         {.command = "farmbench run",
-                          .options = {{"set", suite_case.overrides}},
-                          .inputs = planting::input_files(description)});
-  return made;
-}
 
 // What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
 cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
@@ -58,25 +43,6 @@ cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_
   low -= margin_m;
   high += margin_m;
   return {low.x(), low.y(), high.x(), high.y()};
-}
-
-// A farm's scan and the cloud that methods get of it.
-struct ScannedFarm {
-  lidar::FlySummary flown;
-  fs::path cloud;
-};
-
-ScannedFarm scan_farm(const FarmRun& run, const farm::Farm& farm, const ProgressReport& progress) {
-  const auto& [suite, suite_case, seed, folder, threads, view] = run;
-  lidar::FlyOptions flight = suite_case.flight;
-  flight.seed = seed;
-  flight.threads = threads;
-  const fs::path scan = folder / "scan";
-  if (!suite_case.survey)
-    return {lidar::fly(farm, scan, flight, true, progress), scan / "cloud.pcd"};
-  const lidar::FlySummary flown = fly_survey(farm, *suite_case.survey, scan, flight, progress);
-  crop_cloud(scan / "cloud.pcd", *suite_case.survey, folder / "survey.pcd");
-  return {flown, folder / "survey.pcd"};
 }
 
 // What a method says of a field, and how it went.
@@ -102,6 +68,17 @@ MethodRun run_method(const Method& method, const Field& field,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   run.result.score = score::score_field(truth, run.estimate);
   return run;
+}
+
+MethodRun run_command(const CommandMethod& method, const Field& field,
+                      const std::vector<score::TruePlot>& truth) {
+  CommandResult ran = run_command_method(method, field);
+  return {.estimate = ran.estimate,
+          .result = {.method = method.name,
+                     .seconds = ran.seconds,
+                     .peak_memory_mb = ran.peak_memory_mb,
+                     .failure = ran.failure,
+                     .score = score::score_field(truth, ran.estimate)}};
 }
 
 void report(const ProgressReport& progress, double share) {
@@ -135,6 +112,10 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
                    {"flight", lidar::settings_json(suite_case.flight)},
                    {"crop_margin_m", suite.crop_margin_m},
                    {"methods", suite.methods}};
+  for (const CommandMethod& command : suite.commands) {
+    if (std::ranges::count(suite.methods, command.name) > 0)
+      document["commands"].push_back(made_from(command));
+  }
   if (suite_case.survey) document["survey_m"] = *suite_case.survey;
   if (suite_case.without_plots) document["without_plots"] = true;
   return document;
@@ -142,12 +123,12 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
 
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const auto& [suite, suite_case, seed, folder, threads, view] = run;
-  const farm::Farm farm = make_farm(suite_case, seed, folder / "farm", threads);
+  const FarmPlace place{suite_case, seed, folder, threads};
+  const farm::Farm farm = make_farm(place);
   const ScannedFarm scanned =
-      scan_farm(run, farm, [&](double share) { report(progress, kFlown * share); });
-  std::vector<score::TruePlot> truth = score::read_truth(folder / "farm");
+      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
+  std::vector<score::TruePlot> truth = standing_plots(place);
   const cloud::Area shown = field_area(truth, kShown_m);
-  if (suite_case.survey) leave_to_survey(truth, *suite_case.survey);
   std::vector<score::TruePlot> plots;
   std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
   const cloud::CloudMap map =
@@ -158,14 +139,19 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   }
   report(progress, kRead);
   FarmResult result = result_of(run, scanned.flown);
+  const fs::path poses = folder / "scan" / "poses.csv";
   const Field field{.cloud = scanned.cloud,
+                    .poses = poses,
                     .map = map,
                     .plots = plots,
                     .terrain = farm.terrain,
                     .seed = seed,
                     .threads = threads};
   for (const std::string& name : suite.methods) {
-    MethodRun method = run_method(method_named(name), field, truth);
+    const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
+    MethodRun method = command == suite.commands.end()
+                           ? run_method(method_named(name), field, truth)
+                           : run_command(*command, field, truth);
     result.methods.push_back(std::move(method.result));
     if (view && result.methods.size() == 1) {
       write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",

@@ -142,7 +142,8 @@ std::vector<std::uint64_t> read_seeds(const YamlSection& root) {
 // A method's name, or a map from it to settings of its own, as one text.
 std::string read_method(const YamlSection& entry) {
   const std::vector<std::string> keys = entry.keys();
-  if (keys.size() != 1) entry.fail("", "has to be a method's name, or name: {key: value}");
+  if (keys.size() != 1)
+    entry.fail("", "has to be a method's name, name: {key: value}, or {name: ..., command: ...}");
   if (!entry.is_map(keys.front())) return entry.text("name");
   std::string name = keys.front();
   for (const auto& [key, value] : entry.section(keys.front()).texts())
@@ -150,19 +151,35 @@ std::string read_method(const YamlSection& entry) {
   return name;
 }
 
-std::vector<std::string> read_methods(const YamlSection& root) {
-  std::vector<std::string> methods;
-  for (const YamlSection& entry : root.list("methods", kMostMethods, "name")) {
-    methods.push_back(read_method(entry));
-    try {
-      method_named(methods.back());
-    } catch (const InputError& error) {
-      root.fail("methods", std::string("do not hold: ") + error.what());
-    }
-    if (std::ranges::count(methods, methods.back()) > 1)
-      root.fail("methods", "name \"" + methods.back() + "\" twice");
+// One of Plotscan's methods, with any of its settings.
+std::string read_own_method(const YamlSection& root, const YamlSection& entry) {
+  std::string name = read_method(entry);
+  try {
+    method_named(name);
+  } catch (const InputError& error) {
+    root.fail("methods", std::string("do not hold: ") + error.what());
   }
-  return methods;
+  return name;
+}
+
+CommandMethod read_command(const YamlSection& entry) {
+  const std::string name = read_name(entry);
+  if (std::ranges::find(known_methods(), name, &Method::name) != known_methods().end())
+    entry.fail("name", "\"" + name + "\" is one of Plotscan's methods");
+  return read_command_method(entry, name);
+}
+
+void read_methods(const YamlSection& root, Suite& suite) {
+  for (const YamlSection& entry : root.list("methods", kMostMethods, "name")) {
+    if (entry.has("command")) {
+      suite.commands.push_back(read_command(entry));
+      suite.methods.push_back(suite.commands.back().name);
+    } else {
+      suite.methods.push_back(read_own_method(root, entry));
+    }
+    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
+      root.fail("methods", "name \"" + suite.methods.back() + "\" twice");
+  }
 }
 
 std::vector<std::string> read_truths(const YamlSection& root) {
@@ -182,8 +199,9 @@ Suite load_suite(const std::filesystem::path& file) {
               .name = read_name(root),
               .cases = read_cases(root),
               .seeds = read_seeds(root),
-              .methods = read_methods(root),
+              .methods = {},
               .truths = read_truths(root)};
+  read_methods(root, suite);
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
   if (root.has("baseline")) {
     std::vector<std::string> names;

@@ -9,6 +9,7 @@
 
 #include "cloud/cloud_map.h"
 
+#include "farmbench/command_method.h"
 #include "lidar/fly.h"
 
 namespace plotscan::farmbench {
@@ -38,9 +39,10 @@ struct Suite {
   std::filesystem::path file;
   std::string name;
   std::vector<SuiteCase> cases;
-  std::vector<std::uint64_t> seeds;      // of farm, flight and method alike
-  double crop_margin_m = 1;              // bare ground around the plots that methods are given
-  std::vector<std::string> methods;      // names of known_methods()
+  std::vector<std::uint64_t> seeds;  // of farm, flight and method alike
+  double crop_margin_m = 1;          // bare ground around the plots that methods are given
+  std::vector<std::string> methods;  // names of known_methods() and of `commands`
+  std::vector<CommandMethod> commands = {};
   std::vector<std::string> truths = {};  // that the reports show; none: tallest and mean plant
   std::optional<Published> published = std::nullopt;
   std::optional<std::string> baseline = std::nullopt;  // the case that the others are compared with

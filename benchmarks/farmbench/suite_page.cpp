@@ -9,7 +9,7 @@
 #include "core/output_file.h"
 #include "farmbench/farm_view.h"
 #include "farmbench/format.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "farmbench/reports.h"
 #include "report/decimals.h"
 #include "report/page.h"
@@ -136,11 +136,9 @@ std::vector<TableRow> shown_rows(std::vector<TableRow> table) {
 
 json suite_document(const SuiteResult& result, const std::vector<TableRow>& table) {
   json series = json::array();
-  for (const std::string& name : result.methods) {
-    const Method method = method_named(name);
-    for (const MethodHeight& height : method.heights)
-      series.push_back(series_of(result, name, height));
-  }
+  for (const std::string& method : result.methods)
+    for (const MethodHeight& height : heights_of(result, method))
+      series.push_back(series_of(result, method, height));
   json document = {{"name", result.suite},
                    {"cases", cases_of(result)},
                    {"truths", shown_truths(result, table)},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/suite_result.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/format.h"
@@ -17,6 +18,9 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
                      .published = suite.published,
                      .baseline = suite.baseline,
                      .farms = std::move(farms)};
+  for (const CommandMethod& command : suite.commands) {
+    if (std::ranges::count(suite.methods, command.name) > 0) result.entered.push_back(command.name);
+  }
   for (const SuiteCase& suite_case : suite.cases)
     result.cases.push_back({suite_case.name, suite_case.published_rmse_cm});
   return result;
@@ -38,6 +42,7 @@ json to_json(const SuiteResult& result) {
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};
+  if (!result.entered.empty()) document["entered"] = result.entered;
   if (!result.truths.empty()) document["truths"] = result.truths;
   if (result.baseline) document["baseline"] = *result.baseline;
   return document;
@@ -47,6 +52,7 @@ SuiteResult suite_result_from_json(const json& document) {
   SuiteResult result{.suite = document.at("suite"),
                      .cases = {},
                      .methods = document.at("methods"),
+                     .entered = document.value("entered", std::vector<std::string>()),
                      .truths = document.value("truths", std::vector<std::string>()),
                      .published = {},
                      .baseline = {},

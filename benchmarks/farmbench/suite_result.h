@@ -23,7 +23,8 @@ struct SuiteResult {
   std::string suite;
   std::vector<CaseInfo> cases;
   std::vector<std::string> methods;
-  std::vector<std::string> truths = {};  // that the reports show; none: tallest and mean plant
+  std::vector<std::string> entered = {};  // of the methods, those that are not Plotscan's own
+  std::vector<std::string> truths = {};   // that the reports show; none: tallest and mean plant
   std::optional<Published> published = std::nullopt;
   std::optional<std::string> baseline = std::nullopt;
   std::vector<FarmResult> farms;  // by case, by seed, in the suite's order

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/text.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "score/height_score.h"
 
 namespace plotscan::farmbench {
@@ -29,8 +29,7 @@ Palette::Palette(const SuiteResult& result) {
   std::size_t places = 0;
   for (const std::string& name : result.methods) {
     std::optional<std::size_t> shared;
-    const Method method = method_named(name);
-    for (const MethodHeight& height : method.heights) {
+    for (const MethodHeight& height : heights_of(result, name)) {
       if (!truths.contains(score::named_truth(height.height))) {
         place_of_row_[height.row] = places++;
         continue;

@@ -11,7 +11,7 @@
 #include "core/statistics.h"
 #include "farmbench/bootstrap.h"
 #include "farmbench/format.h"
-#include "farmbench/methods.h"
+#include "farmbench/method_rows.h"
 #include "score/height_score.h"
 #include "score/score.h"
 
@@ -20,14 +20,14 @@ namespace {
 
 // One method on all farms of one case.
 struct CaseOfMethod {
-  Method method;
+  std::vector<MethodHeight> heights;
   std::vector<score::FieldScore> fields = {};
   std::vector<double> seconds = {};
 };
 
 CaseOfMethod collect(const SuiteResult& result, const std::string& case_name,
                      const std::string& method) {
-  CaseOfMethod collected{.method = method_named(method)};
+  CaseOfMethod collected{.heights = heights_of(result, method)};
   for (const FarmResult& farm : result.farms) {
     if (farm.case_name != case_name) continue;
     for (const MethodResult& run : farm.methods) {
@@ -140,12 +140,10 @@ void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string
 // What was found where there is no plot.
 TableRow row_without_plots(const std::string& suite, const std::string& case_name,
                            const CaseOfMethod& collected) {
-  TableRow row{.suite = suite,
-               .case_name = case_name,
-               .method = collected.method.heights.front().row,
-               .truth = {}};
+  TableRow row{
+      .suite = suite, .case_name = case_name, .method = collected.heights.front().row, .truth = {}};
   set_boxes(row, collected);
-  set_heights(row, collected, collected.method.heights.front().height, 1);
+  set_heights(row, collected, collected.heights.front().height, 1);
   return row;
 }
 
@@ -158,18 +156,20 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
       const CaseOfMethod collected = collect(result, info.name, method);
       std::optional<CaseOfMethod> baseline;
       if (result.baseline) baseline.emplace(collect(result, *result.baseline, method));
-      const std::set<std::string> heights = heights_of(collected.method);
+      std::set<std::string> heights;
+      for (const MethodHeight& height : collected.heights) heights.insert(height.height);
       const std::set<std::string> truths = truths_of(collected.fields);
       if (truths.empty() && !collected.fields.empty())
         table.push_back(row_without_plots(result.suite, info.name, collected));
-      for (const MethodHeight& height : collected.method.heights) {
+      for (const MethodHeight& height : collected.heights) {
         for (const std::string& truth : truths) {
           TableRow row{.suite = result.suite,
                        .case_name = info.name,
                        .method = height.row,
                        .truth = truth,
                        .named = score::named_truth(height.height) == truth,
-                       .shown = score::heights_beside(truth, heights).contains(height.height)};
+                       .shown = !height.height.empty() &&
+                                score::heights_beside(truth, heights).contains(height.height)};
           set_boxes(row, collected);
           set_heights(row, collected, height.height, seed);
           if (baseline) set_change(row, *baseline, collected, height.height, seed);
@@ -187,6 +187,41 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
     if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
   }
   return methods;
+}
+
+nlohmann::json to_json(const TableRow& row) {
+  return {{"case", row.case_name},
+          {"method", row.method},
+          {"truth", row.truth},
+          {"farms", row.farms},
+          {"plots", row.plots},
+          {"found", row.found},
+          {"missed", row.missed},
+          {"extra", row.extra},
+          {"without", row.without},
+          {"recall", row.recall},
+          {"precision", row.precision},
+          {"iou_mean", row.iou_mean},
+          {"iou_median", row.iou_median},
+          {"iou_min", row.iou_min},
+          {"center_rmse_m", row.center_rmse_m},
+          {"heading_rmse_deg", degrees(row.heading_rmse_rad)},
+          {"rmse_m", row.rmse_m},
+          {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
+          {"rmse_change_m", row.rmse_change_m},
+          {"rmse_change_95_m", {row.rmse_change_low_m, row.rmse_change_high_m}},
+          {"bias_m", row.bias_m},
+          {"mae_m", row.mae_m},
+          {"r2", row.r2},
+          {"farm_bias_m", row.within.farm_bias_m},
+          {"within_m", row.within.within_m},
+          {"r2_within", row.within.r2},
+          {"rho_within", row.within.rho},
+          {"coverage95", row.coverage95},
+          {"flagged", row.flagged},
+          {"over_5cm_unflagged", row.large_unflagged},
+          {"over_5cm_unflagged_share", row.large_unflagged_share},
+          {"seconds", row.seconds}};
 }
 
 std::string table_csv(const std::vector<TableRow>& table) {

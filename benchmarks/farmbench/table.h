@@ -63,6 +63,9 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 // The rows' methods, each once, in their order.
 std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 
+// A row as --json tells it: metres, degrees, null for NaN.
+nlohmann::json to_json(const TableRow& row);
+
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
 // iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,
 // rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,r2_within,rho_within,

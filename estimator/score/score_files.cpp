@@ -2,6 +2,7 @@
 #include "score/score_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <numbers>
 #include <set>
@@ -48,9 +49,11 @@ void add_trust(json& document, const FoundPlot& found) {
 void read_trust(const json& document, FoundPlot& found) {
   if (document.contains("errors")) {
     for (const auto& [name, error] : document["errors"].items()) {
-      found.errors[name] = {.standard_error_m = error.at("standard_error_m"),
-                            .low95_m = error.at("low95_m"),
-                            .high95_m = error.at("high95_m")};
+      const json& standard = error.at("standard_error_m");  // null: an interval alone
+      found.errors[name] = {
+          .standard_error_m = standard.is_null() ? std::nan("") : standard.get<double>(),
+          .low95_m = error.at("low95_m"),
+          .high95_m = error.at("high95_m")};
     }
   }
   if (document.contains("confidence")) found.confidence = document["confidence"].get<double>();

@@ -25,13 +25,15 @@ Source open_cloud(const path& file, const ReadOptions& options) {
 }
 
 scan::CloudWriteOptions cloud_options(const Source& source, const WriteOptions& options) {
-  return {.ascii = options.encoding == "ascii", .origin_m = source.info.origin_m};
+  return {.ascii = options.encoding == "ascii",
+          .origin_m = source.info.origin_m,
+          .labels = options.labels};
 }
 
 std::unique_ptr<scan::PointWriter> create_pcd(const path& file, const Source& source,
                                               const WriteOptions& options) {
   if (options.encoding == "compressed")
-    return std::make_unique<scan::CompressedPcdWriter>(file, source.info.origin_m);
+    return std::make_unique<scan::CompressedPcdWriter>(file, source.info.origin_m, options.labels);
   return std::make_unique<scan::PcdWriter>(file, cloud_options(source, options));
 }
 

@@ -42,6 +42,7 @@ scan::LasOptions las_options(const std::filesystem::path& file, const Source& so
     const auto angles = std::make_shared<scan::ScanAngles>(flight.reported, flight.body_from_lidar);
     las.scan_angle_rad = [angles](const scan::LabelledPoint& p) { return angles->angle_rad(p); };
   }
+  las.labels = options.labels;
   if (options.crs == "utm") place_in_utm(source, file, las);
   return las;
 }

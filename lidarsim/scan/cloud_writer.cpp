@@ -76,7 +76,10 @@ std::vector<char> columns_of(const std::vector<char>& records, const Fields& fie
 
 CloudWriter::CloudWriter(const std::filesystem::path& path, const CloudWriteOptions& options,
                          Header header)
-    : file_(path), record_(options.origin_m), ascii_(options.ascii), header_(header) {
+    : file_(path),
+      record_(options.origin_m, options.labels),
+      ascii_(options.ascii),
+      header_(header) {
   file_.append(header_(0, record_.fields(), ascii_));
   file_.flush();
 }
@@ -106,8 +109,8 @@ PlyWriter::PlyWriter(const std::filesystem::path& path, const CloudWriteOptions&
     : CloudWriter(path, options, ply_header) {}
 
 CompressedPcdWriter::CompressedPcdWriter(const std::filesystem::path& path,
-                                         const Eigen::Vector3d& origin_m)
-    : path_(path), file_(path), record_(origin_m) {}
+                                         const Eigen::Vector3d& origin_m, bool labels)
+    : path_(path), file_(path), record_(origin_m, labels) {}
 
 void CompressedPcdWriter::write(std::span<const LabelledPoint> points) {
   const std::size_t before = records_.size();

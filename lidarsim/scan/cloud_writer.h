@@ -20,6 +20,7 @@ struct CloudWriteOptions {
   bool ascii = false;  // one point a line in place of binary records
   // A point lies at origin_m + (x, y, z). Where it is not zero, x, y and z are written as doubles.
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  bool labels = true;  // write class, plot and plant
 };
 
 // Streams labelled points to a file of one record, or line, a point. The number of points is known
@@ -67,7 +68,8 @@ class PlyWriter : public CloudWriter {
 class CompressedPcdWriter : public PointWriter {
  public:
   // Throws std::runtime_error when the file cannot be created.
-  CompressedPcdWriter(const std::filesystem::path& path, const Eigen::Vector3d& origin_m);
+  CompressedPcdWriter(const std::filesystem::path& path, const Eigen::Vector3d& origin_m,
+                      bool labels = true);
 
   // Throws InputError when there are too many points.
   void write(std::span<const LabelledPoint> points) override;

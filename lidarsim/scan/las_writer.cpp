@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kStep_m = 1e-4;
 constexpr int kPointFormat = 6;
-constexpr std::size_t kExtraBytes = 2 + 4 + 4 + 1;
-constexpr std::size_t kRecordSize = las::kFormatSizes[kPointFormat] + kExtraBytes;
+constexpr std::size_t kRing = 2;
+constexpr std::size_t kLabels = 4 + 4 + 1;
+constexpr std::size_t kMaxRecordSize = las::kFormatSizes[kPointFormat] + kRing + kLabels;
 constexpr double kScanAngleStep_rad = 0.006 * std::numbers::pi / 180;
 constexpr std::uint16_t kFlightLine = 1;
 constexpr int kMaxReturns = 15;
@@ -78,19 +79,20 @@ std::string extra_byte(std::uint8_t type, std::string_view name, std::string_vie
   return bytes.str();
 }
 
-std::string extra_bytes() {
+std::string extra_bytes(bool labels) {
   constexpr std::uint8_t kUnsigned8 = 1;
   constexpr std::uint8_t kUnsigned16 = 3;
   constexpr std::uint8_t kUnsigned32 = 5;
-  return extra_byte(kUnsigned16, "ring", "laser by elevation, 0 lowest") +
-         extra_byte(kUnsigned32, "plot", "plot id, 0 none") +
+  const std::string ring = extra_byte(kUnsigned16, "ring", "laser by elevation, 0 lowest");
+  if (!labels) return ring;
+  return ring + extra_byte(kUnsigned32, "plot", "plot id, 0 none") +
          extra_byte(kUnsigned32, "plant", "plant id, 0 none") +
          extra_byte(kUnsigned8, "class", "1 ground 2 crop 3 weed 4 other");
 }
 
 std::string records_of(const LasOptions& options) {
   std::string records =
-      vlr(las::kSpecUser, las::kExtraBytesRecord, "Extra Bytes", extra_bytes()) +
+      vlr(las::kSpecUser, las::kExtraBytesRecord, "Extra Bytes", extra_bytes(options.labels)) +
       vlr(las::kProjectionUser, las::kWktRecord, "OGC WKT", options.crs_wkt + '\0');
   if (options.start) {
     records += vlr(las::kPlotscanUser, las::kStartRecord, "UTC of the flight's start",
@@ -124,10 +126,14 @@ LasWriter::LasWriter(const std::filesystem::path& path, LasOptions options)
 
 void LasWriter::write(std::span<const LabelledPoint> points) {
   for (const LabelledPoint& point : points) {
-    pack(point, file_.room(kRecordSize));
-    file_.used(kRecordSize);
+    pack(point, file_.room(kMaxRecordSize));
+    file_.used(record_size());
     ++points_;
   }
+}
+
+std::size_t LasWriter::record_size() const {
+  return kMaxRecordSize - (options_.labels ? 0 : kLabels);
 }
 
 void LasWriter::close() { file_.close(header()); }
@@ -167,12 +173,13 @@ void LasWriter::pack(const LabelledPoint& point, char* record) {
       std::lround(std::clamp<double>(point.intensity * las::kIntensityScale, 0, 0xFFFF))));
   put(static_cast<std::uint8_t>(number | count << 4));
   put(std::uint8_t{0});  // no flags, scanner channel 0
-  put(asprs_class(point.label));
+  put(asprs_class(options_.labels ? point.label : PointClass::unlabelled));
   put(std::uint8_t{0});  // user data
   put(static_cast<std::int16_t>(std::lround(angle_rad / kScanAngleStep_rad)));
   put(kFlightLine);
   put(gps_offset_s_ + point.time);
   put(point.ring);
+  if (!options_.labels) return;
   put(point.plot);
   put(point.plant);
   put(static_cast<std::uint8_t>(point.label));
@@ -190,7 +197,7 @@ std::string LasWriter::header() const {
   bytes.text(options_.system, 32).text("Plotscan " + version(), 32).put(day).put(year);
   bytes.put(static_cast<std::uint16_t>(las::kHeaderSize));
   bytes.put(static_cast<std::uint32_t>(las::kHeaderSize + records_.size())).put(records);
-  bytes.put(static_cast<std::uint8_t>(kPointFormat)).put(static_cast<std::uint16_t>(kRecordSize));
+  bytes.put(static_cast<std::uint8_t>(kPointFormat)).put(static_cast<std::uint16_t>(record_size()));
   bytes.zeros(24);  // the counts of older versions
   for (int axis = 0; axis < 3; ++axis) bytes.put(kStep_m);
   for (int axis = 0; axis < 3; ++axis) bytes.put(options_.offset_m[axis]);

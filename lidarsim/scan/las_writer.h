@@ -30,6 +30,9 @@ struct LasOptions {
   std::function<Eigen::Vector3d(const LabelledPoint&)> coordinates = {};
   // From straight down, positive to the right of the flight. Empty: 0.
   std::function<double(const LabelledPoint&)> scan_angle_rad = {};
+  // Write the extra bytes plot, plant and class, and the standard class; else there is the extra
+  // byte ring alone, and every point is of the class 0, never classified.
+  bool labels = true;
 };
 
 // Streams points to LAS 1.4, point format 6 with the extra bytes ring, plot, plant and class
@@ -47,6 +50,7 @@ class LasWriter : public PointWriter {
   std::array<std::int32_t, 3> steps_of(const LabelledPoint& point) const;
   void pack(const LabelledPoint& point, char* record);
   std::string header() const;
+  std::size_t record_size() const;
 
   std::filesystem::path path_;
   LasOptions options_;

@@ -13,10 +13,13 @@ static_assert(std::endian::native == std::endian::little, "records are written l
 
 std::vector<PointRecord::Field> PointRecord::fields() const {
   const std::size_t coordinate = wide_ ? 8 : 4;
-  return {{"x", 'F', coordinate},    {"y", 'F', coordinate},   {"z", 'F', coordinate},
-          {"intensity", 'F', 4},     {"ring", 'U', 2},         {"time", 'F', 8},
-          {"return_number", 'U', 1}, {"return_count", 'U', 1}, {"class", 'U', 1},
-          {"plot", 'U', 4},          {"plant", 'U', 4}};
+  std::vector<Field> fields = {{"x", 'F', coordinate},    {"y", 'F', coordinate},
+                               {"z", 'F', coordinate},    {"intensity", 'F', 4},
+                               {"ring", 'U', 2},          {"time", 'F', 8},
+                               {"return_number", 'U', 1}, {"return_count", 'U', 1}};
+  if (labels_)
+    fields.insert(fields.end(), {{"class", 'U', 1}, {"plot", 'U', 4}, {"plant", 'U', 4}});
+  return fields;
 }
 
 template <class Put>
@@ -35,6 +38,7 @@ void PointRecord::each(const LabelledPoint& point, Put&& put) const {
   put(point.time);
   put(point.return_number);
   put(point.return_count);
+  if (!labels_) return;
   put(static_cast<std::uint8_t>(point.label));
   put(point.plot);
   put(point.plant);

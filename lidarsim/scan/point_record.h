@@ -17,7 +17,7 @@ namespace plotscan::scan {
 inline constexpr std::size_t kMaxPackedPointSize = 49;
 
 // The fields of a point one after the other, little-endian, without padding: 37 bytes, or 49 where
-// an origin makes x, y and z doubles.
+// an origin makes x, y and z doubles; 9 less without the labels class, plot and plant.
 class PointRecord {
  public:
   struct Field {
@@ -27,11 +27,13 @@ class PointRecord {
   };
 
   // Points lie at origin_m + (x, y, z).
-  explicit PointRecord(const Eigen::Vector3d& origin_m)
-      : origin_m_(origin_m), wide_(!origin_m.isZero(0)) {}
+  explicit PointRecord(const Eigen::Vector3d& origin_m, bool labels = true)
+      : origin_m_(origin_m), wide_(!origin_m.isZero(0)), labels_(labels) {}
 
   std::vector<Field> fields() const;
-  std::size_t size() const { return wide_ ? kMaxPackedPointSize : kMaxPackedPointSize - 12; }
+  std::size_t size() const {
+    return kMaxPackedPointSize - (wide_ ? 0 : 12) - (labels_ ? 0 : kLabelsSize);
+  }
   // Writes the point's record at `record`; returns its end.
   char* pack(const LabelledPoint& point, char* record) const;
   // Appends the fields with blanks between them and a line's end; every number reads back the same.
@@ -41,8 +43,11 @@ class PointRecord {
   template <class Put>
   void each(const LabelledPoint& point, Put&& put) const;
 
+  static constexpr std::size_t kLabelsSize = 9;
+
   Eigen::Vector3d origin_m_;
   bool wide_;
+  bool labels_;
 };
 
 }  // namespace plotscan::scan

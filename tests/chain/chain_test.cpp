@@ -228,6 +228,8 @@ TEST_F(Chain, EveryCommandExplainsTheCommonOptionsThatItUses) {
                                           {"estimator report", ""},
                                           {"farmbench run", seed + threads},
                                           {"farmbench report", seed},
+                                          {"farmbench export", threads},
+                                          {"farmbench score", seed + threads},
                                           {"measure_plots run", threads},
                                           {"plotview picture", ""},
                                           {"plotview field", ""},
@@ -238,7 +240,7 @@ TEST_F(Chain, EveryCommandExplainsTheCommonOptionsThatItUses) {
       EXPECT_NE(common.find(option), std::string::npos) << command << " --help lacks " << option;
     for (const std::string& option : {seed, threads}) {
       const bool used = uses.find(option) != std::string::npos;
-      EXPECT_EQ(help.find(option.substr(1)) != std::string::npos, used) << command << option;
+      EXPECT_EQ(help.find(option.substr(1) + " ") != std::string::npos, used) << command << option;
     }
     EXPECT_NE(succeed(command + " --version").output.find(version()), std::string::npos);
   }

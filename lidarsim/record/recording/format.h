@@ -38,6 +38,7 @@ struct ReadOptions {
 struct WriteOptions {
   std::string encoding = {};  // one of the format's encodings; empty: its first
   std::string crs = {};       // LAS: "local", the world frame, or "utm"; empty: local
+  bool labels = true;         // PCD, PLY, LAS: write class, plot and plant
 };
 
 // A kind of file that points are read from, written to, or both, found by its extension.

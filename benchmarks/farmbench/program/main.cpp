@@ -3,6 +3,10 @@
 #include <filesystem>
 #include <string>
 
+#include "export_command.h"
+#include "score_command.h"
+#include "seed.h"
+
 #include "core/data_folder.h"
 #include "core/manifest.h"
 #include "core/program.h"
@@ -15,41 +19,6 @@ namespace {
 
 using namespace plotscan;
 
-nlohmann::json json_of(const farmbench::TableRow& row) {
-  return {{"case", row.case_name},
-          {"method", row.method},
-          {"truth", row.truth},
-          {"farms", row.farms},
-          {"plots", row.plots},
-          {"found", row.found},
-          {"missed", row.missed},
-          {"extra", row.extra},
-          {"without", row.without},
-          {"recall", row.recall},
-          {"precision", row.precision},
-          {"iou_mean", row.iou_mean},
-          {"iou_median", row.iou_median},
-          {"iou_min", row.iou_min},
-          {"center_rmse_m", row.center_rmse_m},
-          {"heading_rmse_deg", farmbench::degrees(row.heading_rmse_rad)},
-          {"rmse_m", row.rmse_m},
-          {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
-          {"rmse_change_m", row.rmse_change_m},
-          {"rmse_change_95_m", {row.rmse_change_low_m, row.rmse_change_high_m}},
-          {"bias_m", row.bias_m},
-          {"mae_m", row.mae_m},
-          {"r2", row.r2},
-          {"farm_bias_m", row.within.farm_bias_m},
-          {"within_m", row.within.within_m},
-          {"r2_within", row.within.r2},
-          {"rho_within", row.within.rho},
-          {"coverage95", row.coverage95},
-          {"flagged", row.flagged},
-          {"over_5cm_unflagged", row.large_unflagged},
-          {"over_5cm_unflagged_share", row.large_unflagged_share},
-          {"seconds", row.seconds}};
-}
-
 void say_summary(const Program& program, const farmbench::RunSummary& summary,
                  const std::string& output) {
   for (const std::string& line : farmbench::summary_lines(summary.result, summary.table))
@@ -57,7 +26,7 @@ void say_summary(const Program& program, const farmbench::RunSummary& summary,
   program.say("Written: table.csv, results.json, leaderboard.md in " + output);
   program.say("To look at: " + (std::filesystem::path(output) / "report.html").string());
   nlohmann::json rows = nlohmann::json::array();
-  for (const farmbench::TableRow& row : summary.table) rows.push_back(json_of(row));
+  for (const farmbench::TableRow& row : summary.table) rows.push_back(farmbench::to_json(row));
   program.result({{"output", output},
                   {"farms", summary.result.farms.size()},
                   {"resumed", summary.resumed},
@@ -85,12 +54,10 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
   say_summary(program, summary, options.output.string());
 }
 
-constexpr const char* kSeed = "seed of the bootstrap that makes the table's intervals";
-
 void declare_run(Program& program, farmbench::RunOptions& options) {
   CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
                                   [&program, &options] { run_suite(program, options); },
-                                  {.seed = kSeed, .threads = true});
+                                  {.seed = kTableSeed, .threads = true});
   run.add_option("SUITE", options.suite,
                  "suite (YAML), or the name of a shipped one, such as paper")
       ->required();
@@ -103,9 +70,17 @@ void declare_run(Program& program, farmbench::RunOptions& options) {
   run.add_option(
       "--seeds", options.seeds,
       "number of seeds of each case, from the suite's first one on (default: the suite's)");
+  run.add_option(
+         "--secret-file", options.secret,
+         "file whose bytes the seeds are drawn from, of a blind contest (docs/submissions.md)")
+      ->check(CLI::ExistingFile);
   run.add_option("--methods", options.methods,
                  "methods to run, separated by commas (default: the suite's)")
       ->delimiter(',');
+  run.add_option(
+         "--enter", options.entered,
+         "NAME=COMMAND: a program as a further method (docs/submissions.md); may be repeated")
+      ->allow_extra_args(false);
   run.add_flag("--keep-clouds", options.keep_clouds,
                "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
   run.add_flag("--force", options.force, "run every farm again");
@@ -122,7 +97,9 @@ int main(int argc, char** argv) {
   CLI::App& report = program.command(
       "report", "Make the table and the report again from results.json.",
       [&] { say_summary(program, farmbench::report(results, program.common().seed), results); },
-      {.seed = kSeed});
+      {.seed = kTableSeed});
   report.add_option("RESULTS", results, "results folder of farmbench run")->required();
+  declare_export(program);
+  declare_score(program);
   return program.run(argc, argv);
 }

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/entries.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "farmbench/text_file.h"
+#include "score/score_files.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+json to_json(const EnteredFarm& farm) {
+  return {{"case", farm.case_name},
+          {"seed", farm.seed},
+          {"field", farm.field},
+          {"farm_sha256", farm.farm_sha256},
+          {"cloud_sha256", farm.cloud_sha256},
+          {"file_sha256", farm.file_sha256},
+          {"failure", farm.result.failure},
+          {"score", score::to_json(farm.result.score)}};
+}
+
+EnteredFarm farm_from_json(const json& document, const std::string& method) {
+  return {.case_name = document.at("case"),
+          .seed = document.at("seed"),
+          .field = document.at("field"),
+          .farm_sha256 = document.at("farm_sha256"),
+          .cloud_sha256 = document.at("cloud_sha256"),
+          .file_sha256 = document.at("file_sha256"),
+          .result = {.method = method,
+                     .failure = document.at("failure"),
+                     .score = score::field_from_json(document.at("score"))}};
+}
+
+Entry read_entry(const fs::path& file) {
+  try {
+    const json document = json::parse(read_text(file));
+    Entry entry{.method = document.at("method"),
+                .suite = document.at("suite"),
+                .program_sha256 = document.at("program_sha256"),
+                .scorer_sha256 = document.at("scorer_sha256"),
+                .farms = {}};
+    for (const json& farm : document.at("farms"))
+      entry.farms.push_back(farm_from_json(farm, entry.method));
+    return entry;
+  } catch (const json::exception& error) {
+    throw InputError(file, std::string("not what farmbench score writes: ") + error.what());
+  }
+}
+
+bool is_same_truth(const score::FieldScore& a, const score::FieldScore& b) {
+  return std::ranges::equal(a.plots, b.plots, [](const auto& one, const auto& other) {
+    return one.truth.id == other.truth.id && one.truth.heights_m == other.truth.heights_m;
+  });
+}
+
+// Adds the farm's score to the result's farm; false where the result has no such farm.
+bool add_farm(const EnteredFarm& farm, const fs::path& file, SuiteResult& result) {
+  const auto place = std::ranges::find_if(result.farms, [&](const FarmResult& candidate) {
+    return candidate.case_name == farm.case_name && candidate.seed == farm.seed;
+  });
+  if (place == result.farms.end()) return false;
+  if (!place->methods.empty() && !is_same_truth(place->methods.front().score, farm.result.score)) {
+    throw InputError(file, "was scored against another truth than the results' of case " +
+                               farm.case_name + "; score the submission again");
+  }
+  place->methods.push_back(farm.result);
+  return true;
+}
+
+}  // namespace
+
+void write_entry(const fs::path& output, const Entry& entry) {
+  json farms = json::array();
+  for (const EnteredFarm& farm : entry.farms) farms.push_back(to_json(farm));
+  const json document = {{"method", entry.method},
+                         {"suite", entry.suite},
+                         {"program_sha256", entry.program_sha256},
+                         {"scorer_sha256", entry.scorer_sha256},
+                         {"farms", farms}};
+  fs::create_directories(output / "entries");
+  write_text(output / "entries" / (entry.method + ".json"), document.dump(1) + "\n");
+}
+
+void add_entries(const fs::path& output, SuiteResult& result) {
+  if (!fs::is_directory(output / "entries")) return;
+  std::vector<fs::path> files;
+  for (const auto& file : fs::directory_iterator(output / "entries")) {
+    if (file.path().extension() == ".json") files.push_back(file.path());
+  }
+  std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    const Entry entry = read_entry(file);
+    if (std::ranges::count(result.methods, entry.method) > 0)
+      throw InputError(file, "\"" + entry.method + "\" is the name of another method as well");
+    std::size_t shared = 0;
+    for (const EnteredFarm& farm : entry.farms) shared += add_farm(farm, file, result) ? 1 : 0;
+    if (shared == 0) continue;
+    result.methods.push_back(entry.method);
+    result.entered.push_back(entry.method);
+  }
+}
+
+}  // namespace plotscan::farmbench

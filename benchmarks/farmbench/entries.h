@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "farmbench/farm_result.h"
+#include "farmbench/suite_result.h"
+
+// Scores of submissions in a results folder: entries/METHOD.json (docs/submissions.md).
+namespace plotscan::farmbench {
+
+// One farm of a submission, scored, and the hashes that say what it was made from.
+struct EnteredFarm {
+  std::string case_name;
+  std::uint64_t seed = 0;
+  std::string field;         // its code
+  std::string farm_sha256;   // of its truth
+  std::string cloud_sha256;  // as the submission's task.json has it, "" without one
+  std::string file_sha256;   // of what was handed in, "" where nothing was
+  MethodResult result;
+};
+
+struct Entry {
+  std::string method;  // its rows' name in tables
+  std::string suite;
+  std::string program_sha256;  // of the entrant's program, as stated; "" where it is not
+  std::string scorer_sha256;   // of the program that scored
+  std::vector<EnteredFarm> farms;
+};
+
+// Writes output/entries/METHOD.json.
+void write_entry(const std::filesystem::path& output, const Entry& entry);
+
+// Adds the entries of a results folder, by name, to the result's methods, on those farms that both
+// have; those that share no farm are left out. Throws InputError on a broken entry, one whose name
+// another method of the suite has, and one that was scored against another truth.
+void add_entries(const std::filesystem::path& output, SuiteResult& result);
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/export/dataset.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numbers>
+
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "core/temporary_path.h"
+#include "core/text.h"
+#include "farmbench/export/labelled_scans.h"
+#include "farmbench/farm_scan.h"
+#include "farmbench/text_file.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCommand = "farmbench export --dataset";
+constexpr double kDegrees = std::numbers::pi / 180;
+constexpr std::array<const char*, 5> kClasses = {"unlabelled", "ground", "crop", "weed", "other"};
+constexpr std::array<const char*, 3> kSplits = {"train", "validation", "test"};
+
+json plot_json(const score::TruePlot& plot) {
+  return {{"plot", plot.id.json()},
+          {"center_m", {plot.box.center.x(), plot.box.center.y()}},
+          {"width_m", plot.box.width_m},
+          {"length_m", plot.box.length_m},
+          {"heading_deg", plot.box.heading_rad / kDegrees},
+          {"heights_m", plot.heights_m}};
+}
+
+json counts_json(const ScanCounts& counts) {
+  json by_class = json::object();
+  for (std::size_t i = 0; i < kClasses.size(); ++i) by_class[kClasses[i]] = counts.by_class[i];
+  return {{"scans", counts.scans}, {"points", counts.points}, {"points_by_class", by_class}};
+}
+
+struct Sequence {
+  const SuiteCase& suite_case;
+  std::uint64_t seed;
+  std::string name;
+  std::string split;
+};
+
+std::vector<Sequence> sequences_of(const Suite& suite) {
+  std::vector<Sequence> sequences;
+  for (const SuiteCase& suite_case : suite.cases) {
+    if (suite_case.survey)
+      throw InputError(suite.file, "case " + suite_case.name +
+                                       " surveys a part of a field; data sets have whole ones");
+    for (std::size_t i = 0; i < suite.seeds.size(); ++i)
+      sequences.push_back(
+          {suite_case, suite.seeds[i], formatted("%02zu", sequences.size()), split_of(i)});
+  }
+  return sequences;
+}
+
+// Makes the sequence's folder; what the index says of it.
+json write_sequence(const Sequence& sequence, const fs::path& folder, const fs::path& work,
+                    int threads, const ProgressReport& progress) {
+  fs::create_directories(work);
+  fs::create_directories(folder);
+  const FarmPlace place{sequence.suite_case, sequence.seed, work, threads};
+  scan_farm(place, make_farm(place), progress);
+  json document = counts_json(write_labelled_scans(work / "scan", folder));
+  std::vector<score::TruePlot> plots = standing_plots(place);
+  if (sequence.suite_case.without_plots) plots.clear();
+  document["sequence"] = sequence.name;
+  document["split"] = sequence.split;
+  document["case"] = sequence.suite_case.name;
+  document["seed"] = sequence.seed;
+  document["plots"] = json::array();
+  for (const score::TruePlot& plot : plots) document["plots"].push_back(plot_json(plot));
+  fs::remove_all(work);
+  return document;
+}
+
+std::string counts_table(const json& sequences) {
+  std::string text = "| split | farms | scans | points | plots |";
+  for (const char* name : kClasses) text += std::string(" ") + name + " |";
+  text += "\n| --- | --- | --- | --- | --- |";
+  for (std::size_t i = 0; i < kClasses.size(); ++i) text += " --- |";
+  text += "\n";
+  for (const char* split : kSplits) {
+    std::array<std::uint64_t, 4> sums{};
+    std::array<std::uint64_t, 5> by_class{};
+    for (const json& sequence : sequences) {
+      if (sequence["split"] != split) continue;
+      sums[0] += 1;
+      sums[1] += sequence["scans"].get<std::uint64_t>();
+      sums[2] += sequence["points"].get<std::uint64_t>();
+      sums[3] += sequence["plots"].size();
+      for (std::size_t i = 0; i < kClasses.size(); ++i)
+        by_class[i] += sequence["points_by_class"][kClasses[i]].get<std::uint64_t>();
+    }
+    text += std::string("| ") + split + " |";
+    for (const std::uint64_t sum : sums) text += " " + std::to_string(sum) + " |";
+    for (const std::uint64_t sum : by_class) text += " " + std::to_string(sum) + " |";
+    text += "\n";
+  }
+  return text;
+}
+
+std::string card(const json& document, const std::string& command) {
+  return "# Data set " + document["suite"].get<std::string>() +
+         "\n\nSimulated LiDAR scans of virtual crop trials from a drone, made by Plotscan " +
+         version() +
+         ". Every point has its class, plot and plant; every plot its box and heights. The truth "
+         "is that of the simulator: exact.\n\n## Counts\n\n" +
+         counts_table(document["sequences"]) +
+         "\nFarms are in one split as wholes, by their seed: of five seeds of each case the fourth "
+         "is validation, the fifth test.\n\n## Layout\n\nAs SemanticKITTI's: "
+         "`sequences/NN/velodyne/NNNNNN.bin` (float32 x, y, z, intensity 0 to 1, in the lidar's "
+         "frame), `labels/NNNNNN.label` (uint32: class in the lower 16 bits, plot in the upper "
+         "ones, 0 none), `plants/NNNNNN.plant` (uint32: plant, 0 none), `poses.txt` (world from "
+         "lidar, a row of 3 x 4 numbers a scan), `times.txt` (seconds). A scan is one turn of the "
+         "sensor. `dataset.json` has the classes, the sequences, their splits and counts, and the "
+         "plots' boxes and heights in the world's frame. Plotscan's docs/dataset.md says more."
+         "\n\n## Made again, bit by bit\n\nWith Plotscan " +
+         version() + ":\n\n```\n" + command +
+         "\n```\n\n## Licence\n\nApache-2.0, as the farms and plants of Plotscan that it is made "
+         "of. A suite with meshes of others has their licences too.\n";
+}
+
+}  // namespace
+
+std::string split_of(std::size_t seed_index) {
+  const std::size_t place = seed_index % 5;
+  return place == 3 ? "validation" : place == 4 ? "test" : "train";
+}
+
+DatasetSummary export_dataset(const DatasetOptions& options, const ProgressReport& progress) {
+  const Suite suite = chosen_suite(options.suite);
+  const std::vector<Sequence> sequences = sequences_of(suite);
+  OutputFolder folder(options.output, options.replace, kCommand, {{suite.file}});
+  const TemporaryPath work(folder.path().parent_path() /
+                           (".farmbench-dataset-" + std::to_string(getpid())));
+  json document = {{"format", "plotscan dataset 1"},
+                   {"plotscan", version()},
+                   {"suite", suite.name},
+                   {"classes", kClasses},
+                   {"sequences", json::array()}};
+  DatasetSummary summary{.farms = sequences.size()};
+  for (const Sequence& sequence : sequences) {
+    const auto done = static_cast<double>(document["sequences"].size());
+    document["sequences"].push_back(
+        write_sequence(sequence, folder.path() / "sequences" / sequence.name, work.path(),
+                       options.threads, [&](double share) {
+                         if (progress)
+                           progress((done + share) / static_cast<double>(sequences.size()));
+                       }));
+    summary.scans += document["sequences"].back()["scans"].get<std::size_t>();
+    summary.points += document["sequences"].back()["points"].get<std::uint64_t>();
+  }
+  write_text(folder.path() / "dataset.json", document.dump(1) + "\n");
+  write_text(folder.path() / "README.md", card(document, options.command));
+  write_manifest(folder.path(), {.command = kCommand,
+                                 .options = {{"suite", suite.name}, {"seeds", suite.seeds}},
+                                 .inputs = {suite.file}});
+  folder.commit();
+  return summary;
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/export/export_suite.h"
+
+#include <chrono>
+
+#include <unistd.h>
+
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "core/temporary_path.h"
+#include "farmbench/entry/sha256.h"
+#include "farmbench/export/task_sheet.h"
+#include "farmbench/text_file.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCommand = "farmbench export";
+constexpr double kFlown = 0.8;  // how far a field is when it has been flown
+
+const json& heights_asked() {
+  static const json heights = {
+      {"height_mean_m", "mean height of its plants"},
+      {"height_max_m", "height of its highest plant"},
+      {"height_p50_m", "median of its plants' heights"},
+      {"height_p90_m", "90th percentile of its plants' heights"},
+      {"height_p95_m", "95th percentile of its plants' heights"},
+      {"height_p99_m", "99th percentile of its plants' heights"},
+      {"canopy_p95_m", "height that 5 % of its area reach, bare soil included"},
+      {"canopy_p99_m", "height that 1 % of its area reach, bare soil included"}};
+  return heights;
+}
+
+// Makes the field's folder; what the task sheet says of it.
+json export_field(const BlindField& field, const ExportOptions& options, const fs::path& folder,
+                  const fs::path& work, const ProgressReport& progress) {
+  fs::create_directories(work);
+  fs::create_directories(folder);
+  const FarmPlace place{field.suite_case, field.seed, work, options.threads};
+  scan_farm(place, make_farm(place), [&](double share) {
+    if (progress) progress(kFlown * share);
+  });
+  const std::uint64_t points = write_blind_files(place, options.parts, folder);
+  json hashes = json::object();
+  for (const auto& entry : fs::directory_iterator(folder))
+    hashes[entry.path().filename().string()] = sha256_of_file(entry.path());
+  json told = {{"field", field.code},
+               {"points", points},
+               {"farm_sha256", sha256_of_folder(work / "farm" / "truth")},
+               {"sha256", hashes}};
+  fs::remove_all(work);
+  return told;
+}
+
+// The clock tells the order in which files were written.
+void set_times(const fs::path& folder) {
+  const auto instant = std::chrono::file_clock::from_sys(std::chrono::sys_seconds(
+      std::chrono::sys_days{std::chrono::year{2000} / std::chrono::January / 1}));
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    fs::last_write_time(entry.path(), instant);
+  fs::last_write_time(folder, instant);
+}
+
+}  // namespace
+
+ExportSummary export_suite(const ExportOptions& options, const ProgressReport& progress) {
+  const Suite suite = chosen_suite(options.suite);
+  require_parts(options.parts, suite);
+  const std::vector<BlindField> fields = blind_fields(suite, options.suite);
+  OutputFolder folder(options.output, options.replace, kCommand, {{options.suite.file}});
+  const TemporaryPath work(folder.path().parent_path() /
+                           (".farmbench-export-" + std::to_string(getpid())));
+  ExportSummary summary{.fields = fields.size()};
+  json task = {{"format", "plotscan task 1"}, {"plotscan", version()},
+               {"suite", suite.name},         {"boxes_given", options.parts.boxes},
+               {"heights", heights_asked()},  {"fields", json::array()}};
+  for (const BlindField& field : fields) {
+    const auto done = static_cast<double>(task["fields"].size());
+    task["fields"].push_back(
+        export_field(field, options, folder.path() / field.code, work.path(), [&](double share) {
+          if (progress) progress((done + share) / static_cast<double>(fields.size()));
+        }));
+    summary.points += task["fields"].back()["points"].get<std::uint64_t>();
+  }
+  write_text(folder.path() / "task.json", task.dump(1) + "\n");
+  write_text(folder.path() / "TASK.md", task_sheet(task));
+  write_manifest(folder.path(), {.command = kCommand, .options = {{"suite", suite.name}}});
+  set_times(folder.path());
+  folder.commit();
+  return summary;
+}
+
+}  // namespace plotscan::farmbench

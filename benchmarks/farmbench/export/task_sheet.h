@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace plotscan::farmbench {
+
+// TASK.md of an export: what entrants get, what is asked and how it is handed in. `task` is its
+// task.json (docs/submissions.md).
+std::string task_sheet(const nlohmann::json& task);
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "export_command.h"
+
+#include <memory>
+
+#include "core/data_folder.h"
+#include "core/text.h"
+#include "farmbench/export/dataset.h"
+#include "farmbench/export/export_suite.h"
+
+namespace plotscan {
+namespace {
+
+void run_export(const Program& program, farmbench::ExportOptions options) {
+  options.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  options.threads = program.common().threads;
+  const farmbench::ExportSummary summary =
+      farmbench::export_suite(options, program.progress(options.suite.file.stem().string()));
+  program.result({{"output", options.output.string()},
+                  {"fields", summary.fields},
+                  {"points", summary.points}});
+  program.say(formatted("%s: %zu fields, %.1f million points; TASK.md says what is asked",
+                        options.output.c_str(), summary.fields,
+                        1e-6 * static_cast<double>(summary.points)));
+}
+
+// The command line that writes the same data set.
+std::string dataset_command(const std::string& suite, const farmbench::ExportOptions& options) {
+  std::string command = "farmbench export " + suite + " --dataset -o DIR";
+  if (options.suite.seeds) command += " --seeds " + std::to_string(*options.suite.seeds);
+  if (options.suite.secret) command += " --secret-file SECRET";
+  return command;
+}
+
+void run_dataset(const Program& program, const farmbench::ExportOptions& options) {
+  farmbench::DatasetOptions dataset{
+      .suite = options.suite,
+      .output = options.output,
+      .replace = options.replace,
+      .command = dataset_command(options.suite.file.string(), options),
+      .threads = program.common().threads};
+  dataset.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  const farmbench::DatasetSummary summary =
+      farmbench::export_dataset(dataset, program.progress(dataset.suite.file.stem().string()));
+  program.result({{"output", options.output.string()},
+                  {"farms", summary.farms},
+                  {"scans", summary.scans},
+                  {"points", summary.points}});
+  program.say(formatted("%s: %zu farms, %zu scans, %.1f million points; README.md is its card",
+                        options.output.c_str(), summary.farms, summary.scans,
+                        1e-6 * static_cast<double>(summary.points)));
+}
+
+}  // namespace
+
+void declare_export(Program& program) {
+  const auto options = std::make_shared<farmbench::ExportOptions>();
+  const auto dataset = std::make_shared<bool>(false);
+  CLI::App& command = program.command(
+      "export",
+      "Write a suite's clouds for others: without labels to measure, or with them to learn.",
+      [&program, options, dataset] {
+        if (*dataset)
+          run_dataset(program, *options);
+        else
+          run_export(program, *options);
+      },
+      {.threads = true});
+  command.add_option("SUITE", options->suite.file, "suite (YAML), or the name of a shipped one")
+      ->required();
+  command.add_option("-o,--output", options->output, "folder to write")->required();
+  command
+      .add_option("--format", options->parts.formats,
+                  "pcd, las, and pcap for the sensor's packets, separated by commas (default: pcd)")
+      ->delimiter(',');
+  command.add_flag("--boxes", options->parts.boxes,
+                   "give the plots' boxes too (boxes.csv, boxes.geojson)");
+  command
+      .add_flag("--dataset", *dataset,
+                "write labelled scans to learn from in place of a task (docs/dataset.md)")
+      ->excludes("--format")
+      ->excludes("--boxes");
+  command.add_option(
+      "--seeds", options->suite.seeds,
+      "number of seeds of each case, from the suite's first one on (default: the suite's)");
+  command
+      .add_option("--secret-file", options->suite.secret,
+                  "file whose bytes the seeds are drawn from, of a blind contest")
+      ->check(CLI::ExistingFile);
+  command.add_flag("--force", options->replace, "replace OUTPUT, an earlier export");
+}
+
+}  // namespace plotscan

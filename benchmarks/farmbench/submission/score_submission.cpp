@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/submission/score_submission.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "core/temporary_path.h"
+#include "farmbench/entry/sha256.h"
+#include "farmbench/farm_scan.h"
+#include "farmbench/run.h"
+#include "farmbench/submission/submission.h"
+#include "farmbench/text_file.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCommand = "farmbench run";  // whose folders scores are added to
+
+// What is true of a field.
+struct FieldTruth {
+  std::vector<score::TruePlot> plots;
+  std::string farm_sha256;
+};
+
+FieldTruth truth_of(const BlindField& field, const fs::path& folder, int threads) {
+  fs::create_directories(folder);
+  const FarmPlace place{field.suite_case, field.seed, folder, threads};
+  make_farm(place);
+  FieldTruth truth{.plots = standing_plots(place),
+                   .farm_sha256 = sha256_of_folder(folder / "farm" / "truth")};
+  if (field.suite_case.without_plots) truth.plots.clear();
+  fs::remove_all(folder);
+  return truth;
+}
+
+// The field's entry in the submission's task.json, null where it has none.
+json told_of(const Submission& submission, const std::string& code) {
+  if (submission.task.is_null()) return {};
+  for (const json& field : submission.task["fields"])
+    if (field["field"] == code) return field;
+  return {};
+}
+
+void require_same_farm(const Submission& submission, const std::string& code,
+                       const FieldTruth& truth, Problems& problems) {
+  if (submission.task.is_null()) return;
+  const json told = told_of(submission, code);
+  if (told.is_null() || told["farm_sha256"] != truth.farm_sha256)
+    problems.add("task.json",
+                 "is of other farms: field " + code + " is not there, or has another farm_sha256");
+}
+
+std::string cloud_sha256(const Submission& submission, const std::string& code) {
+  const json told = told_of(submission, code);
+  if (told.is_null() || !told["sha256"].is_object()) return "";
+  for (const char* cloud : {"cloud.pcd", "cloud.las"})
+    if (told["sha256"].contains(cloud) && told["sha256"][cloud].is_string())
+      return told["sha256"][cloud];
+  return "";
+}
+
+EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submission& submission,
+                   const std::string& method) {
+  EnteredFarm farm{.case_name = field.suite_case.name,
+                   .seed = field.seed,
+                   .field = field.code,
+                   .farm_sha256 = truth.farm_sha256,
+                   .cloud_sha256 = cloud_sha256(submission, field.code),
+                   .file_sha256 = "",
+                   .result = {.method = method, .failure = {}, .score = {}}};
+  estimate::Estimate estimate{.method = method};
+  const auto entered = submission.fields.find(field.code);
+  if (entered == submission.fields.end()) {
+    farm.result.failure = "no file was handed in";
+  } else {
+    estimate.plots = entered->second.plots;
+    farm.file_sha256 = submission.file_sha256.at(field.code);
+  }
+  farm.result.score = score::score_field(truth.plots, estimate);
+  return farm;
+}
+
+// Scores of a submission that is sound; throws where it is not.
+Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
+                   const ProgressReport& progress) {
+  const std::vector<BlindField> fields = blind_fields(suite, options.suite);
+  Problems problems;
+  Submission submission = read_submission(options.submission, fields, problems);
+  problems.raise(options.submission);
+  const TemporaryPath work(fs::temp_directory_path() /
+                           (".farmbench-score-" + std::to_string(getpid())));
+  std::vector<FieldTruth> truths;
+  for (const BlindField& field : fields) {
+    truths.push_back(truth_of(field, work.path(), options.threads));
+    const auto entered = submission.fields.find(field.code);
+    if (entered != submission.fields.end())
+      take_boxes(entered->second, truths.back().plots, problems);
+    require_same_farm(submission, field.code, truths.back(), problems);
+    if (progress) progress(static_cast<double>(truths.size()) / static_cast<double>(fields.size()));
+  }
+  problems.raise(options.submission);
+  Entry entry{.method = submission.method + (submission.in_given_boxes() ? " true-boxes" : ""),
+              .suite = suite.name,
+              .program_sha256 = submission.program_sha256,
+              .scorer_sha256 = sha256_of_file("/proc/self/exe"),
+              .farms = {}};
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    entry.farms.push_back(scored(fields[i], truths[i], submission, entry.method));
+  return entry;
+}
+
+using Farms = std::set<std::pair<std::string, std::uint64_t>>;
+
+// The results that the folder holds, without entries; where it holds none, the suite's farms
+// without a method.
+SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
+  std::vector<FarmResult> farms;
+  Farms wanted;
+  for (const SuiteCase& suite_case : suite.cases) {
+    for (const std::uint64_t seed : suite.seeds) {
+      farms.push_back({.case_name = suite_case.name, .seed = seed, .made_from = {}, .methods = {}});
+      wanted.emplace(suite_case.name, seed);
+    }
+  }
+  const fs::path file = output / "results.json";
+  if (!fs::exists(file)) {
+    SuiteResult result = result_of(suite, std::move(farms));
+    result.methods.clear();
+    return result;
+  }
+  SuiteResult result = read_results(output);
+  Farms held;
+  for (FarmResult& farm : result.farms) {
+    held.emplace(farm.case_name, farm.seed);
+    std::erase_if(farm.methods, [&](const MethodResult& method) {
+      return std::ranges::count(result.entered, method.method) > 0;
+    });
+  }
+  if (result.suite != suite.name || held != wanted)
+    throw InputError(file,
+                     "holds results of other farms; name the suite, the seeds and the secret "
+                     "that it was run with, or another folder");
+  std::erase_if(result.methods, [&](const std::string& method) {
+    return std::ranges::count(result.entered, method) > 0;
+  });
+  result.entered.clear();
+  return result;
+}
+
+void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, SuiteResult result) {
+  const fs::path& output = *options.output;
+  json results = {{"farms", result.farms.size()}, {"finished", false}};
+  if (fs::exists(output / "manifest.json")) results = read_manifest(output)["results"];
+  fs::create_directories(output);
+  const Manifest manifest{.command = kCommand,
+                          .seed = options.seed,
+                          .inputs = {options.suite.file},
+                          .results = std::move(results)};
+  write_manifest(output, manifest);
+  write_entry(output, entry);
+  add_entries(output, result);
+  write_text(output / "results.json", to_json(result).dump(1) + "\n");
+  report(output, options.seed);
+  write_manifest(output, manifest);
+}
+
+ScoredSubmission alone(const Entry& entry, const Suite& suite, std::uint64_t seed) {
+  ScoredSubmission scored;
+  std::vector<FarmResult> farms;
+  for (const SuiteCase& suite_case : suite.cases) {
+    for (const EnteredFarm& farm : entry.farms) {
+      if (farm.case_name != suite_case.name) continue;
+      farms.push_back({.case_name = farm.case_name,
+                       .seed = farm.seed,
+                       .made_from = {},
+                       .methods = {farm.result}});
+      if (farm.file_sha256.empty()) scored.missing.push_back(farm.field);
+    }
+  }
+  scored.result = result_of(suite, std::move(farms));
+  scored.result.methods = scored.result.entered = {entry.method};
+  scored.table = make_table(scored.result, seed);
+  return scored;
+}
+
+}  // namespace
+
+ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
+                                  const ProgressReport& progress) {
+  const Suite suite = chosen_suite(options.suite);
+  std::optional<SuiteResult> earlier;
+  if (options.output) {
+    require_own_folder(*options.output, kCommand);
+    require_apart(*options.output, {{options.submission}});
+    earlier = earlier_results(*options.output, suite);
+  }
+  const Entry entry = score_fields(options, suite, progress);
+  if (earlier) {
+    if (std::ranges::count(earlier->methods, entry.method) > 0)
+      throw InputError(options.submission,
+                       "\"" + entry.method + "\" is the name of another method of the results");
+    add_to_results(options, entry, std::move(*earlier));
+  }
+  return alone(entry, suite, options.seed);
+}
+
+}  // namespace plotscan::farmbench

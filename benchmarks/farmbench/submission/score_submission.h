@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "farmbench/entries.h"
+#include "farmbench/suite_choice.h"
+#include "farmbench/table.h"
+
+namespace plotscan::farmbench {
+
+struct ScoreSubmissionOptions {
+  std::filesystem::path submission;  // a folder
+  SuiteChoice suite;
+  // Results folder that the scores are added to; made where there is none.
+  std::optional<std::filesystem::path> output = std::nullopt;
+  int threads = 1;
+  std::uint64_t seed = 1;  // of the bootstrap
+};
+
+struct ScoredSubmission {
+  SuiteResult result;  // of the submission alone
+  std::vector<TableRow> table;
+  std::vector<std::string> missing;  // fields without a file: nothing of them was found
+};
+
+// Makes the suite's farms again, without flying them, and scores what was handed in as run_farm
+// scores a method; adds it to the results folder's results.json, tables and report. Throws
+// InputError, before anything is written, with all that is wrong with the submission, and where it
+// was made for other farms or the folder holds results of others.
+ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
+                                  const ProgressReport& progress = {});
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "benchmarks/blind_suite.h"
+#include "methods/lattice/lattice.h"
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "farmbench/entry/sha256.h"
+#include "farmbench/farm_scan.h"
+#include "farmbench/run.h"
+#include "farmbench/submission/score_submission.h"
+#include "farmbench/submission/submission.h"
+#include "farmbench/suite_page.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using plotscan::testing::message_of;
+using plotscan::testing::TemporaryFolder;
+using plotscan::testing::write_blind_suite;
+using ::testing::HasSubstr;
+
+constexpr const char* kStatement = R"({"method": "mine"})";
+
+const TableRow& row_of(const std::vector<TableRow>& table, std::string_view case_name,
+                       std::string_view method, std::string_view truth) {
+  const auto found = std::ranges::find_if(table, [&](const TableRow& row) {
+    return row.case_name == case_name && row.method == method && row.truth == truth;
+  });
+  if (found == table.end()) throw std::runtime_error("no row " + std::string(method));
+  return *found;
+}
+
+// What read_entered_plots makes of a file, and all that is wrong with it.
+struct Read {
+  EnteredPlots plots;
+  std::string problems;
+};
+
+Read read_file(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  Problems problems;
+  Read read{.plots = read_entered_plots(folder.write(name, text), problems), .problems = ""};
+  try {
+    problems.raise(folder.path());
+  } catch (const InputError& error) {
+    read.problems = error.what();
+  }
+  return read;
+}
+
+TEST(EnteredPlots, ATableMayHaveBoxesHeightsAndIntervals) {
+  const TemporaryFolder folder;
+  const Read read =
+      read_file(folder, "a.csv",
+                "plot_number,center_x_m,center_y_m,width_m,length_m,heading_deg,height_p99_m,"
+                "low95_height_p99_m,high95_height_p99_m,canopy_p95_m,confidence,flags\n"
+                "A-1,1,2,0.5,4,90,0.8,0.7,0.9,NA,0.5,lodged; few points\n"
+                "0102,3,2,0.5,4,90,,,,0.6,,\n");
+  EXPECT_EQ(read.problems, "");
+  ASSERT_EQ(read.plots.plots.size(), 2U);
+  EXPECT_TRUE(read.plots.boxes_stated);
+  const estimate::PlotEstimate& first = read.plots.plots[0];
+  EXPECT_EQ(first.id.text(), "A-1");
+  EXPECT_EQ(first.box.center, Eigen::Vector2d(1, 2));
+  EXPECT_NEAR(first.box.heading_rad, std::acos(0.0), 1e-15);
+  EXPECT_EQ(first.heights_m, (std::map<std::string, double>{{"p99", 0.8}}));
+  EXPECT_EQ(first.errors.at("p99").low95_m, 0.7);
+  EXPECT_EQ(first.errors.at("p99").high95_m, 0.9);
+  EXPECT_TRUE(std::isnan(first.errors.at("p99").standard_error_m));
+  EXPECT_EQ(first.confidence, 0.5);
+  EXPECT_EQ(first.flags, (std::vector<std::string>{"lodged", "few points"}));
+  EXPECT_EQ(read.plots.plots[1].id.text(), "0102");
+  EXPECT_EQ(read.plots.plots[1].heights_m, (std::map<std::string, double>{{"canopy_p95", 0.6}}));
+}
+
+TEST(EnteredPlots, BoxesAloneAndHeightsAloneWillDo) {
+  const TemporaryFolder folder;
+  const Read boxes =
+      read_file(folder, "a.csv", "center_x_m,center_y_m,width_m,length_m,heading_deg\n1,2,1,4,0\n");
+  EXPECT_EQ(boxes.problems, "");
+  EXPECT_TRUE(boxes.plots.boxes_stated);
+  EXPECT_TRUE(boxes.plots.plots.at(0).heights_m.empty());
+  Read heights = read_file(folder, "b.csv", "plot_number,height_p99_m\n7,0.5\n8,0.6\n");
+  EXPECT_EQ(heights.problems, "");
+  EXPECT_FALSE(heights.plots.boxes_stated);
+  Problems problems;
+  take_boxes(heights.plots,
+             {{.id = 7, .box = {.center = {3, 4}, .width_m = 1, .length_m = 2}},
+              {.id = 8, .box = {.width_m = 1, .length_m = 1}, .scored = false}},
+             problems);
+  EXPECT_EQ(heights.plots.plots[0].box.center, Eigen::Vector2d(3, 4));
+  EXPECT_THAT(message_of<InputError>([&] { problems.raise("there"); }),
+              HasSubstr("b.csv:3: no box has the plot_number 8"));
+}
+
+TEST(EnteredPlots, GeoJsonIsReadAsAnyMapOfPlots) {
+  const TemporaryFolder folder;
+  const Read read = read_file(folder, "a.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "id": 4, "properties": {"height_max_m": 1.5, "crop": "oats"},
+     "geometry": {"type": "Polygon", "coordinates": [[[0,0],[4,0],[4,1],[0,1],[0,0]]]}}]})");
+  EXPECT_EQ(read.problems, "");
+  ASSERT_EQ(read.plots.plots.size(), 1U);
+  EXPECT_EQ(read.plots.plots[0].id.text(), "4");
+  EXPECT_NEAR(read.plots.plots[0].box.length_m, 4, 1e-9);
+  EXPECT_NEAR(read.plots.plots[0].box.width_m, 1, 1e-9);
+  EXPECT_EQ(read.plots.plots[0].heights_m.at("max"), 1.5);
+}
+
+TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
+  const TemporaryFolder folder;
+  const std::string told =
+      read_file(folder, "a.csv",
+                "plot_number,center_x_m,center_y_m,width_m,length_m,heading_deg,heigth_p99_m,"
+                "height_p95_m,low95_height_p95_m,high95_height_p95_m,confidence\n"
+                "1,1,2,0.5,4,90,0.8,tall,,,\n"
+                "2,1,2,,4,90,0.8,0.7,,,\n"
+                "2,1,2,-1,4,90,0.8,0.7,0.9,0.8,7\n"
+                "3,1,2,1,4,90,0.8,,0.9,,\n"
+                "4,1,2,1,4,90,0.8,1e9,,,\n"
+                "5,,,,,,,1,,,\n")
+          .problems;
+  for (const char* problem :
+       {"10 problems", "a.csv:1: there is no column \"heigth_p99_m\"; height_p99_m may be meant",
+        "a.csv:2: height_p95_m is \"tall\"; it must be a number, or empty",
+        "a.csv:3: a box is center_x_m", "a.csv:4: plot_number 2 stands in a.csv:3 as well",
+        "a.csv:4: its box has no width", "a.csv:4: the interval of height_p95_m has two ends",
+        "a.csv:4: confidence is 7", "a.csv:5: low95_height_p95_m belongs to height_p95_m",
+        "a.csv:6: height_p95_m is 1000000000.0; it must be metres",
+        "a.csv: 5 of its 6 plots have boxes; all do, or none"}) {
+    EXPECT_THAT(told, HasSubstr(problem));
+  }
+  EXPECT_THAT(read_file(folder, "a.geojson", R"({"features": [{"properties": {"height_max_m": "x"},
+    "geometry": {"type": "Point", "coordinates": [1, 2]}}, 7]})")
+                  .problems,
+              ::testing::AllOf(HasSubstr("a.geojson: feature 1: has geometry \"Point\""),
+                               HasSubstr("a.geojson: feature 1: height_max_m is \"x\""),
+                               HasSubstr("a.geojson: feature 2: is no feature")));
+  for (const char* text : {"{", "{\"features\": 3}", "", "\x01\x02"})
+    EXPECT_NE(read_file(folder, "b.csv", text).problems, "") << text;
+  fs::create_symlink("/etc/passwd", folder.path() / "c.csv");
+  Problems problems;
+  read_entered_plots(folder.path() / "c.csv", problems);
+  EXPECT_THAT(message_of<InputError>([&] { problems.raise("there"); }), HasSubstr("is no file"));
+}
+
+// The blind suite run once by our own method, and what that method says of each field.
+class Scoring : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    choice_ = {.file = write_blind_suite(folder_)};
+    suite_ = chosen_suite(choice_);
+    fields_ = blind_fields(suite_, choice_);
+    submission_ = folder_.path() / "submission";
+    fs::create_directories(submission_);
+  }
+
+  ScoreSubmissionOptions options() const {
+    return {.submission = submission_, .suite = choice_, .output = folder_.path() / "results"};
+  }
+  void write(const std::string& file, const std::string& text) const {
+    folder_.write("submission/" + file, text);
+  }
+  RunSummary run_suite() const {
+    return run({.suite = choice_.file, .output = folder_.path() / "results", .build = "test"});
+  }
+  // The first field's estimate is handed in as GeoJSON, the second one's as a table.
+  void hand_in_lattice() const {
+    write("submission.json", kStatement);
+    for (const BlindField& field : fields_) {
+      const fs::path work = folder_.path() / "work" / field.code;
+      fs::create_directories(work);
+      const FarmPlace place{field.suite_case, field.seed, work, 1};
+      estimate::write_estimate(
+          work, methods::lattice::estimate_plots(scan_farm(place, make_farm(place), {}).cloud, {}));
+      const bool as_table = field.code == fields_.back().code;
+      write(field.code + (as_table ? ".csv" : ".geojson"),
+            read_text(work / (as_table ? "heights.csv" : "plots.geojson")));
+    }
+  }
+
+  TemporaryFolder folder_;
+  SuiteChoice choice_;
+  Suite suite_;
+  std::vector<BlindField> fields_;
+  fs::path submission_;
+};
+
+TEST_F(Scoring, GivesTheScoresOfOurOwnMethodToTheSameEstimate) {
+  const RunSummary own = run_suite();
+  hand_in_lattice();
+  const ScoredSubmission scored = score_submission(options());
+  EXPECT_TRUE(scored.missing.empty());
+  for (const TableRow& row : own.table) {
+    const std::string height = row.method.substr(std::string("lattice").size());
+    const TableRow& entered = row_of(scored.table, row.case_name, "mine" + height, row.truth);
+    EXPECT_EQ(entered.found, row.found);
+    EXPECT_EQ(entered.extra, row.extra);
+    EXPECT_NEAR(entered.iou_mean, row.iou_mean, 1e-9);
+    EXPECT_NEAR(entered.rmse_m, row.rmse_m, 1e-12);
+    EXPECT_NEAR(entered.bias_m, row.bias_m, 1e-12);
+    EXPECT_EQ(entered.flagged, row.flagged);
+    if (row.named) {
+      EXPECT_EQ(entered.coverage95, row.coverage95);
+    }
+  }
+}
+
+TEST_F(Scoring, AddsToTablesAndReportAndStaysThere) {
+  run_suite();
+  const fs::path results = folder_.path() / "results";
+  hand_in_lattice();
+  score_submission(options());
+  const std::string table = read_text(results / "table.csv");
+  EXPECT_THAT(table, HasSubstr("blindsuite,zq-even-hidden,mine/p99,height_p99_m,1,4,4,0,0,"));
+  EXPECT_THAT(table, HasSubstr("blindsuite,zq-even-hidden,lattice/p99,"));
+  EXPECT_THAT(read_text(results / "leaderboard.md"), HasSubstr("| mine/p99 |"));
+  const SuiteResult added = read_results(results);
+  const json page = suite_document(added, make_table(added, 1));
+  EXPECT_TRUE(std::ranges::any_of(page["series"],
+                                  [](const json& series) { return series["row"] == "mine/p99"; }));
+  const json entry = json::parse(read_text(results / "entries" / "mine.json"));
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const auto farm = std::ranges::find_if(entry["farms"], [&](const json& candidate) {
+      return candidate["field"] == fields_[i].code;
+    });
+    ASSERT_NE(farm, entry["farms"].end());
+    EXPECT_EQ((*farm)["farm_sha256"],
+              sha256_of_folder(folder_.path() / "work" / fields_[i].code / "farm" / "truth"));
+  }
+  score_submission(options());  // again: it takes its own place
+  EXPECT_EQ(read_text(results / "table.csv"), table);
+  report(results, 1);
+  EXPECT_EQ(read_text(results / "table.csv"), table);
+  EXPECT_EQ(run_suite().resumed, 2U);
+  EXPECT_EQ(read_text(results / "table.csv"), table);
+}
+
+TEST_F(Scoring, HeightsInGivenBoxesHaveRowsOfTheirOwn) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n2,0.8\n");
+  const ScoredSubmission scored = score_submission(options());  // into a new results folder
+  EXPECT_EQ(scored.missing, std::vector<std::string>{fields_[1].code});
+  const TableRow& row =
+      row_of(scored.table, fields_[0].suite_case.name, "mine/p99 true-boxes", "height_p99_m");
+  EXPECT_EQ(row.found, 2U);
+  EXPECT_EQ(row.missed, 2U);
+  EXPECT_EQ(row.iou_min, 1);
+  const TableRow& missing =
+      row_of(scored.table, fields_[1].suite_case.name, "mine/p99 true-boxes", "height_p99_m");
+  EXPECT_EQ(missing.found, 0U);
+  EXPECT_EQ(missing.missed, 4U);
+  EXPECT_TRUE(fs::exists(folder_.path() / "results" / "report.html"));
+}
+
+TEST_F(Scoring, BoxesWithoutHeightsAreScoredAsBoxes) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv",
+        "center_x_m,center_y_m,width_m,length_m,heading_deg\n50,50,1,4,0\n");
+  const ScoredSubmission scored = score_submission(options());
+  const TableRow& row = row_of(scored.table, fields_[0].suite_case.name, "mine", "height_max_m");
+  EXPECT_EQ(row.found, 0U);
+  EXPECT_EQ(row.extra, 1U);
+  EXPECT_TRUE(std::isnan(row.rmse_m));
+}
+
+TEST_F(Scoring, RefusesAllThatIsWrongAtOnceAndWritesNothing) {
+  write("submission.json", R"({"method": "lattice", "team": "x", "program_sha256": "12"})");
+  write("0123456789.csv", "plot_number,height_p99_m\n1,0.8\n");
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,x\n");
+  write(fields_[0].code + ".geojson", "{}");
+  write("task.json", "{}");
+  const std::string told = message_of<InputError>([&] { score_submission(options()); });
+  for (const char* problem :
+       {"\"lattice\" is one of Plotscan's methods", "\"team\" is none of", "is no SHA-256",
+        "0123456789.csv: no field is called 0123456789", ".csv:2: height_p99_m is \"x\"",
+        ".geojson: the field has another file", "task.json: is not the task.json of an export"}) {
+    EXPECT_THAT(told, HasSubstr(problem));
+  }
+  EXPECT_FALSE(fs::exists(folder_.path() / "results"));
+}
+
+TEST_F(Scoring, RefusesOtherFarms) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  json fields = json::array();
+  for (const BlindField& field : fields_)
+    fields.push_back(
+        {{"field", field.code}, {"farm_sha256", std::string(64, '0')}, {"sha256", json::object()}});
+  write("task.json", json({{"fields", fields}}).dump());
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }),
+              HasSubstr("task.json: is of other farms: field " + fields_[0].code));
+  fs::remove(submission_ / "task.json");
+  score_submission(options());
+  ScoreSubmissionOptions other = options();
+  other.suite.seeds = 2;
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(other); }),
+              HasSubstr("holds results of other farms"));
+  other.submission = folder_.path() / "nothing";
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(other); }), HasSubstr("other farms"));
+}
+
+}  // namespace
+}  // namespace plotscan::farmbench
