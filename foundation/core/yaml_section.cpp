@@ -97,7 +97,8 @@ YAML::Node parse_map(const std::string& text, const std::filesystem::path& file)
 }
 
 std::string path_below(const std::string& path, const std::string& key) {
-  return path.empty() ? key : path + "." + key;
+  if (path.empty() || key.empty()) return path + key;
+  return path + "." + key;
 }
 
 // A scalar as a map with that one key.
