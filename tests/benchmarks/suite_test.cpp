@@ -198,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{with("[oracle-ground]", "[oracle-ground: {voxel_m: 1}]"),
                  ":5: methods do not hold: there is no method \"oracle-ground voxel_m=1\""},
         BadSuite{with("[oracle-ground]", "[{lattice: {rows: 2}, dhami2020: {}}]"),
-                 ":5: methods.0 has to be a method's name, or name: {key: value}"},
+                 ":5: methods.0 has to be a method's name, name: {key: value}, or"},
         BadSuite{with("[oracle-ground]", "[oracle-ground, oracle-ground]"), ":5: methods name"},
         BadSuite{with("name: mine", "name: a/b"), ":1: name \"a/b\" is not a name"},
         BadSuite{with("name: mine\n", ""), ":1: name is missing"},
