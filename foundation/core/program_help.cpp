@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/program_help.h"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -13,12 +14,16 @@ namespace {
 constexpr std::size_t kTextColumn = 28;
 constexpr std::size_t kColumns = 100;
 
-// CLI11 has a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]".
+constexpr const char* kRange = " in [";
+
+// CLI11 has a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]", a setting a range as
+// "INT in [0, 255]".
 std::string value_of(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string type = option.get_type_name();
   const std::string choices = joined(choices_of(option), ",");
-  std::string value = choices.empty() ? type.substr(0, type.find(':')) : "{" + choices + "}";
+  const std::size_t end = std::min(type.find(':'), type.find(kRange));
+  std::string value = choices.empty() ? type.substr(0, end) : "{" + choices + "}";
   if (option.get_expected_max() == CLI::detail::expected_max_vector_size)
     value += "...";
   else if (option.get_expected_min() > 1)
@@ -28,11 +33,15 @@ std::string value_of(const CLI::Option& option) {
 
 std::string range_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  const auto begin = type.find(" in [");
-  const auto middle = type.find(" - ", begin);
-  if (begin == std::string::npos || middle == std::string::npos) return "";
-  return type.substr(begin + 5, middle - begin - 5) + " to " +
-         type.substr(middle + 3, type.find(']', middle) - middle - 3);
+  const std::size_t begin = type.find(kRange);
+  if (begin == std::string::npos) return "";
+  const std::size_t low = begin + std::string(kRange).size();
+  std::string range = type.substr(low, type.find(']', low) - low);
+  for (const std::string between : {" - ", ", "}) {
+    const std::size_t middle = range.find(between);
+    if (middle != std::string::npos) return range.replace(middle, between.size(), " to ");
+  }
+  return "";
 }
 
 std::string excluded_by(const CLI::Option& option) {

@@ -111,14 +111,14 @@ TEST(OutputFolder, KeepsWhatCameWhileItWasWritten) {
 
 TEST(OutputFolder, LiesApartFromItsInputs) {
   const testing::TemporaryFolder folder;
-  const fs::path farm = folder.write("data/farm/manifest.json", kManifest).parent_path();
+  const fs::path farm = folder.write("data/field/manifest.json", kManifest).parent_path();
   fs::create_symlink(farm, folder.path() / "link");
   const std::vector<fs::path> inputs = {farm / "manifest.json"};
   const auto make = [&](const fs::path& out) {
     const OutputFolder made(out, true, "farmgen generate", inputs);
   };
   for (const fs::path& out :
-       {farm, farm / "scan", farm / "a/b", farm / "../farm/scan", farm.parent_path(),
+       {farm, farm / "scan", farm / "a/b", farm / "../field/scan", farm.parent_path(),
         folder.path() / "link/scan", folder.path() / "link"}) {
     EXPECT_THROW(make(out), InputError) << out;
   }

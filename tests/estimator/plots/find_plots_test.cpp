@@ -54,6 +54,12 @@ bool in_two_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
   return std::abs(std::abs(from_center.y()) - 0.375) < 0.18;
 }
 
+// Five rows that show as two pairs with a row between them.
+bool in_five_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
+  const double off_m = std::abs(from_center.y());
+  return off_m < 0.15 || (off_m > 0.24 && off_m < 0.68);
+}
+
 // Squares of 0.25 m of which one of three holds a plant, drawn for each plot.
 bool in_clumps(const PlotBox& box, const Eigen::Vector2d& from_center) {
   const Eigen::Vector2i square = (from_center / 0.25).array().floor().cast<int>();
@@ -114,6 +120,9 @@ TEST(FindPlots, KeepsAPlaceThatNoRowFills) {
 }
 
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
+TEST(FindPlots, PutsPairsOfDrillRowsWithARowBetweenThemTogether) {
+  expect_found({.gap_m = 0.36}, in_five_drill_rows, 0.85);
+}
 TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_clumps, 0.8); }
 
 // Strips side by side may be the rows of one plot, or plots: the user may know.
