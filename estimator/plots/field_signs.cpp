@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,7 +29,11 @@ constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;
 constexpr double kLeastSquarenessOfFew = 1.05;
-constexpr double kMostUneven = 0.45;   // plots reach 0.3; trees two by two 0.7, bushes 1.1
+// Closed plots reach 0.3, plots of few single plants 0.5 as these stand at random: not in the mean
+// of all plots, and little stands beside the plots. Trees two by two: 0.7, in the mean too; bushes:
+// 0.5 and more, which hold up to 0.7 of the canopy.
+constexpr double kMostUneven = 0.45;
+constexpr double kLeastHeldOfUneven = 0.85;
 constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
 constexpr double kLeastFilled = 0.6;   // of the places
 constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
@@ -135,30 +141,59 @@ double filled_share(const Lattice& lattice) {
   return static_cast<double>(lattice.places.size()) / std::max(1.0, places);
 }
 
-// Median over the plots of the spread over the mean of their pieces' canopy.
-double unevenness_of(const Lattice& lattice) {
-  std::vector<double> spreads;
-  for (const Place& place : lattice.places) {
-    const CellBox box = cells_about(lattice, place, 0);
-    const auto parts = [](double size_m) {
-      return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
-    };
-    const int r_parts = parts(lattice.r_size_m), c_parts = parts(lattice.c_size_m);
-    double sum = 0, squares = 0;
-    for (int i = 0; i < r_parts; ++i) {
-      for (int k = 0; k < c_parts; ++k) {
-        const double canopy = lattice.view.cover(box.r0 + (box.r1 - box.r0) * i / r_parts,
-                                                 box.r0 + (box.r1 - box.r0) * (i + 1) / r_parts,
-                                                 box.c0 + (box.c1 - box.c0) * k / c_parts,
-                                                 box.c0 + (box.c1 - box.c0) * (k + 1) / c_parts);
-        sum += canopy;
-        squares += canopy * canopy;
-      }
-    }
-    const double pieces = r_parts * c_parts, mean = sum / pieces;
-    spreads.push_back(std::sqrt(std::max(0.0, squares / pieces - mean * mean)) /
-                      std::max(1e-9, mean));
+// Canopy of the square metres of a plot, or of the mean plot; one after the other along its sides.
+class Pieces {
+ public:
+  explicit Pieces(const Lattice& lattice)
+      : lattice_(lattice),
+        r_parts_(parts_of(lattice.r_size_m)),
+        c_parts_(parts_of(lattice.c_size_m)) {}
+
+  std::vector<double> of(const Place& place) const {
+    const CellBox box = cells_about(lattice_, place, 0);
+    std::vector<double> canopy;
+    for (int i = 0; i < r_parts_; ++i)
+      for (int k = 0; k < c_parts_; ++k)
+        canopy.push_back(lattice_.view.cover(box.r0 + (box.r1 - box.r0) * i / r_parts_,
+                                             box.r0 + (box.r1 - box.r0) * (i + 1) / r_parts_,
+                                             box.c0 + (box.c1 - box.c0) * k / c_parts_,
+                                             box.c0 + (box.c1 - box.c0) * (k + 1) / c_parts_));
+    return canopy;
   }
+
+  std::vector<double> of_mean_plot() const {
+    std::vector<double> sum(static_cast<std::size_t>(r_parts_ * c_parts_));
+    for (const Place& place : lattice_.places) {
+      const std::vector<double> canopy = of(place);
+      std::ranges::transform(sum, canopy, sum.begin(), std::plus());
+    }
+    return sum;
+  }
+
+ private:
+  static int parts_of(double size_m) {
+    return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
+  }
+
+  const Lattice& lattice_;
+  int r_parts_, c_parts_;
+};
+
+double spread_over_mean(std::span<const double> canopy) {
+  double sum = 0, squares = 0;
+  for (const double value : canopy) {
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / static_cast<double>(canopy.size());
+  return std::sqrt(std::max(0.0, squares / static_cast<double>(canopy.size()) - mean * mean)) /
+         std::max(1e-9, mean);
+}
+
+// Median over the plots.
+double unevenness_of(const Lattice& lattice, const Pieces& pieces) {
+  std::vector<double> spreads;
+  for (const Place& place : lattice.places) spreads.push_back(spread_over_mean(pieces.of(place)));
   return quantile(std::move(spreads), 0.5);
 }
 
@@ -174,13 +209,15 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
 FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
                     double evidence) {
   const RowView& view = lattice.view;
+  const Pieces pieces(lattice);
   const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
   FieldSigns signs{.plots = lattice.places.size(),
                    .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
                    .squareness = squareness_of(lattice),
                    .roughness = roughness(lattice, field.points(), noise_m),
-                   .unevenness = unevenness_of(lattice),
+                   .unevenness = unevenness_of(lattice, pieces),
+                   .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
                    .aspect = std::max(lattice.r_size_m, lattice.c_size_m) /
                              std::min(lattice.r_size_m, lattice.c_size_m),
                    .least_gap_m = least_gap_m(lattice),
@@ -199,7 +236,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   const bool few = signs.plots < kFewPlots;
   if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
-  if (signs.unevenness > kMostUneven)
+  if (signs.mean_unevenness > kMostUneven ||
+      (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
     return "single bushes or trees stand here, not plots that are covered by a crop";
   if (signs.held_share < kLeastHeld || signs.filled_share < kLeastFilled ||
       signs.evidence < kLeastEvidence || field_confidence(signs) < kLeastConfidence)

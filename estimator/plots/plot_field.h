@@ -28,9 +28,10 @@ struct FieldSigns {
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
   double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
-  double aspect = 0;         // length of a plot over its width
-  double least_gap_m = 0;    // between plots, along their length or their width
-  double evidence = 0;       // for a plot, over one canopy without them: Schwarz's criterion, nats
+  double mean_unevenness = 0;  // the same of the plots' mean
+  double aspect = 0;           // length of a plot over its width
+  double least_gap_m = 0;      // between plots, along their length or their width
+  double evidence = 0;  // for a plot, over one canopy without them: Schwarz's criterion, nats
 };
 
 // The layout of a field's plots, and how well it fits.

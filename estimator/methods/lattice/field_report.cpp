@@ -38,6 +38,7 @@ json json_of(const plots::FieldSigns& signs) {
           {"aspect", signs.aspect},
           {"roughness", signs.roughness},
           {"unevenness", signs.unevenness},
+          {"mean_unevenness", signs.mean_unevenness},
           {"evidence_per_plot", signs.evidence}};
 }
 

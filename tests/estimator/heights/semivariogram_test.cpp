@@ -95,6 +95,24 @@ TEST(Semivariogram, DoesNotChangeWithTheDensity) {
   for (std::size_t lag = 0; lag < kLags; ++lag) EXPECT_NEAR(sparse[lag], dense[lag], 0.08) << lag;
 }
 
+// Stubble between the leaves, without any order, counts in the values of all returns only.
+TEST(Semivariogram, OfAPartComparesTheReturnsOfThatPart) {
+  const auto canopy = [](const Eigen::Vector2d& p) { return 0.44 + 0.5 * (waves(p, 12) - 0.4); };
+  std::vector<Eigen::Vector3f> points = returns_of(canopy, 4000);
+  const std::vector<double> alone = values_of(points);
+  RandomStream random(5, random_purpose("stubble"), 0);
+  const std::vector<Eigen::Vector3f> stubble =
+      returns_of([&](const Eigen::Vector2d&) { return random.uniform(0, 0.19); }, 1500);
+  points.insert(points.end(), stubble.begin(), stubble.end());
+  std::ranges::sort(points, std::greater(), [](const auto& point) { return point.z(); });
+  const std::vector<double> both = values_of(points);
+  for (std::size_t lag = 0; lag < kLags; ++lag) {
+    EXPECT_GT(both[lag], alone[lag] + 0.1) << lag;
+    EXPECT_NEAR(both[kLags + lag], alone[kLags + lag], 0.05) << lag;
+    EXPECT_NEAR(both[2 * kLags + lag], alone[2 * kLags + lag], 0.05) << lag;
+  }
+}
+
 TEST(Semivariogram, AFlatOrNearlyEmptyPlotHasNeutralValues) {
   for (const double value : values_of(returns_of([](const Eigen::Vector2d&) { return 0.3; }, 2000)))
     EXPECT_EQ(value, 1);

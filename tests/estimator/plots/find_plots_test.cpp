@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "plots/field_signs.h"
 
 namespace plotscan::plots {
 namespace {
@@ -60,12 +61,29 @@ bool in_five_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
   return off_m < 0.15 || (off_m > 0.24 && off_m < 0.68);
 }
 
-// Squares of 0.25 m of which one of three holds a plant, drawn for each plot.
-bool in_clumps(const PlotBox& box, const Eigen::Vector2d& from_center) {
+// A number of its own for each plot.
+std::uint64_t number_of(const PlotBox& box) {
+  return static_cast<std::uint64_t>(std::llround(1000 * std::abs(box.center.sum())));
+}
+
+// Squares of 0.25 m of which a share holds a plant, drawn for each plot.
+bool in_clumps(const PlotBox& box, const Eigen::Vector2d& from_center, double share) {
   const Eigen::Vector2i square = (from_center / 0.25).array().floor().cast<int>();
-  const auto plot = static_cast<std::uint64_t>(std::llround(1000 * std::abs(box.center.sum())));
   const auto index = static_cast<std::uint64_t>((square.x() + 64) * 128 + square.y() + 64);
-  return RandomStream(plot, random_purpose("test/clump"), index).uniform() < 0.35;
+  return RandomStream(number_of(box), random_purpose("test/clump"), index).uniform() < share;
+}
+
+bool in_one_of_three_clumps(const PlotBox& box, const Eigen::Vector2d& from_center) {
+  return in_clumps(box, from_center, 0.35);
+}
+
+// Dense at one end of the plot and thin at the other.
+bool at_one_end(const PlotBox& box, const Eigen::Vector2d& from_center) {
+  return in_clumps(box, from_center, from_center.x() < 0 ? 0.9 : 0.25);
+}
+
+bool at_either_end(const PlotBox& box, const Eigen::Vector2d& from_center) {
+  return at_one_end(box, number_of(box) % 2 == 0 ? from_center : -from_center);
 }
 
 // Returns spread evenly over a square; of those in a box where plants stand, three of four are from
@@ -123,7 +141,24 @@ TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_dri
 TEST(FindPlots, PutsPairsOfDrillRowsWithARowBetweenThemTogether) {
   expect_found({.gap_m = 0.36}, in_five_drill_rows, 0.85);
 }
-TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_clumps, 0.8); }
+TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_one_of_three_clumps, 0.8); }
+
+// From metre to metre a plot's canopy differs from its mean by (0.9 - 0.25) / (0.9 + 0.25) of that.
+// Plants at random do so in every plot in its own way, trees two by two in all plots alike.
+TEST(FindPlots, TellsPlotsOfFewPlantsFromTreesAtEqualPlaces) {
+  constexpr double kUneven = 0.65 / 1.15;
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  const auto signs_where = [&](const Sown& sown) {
+    return find_plots(points_over(boxes, sown), 0.02, {.width_m = 1.5, .length_m = 4}, 2).signs;
+  };
+  const auto plants = signs_where(at_either_end), trees = signs_where(at_one_end);
+  ASSERT_TRUE(plants && trees);
+  EXPECT_NEAR(plants->unevenness, kUneven, 0.1);
+  EXPECT_LT(plants->mean_unevenness, 0.2);
+  EXPECT_EQ(no_plots_because(*plants), "");
+  EXPECT_NEAR(trees->mean_unevenness, kUneven, 0.1);
+  EXPECT_THAT(no_plots_because(*trees), HasSubstr("single bushes or trees"));
+}
 
 // Strips side by side may be the rows of one plot, or plots: the user may know.
 std::vector<Eigen::Vector3f> points_over_strips() {
