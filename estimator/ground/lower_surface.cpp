@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,38 +24,47 @@ struct OneLayer {
   float scatter_m2 = 0;
 };
 
+// The height that one in a hundred lies under; changes the order.
+float lowest_hundredth(std::vector<float>& z) {
+  const std::size_t low = z.size() / 100;
+  if (low == 0) return *std::ranges::min_element(z);
+  std::nth_element(z.begin(), z.begin() + static_cast<long>(low), z.end());
+  return z[low];
+}
+
+// The mean of what is no further from the middle than the reach; the middle where nothing is.
+float mean_about(std::span<const float> z, float middle, float reach) {
+  float sum = 0;
+  int count = 0;
+#pragma omp simd reduction(+ : sum, count)
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const bool near = std::abs(z[k] - middle) <= reach;
+    sum += near ? z[k] : 0;
+    count += static_cast<int>(near);
+  }
+  return count > 0 ? sum / static_cast<float>(count) : middle;
+}
+
 // The layer at the bottom of one column: the mean of what lies about it, from the lowest hundredth
 // upward, and the share that it has of what lies about and right above it.
 OneLayer layer_of(std::span<const Return> returns, const Eigen::Vector2f& tilt, float noise,
                   std::vector<float>& z) {
   if (returns.empty()) return {};
-  z.clear();
-  for (const Return& r : returns) {
-    z.push_back(r.z_m - tilt.x() * r.east() - tilt.y() * r.north());
-  }
-  const std::size_t low = z.size() / 100;
-  std::nth_element(z.begin(), z.begin() + static_cast<long>(low), z.end());
-  float middle = z[low] + 1.5f * noise;
-  for (int k = 0; k < 3; ++k) {
-    float sum = 0;
-    int count = 0;
-    for (const float value : z) {
-      if (std::abs(value - middle) > 2 * noise) continue;
-      sum += value;
-      ++count;
-    }
-    if (count > 0) middle = sum / static_cast<float>(count);
-  }
+  z.resize(returns.size());
+  for (std::size_t k = 0; k < z.size(); ++k)
+    z[k] = returns[k].z_m - tilt.x() * returns[k].east() - tilt.y() * returns[k].north();
+  float middle = lowest_hundredth(z) + 1.5f * noise;
+  for (int k = 0; k < 3; ++k) middle = mean_about(z, middle, 2 * noise);
   int about = 0;
   int above = 0;
   float squares = 0;
-  for (const float value : z) {
-    const float off = value - middle;
-    if (std::abs(off) <= 3 * noise) {
-      ++about;
-      squares += off * off;
-    }
-    above += off > 3 * noise && off <= 9 * noise;
+#pragma omp simd reduction(+ : about, above, squares)
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const float off = z[k] - middle;
+    const bool is_about = std::abs(off) <= 3 * noise;
+    about += static_cast<int>(is_about);
+    squares += is_about ? off * off : 0;
+    above += static_cast<int>(off > 3 * noise) & static_cast<int>(off <= 9 * noise);
   }
   const float share = static_cast<float>(about) / static_cast<float>(about + above + 1);
   return {.z_m = middle,

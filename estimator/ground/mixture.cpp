@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "ground/pool.h"
 
@@ -51,7 +53,7 @@ class Normal {
 
 const Normal kNormal;
 
-// The bilinear surface within a column: height of a return above it.
+// The bilinear surface within a column.
 struct Patch {
   Patch(const Grid& grid, const Field& s, int column, int row) {
     const int west = std::max(0, column - 1);
@@ -64,10 +66,16 @@ struct Patch {
     rise_south = z - s[grid.index(column, south)];
     rise_north = s[grid.index(column, north)] - z;
   }
-  float above(const Return& r) const {
-    const float e = r.east();
-    const float n = r.north();
-    return r.z_m - z - e * (e > 0 ? rise_east : rise_west) - n * (n > 0 ? rise_north : rise_south);
+  // Heights of returns above it, in sigmas.
+  void above(std::span<const Return> returns, float noise, std::vector<float>& heights) const {
+    heights.resize(returns.size());
+    for (std::size_t k = 0; k < returns.size(); ++k) {
+      const float e = returns[k].east();
+      const float n = returns[k].north();
+      heights[k] = (returns[k].z_m - z - e * (e > 0 ? rise_east : rise_west) -
+                    n * (n > 0 ? rise_north : rise_south)) /
+                   noise;
+    }
   }
   float z, rise_west, rise_east, rise_south, rise_north;
 };
@@ -80,16 +88,16 @@ Counts count(const Columns& columns, const Field& surface, float noise) {
                 .mid = Field(grid.nodes()),
                 .all = Field(grid.nodes())};
   for_rows(grid, [&](int row) {
+    std::vector<float> heights;
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
-      const Patch patch(grid, surface, column, row);
+      Patch(grid, surface, column, row).above(columns.at(i), noise, heights);
       int below = 0, about = 0, low = 0, mid = 0;
-      for (const Return& r : columns.at(i)) {
-        const float x = patch.above(r) / noise;
-        below += x < -3 && x > -20;
-        about += std::abs(x) <= 2;
-        low += x > 2.5f && x <= 5;
-        mid += x > 5 && x <= 10;
+      for (const float x : heights) {  // vector instructions: no branch
+        below += static_cast<int>(x < -3) & static_cast<int>(x > -20);
+        about += static_cast<int>(std::abs(x) <= 2);
+        low += static_cast<int>(x > 2.5f) & static_cast<int>(x <= 5);
+        mid += static_cast<int>(x > 5) & static_cast<int>(x <= 10);
       }
       counts.below[i] = static_cast<float>(below);
       counts.about[i] = static_cast<float>(about);
@@ -146,6 +154,7 @@ Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
                     .doubt_m = Field(grid.nodes()),
                     .support = Field(grid.nodes())};
   for_rows(grid, [&](int row) {
+    std::vector<float> heights;
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
       const Shares shares = shares_at(counts, i);
@@ -153,10 +162,9 @@ Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
       evidence.doubt_m[i] = kDoubt * noise / std::max(shares.contrast, 0.5f);
       if (shares.support <= 0) continue;
       const float floor = 0.002f * shares.ground;
-      const Patch patch(grid, surface, column, row);
+      Patch(grid, surface, column, row).above(columns.at(i), noise, heights);
       float sum = 0, moment = 0, missing = 0;
-      for (const Return& r : columns.at(i)) {
-        const float x = patch.above(r) / noise;
+      for (const float x : heights) {
         if (std::abs(x) > 4) continue;
         const float ground = shares.ground * kNormal.density(x);
         const float canopy =

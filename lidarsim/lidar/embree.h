@@ -42,6 +42,26 @@ inline void intersect(RTCScene scene, RTCRayHit& ray, double time_s = 0) {
 #endif
 }
 
+// The same for up to kPacket rays of one time that lie close together, those of which `valid` is
+// -1.
+inline constexpr std::size_t kPacket = 8;
+inline void intersect(RTCScene scene, const int* valid, RTCRayHit8& rays, double time_s) {
+  CastContext context;
+  context.time_s = time_s;
+#if RTC_VERSION_MAJOR >= 4
+  rtcInitRayQueryContext(&context.query);
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context.query;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &rays, &arguments);
+#else
+  rtcInitIntersectContext(&context.query);
+  context.query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &context.query, &rays);
+#endif
+}
+
 // The time that a callback's ray was cast for.
 inline double time_of(const QueryContext* context) {
   return reinterpret_cast<const CastContext*>(context)->time_s;  // NOLINT(*-reinterpret-cast)

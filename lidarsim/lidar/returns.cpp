@@ -6,6 +6,8 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "lidar/rounded.h"
@@ -73,7 +75,9 @@ void Detector::listen(std::span<const Hit> hits) {
   std::ranges::copy_if(hits, std::back_inserter(hits_), [](const Hit& hit) {
     return std::isfinite(hit.range_m) && hit.reflectance * hit.cos_incidence > 0;
   });
-  std::ranges::stable_sort(hits_, {}, &Hit::range_m);
+  std::ranges::sort(hits_, {}, [](const Hit& hit) {
+    return std::tuple(hit.range_m, hit.surface, hit.cos_incidence);
+  });
   echoes_.clear();
   for (const Hit& hit : hits_) {
     const double range_m = std::max<double>(kNearest_m, hit.range_m);
@@ -110,7 +114,7 @@ Return Detector::return_of(const Peak& peak) {
 Hit Detector::main_hit(const Peak& peak) {
   by_surface_.resize(peak.end - peak.begin);
   std::iota(by_surface_.begin(), by_surface_.end(), peak.begin);
-  std::ranges::stable_sort(by_surface_, {}, [&](std::size_t i) { return hits_[i].surface; });
+  std::ranges::sort(by_surface_, {}, [&](std::size_t i) { return std::pair(hits_[i].surface, i); });
   std::size_t main = peak.begin;
   double most = 0;
   for (auto echo = by_surface_.begin(); echo != by_surface_.end();) {

@@ -139,6 +139,19 @@ Scene::~Scene() = default;
 
 void* Scene::native() const { return trees_->world.get(); }
 
+bool Scene::goes_to_the_sky(const Ray& ray) const {
+  return ray.origin_m.z() > top_m_ && ray.direction.z() >= 0;
+}
+
+Hit Scene::hit_of(const Ray& ray, const Meeting& met) const {
+  const Eigen::Vector3f normal = normal_from_mesh_[met.surface] * met.normal;
+  return {.range_m = met.range_m,
+          .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),
+          .reflectance = optics_[mesh_of_surface_[met.surface]].reflectance(
+              met.triangle, surfaces_[met.surface].reflectance),
+          .surface = met.surface};
+}
+
 void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const {
   check(hits.size() >= rays.size(), "every ray has room for its hit");
   RTCScene world = trees_->world.get();
@@ -149,7 +162,7 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
     hits[i].range_m = std::numeric_limits<float>::infinity();
-    if (ray.origin_m.z() > top_m_ && ray.direction.z() >= 0) continue;  // to the sky
+    if (goes_to_the_sky(ray)) continue;
     query.ray.org_x = ray.origin_m.x();
     query.ray.org_y = ray.origin_m.y();
     query.ray.org_z = ray.origin_m.z();
@@ -163,14 +176,54 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
     intersect(world, query, ray.time_s);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     const bool in_instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    const std::uint32_t surface = in_instance ? query.hit.instID[0] : query.hit.geomID;
-    const Eigen::Vector3f normal = normal_from_mesh_[surface] *
-                                   Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    hits[i] = {.range_m = query.ray.tfar,
-               .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),
-               .reflectance = optics_[mesh_of_surface_[surface]].reflectance(
-                   query.hit.primID, surfaces_[surface].reflectance),
-               .surface = surface};
+    hits[i] = hit_of(ray, {.range_m = query.ray.tfar,
+                           .normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z},
+                           .surface = in_instance ? query.hit.instID[0] : query.hit.geomID,
+                           .triangle = query.hit.primID});
+  }
+}
+
+void Scene::cast_packet(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const {
+  alignas(32) int valid[kPacket];
+  RTCRayHit8 query;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    const Ray& ray = rays[std::min(i, rays.size() - 1)];
+    valid[i] = i < rays.size() && !goes_to_the_sky(ray) ? -1 : 0;
+    query.ray.org_x[i] = ray.origin_m.x();
+    query.ray.org_y[i] = ray.origin_m.y();
+    query.ray.org_z[i] = ray.origin_m.z();
+    query.ray.tnear[i] = 0;
+    query.ray.dir_x[i] = ray.direction.x();
+    query.ray.dir_y[i] = ray.direction.y();
+    query.ray.dir_z[i] = ray.direction.z();
+    query.ray.time[i] = 0;
+    query.ray.tfar[i] = max_range_m;
+    query.ray.mask[i] = ~0u;
+    query.ray.flags[i] = 0;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  intersect(trees_->world.get(), valid, query, rays.front().time_s);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i].range_m = std::numeric_limits<float>::infinity();
+    if (valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const bool in_instance = query.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
+    hits[i] =
+        hit_of(rays[i], {.range_m = query.ray.tfar[i],
+                         .normal = {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]},
+                         .surface = in_instance ? query.hit.instID[0][i] : query.hit.geomID[i],
+                         .triangle = query.hit.primID[i]});
+  }
+}
+
+void Scene::cast_bundles(std::span<const Ray> rays, std::size_t bundle, float max_range_m,
+                         std::span<Hit> hits) const {
+  if (trees_->swaying) return cast(rays, max_range_m, hits);
+  for (std::size_t begin = 0; begin < rays.size(); begin += bundle) {
+    for (std::size_t i = 0; i < bundle; i += kPacket) {
+      const std::size_t count = std::min(kPacket, bundle - i);
+      cast_packet(rays.subspan(begin + i, count), max_range_m, hits.subspan(begin + i, count));
+    }
   }
 }
 

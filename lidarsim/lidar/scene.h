@@ -41,6 +41,10 @@ class Scene {
 
   // The nearest hit of each ray within max_range_m. May be called by several threads.
   void cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
+  // The same for rays of which every `bundle` that follow each other lie close together, which is
+  // twice as fast (but where plants sway). A ray within micrometres of an edge may end otherwise.
+  void cast_bundles(std::span<const Ray> rays, std::size_t bundle, float max_range_m,
+                    std::span<Hit> hits) const;
   const Surface& surface(const Hit& hit) const { return surfaces_[hit.surface]; }
 
   // Nothing lies higher or lower, metres.
@@ -52,9 +56,19 @@ class Scene {
 
  private:
   struct Trees;
+  // Of a ray with a triangle.
+  struct Meeting {
+    float range_m;
+    Eigen::Vector3f normal;  // of the mesh, of any length
+    std::uint32_t surface;
+    std::uint32_t triangle;
+  };
 
   Scene(const SceneContent& content, const Sway* sway);
   void build_trees(const SceneContent& content);
+  bool goes_to_the_sky(const Ray& ray) const;
+  Hit hit_of(const Ray& ray, const Meeting& met) const;
+  void cast_packet(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
 
   std::unique_ptr<Trees> trees_;
   std::vector<Surface> surfaces_;                  // in the order of SceneContent::placed

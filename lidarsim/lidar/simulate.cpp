@@ -95,7 +95,11 @@ class Simulator {
   std::vector<Hit> cast(const std::vector<Ray>& rays) const {
     std::vector<Hit> hits(rays.size());
     const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
-    scene_.cast(rays, static_cast<float>(reach_m), hits);
+    if (sub_rays_) {
+      scene_.cast_bundles(rays, sub_rays_->count(), static_cast<float>(reach_m), hits);
+    } else {
+      scene_.cast(rays, static_cast<float>(reach_m), hits);
+    }
     return hits;
   }
 

@@ -20,6 +20,11 @@ struct Sample {
   double bend = 0;   // of the slope
 };
 
+struct Extremum {
+  double range_m = 0;
+  double power = 0;
+};
+
 class Waveform {
  public:
   Waveform(std::span<const Echo> echoes, double sigma_m) : echoes_(echoes), sigma_m_(sigma_m) {}
@@ -39,22 +44,36 @@ class Waveform {
     return sample;
   }
 
-  // The maximum, or the minimum, between two ranges with the slopes of one: Newton's method, kept
-  // within the bracket by halving it.
-  double extremum(double near_m, double far_m, bool is_maximum) const {
-    double range_m = 0.5 * (near_m + far_m);
+  // The maximum, or the minimum, between two ranges with the slopes of one: Newton's method from
+  // their middle, or from the echoes' mean, kept within the bracket by halving it.
+  Extremum extremum(double near_m, double far_m, bool is_maximum) const {
+    double range_m = is_maximum ? mean_range(near_m, far_m) : 0.5 * (near_m + far_m);
+    Sample sample = at(range_m);
     while (far_m - near_m > kRangeTolerance_m) {
-      const Sample sample = at(range_m);
       ((sample.slope > 0) == is_maximum ? near_m : far_m) = range_m;
       const double next_m = range_m - sample.slope / sample.bend;
       const bool is_within = next_m > near_m && next_m < far_m;
-      if (is_within && std::abs(next_m - range_m) < kRangeTolerance_m) return next_m;
+      if (is_within && std::abs(next_m - range_m) < kRangeTolerance_m)
+        return {.range_m = next_m, .power = sample.power};
       range_m = is_within ? next_m : 0.5 * (near_m + far_m);
+      sample = at(range_m);
     }
-    return range_m;
+    return {.range_m = range_m, .power = sample.power};
   }
 
  private:
+  // Of the echoes by their power, where that lies between the two; else the middle. Of echoes much
+  // closer together than the pulse is long the waveform has its maximum there.
+  double mean_range(double near_m, double far_m) const {
+    double power = 0, moment = 0;
+    for (const Echo& echo : echoes_) {
+      power += echo.power;
+      moment += echo.power * echo.range_m;
+    }
+    const double mean_m = moment / power;
+    return mean_m > near_m && mean_m < far_m ? mean_m : 0.5 * (near_m + far_m);
+  }
+
   std::span<const Echo> echoes_;
   double sigma_m_;
 };
@@ -76,13 +95,11 @@ void find_in_group(std::span<const Echo> echoes, std::size_t begin, std::size_t 
     const double here_m = i == steps ? group.back().range_m : first_m + i * length_m / steps;
     const bool rising = i < steps && waveform.at(here_m).slope > 0;
     if (was_rising && !rising) {
-      const double range_m = waveform.extremum(before_m, here_m, true);
-      peaks.push_back({.range_m = range_m,
-                       .power = waveform.at(range_m).power,
-                       .begin = peak_begin,
-                       .end = end});
+      const Extremum top = waveform.extremum(before_m, here_m, true);
+      peaks.push_back(
+          {.range_m = top.range_m, .power = top.power, .begin = peak_begin, .end = end});
     } else if (!was_rising && rising) {
-      const double dip_m = waveform.extremum(before_m, here_m, false);
+      const double dip_m = waveform.extremum(before_m, here_m, false).range_m;
       const auto after = std::ranges::lower_bound(group, dip_m, {}, &Echo::range_m);
       peak_begin = begin + static_cast<std::size_t>(after - group.begin());
       peaks.back().end = peak_begin;

@@ -3,12 +3,15 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "moeller_trumbore.h"
 #include "small_farm.h"
+#include "test_images.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "mesh/alpha_mask.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -108,6 +111,81 @@ TEST(Scene, NoRaySlipsBetweenTrianglesOfTheTerrain) {
   std::vector<Hit> hits(rays.size());
   scene.cast(rays, kFar_m, hits);
   for (const Hit& hit : hits) ASSERT_TRUE(std::isfinite(hit.range_m));
+}
+
+// Each ray becomes a bundle of rays that spread by some milliradians.
+std::vector<Ray> bundled(const std::vector<Ray>& rays, std::size_t bundle) {
+  std::vector<Ray> bundles;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RandomStream stream(5, random_purpose("test/bundle"), i);
+    for (std::size_t k = 0; k < bundle; ++k) {
+      const Eigen::Vector3f aside(stream.uniform(-2e-3, 2e-3), stream.uniform(-2e-3, 2e-3),
+                                  stream.uniform(-2e-3, 2e-3));
+      bundles.push_back({rays[i].origin_m, (rays[i].direction + aside).normalized()});
+    }
+  }
+  return bundles;
+}
+
+// The same as one by one, but where a ray passes within micrometres of an edge.
+TEST(Scene, RaysInBundlesHitWhatTheyHitOneByOne) {
+  const farm::Farm farm = testing::small_farm();
+  const Scene scene(scene_content(farm));
+  for (const std::size_t bundle : {1, 7, 8, 19}) {
+    const std::vector<Ray> rays = bundled(random_rays(farm, 2000), bundle);
+    std::vector<Hit> alone(rays.size()), together(rays.size());
+    scene.cast(rays, kFar_m, alone);
+    scene.cast_bundles(rays, bundle, kFar_m, together);
+    std::size_t met = 0, otherwise = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      met += std::isfinite(alone[i].range_m);
+      const bool same = (std::isinf(alone[i].range_m) && std::isinf(together[i].range_m)) ||
+                        std::abs(alone[i].range_m - together[i].range_m) < 1e-5;
+      if (!same) {
+        ++otherwise;
+      } else if (std::isfinite(alone[i].range_m)) {
+        ASSERT_EQ(together[i].surface, alone[i].surface);
+        ASSERT_NEAR(together[i].cos_incidence, alone[i].cos_incidence, 1e-5);
+        ASSERT_EQ(together[i].reflectance, alone[i].reflectance);
+      }
+    }
+    EXPECT_GT(met, rays.size() / 2);
+    EXPECT_LT(met, rays.size());
+    EXPECT_LE(otherwise, 2) << bundle;
+  }
+}
+
+// A plate 1 m above flat ground, of which every other quarter is a hole.
+TEST(Scene, RaysInBundlesPassHoles) {
+  const std::string png =
+      testing::png_of_grey(2, 2, [](int column, int row) { return column == row ? 255 : 0; });
+  mesh::Mesh plate{
+      .vertices = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
+      .triangles = {{0, 1, 2}, {0, 2, 3}},
+      .materials = {{.mask = std::make_shared<const mesh::AlphaMask>(
+                         std::make_shared<const mesh::Image>(mesh::Image{"mask.png", png}),
+                         mesh::kAlphaCutoff, "mask.png")}},
+      .triangle_material = {0, 0},
+      .texture_coordinates = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  SceneContent content;
+  content.meshes = {plate, plate};
+  content.meshes[1].materials.clear();
+  content.meshes[1].triangle_material.clear();
+  content.placed = {
+      {.mesh = 0}, {.mesh = 1, .world_from_mesh = Eigen::Affine3d(Eigen::Translation3d(0, 0, -1))}};
+  const Scene scene(content);
+  const std::vector<Ray> rays = bundled({{{0, 0, 5}, {0, 0, -1}}}, 8);
+  std::vector<Hit> hits(rays.size());
+  scene.cast_bundles(rays, rays.size(), kFar_m, hits);
+  int in_holes = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Eigen::Vector3f at = rays[i].origin_m + 4 * rays[i].direction;
+    const bool hole = at.x() * at.y() > 0;
+    EXPECT_NEAR(hits[i].range_m, hole ? 5 : 4, 1e-4) << at.transpose();
+    in_holes += hole;
+  }
+  EXPECT_GT(in_holes, 0);
+  EXPECT_LT(in_holes, 8);
 }
 
 TEST(Scene, SeesNothingBeyondItsReach) {
