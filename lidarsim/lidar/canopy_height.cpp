@@ -30,11 +30,13 @@ struct RayGrid {
   RayGrid(const PlotBox& plot_box, double step_m)
       : box(plot_box),
         lines(cells(plot_box.length_m, step_m)),
-        rays_a_line(cells(plot_box.width_m, step_m)) {}
+        rays_a_line(cells(plot_box.width_m, step_m)),
+        length_axis_(plot_box.length_axis()),
+        width_axis_(plot_box.width_axis()) {}
 
   Eigen::Vector2d place(std::size_t line, std::size_t ray) const {
-    return box.center + middle(line, lines) * box.length_m * box.length_axis() +
-           middle(ray, rays_a_line) * box.width_m * box.width_axis();
+    return box.center + middle(line, lines) * box.length_m * length_axis_ +
+           middle(ray, rays_a_line) * box.width_m * width_axis_;
   }
 
  private:
@@ -48,6 +50,8 @@ struct RayGrid {
   static double middle(std::size_t cell, std::size_t count) {
     return (static_cast<double>(cell) + 0.5) / static_cast<double>(count) - 0.5;
   }
+
+  Eigen::Vector2d length_axis_, width_axis_;
 };
 
 double step_of(const farm::Farm& farm) {
@@ -77,7 +81,7 @@ void measure_line(const Scene& scene, const terrain::Terrain& terrain, const Ray
     rays.push_back({.origin_m = {place.x(), place.y(), top_m}, .direction = {0, 0, -1}});
   }
   std::vector<Hit> hits(rays.size());
-  scene.cast(rays, top_m - scene.bottom_m() + kAbove_m, hits);
+  scene.cast_bundles(rays, rays.size(), top_m - scene.bottom_m() + kAbove_m, hits);
   for (std::size_t i = 0; i < rays.size(); ++i)
     heights_m[i] =
         height_of(scene, terrain, hits[i], static_cast<double>(top_m), grid.place(line, i));
