@@ -162,7 +162,8 @@ TEST(Scene, RaysInBundlesPassHoles) {
   mesh::Mesh plate{
       .vertices = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}},
       .triangles = {{0, 1, 2}, {0, 2, 3}},
-      .materials = {{.mask = std::make_shared<const mesh::AlphaMask>(
+      .materials = {{.name = "leaf",
+                     .mask = std::make_shared<const mesh::AlphaMask>(
                          std::make_shared<const mesh::Image>(mesh::Image{"mask.png", png}),
                          mesh::kAlphaCutoff, "mask.png")}},
       .triangle_material = {0, 0},
@@ -171,8 +172,10 @@ TEST(Scene, RaysInBundlesPassHoles) {
   content.meshes = {plate, plate};
   content.meshes[1].materials.clear();
   content.meshes[1].triangle_material.clear();
-  content.placed = {
-      {.mesh = 0}, {.mesh = 1, .world_from_mesh = Eigen::Affine3d(Eigen::Translation3d(0, 0, -1))}};
+  content.placed = {{.mesh = 0, .surface = {}},
+                    {.mesh = 1,
+                     .world_from_mesh = Eigen::Affine3d(Eigen::Translation3d(0, 0, -1)),
+                     .surface = {}}};
   const Scene scene(content);
   const std::vector<Ray> rays = bundled({{{0, 0, 5}, {0, 0, -1}}}, 8);
   std::vector<Hit> hits(rays.size());
