@@ -81,6 +81,13 @@ MethodRun run_command(const CommandMethod& method, const Field& field,
                      .score = score::score_field(truth, ran.estimate)}};
 }
 
+MethodRun run_named(const std::string& name, const Suite& suite, const Field& field,
+                    const std::vector<score::TruePlot>& truth) {
+  const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
+  if (command == suite.commands.end()) return run_method(method_named(name), field, truth);
+  return run_command(*command, field, truth);
+}
+
 void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
@@ -148,10 +155,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                     .seed = seed,
                     .threads = threads};
   for (const std::string& name : suite.methods) {
-    const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
-    MethodRun method = command == suite.commands.end()
-                           ? run_method(method_named(name), field, truth)
-                           : run_command(*command, field, truth);
+    MethodRun method = run_named(name, suite, field, truth);
     result.methods.push_back(std::move(method.result));
     if (view && result.methods.size() == 1) {
       write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",

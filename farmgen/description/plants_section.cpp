@@ -11,6 +11,7 @@
 #include "planting/plot_layout.h"
 
 #include "core/error.h"
+#include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
@@ -29,7 +30,6 @@ constexpr Range kDirection = {-360, 360};
 constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::uint64_t kMostPlants = 10'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
-constexpr std::size_t kMostPlots = 100'000;
 
 // A cultivar's section; what it does not say, `plants` says.
 class Inherited {

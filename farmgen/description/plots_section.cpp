@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/text.h"
+#include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
@@ -23,7 +24,6 @@ constexpr Range kHeading = {-360, 360};
 constexpr Range kSkew = {-45, 45};
 constexpr Range kShare = {0, 1};
 constexpr std::size_t kMostRows = 10'000;
-constexpr std::uint64_t kMostPlots = 100'000;
 constexpr std::int64_t kLargestFirstNumber = 1'000'000'000;
 
 Eigen::Vector2d vector_at(const YamlSection& section, const std::string& key, Range range) {

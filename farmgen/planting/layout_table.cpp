@@ -17,7 +17,7 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kSmallestScale = 0.01;
 constexpr double kLargestScale = 100;
-constexpr long long kMostPlots = std::numeric_limits<std::uint32_t>::max();
+constexpr long long kGreatestId = std::numeric_limits<std::uint32_t>::max();
 
 enum Column {
   model,
@@ -134,7 +134,7 @@ class LayoutRows {
   }
 
   LayoutPlant plant_of(const CsvRow& row, long long expected_id) const {
-    if (has(row, Column::id) && row.integer(places_[Column::id], 1, kMostPlots) != expected_id) {
+    if (has(row, Column::id) && row.integer(places_[Column::id], 1, kGreatestId) != expected_id) {
       row.fail(places_[Column::id], "is not " + std::to_string(expected_id) +
                                         ": plants are numbered from 1 in the table's order");
     }
@@ -145,7 +145,7 @@ class LayoutRows {
     plant.scale = scale_of(row);
     plant.rotation = rotation_of(row);
     if (has(row, Column::plot)) {
-      plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kMostPlots));
+      plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kGreatestId));
     }
     plant.kind = kind_of(row);
     plant.line = row.line();

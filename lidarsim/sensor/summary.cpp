@@ -2,6 +2,7 @@
 #include "sensor/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "core/text.h"
@@ -23,10 +24,10 @@ std::string spin(const SensorSummary& summary) {
                    summary.max_spin_hz);
 }
 
-std::string line(const char* name, const char* channels, const char* view, const char* shots,
-                 const char* range, const char* spin, const char* title) {
-  return formatted("%-12s %8s  %-20s %9s  %-12s  %-15s  %s", name, channels, view, shots, range,
-                   spin, title);
+std::string line(const std::array<std::string, 7>& cells) {
+  const auto& [name, channels, view, shots, range, spin, title] = cells;
+  return formatted("%-12s %8s  %-20s %9s  %-12s  %-15s  %s", name.c_str(), channels.c_str(),
+                   view.c_str(), shots.c_str(), range.c_str(), spin.c_str(), title.c_str());
 }
 
 }  // namespace
@@ -54,13 +55,12 @@ SensorSummary summary_of(const Sensor& sensor) {
 
 std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summaries) {
   std::vector<std::string> lines = {
-      line("NAME", "CHANNELS", "FIELD OF VIEW", "SHOTS/S", "RANGE", "SPIN", "TITLE")};
+      line({"NAME", "CHANNELS", "FIELD OF VIEW", "SHOTS/S", "RANGE", "SPIN", "TITLE"})};
   for (const SensorSummary& summary : summaries) {
-    lines.push_back(
-        line(summary.name.c_str(), std::to_string(summary.channels).c_str(),
-             field_of_view(summary).c_str(), formatted("%.0f", summary.shots_per_s).c_str(),
-             formatted("%.4g..%.4g m", summary.min_range_m, summary.max_range_m).c_str(),
-             spin(summary).c_str(), summary.title.c_str()));
+    lines.push_back(line({summary.name, std::to_string(summary.channels), field_of_view(summary),
+                          formatted("%.0f", summary.shots_per_s),
+                          formatted("%.4g..%.4g m", summary.min_range_m, summary.max_range_m),
+                          spin(summary), summary.title}));
   }
   return lines;
 }

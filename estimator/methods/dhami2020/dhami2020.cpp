@@ -20,6 +20,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/trial_layout.h"
 #include "estimate/given_plots.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -29,7 +30,6 @@ using Points = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
 constexpr double kDegrees = std::numbers::pi / 180;
-constexpr int kMostPlots = 100000;
 constexpr int kMostThreads = 1024;
 
 // The z filter: what stands more than min_height_m above the levelled ground.
