@@ -88,8 +88,18 @@ MethodRun run_named(const std::string& name, const Suite& suite, const Field& fi
   return run_command(*command, field, truth);
 }
 
+double share_of(std::size_t done, std::size_t all) {
+  return static_cast<double>(done) / static_cast<double>(all);
+}
+
 void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
+}
+
+std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
+  std::vector<score::TruePlot> some;
+  std::ranges::copy_if(plots, std::back_inserter(some), &score::TruePlot::scored);
+  return some;
 }
 
 FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
@@ -136,8 +146,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
       scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
   std::vector<score::TruePlot> truth = standing_plots(place);
   const cloud::Area shown = field_area(truth, kShown_m);
-  std::vector<score::TruePlot> plots;
-  std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
+  std::vector<score::TruePlot> plots = scored(truth);
   const cloud::CloudMap map =
       cloud::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
   if (suite_case.without_plots) {
@@ -166,8 +175,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                               .terrain = farm.terrain,
                               .result = result});
     }
-    const auto done = static_cast<double>(result.methods.size());
-    report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
+    report(progress, kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
   }
   return result;
 }

@@ -10,20 +10,20 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/angle.h"
 #include "core/statistics.h"
 
 namespace plotscan::plots {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 constexpr int kAngles = 180;
 constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
 constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
 constexpr int kMostSkew_deg = 15;      // of the axes, off the right angle
 constexpr double kSkewDoubt = 0.25;
-constexpr double kTilt_rad = 0.5 * kDegree;  // between what the families say: one is tilted
-constexpr double kHintReach_rad = 5 * kDegree;
+constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: one is tilted
+constexpr double kHintReach_rad = 5 * kDegrees;
 constexpr double kLeastCover = 0.1;  // of a block with canopy
 constexpr double kAround_m = 2;      // of bare ground about the canopy
 
@@ -163,7 +163,7 @@ struct Pair {
 Pair best_pair(const std::vector<double>& values, const std::optional<double>& hint_rad) {
   Pair best;
   for (int first = 0; first < kAngles; ++first) {
-    if (hint_rad && std::abs(std::remainder(first * kDegree - *hint_rad, kPi)) > kHintReach_rad)
+    if (hint_rad && std::abs(std::remainder(first * kDegrees - *hint_rad, kPi)) > kHintReach_rad)
       continue;
     for (int skew = -kMostSkew_deg; skew <= kMostSkew_deg; ++skew) {
       const int second = first + 90 + skew;
@@ -184,7 +184,7 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   if (cells.empty()) return {};
   const double bin_m = raster.cell_m();
   std::vector<double> angles, values;
-  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
+  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegrees);
   for (const double block_m : {kLongBlock_m, kShortBlock_m}) {
     std::vector<double> sharp = sharpnesses(cells, angles, {bin_m, block_m}, threads);
     const double usual = quantile(sharp, 0.5);
@@ -195,11 +195,11 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   const LineSize long_lines{bin_m, kLongBlock_m};
   const auto fine = [&](double guess_rad) {
     const double closer =
-        refined(cells, guess_rad, 2 * kDegree, 0.2 * kDegree, long_lines, threads);
-    return refined(cells, closer, 0.3 * kDegree, 0.05 * kDegree, long_lines, threads);
+        refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, long_lines, threads);
+    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, long_lines, threads);
   };
   const Pair pair = best_pair(values, hint_rad);
-  FieldAxes axes{fine(pair.first * kDegree), fine(pair.second * kDegree)};
+  FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
   if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
   // One rigid pair, as either family has it: offsets of rows can tilt the lines of one.
   const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};

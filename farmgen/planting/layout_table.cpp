@@ -4,17 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 #include <string_view>
 #include <unordered_map>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 
 namespace plotscan::planting {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kSmallestScale = 0.01;
 constexpr double kLargestScale = 100;
 constexpr long long kGreatestId = std::numeric_limits<std::uint32_t>::max();
@@ -108,7 +107,7 @@ class LayoutRows {
 
   Eigen::Quaterniond rotation_of(const CsvRow& row) const {
     const auto turn = [&](Column column, const Eigen::Vector3d& axis) {
-      return Eigen::AngleAxisd(number(row, column, 0.0) * kRadians, axis);
+      return Eigen::AngleAxisd(number(row, column, 0.0) * kDegrees, axis);
     };
     return turn(Column::yaw, Eigen::Vector3d::UnitZ()) *
            turn(Column::pitch, Eigen::Vector3d::UnitY()) *

@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/text.h"
 #include "sensor/risley.h"
 
 namespace plotscan::sensor {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180;
 
 std::string field_of_view(const SensorSummary& summary) {
   if (summary.cone_deg > 0) return formatted("cone of %.1f deg", summary.cone_deg);
@@ -44,12 +42,12 @@ SensorSummary summary_of(const Sensor& sensor) {
                         .max_spin_hz = sensor.max_spin_hz,
                         .default_spin_hz = sensor.default_spin_hz};
   if (sensor.wedges) {
-    summary.cone_deg = 2 * deflections_rad(*sensor.wedges)[0] / kDegree_rad;
+    summary.cone_deg = 2 * deflections_rad(*sensor.wedges)[0] / kDegrees;
     return summary;
   }
   const auto [least, most] = std::ranges::minmax(sensor.lasers, {}, &Laser::elevation_rad);
-  summary.least_elevation_deg = least.elevation_rad / kDegree_rad;
-  summary.most_elevation_deg = most.elevation_rad / kDegree_rad;
+  summary.least_elevation_deg = least.elevation_rad / kDegrees;
+  summary.most_elevation_deg = most.elevation_rad / kDegrees;
   return summary;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "cloud/surroundings.h"
@@ -18,6 +17,7 @@
 #include "methods/dhami2020/voting.h"
 #include "methods/dhami2020/voxel_filter.h"
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/trial_layout.h"
@@ -29,7 +29,6 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr int kMostThreads = 1024;
 
 // The z filter: what stands more than min_height_m above the levelled ground.
