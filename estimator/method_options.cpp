@@ -94,8 +94,8 @@ void take(const GivenSettings& given, const std::vector<MethodSetting<Options>>&
   for (const auto& [flag, text] : given) {
     const MethodSetting<Options>* setting = with_flag(settings, flag);
     if (setting == nullptr) {
-      throw InputError(flag + " belongs to --method " + owners_of(flag) + ", and the method is " +
-                       method);
+      throw InputError(formatted("%s belongs to --method %s, and the method is %s", flag.c_str(),
+                                 owners_of(flag).c_str(), method.c_str()));
     }
     assign(*setting, flag, text, options);
   }
