@@ -5,18 +5,13 @@
 #include <variant>
 #include <vector>
 
-#include "methods/dhami2020/settings.h"
-#include "methods/lattice/settings.h"
-
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/method_setting.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
-
-// Groups of options, each named as the method that it belongs to.
-constexpr const char* kLattice = "lattice";
-constexpr const char* kDhami2020 = "dhami2020";
 
 template <class Options>
 CLI::Option* shaped(CLI::Option* option, const NumberSetting<Options>& setting) {
@@ -56,7 +51,8 @@ CLI::Option* added(CLI::App& command, const std::string& flag, const std::string
       flag, [&given, flag, text] { given[flag] = text; }, help);
 }
 
-// An option that another method has as well belongs to no method's group.
+// A method's options are a group that is named as the method; one that another method has as well
+// belongs to none.
 template <class Options>
 void declare(CLI::App& command, const std::vector<MethodSetting<Options>>& settings,
              const char* group, GivenSettings& given) {
@@ -82,13 +78,25 @@ const MethodSetting<Options>* with_flag(const std::vector<MethodSetting<Options>
   return found == settings.end() ? nullptr : &*found;
 }
 
+// The methods that have an option.
+std::string owners_of(const std::string& flag) {
+  std::vector<std::string> owners;
+  const methods::RunOptions any;
+  methods::for_each_method(any, [&](const char* name, const auto& settings, const auto&) {
+    if (with_flag(settings, flag) != nullptr) owners.emplace_back(name);
+  });
+  return joined(owners, ", ");
+}
+
 template <class Options>
 void take(const GivenSettings& given, const std::vector<MethodSetting<Options>>& settings,
-          const std::string& method, const char* other, Options& options) {
+          const std::string& method, Options& options) {
   for (const auto& [flag, text] : given) {
     const MethodSetting<Options>* setting = with_flag(settings, flag);
-    if (setting == nullptr)
-      throw InputError(flag + " belongs to --method " + other + ", and the method is " + method);
+    if (setting == nullptr) {
+      throw InputError(formatted("%s belongs to --method %s, and the method is %s", flag.c_str(),
+                                 owners_of(flag).c_str(), method.c_str()));
+    }
     assign(*setting, flag, text, options);
   }
 }
@@ -96,16 +104,16 @@ void take(const GivenSettings& given, const std::vector<MethodSetting<Options>>&
 }  // namespace
 
 void declare_methods(CLI::App& command, GivenSettings& given) {
-  declare(command, methods::lattice::settings(), kLattice, given);
-  declare(command, methods::dhami2020::settings(), kDhami2020, given);
+  const methods::RunOptions any;
+  methods::for_each_method(any, [&](const char* name, const auto& settings, const auto&) {
+    declare(command, settings, name, given);
+  });
 }
 
 void take_settings(const GivenSettings& given, methods::RunOptions& options) {
-  if (options.method == kLattice) {
-    take(given, methods::lattice::settings(), options.method, kDhami2020, options.lattice);
-  } else {
-    take(given, methods::dhami2020::settings(), options.method, kLattice, options.dhami2020);
-  }
+  methods::for_each_method(options, [&](const std::string& name, const auto& settings, auto& own) {
+    if (name == options.method) take(given, settings, name, own);
+  });
 }
 
 }  // namespace plotscan

@@ -67,8 +67,9 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                             .collision = kCollisions.at(arguments.collision),
                             .drone = arguments.drone,
                             .lidar = kLidars.at(arguments.lidar),
-                            .threads = program.common().threads},
-                           arguments.force, manifest_of(arguments), program.progress("exporting"));
+                            .threads = program.common().threads,
+                            .replace = arguments.force},
+                           manifest_of(arguments), program.progress("exporting"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const gazebo::EntityCounts& counts = summary.counts;
   program.result({{"folder", arguments.output},

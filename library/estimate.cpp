@@ -3,10 +3,10 @@
 
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
+#include "boundary/settings.h"
 #include "boundary/values.h"
 #include "cloud/field_cloud.h"
 #include "cloud/tile_store.h"
-#include "methods/lattice/lattice.h"
 #include "methods/run.h"
 
 #include "core/coordinate_units.h"
@@ -17,16 +17,8 @@ namespace {
 
 methods::lattice::Options inner(const EstimateOptions& options) {
   methods::lattice::Options made{.crop_box = options.crop_box};
-  made.heading_deg = options.heading_deg;
-  made.plot_width_m = options.plot_width_m;
-  made.plot_length_m = options.plot_length_m;
-  made.rows = options.rows;
-  made.columns = options.columns;
-  made.plots = options.plots;
   for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
-  made.noise_m = options.noise_m;
-  made.calibrated = options.calibrated;
-  made.crop = options.crop;
+  boundary::take("lattice", options.settings, methods::lattice::settings(), made);
   made.threads = boundary::threads_of(options.threads);
   return made;
 }
@@ -79,14 +71,28 @@ methods::RunOptions inner(const EstimateFilesOptions& options) {
   run.csv = options.csv;
   run.replace = options.replace;
   run.crop_box = options.field.crop_box;
-  run.lattice = inner(options.field);
-  run.dhami2020.plots = options.field.plots.value_or(0);
+  methods::for_each_method(run, [&](const std::string& name, const auto& settings, auto& own) {
+    if (name == run.method) boundary::take(name, options.field.settings, settings, own);
+  });
   run.seed = options.seed;
-  run.threads = run.lattice.threads;
+  run.threads = boundary::threads_of(options.field.threads);
   return run;
 }
 
 }  // namespace
+
+std::vector<Setting> estimate_settings(const std::string& method) {
+  return boundary::guarded([&] {
+    methods::require_known(method);
+    std::vector<Setting> found;
+    const methods::RunOptions usual;
+    methods::for_each_method(usual,
+                             [&](const std::string& name, const auto& settings, const auto& own) {
+                               if (name == method) found = boundary::outer(settings, own);
+                             });
+    return found;
+  });
+}
 
 FieldEstimate estimate_field(const PointsView& points, const EstimateOptions& options,
                              const Progress& progress) {

@@ -74,19 +74,16 @@ void bind_results(py::module_& module) {
 }
 
 void bind_options(py::module_& module) {
+  py::class_<Setting>(module, "Setting")
+      .def_readonly("key", &Setting::key)
+      .def_readonly("help", &Setting::help)
+      .def_readonly("usual", &Setting::usual)
+      .def_readonly("choices", &Setting::choices);
   py::class_<EstimateOptions>(module, "EstimateOptions")
       .def(py::init<>())
       .def_readwrite("crop_box", &EstimateOptions::crop_box)
       .def_readwrite("boxes", &EstimateOptions::boxes)
-      .def_readwrite("heading_deg", &EstimateOptions::heading_deg)
-      .def_readwrite("plot_width_m", &EstimateOptions::plot_width_m)
-      .def_readwrite("plot_length_m", &EstimateOptions::plot_length_m)
-      .def_readwrite("rows", &EstimateOptions::rows)
-      .def_readwrite("columns", &EstimateOptions::columns)
-      .def_readwrite("plots", &EstimateOptions::plots)
-      .def_readwrite("crop", &EstimateOptions::crop)
-      .def_readwrite("noise_m", &EstimateOptions::noise_m)
-      .def_readwrite("calibrated", &EstimateOptions::calibrated)
+      .def_readwrite("settings", &EstimateOptions::settings)
       .def_readwrite("threads", &EstimateOptions::threads);
   py::class_<EstimateFilesOptions>(module, "EstimateFilesOptions")
       .def(py::init<>())
@@ -107,6 +104,7 @@ void bind_estimate(py::module_& module) {
   bind_plots(module);
   bind_results(module);
   bind_options(module);
+  module.def("estimate_settings", &estimate_settings);
   module.def("estimate_field", [](const Cloud& cloud, const EstimateOptions& options,
                                   const std::array<double, 3>&, const py::object& progress) {
     return watched(progress, [&](const Progress& report) {

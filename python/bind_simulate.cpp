@@ -41,11 +41,6 @@ void bind_farm(py::module_& module) {
 }
 
 void bind_flight(py::module_& module) {
-  py::class_<FlightSetting>(module, "FlightSetting")
-      .def_readonly("key", &FlightSetting::key)
-      .def_readonly("help", &FlightSetting::help)
-      .def_readonly("usual", &FlightSetting::usual)
-      .def_readonly("choices", &FlightSetting::choices);
   py::class_<FlightSummary>(module, "FlightSummary")
       .def_readonly("shots", &FlightSummary::shots)
       .def_readonly("points", &FlightSummary::points)

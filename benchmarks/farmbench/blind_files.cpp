@@ -2,8 +2,8 @@
 #include "farmbench/blind_files.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_features.h"
@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 record::Source inside(record::Source source, const cloud::Area& area) {
   const Eigen::Vector3d origin_m = source.info.origin_m;

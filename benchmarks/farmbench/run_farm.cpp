@@ -81,8 +81,25 @@ MethodRun run_command(const CommandMethod& method, const Field& field,
                      .score = score::score_field(truth, ran.estimate)}};
 }
 
+MethodRun run_named(const std::string& name, const Suite& suite, const Field& field,
+                    const std::vector<score::TruePlot>& truth) {
+  const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
+  if (command == suite.commands.end()) return run_method(method_named(name), field, truth);
+  return run_command(*command, field, truth);
+}
+
+double share_of(std::size_t done, std::size_t all) {
+  return static_cast<double>(done) / static_cast<double>(all);
+}
+
 void report(const ProgressReport& progress, double share) {
   if (progress) progress(share);
+}
+
+std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
+  std::vector<score::TruePlot> some;
+  std::ranges::copy_if(plots, std::back_inserter(some), &score::TruePlot::scored);
+  return some;
 }
 
 FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
@@ -129,8 +146,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
       scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
   std::vector<score::TruePlot> truth = standing_plots(place);
   const cloud::Area shown = field_area(truth, kShown_m);
-  std::vector<score::TruePlot> plots;
-  std::ranges::copy_if(truth, std::back_inserter(plots), &score::TruePlot::scored);
+  std::vector<score::TruePlot> plots = scored(truth);
   const cloud::CloudMap map =
       cloud::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
   if (suite_case.without_plots) {
@@ -148,10 +164,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                     .seed = seed,
                     .threads = threads};
   for (const std::string& name : suite.methods) {
-    const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
-    MethodRun method = command == suite.commands.end()
-                           ? run_method(method_named(name), field, truth)
-                           : run_command(*command, field, truth);
+    MethodRun method = run_named(name, suite, field, truth);
     result.methods.push_back(std::move(method.result));
     if (view && result.methods.size() == 1) {
       write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
@@ -162,8 +175,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                               .terrain = farm.terrain,
                               .result = result});
     }
-    const auto done = static_cast<double>(result.methods.size());
-    report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
+    report(progress, kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
   }
   return result;
 }

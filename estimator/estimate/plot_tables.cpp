@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
-#include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 // A table's column: its name and what stands in it for a plot.
 struct Column {

@@ -6,8 +6,6 @@
 #include <map>
 
 #include "cloud/field_density.h"
-#include "methods/dhami2020/settings.h"
-#include "methods/lattice/settings.h"
 
 #include "core/error.h"
 #include "core/manifest.h"
@@ -52,9 +50,10 @@ json options_json(const RecordingOptions& options) {
 }
 
 json options_json(const RunOptions& options) {
-  json document = options.method == "lattice"
-                      ? settings_json(lattice::settings(), options.lattice)
-                      : settings_json(dhami2020::settings(), options.dhami2020);
+  json document;
+  for_each_method(options, [&](const std::string& name, const auto& settings, const auto& own) {
+    if (name == options.method) document = settings_json(settings, own);
+  });
   document["method"] = options.method;
   document["crop_box"] = to_json(options.crop_box);
   const CloudFiles& cloud = options.cloud;
@@ -89,10 +88,7 @@ estimate::Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
 }
 
 void require_sound(const RunOptions& options) {
-  if (std::ranges::find(method_names(), options.method) == method_names().end()) {
-    throw InputError("there is no method \"" + options.method + "\"; there is " +
-                     joined(method_names(), ", "));
-  }
+  require_known(options.method);
   const estimate::NumberingOptions& numbering = options.numbering;
   if (options.boxes && numbering.any())
     throw InputError("plots in given boxes keep their ids: they are neither numbered nor named");
@@ -159,8 +155,20 @@ void take_system(const scan::CloudSystem& system, const RunOptions& options,
 }  // namespace
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = {"lattice", "dhami2020"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    const RunOptions any;
+    for_each_method(any,
+                    [&](const char* name, const auto&, const auto&) { all.emplace_back(name); });
+    return all;
+  }();
   return names;
+}
+
+void require_known(const std::string& method) {
+  if (std::ranges::find(method_names(), method) != method_names().end()) return;
+  throw InputError("there is no method \"" + method + "\"; there is " +
+                   joined(method_names(), ", "));
 }
 
 estimate::Estimate run(const RunOptions& options, const ProgressReport& progress) {

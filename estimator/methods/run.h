@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "methods/dhami2020/dhami2020.h"
-#include "methods/lattice/lattice.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
 #include <nlohmann/json.hpp>
 
 #include "core/cloud_files.h"
@@ -35,8 +35,19 @@ struct RunOptions {
   int threads = 1;
 };
 
+// Calls `use` with each method's name, its settings and its own options in `run`, the default
+// method first.
+template <class Run, class Use>
+void for_each_method(Run& run, Use&& use) {
+  use("lattice", lattice::settings(), run.lattice);
+  use("dhami2020", dhami2020::settings(), run.dhami2020);
+}
+
 // The methods that `run` knows, the default first.
 const std::vector<std::string>& method_names();
+
+// Throws InputError, which lists them, on any other.
+void require_known(const std::string& method);
 
 // Runs the method and writes the estimate folder (docs/estimate-format.md). Methods count in
 // metres: the cloud's own coordinates become metres here and at reading, and become its own again

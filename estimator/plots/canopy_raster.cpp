@@ -66,9 +66,6 @@ Eigen::Matrix2d Frame::ab_from_world() const {
   world_from_ab << a_axis, b_axis;
   return world_from_ab.inverse();
 }
-Eigen::Vector2d Frame::to_ab(const Eigen::Vector2d& place) const {
-  return ab_from_world() * (place - origin);
-}
 Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
   return origin + ab.x() * a_axis + ab.y() * b_axis;
 }

@@ -20,7 +20,6 @@ struct Frame {
   Eigen::Vector2d b_axis = Eigen::Vector2d::UnitY();
 
   Eigen::Matrix2d ab_from_world() const;
-  Eigen::Vector2d to_ab(const Eigen::Vector2d& place) const;
   Eigen::Vector2d to_world(const Eigen::Vector2d& ab) const;
 };
 

@@ -10,20 +10,20 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/angle.h"
 #include "core/statistics.h"
 
 namespace plotscan::plots {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 constexpr int kAngles = 180;
 constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
 constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
 constexpr int kMostSkew_deg = 15;      // of the axes, off the right angle
 constexpr double kSkewDoubt = 0.25;
-constexpr double kTilt_rad = 0.5 * kDegree;  // between what the families say: one is tilted
-constexpr double kHintReach_rad = 5 * kDegree;
+constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: one is tilted
+constexpr double kHintReach_rad = 5 * kDegrees;
 constexpr double kLeastCover = 0.1;  // of a block with canopy
 constexpr double kAround_m = 2;      // of bare ground about the canopy
 
@@ -56,10 +56,16 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
   return cells;
 }
 
+// How wide a line is, and how long a block of lines, of which each has steps of its own.
+struct LineSize {
+  double bin_m;
+  double block_m;
+};
+
 // The cells in bins across lines of one direction, for each block along them.
 class Lines {
  public:
-  Lines(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m)
+  Lines(const std::vector<Cell>& cells, double angle_rad, const LineSize& size)
       : c_(static_cast<float>(std::cos(angle_rad))), s_(static_cast<float>(std::sin(angle_rad))) {
     float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
     for (const Cell& cell : cells) {
@@ -68,7 +74,8 @@ class Lines {
       low_across = std::min(low_across, across(cell));
       high_across = std::max(high_across, across(cell));
     }
-    const auto per_bin = static_cast<float>(1 / bin_m), per_block = static_cast<float>(1 / block_m);
+    const auto per_bin = static_cast<float>(1 / size.bin_m);
+    const auto per_block = static_cast<float>(1 / size.block_m);
     length_m_ = high_along - low_along;
     bins_ = static_cast<std::size_t>((high_across - low_across) * per_bin) + 3;
     blocks_ = static_cast<std::size_t>(length_m_ * per_block) + 1;
@@ -114,30 +121,30 @@ class Lines {
 };
 
 // Of the lines in direction angle_rad.
-double sharpness(const std::vector<Cell>& cells, double angle_rad, double bin_m, double block_m) {
-  const Lines lines(cells, angle_rad, bin_m, block_m);
-  return lines.steps(0.25 * std::min(block_m, static_cast<double>(lines.length_m())) / bin_m);
+double sharpness(const std::vector<Cell>& cells, double angle_rad, const LineSize& size) {
+  const Lines lines(cells, angle_rad, size);
+  const double length_m = std::min(size.block_m, static_cast<double>(lines.length_m()));
+  return lines.steps(0.25 * length_m / size.bin_m);
 }
 
 std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vector<double>& angles,
-                                double bin_m, double block_m, int threads) {
+                                const LineSize& size, int threads) {
   std::vector<double> values(angles.size());
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, angles.size(), [&](std::size_t i) {
-      values[i] = sharpness(cells, angles[i], bin_m, block_m);
-    });
+    tbb::parallel_for(std::size_t{0}, angles.size(),
+                      [&](std::size_t i) { values[i] = sharpness(cells, angles[i], size); });
   });
   return values;
 }
 
 // The sharpest direction within reach_rad of a guess, tried in steps, and the parabola's top.
 double refined(const std::vector<Cell>& cells, double guess_rad, double reach_rad, double step_rad,
-               double bin_m, double block_m, int threads) {
+               const LineSize& size, int threads) {
   std::vector<double> angles;
   const int steps = static_cast<int>(std::lround(reach_rad / step_rad));
   for (int i = -steps; i <= steps; ++i) angles.push_back(guess_rad + i * step_rad);
-  const std::vector<double> values = sharpnesses(cells, angles, bin_m, block_m, threads);
+  const std::vector<double> values = sharpnesses(cells, angles, size, threads);
   const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   if (best == 0 || best + 1 == values.size()) return angles[best];
   const double left = values[best - 1], top = values[best], right = values[best + 1];
@@ -156,7 +163,7 @@ struct Pair {
 Pair best_pair(const std::vector<double>& values, const std::optional<double>& hint_rad) {
   Pair best;
   for (int first = 0; first < kAngles; ++first) {
-    if (hint_rad && std::abs(std::remainder(first * kDegree - *hint_rad, kPi)) > kHintReach_rad)
+    if (hint_rad && std::abs(std::remainder(first * kDegrees - *hint_rad, kPi)) > kHintReach_rad)
       continue;
     for (int skew = -kMostSkew_deg; skew <= kMostSkew_deg; ++skew) {
       const int second = first + 90 + skew;
@@ -177,27 +184,28 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   if (cells.empty()) return {};
   const double bin_m = raster.cell_m();
   std::vector<double> angles, values;
-  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegree);
+  for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegrees);
   for (const double block_m : {kLongBlock_m, kShortBlock_m}) {
-    std::vector<double> sharp = sharpnesses(cells, angles, bin_m, block_m, threads);
+    std::vector<double> sharp = sharpnesses(cells, angles, {bin_m, block_m}, threads);
     const double usual = quantile(sharp, 0.5);
     values.resize(sharp.size());
     for (std::size_t i = 0; i < sharp.size(); ++i)
       values[i] = std::max(values[i], sharp[i] / std::max(1e-9, usual));
   }
+  const LineSize long_lines{bin_m, kLongBlock_m};
   const auto fine = [&](double guess_rad) {
     const double closer =
-        refined(cells, guess_rad, 2 * kDegree, 0.2 * kDegree, bin_m, kLongBlock_m, threads);
-    return refined(cells, closer, 0.3 * kDegree, 0.05 * kDegree, bin_m, kLongBlock_m, threads);
+        refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, long_lines, threads);
+    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, long_lines, threads);
   };
   const Pair pair = best_pair(values, hint_rad);
-  FieldAxes axes{fine(pair.first * kDegree), fine(pair.second * kDegree)};
+  FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
   if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
   // One rigid pair, as either family has it: offsets of rows can tilt the lines of one.
   const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
   const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
-  const double sharp_first = sharpness(cells, axes.first_rad, bin_m, kLongBlock_m);
-  const double sharp_second = sharpness(cells, axes.second_rad, bin_m, kLongBlock_m);
+  const double sharp_first = sharpness(cells, axes.first_rad, long_lines);
+  const double sharp_second = sharpness(cells, axes.second_rad, long_lines);
   if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};
   return {sharp_first >= sharp_second ? of_first : of_second};
 }

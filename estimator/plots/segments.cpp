@@ -187,17 +187,4 @@ Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& sh
   return bands;
 }
 
-double closed_canopy_misfit(std::span<const ProfileSums> profiles) {
-  double misfit = 0;
-  for (const ProfileSums& sums : profiles) {
-    const double least = kLeastLevel * highest_mean(sums, 1);
-    int begin = 0, end = sums.cells();
-    while (begin < end && sums.mean(begin, begin + 1) < least) ++begin;
-    while (end > begin && sums.mean(end - 1, end) < least) --end;
-    misfit += sums.squares(0, begin, 0) + sums.squares(begin, end, sums.mean(begin, end)) +
-              sums.squares(end, sums.cells(), 0);
-  }
-  return misfit;
-}
-
 }  // namespace plotscan::plots

@@ -39,7 +39,4 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
 Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& shape,
                       std::vector<int> begins);
 
-// Weighted squares left by one closed canopy from the first place that is covered to the last.
-double closed_canopy_misfit(std::span<const ProfileSums> profiles);
-
 }  // namespace plotscan::plots

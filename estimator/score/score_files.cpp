@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <set>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 
@@ -14,8 +14,6 @@ namespace plotscan::score {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 json to_json(const PlotBox& box) {
   return {{"center_x_m", box.center.x()},

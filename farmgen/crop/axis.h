@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Core>
 
-namespace plotscan::crop {
+#include "core/angle.h"
 
-constexpr double kRadians = std::numbers::pi / 180;
+namespace plotscan::crop {
 
 // The unit vector at an azimuth (counter-clockwise from x) and an elevation over the horizontal.
 Eigen::Vector3d direction(double azimuth_rad, double elevation_rad);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/random.h"
 #include "crop/axis.h"
 #include "crop/grass.h"
@@ -259,7 +260,7 @@ class MaizePlant {
       // On the spike's lower third, the lowest the longest.
       const double share = static_cast<double>(branch) / branches;
       const double reach = length * vary(0.75 - 0.25 * share, random);
-      const double azimuth = branch * 137.5 * kRadians + random.uniform(-0.3, 0.3);
+      const double azimuth = branch * 137.5 * kDegrees + random.uniform(-0.3, 0.3);
       grow_tassel_branch(base + share * 0.33 * length * axis, azimuth, reach, random);
     }
   }

@@ -224,23 +224,4 @@ void add_textures(mesh::Mesh& mesh, const std::string& crop) {
   }
 }
 
-std::shared_ptr<const mesh::Image> soil_texture() {
-  constexpr int kSide = 256;
-  const Noise hollows(10, 5, 5);
-  const Noise clods(11, 14, 14);
-  const Noise crumbs(12, 45, 45);
-  const Noise grains(13, 128, 128);
-  const Raster raster = drawn({kSide, kSide}, [&](double u, double v) {
-    return 0.5 + 0.10 * hollows(u, v) + 0.17 * clods(u, v) + 0.16 * crumbs(u, v) +
-           0.13 * grains(u, v);
-  });
-  const Eigen::Vector3f dark(0.24F, 0.18F, 0.13F);
-  const Eigen::Vector3f light(0.66F, 0.55F, 0.43F);
-  Palette palette;
-  for (std::size_t i = 0; i < palette.size(); ++i)
-    palette[i] = dark + static_cast<float>(i) / 252 * (light - dark);
-  return std::make_shared<const mesh::Image>(
-      mesh::Image{.name = "soil.png", .bytes = png_of(raster, palette)});
-}
-
 }  // namespace plotscan::crop

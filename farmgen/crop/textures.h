@@ -35,10 +35,4 @@ std::shared_ptr<const mesh::Image> organ_texture(const std::string& crop,
 // since a texture is multiplied with them. The mesh must have texture coordinates.
 void add_textures(mesh::Mesh& mesh, const std::string& crop);
 
-// Bare loam, "soil.png", 256 x 256 pixels, whose opposite edges fit together. One repetition is
-// meant to cover kSoilTexture_m by kSoilTexture_m of ground: texture coordinates of a terrain are
-// (x, y) / kSoilTexture_m.
-std::shared_ptr<const mesh::Image> soil_texture();
-inline constexpr double kSoilTexture_m = 1;
-
 }  // namespace plotscan::crop

@@ -3,20 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "description/models_section.h"
 #include "description/values.h"
 #include "planting/plot_layout.h"
 
+#include "core/angle.h"
 #include "core/error.h"
+#include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr Range kJitter = {0, 10};
 constexpr Range kDensity = {0, 10000};
 constexpr Range kHeight = {0.01, 20};
@@ -29,7 +29,6 @@ constexpr Range kDirection = {-360, 360};
 constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::uint64_t kMostPlants = 10'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
-constexpr std::size_t kMostPlots = 100'000;
 
 // A cultivar's section; what it does not say, `plants` says.
 class Inherited {
@@ -115,11 +114,11 @@ planting::LodgingDescription read_lodging(const YamlSection& section) {
   if (least > greatest) section.fail("angle_deg", "is not [min, max]: min is the larger");
   planting::LodgingDescription lodging{
       .plots_rate = section.number("plots_rate", kShare),
-      .min_angle_rad = least * kRadians,
-      .max_angle_rad = greatest * kRadians,
-      .spread_rad = section.number("spread_deg", kLean, 10.0) * kRadians};
+      .min_angle_rad = least * kDegrees,
+      .max_angle_rad = greatest * kDegrees,
+      .spread_rad = section.number("spread_deg", kLean, 10.0) * kDegrees};
   if (section.has("direction_deg")) {
-    lodging.direction_rad = section.number("direction_deg", kDirection) * kRadians;
+    lodging.direction_rad = section.number("direction_deg", kDirection) * kDegrees;
   }
   return lodging;
 }

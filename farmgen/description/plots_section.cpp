@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planting/plot_layout.h"
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "core/text.h"
+#include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr Range kPlotSize = {0.05, 1000};
 constexpr Range kGap = {0, 1000};
 constexpr Range kPitch = {-10000, 10000};
@@ -23,7 +23,6 @@ constexpr Range kHeading = {-360, 360};
 constexpr Range kSkew = {-45, 45};
 constexpr Range kShare = {0, 1};
 constexpr std::size_t kMostRows = 10'000;
-constexpr std::uint64_t kMostPlots = 100'000;
 constexpr std::int64_t kLargestFirstNumber = 1'000'000'000;
 
 Eigen::Vector2d vector_at(const YamlSection& section, const std::string& key, Range range) {
@@ -50,7 +49,7 @@ void read_pitch(const YamlSection& section, planting::PlotGridDescription& grid)
   grid.pitch = {vector_at(pitch, "column_m", kPitch), vector_at(pitch, "row_m", kPitch)};
   const auto& [column, row] = *grid.pitch;
   const double across = column.x() * row.y() - column.y() * row.x();
-  if (std::abs(across) <= column.norm() * row.norm() * std::cos(kSkew.high * kRadians)) {
+  if (std::abs(across) <= column.norm() * row.norm() * std::cos(kSkew.high * kDegrees)) {
     section.fail("pitch", "has steps less than 45 degrees apart, or none");
   }
 }
@@ -130,8 +129,8 @@ planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
   grid.gap_length_m = section.number("gap_length_m", kGap, 0.0);
   grid.random_heading = section.text("heading_deg", "0") == "random";
   if (!grid.random_heading)
-    grid.heading_rad = section.number("heading_deg", kHeading, 0.0) * kRadians;
-  grid.skew_rad = section.number("skew_deg", kSkew, 0.0) * kRadians;
+    grid.heading_rad = section.number("heading_deg", kHeading, 0.0) * kDegrees;
+  grid.skew_rad = section.number("skew_deg", kSkew, 0.0) * kDegrees;
   const auto [x, y] = section.pair("position_m", kPlace, std::pair{0.0, 0.0});
   grid.position_m = {x, y};
   read_rows(section, grid);

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "description/terrain_section.h"
 
-#include <numbers>
 #include <string>
 
 #include "description/values.h"
 
+#include "core/angle.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr Range kSide = {1, 100000};
 constexpr Range kHeight = {-10000, 10000};
 constexpr Range kRelief = {0, 1000};
@@ -29,7 +28,7 @@ constexpr std::int64_t kMostVertices = 1'000'000;
 const std::vector<std::string> kBases = {"mesh", "heightmap", "xyz"};
 
 double angle_at(const YamlSection& section, const std::string& key) {
-  return section.number(key, kAngle, 0.0) * kRadians;
+  return section.number(key, kAngle, 0.0) * kDegrees;
 }
 
 terrain::HeightmapDescription read_heightmap(const YamlSection& section) {

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <unordered_set>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_features.h"
@@ -15,8 +15,6 @@
 
 namespace plotscan::farmfolder {
 namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 struct HeightAttribute {
   const char* name;

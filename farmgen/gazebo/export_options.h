@@ -41,6 +41,7 @@ struct ExportOptions {
   bool drone = false;  // a quadrotor with a VLP-16, and a script that flies it
   Lidar lidar = Lidar::gpu;
   int threads = 1;
+  bool replace = false;  // a world that is there
 };
 
 // The triangles of a light plant that has no light mesh of its own.

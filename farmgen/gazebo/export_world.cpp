@@ -92,12 +92,12 @@ nlohmann::json results_of(const EntityCounts& counts, const farm::Farm& farm) {
 }
 
 ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
-                           const fs::path& folder, const ExportOptions& options, bool replace,
-                           Manifest origin, const ProgressReport& progress) {
+                           const fs::path& folder, const ExportOptions& options, Manifest origin,
+                           const ProgressReport& progress) {
   const std::vector<PlantGroups> groups =
       options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
   require_different_names(farm, groups, options.drone);
-  OutputFolder output(folder, replace, origin.command, {{farm_folder}});
+  OutputFolder output(folder, options.replace, origin.command, {{farm_folder}});
   const PlantSurfaces surfaces = plant_surfaces(farm, options.lod);
   ExportSummary summary{.counts = {}, .plants = farm.plants.size()};
   summary.counts = write_models(output.path(), farm, groups, surfaces, options,
@@ -122,8 +122,8 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
 }  // namespace
 
 ExportSummary export_world(const farm::Farm& farm, const fs::path& farm_folder,
-                           const fs::path& folder, const ExportOptions& options, bool replace,
-                           Manifest origin, const ProgressReport& progress) {
+                           const fs::path& folder, const ExportOptions& options, Manifest origin,
+                           const ProgressReport& progress) {
   require_possible(options);
   std::optional<tbb::global_control> more_threads;
   if (options.threads > tbb::info::default_concurrency()) {
@@ -133,8 +133,7 @@ ExportSummary export_world(const farm::Farm& farm, const fs::path& farm_folder,
   ExportSummary summary;
   tbb::task_arena(options.threads).execute([&] {
     summary = write_export(
-        farm_folder, farm, folder, options, replace, std::move(origin),
-        progress ? progress : [](double) {});
+        farm_folder, farm, folder, options, std::move(origin), progress ? progress : [](double) {});
   });
   return summary;
 }

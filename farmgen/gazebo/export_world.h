@@ -22,9 +22,9 @@ struct ExportSummary {
 // whole or not at all, and holds the same bytes for any number of threads. The truth is
 // copied from the farm's folder. Throws InputError when a plant model is called as another model of
 // the world, Lidar::cpu is asked for without the drone, without collisions or for Gazebo Sim, or
-// `folder` exists and `replace` does not cover it.
+// `folder` exists and options.replace does not cover it.
 ExportSummary export_world(const farm::Farm& farm, const std::filesystem::path& farm_folder,
                            const std::filesystem::path& folder, const ExportOptions& options,
-                           bool replace, Manifest origin, const ProgressReport& progress = {});
+                           Manifest origin, const ProgressReport& progress = {});
 
 }  // namespace plotscan::gazebo

@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 #include <string_view>
 #include <unordered_map>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 
 namespace plotscan::planting {
 namespace {
 
-constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kSmallestScale = 0.01;
 constexpr double kLargestScale = 100;
-constexpr long long kMostPlots = std::numeric_limits<std::uint32_t>::max();
+constexpr long long kGreatestId = std::numeric_limits<std::uint32_t>::max();
 
 enum Column {
   model,
@@ -108,7 +107,7 @@ class LayoutRows {
 
   Eigen::Quaterniond rotation_of(const CsvRow& row) const {
     const auto turn = [&](Column column, const Eigen::Vector3d& axis) {
-      return Eigen::AngleAxisd(number(row, column, 0.0) * kRadians, axis);
+      return Eigen::AngleAxisd(number(row, column, 0.0) * kDegrees, axis);
     };
     return turn(Column::yaw, Eigen::Vector3d::UnitZ()) *
            turn(Column::pitch, Eigen::Vector3d::UnitY()) *
@@ -134,7 +133,7 @@ class LayoutRows {
   }
 
   LayoutPlant plant_of(const CsvRow& row, long long expected_id) const {
-    if (has(row, Column::id) && row.integer(places_[Column::id], 1, kMostPlots) != expected_id) {
+    if (has(row, Column::id) && row.integer(places_[Column::id], 1, kGreatestId) != expected_id) {
       row.fail(places_[Column::id], "is not " + std::to_string(expected_id) +
                                         ": plants are numbered from 1 in the table's order");
     }
@@ -145,7 +144,7 @@ class LayoutRows {
     plant.scale = scale_of(row);
     plant.rotation = rotation_of(row);
     if (has(row, Column::plot)) {
-      plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kMostPlots));
+      plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kGreatestId));
     }
     plant.kind = kind_of(row);
     plant.line = row.line();

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/geodesy.h"
@@ -21,7 +21,6 @@ using nlohmann::json;
 // Some hundred thousand plots; parsed, they take about fifteen times as much memory.
 constexpr std::uintmax_t kMostBytes = 64'000'000;
 
-constexpr double kDegrees = std::numbers::pi / 180;
 // What write_plot_features_wgs84 calls its positions.
 constexpr std::string_view kDegreesStated = "WGS84 longitude, latitude";
 

@@ -9,6 +9,9 @@
 
 namespace plotscan {
 
+// Of a field, in descriptions, options and tables: far more than any trial has.
+inline constexpr int kMostPlots = 100'000;
+
 // Where a plot of a trial lies.
 struct TrialPlace {
   int row = 0;     // from 1: rows follow each other along the plots' length

@@ -2,15 +2,11 @@
 #include "boundary/values.h"
 
 #include <algorithm>
-#include <numbers>
 #include <thread>
 
+#include "core/angle.h"
+
 namespace plotscan::boundary {
-namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180;
-
-}  // namespace
 
 PlotBox inner(const Box& box) {
   return {.center = {box.center_x_m, box.center_y_m},

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,25 +14,22 @@
 #include "plotscan/plots.h"
 #include "plotscan/points.h"
 #include "plotscan/progress.h"
+#include "plotscan/settings.h"
 
 namespace plotscan {
 
-// What may be told of a field; the method needs none of it (docs/methods.md).
+// Every setting of a method, "lattice" or "dhami2020"; `lattice` needs none of them
+// (docs/methods.md). Throws BadInput on another name.
+PLOTSCAN_API std::vector<Setting> estimate_settings(const std::string& method = "lattice");
+
+// What is known of a field.
 struct EstimateOptions {
   // Use only the points in here: x0, y0, x1, y1, in the cloud's units; else the densely scanned
   // field is found.
   std::optional<std::array<double, 4>> crop_box = {};
-  std::vector<Box> boxes = {};               // given plots: heights only, none is searched
-  std::optional<double> heading_deg = {};    // of the plots' length, counter-clockwise from x
-  std::optional<double> plot_width_m = {};   // of every plot, 0.1 to 100
-  std::optional<double> plot_length_m = {};  // of every plot, 0.1 to 100
-  std::optional<int> rows = {};              // of plots; they follow each other along the length
-  std::optional<int> columns = {};           // of plots; along the width
-  std::optional<int> plots = {};             // how many there are
-  std::optional<std::string> crop = {};      // soybean, wheat or maize; else told from the canopy
-  std::optional<double> noise_m = {};        // sigma of the points' heights; else estimated
-  bool calibrated = true;                    // plants' heights from the canopy's
-  int threads = 0;                           // 0: one for each processor; results are the same
+  std::vector<Box> boxes = {};                        // given plots: heights only, none is searched
+  std::map<std::string, SettingValue> settings = {};  // of the method, by their keys
+  int threads = 0;  // 0: one for each processor; results are the same
 };
 
 // The ground under a field as heights of a square grid's nodes: node (column, row) lies at
@@ -70,7 +68,7 @@ PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
 // `estimator run --help` explains.
 struct EstimateFilesOptions {
   EstimateOptions field = {};      // its boxes are not used: `boxes` names their file
-  std::string method = "lattice";  // or "dhami2020", which needs field.plots
+  std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
   std::optional<std::filesystem::path> boxes = {};  // a map of plots, GeoJSON
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
   std::optional<std::string> units = {};    // of the coordinates, m, ft or us-ft; else the file's

@@ -1,37 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "plotscan/error.h"
 #include "plotscan/export.h"
 #include "plotscan/progress.h"
+#include "plotscan/settings.h"
 
 namespace plotscan {
 
-// A number, a text or, of a mount, three numbers.
-using FlightValue = std::variant<double, std::string, std::array<double, 3>>;
-
-// One setting of a flight, as `lidarsim fly --help` and suites know it.
-struct FlightSetting {
-  std::string key;                        // "altitude_m"
-  std::string help;                       // unit, range, meaning
-  std::optional<FlightValue> usual = {};  // the value where it is not set; absent: the sensor's own
-  std::vector<std::string> choices = {};  // of a text; empty: any
-};
-
 // Every setting there is: sensor, strips, wind, beam, pose errors.
-PLOTSCAN_API std::vector<FlightSetting> flight_settings();
+PLOTSCAN_API std::vector<Setting> flight_settings();
 
 struct FlightOptions {
-  std::map<std::string, FlightValue> settings = {};      // by their keys
+  std::map<std::string, SettingValue> settings = {};     // by their keys
   std::optional<std::filesystem::path> trajectory = {};  // to fly in place of strips
   std::optional<std::filesystem::path> waypoints = {};   // to fly in place of strips, YAML
   std::vector<std::string> formats = {};  // ply, las, pcap, bag, mcap: written beside cloud.pcd

@@ -81,10 +81,35 @@ std::unique_ptr<const Scene> swaying_scene(const SceneContent* plants, const Fly
       *plants, Sway(options.sway, wind_of(options), duration_s, crop_of(*plants)));
 }
 
-// `plants`: what the scene was made from, where it can sway.
-FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* plants,
-                    const std::filesystem::path& scan_folder, const FlyOptions& options,
-                    bool replace, const ProgressReport& progress) {
+// The trajectory that was flown, the one that the drone says it flew, and the sensor.
+void write_flight(const std::filesystem::path& folder, const DroneFlight& flight,
+                  const sensor::Sensor& sensor) {
+  scan::write_trajectory(folder / "trajectory.csv", flight.truth);
+  scan::write_trajectory(folder / "poses.csv", flight.reported);
+  TextFile description(folder / "sensor.yaml");
+  description << sensor.description;
+  description.close();
+}
+
+// The other formats are made of the whole folder, and the manifest lists them, too.
+void finish(const std::filesystem::path& folder, const Manifest& manifest,
+            const std::vector<std::string>& formats) {
+  write_manifest(folder, manifest);
+  if (formats.empty()) return;
+  record::write_formats(formats, folder);
+  write_manifest(folder, manifest);
+}
+
+// What is flown over; `plants` is what the scene was made from, where it can sway.
+struct FlownPlace {
+  const Site& site;
+  const Scene& scene;
+  const SceneContent* plants;
+};
+
+FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_folder,
+                    const FlyOptions& options, bool replace, const ProgressReport& progress) {
+  const auto& [site, scene, plants] = place;
   require_valid(options);
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options, sensor);
@@ -112,22 +137,12 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
        .returns = return_mode(options.returns)},
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();
-  scan::write_trajectory(output.path() / "trajectory.csv", flight.truth);
-  scan::write_trajectory(output.path() / "poses.csv", flight.reported);
-  TextFile description(output.path() / "sensor.yaml");
-  description << sensor.description;
-  description.close();
+  write_flight(output.path(), flight, sensor);
 
   const FlySummary summary{.shots = fired.sequences() * fired.lasers(),
                            .points = cloud.points(),
                            .duration_s = flight.truth.end_s()};
-  const Manifest manifest = manifest_of(site, sensor, options, summary);
-  write_manifest(output.path(), manifest);
-  if (!options.formats.empty()) {
-    // They are made of the whole folder, and the manifest lists them, too.
-    record::write_formats(options.formats, output.path());
-    write_manifest(output.path(), manifest);
-  }
+  finish(output.path(), manifest_of(site, sensor, options, summary), options.formats);
   output.commit();
   return summary;
 }
@@ -136,13 +151,15 @@ FlySummary fly_over(const Site& site, const Scene& scene, const SceneContent* pl
 
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  return fly_over(site, scene, nullptr, scan_folder, options, replace, progress);
+  return fly_over({site, scene, nullptr}, scan_folder, options, replace, progress);
 }
 
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress) {
   const SceneContent content = scene_content(farm);
-  return fly_over(site_of(farm), Scene(content), &content, scan_folder, options, replace, progress);
+  const Site site = site_of(farm);
+  const Scene scene(content);
+  return fly_over({site, scene, &content}, scan_folder, options, replace, progress);
 }
 
 }  // namespace plotscan::lidar

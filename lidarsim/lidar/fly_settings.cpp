@@ -15,6 +15,7 @@ constexpr const char* kPoseErrors = "Pose errors (docs/pose-errors.md)";
 
 }  // namespace
 
+// A table may be long. NOLINTNEXTLINE(readability-function-size)
 const std::vector<FlySetting>& fly_settings() {
   static const std::vector<FlySetting> settings = {
       {.key = "sensor",

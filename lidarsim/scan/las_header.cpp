@@ -241,9 +241,15 @@ std::string count_note(std::uint64_t promised, std::uint64_t found) {
          std::to_string(found) + " are whole; the others were not looked at";
 }
 
-// What the variable length records say; `at` is the first one's.
-void read_records(LasFile& file, std::uint64_t at, std::uint64_t count, bool extended,
-                  const LasHeader& header, CloudLayout& layout, StatedUnits& units) {
+struct VariableRecords {
+  std::uint64_t at = 0;  // of the first one's header
+  std::uint64_t count = 0;
+  bool extended = false;
+};
+
+void read_records(LasFile& file, const VariableRecords& records, const LasHeader& header,
+                  CloudLayout& layout, StatedUnits& units) {
+  auto [at, count, extended] = records;
   const std::uint64_t end = extended ? file.size() : header.points_at;
   const std::uint64_t header_size = extended ? las::kEvlrHeaderSize : las::kVlrHeaderSize;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -291,11 +297,11 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   add_coordinates(file, layout);
   add_format_fields(header.format, layout);
   StatedUnits units;
-  read_records(file, header.size, file.number<std::uint32_t>(100), false, header, layout, units);
+  read_records(file, {header.size, file.number<std::uint32_t>(100), false}, header, layout, units);
   if (header.minor >= 4) {
     const auto count = file.number<std::uint32_t>(243);
     if (count > 0)
-      read_records(file, file.number<std::uint64_t>(235), count, true, header, layout, units);
+      read_records(file, {file.number<std::uint64_t>(235), count, true}, header, layout, units);
   }
   layout.units = units_of(units);
   note_unknown_unit(units, layout);

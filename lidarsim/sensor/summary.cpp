@@ -2,15 +2,14 @@
 #include "sensor/summary.h"
 
 #include <algorithm>
-#include <numbers>
+#include <array>
 
+#include "core/angle.h"
 #include "core/text.h"
 #include "sensor/risley.h"
 
 namespace plotscan::sensor {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180;
 
 std::string field_of_view(const SensorSummary& summary) {
   if (summary.cone_deg > 0) return formatted("cone of %.1f deg", summary.cone_deg);
@@ -23,10 +22,10 @@ std::string spin(const SensorSummary& summary) {
                    summary.max_spin_hz);
 }
 
-std::string line(const char* name, const char* channels, const char* view, const char* shots,
-                 const char* range, const char* spin, const char* title) {
-  return formatted("%-12s %8s  %-20s %9s  %-12s  %-15s  %s", name, channels, view, shots, range,
-                   spin, title);
+std::string line(const std::array<std::string, 7>& cells) {
+  const auto& [name, channels, view, shots, range, spin, title] = cells;
+  return formatted("%-12s %8s  %-20s %9s  %-12s  %-15s  %s", name.c_str(), channels.c_str(),
+                   view.c_str(), shots.c_str(), range.c_str(), spin.c_str(), title.c_str());
 }
 
 }  // namespace
@@ -43,24 +42,23 @@ SensorSummary summary_of(const Sensor& sensor) {
                         .max_spin_hz = sensor.max_spin_hz,
                         .default_spin_hz = sensor.default_spin_hz};
   if (sensor.wedges) {
-    summary.cone_deg = 2 * deflections_rad(*sensor.wedges)[0] / kDegree_rad;
+    summary.cone_deg = 2 * deflections_rad(*sensor.wedges)[0] / kDegrees;
     return summary;
   }
   const auto [least, most] = std::ranges::minmax(sensor.lasers, {}, &Laser::elevation_rad);
-  summary.least_elevation_deg = least.elevation_rad / kDegree_rad;
-  summary.most_elevation_deg = most.elevation_rad / kDegree_rad;
+  summary.least_elevation_deg = least.elevation_rad / kDegrees;
+  summary.most_elevation_deg = most.elevation_rad / kDegrees;
   return summary;
 }
 
 std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summaries) {
   std::vector<std::string> lines = {
-      line("NAME", "CHANNELS", "FIELD OF VIEW", "SHOTS/S", "RANGE", "SPIN", "TITLE")};
+      line({"NAME", "CHANNELS", "FIELD OF VIEW", "SHOTS/S", "RANGE", "SPIN", "TITLE"})};
   for (const SensorSummary& summary : summaries) {
-    lines.push_back(
-        line(summary.name.c_str(), std::to_string(summary.channels).c_str(),
-             field_of_view(summary).c_str(), formatted("%.0f", summary.shots_per_s).c_str(),
-             formatted("%.4g..%.4g m", summary.min_range_m, summary.max_range_m).c_str(),
-             spin(summary).c_str(), summary.title.c_str()));
+    lines.push_back(line({summary.name, std::to_string(summary.channels), field_of_view(summary),
+                          formatted("%.0f", summary.shots_per_s),
+                          formatted("%.4g..%.4g m", summary.min_range_m, summary.max_range_m),
+                          spin(summary), summary.title}));
   }
   return lines;
 }

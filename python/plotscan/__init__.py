@@ -23,7 +23,6 @@ from ._plotscan import (
     Cloud,
     FarmSummary,
     FieldEstimate,
-    FlightSetting,
     FlightSummary,
     GroundGrid,
     Height,
@@ -31,20 +30,22 @@ from ._plotscan import (
     NothingMeasured,
     Plot,
     Scores,
+    Setting,
     TruePlot,
     point_dtype,
 )
 
 __all__ = [
-    "BadInput", "Box", "Cloud", "FarmSummary", "FieldEstimate", "FlightSetting", "FlightSummary", "GroundGrid",
-    "Height", "HeightScore", "NothingMeasured", "Plot", "Scores", "TruePlot", "convert_cloud", "data_folder",
-    "estimate_field", "estimate_files", "flight_settings", "fly", "generate_farm", "plot_table", "point_dtype",
+    "BadInput", "Box", "Cloud", "FarmSummary", "FieldEstimate", "FlightSummary", "GroundGrid",
+    "Height", "HeightScore", "NothingMeasured", "Plot", "Scores", "Setting", "TruePlot", "convert_cloud", "data_folder",
+    "estimate_field", "estimate_files", "estimate_settings", "flight_settings", "fly", "generate_farm", "plot_table", "point_dtype",
     "read_cloud", "read_truth", "score_estimate", "write_cloud",
 ]  # fmt: skip
 
 __version__ = _plotscan.version()
 
 Path = Union[str, "os.PathLike[str]"]
+SettingValue = Union[float, bool, str, Sequence[float], None]
 Progress = Optional[Callable[[float], Any]]
 
 
@@ -89,7 +90,7 @@ def read_truth(farm: Path) -> List[TruePlot]:
     return _plotscan.read_truth(farm)
 
 
-def flight_settings() -> List[FlightSetting]:
+def flight_settings() -> List[Setting]:
     """Every setting that `fly` takes, with its help and its usual value."""
     return _plotscan.flight_settings()
 
@@ -106,7 +107,7 @@ def fly(
     threads: int = 0,
     replace: bool = False,
     progress: Progress = None,
-    **settings: Union[float, str, Sequence[float]],
+    **settings: SettingValue,
 ) -> FlightSummary:
     """Fly the drone over a farm or an SDF world and write the scan folder, as `lidarsim fly` does.
 
@@ -114,12 +115,12 @@ def fly(
     trajectory, waypoints: files to fly in place of planned strips (docs/flight.md).
     formats: "ply", "las", "pcap", "bag", "mcap": written beside cloud.pcd.
     resource_paths: folders of an SDF world's models.
-    settings: by the keys of `flight_settings()`: sensor="os1_64", altitude_m=12, wind_m_s=4.
+    settings: by the keys of `flight_settings()`: sensor="os1_64", altitude_m=12, wind_m_s=4. None is not set.
 
     Raises BadInput on settings out of their range, a place that cannot be read, a folder that exists.
     """
     options = _plotscan.FlightOptions()
-    options.settings = settings
+    options.settings = _set(settings)
     options.trajectory = trajectory
     options.waypoints = waypoints
     options.formats = list(formats)
@@ -191,23 +192,23 @@ def convert_cloud(
     return _plotscan.convert_cloud(source, file, encoding, crs, topic, replace, progress)
 
 
+def estimate_settings(method: str = "lattice") -> List[Setting]:
+    """Every setting of a method, "lattice" or "dhami2020", with its help and its usual value.
+
+    Raises BadInput on another name.
+    """
+    return _plotscan.estimate_settings(method)
+
+
 def estimate_field(
     points: Union[Cloud, numpy.ndarray],
     *,
     origin_m: Tuple[float, float, float] = (0.0, 0.0, 0.0),
     crop_box: Optional[Tuple[float, float, float, float]] = None,
     boxes: Sequence[Box] = (),
-    heading_deg: Optional[float] = None,
-    plot_width_m: Optional[float] = None,
-    plot_length_m: Optional[float] = None,
-    rows: Optional[int] = None,
-    columns: Optional[int] = None,
-    plots: Optional[int] = None,
-    crop: Optional[str] = None,
-    noise_m: Optional[float] = None,
-    calibrated: bool = True,
     threads: int = 0,
     progress: Progress = None,
+    **settings: SettingValue,
 ) -> FieldEstimate:
     """Find the plots of a cloud held in memory and measure their heights, by the method `lattice`.
 
@@ -217,21 +218,17 @@ def estimate_field(
     origin_m: what positions in float32 count from, metres; a cloud brings its own.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: given plots: heights only, none is searched.
-    heading_deg, plot_width_m, plot_length_m, rows, columns, plots: what is known of the plots.
-    crop: "soybean", "wheat" or "maize"; else told from the canopy.
-    noise_m: sigma of the points' heights; else estimated from bare ground.
-    calibrated: plants' heights from the canopy's (docs/plot-heights.md).
+    settings: by the keys of `estimate_settings()`: rows=3, crop="maize", calibrated=False. None is not set.
 
-    A field without plots has an estimate without plots; `nothing` says why. Raises BadInput on options out
-    of their range, on an array that would have to be copied, and when no point lies in the area;
-    NothingMeasured when the points show no ground.
+    A field without plots has an estimate without plots; `nothing` says why. Raises BadInput on settings that
+    there are not or out of their range, on an array that would have to be copied, and when no point lies in
+    the area; NothingMeasured when the points show no ground.
 
     Method: docs/methods.md, of this project.
     """
-    known = dict(crop_box=crop_box, boxes=list(boxes), heading_deg=heading_deg, plot_width_m=plot_width_m,
-                 plot_length_m=plot_length_m, rows=rows, columns=columns, plots=plots, crop=crop,
-                 noise_m=noise_m, calibrated=calibrated, threads=threads)  # fmt: skip
-    return _plotscan.estimate_field(points, _field_options(known), origin_m, progress)
+    options = _field_options(crop_box, threads, settings)
+    options.boxes = list(boxes)
+    return _plotscan.estimate_field(points, options, origin_m, progress)
 
 
 def estimate_files(
@@ -239,32 +236,34 @@ def estimate_files(
     folder: Path,
     *,
     method: str = "lattice",
+    crop_box: Optional[Tuple[float, float, float, float]] = None,
     boxes: Optional[Path] = None,
     id: Optional[str] = None,
     units: Optional[str] = None,
     leave_out_classes: Sequence[int] = (),
     csv: Optional[Path] = None,
     seed: int = 1,
+    threads: int = 0,
     replace: bool = False,
     progress: Progress = None,
-    **field: Any,
+    **settings: SettingValue,
 ) -> FieldEstimate:
     """Read clouds as one and write the estimate folder, as `estimator run` does.
 
     clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles; one or several.
     method: "lattice", or "dhami2020", which needs `plots`.
+    crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: a map of the plots (GeoJSON): heights in its boxes, its ids and attributes kept.
     id: property of the map that holds the plots' ids.
     units: of the coordinates, "m", "ft" or "us-ft"; else what the file states.
     leave_out_classes: ASPRS classes of points to leave out.
     csv: a table for breeding databases to write as well.
-    field: crop_box, heading_deg, plot_width_m, plot_length_m, rows, columns, plots, crop, noise_m,
-        calibrated, threads, as `estimate_field` takes them.
+    settings: by the keys of `estimate_settings(method)`: plots=30, crop="maize". None is not set.
 
     Raises BadInput on bad input; nothing is left behind then.
     """
     options = _plotscan.EstimateFilesOptions()
-    options.field = _field_options(field)
+    options.field = _field_options(crop_box, threads, settings)
     options.method = method
     options.boxes = boxes
     options.id = id
@@ -312,10 +311,15 @@ def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _field_options(known: Mapping[str, Any]) -> _plotscan.EstimateOptions:
+def _field_options(
+    crop_box: Optional[Sequence[float]], threads: int, settings: Mapping[str, Any]
+) -> _plotscan.EstimateOptions:
     options = _plotscan.EstimateOptions()
-    for name, value in known.items():
-        if not hasattr(options, name):
-            raise TypeError(f"estimate takes no {name!r}")
-        setattr(options, name, value)
+    options.crop_box = crop_box
+    options.threads = threads
+    options.settings = _set(settings)
     return options
+
+
+def _set(settings: Mapping[str, SettingValue]) -> Dict[str, Any]:
+    return {key: value for key, value in settings.items() if value is not None}

@@ -8,7 +8,7 @@ import numpy
 
 Path = Union[str, os.PathLike[str]]
 Progress = Optional[Callable[[float], Any]]
-FlightValue = Union[float, str, Sequence[float]]
+SettingValue = Union[float, bool, str, Sequence[float]]
 
 point_dtype: numpy.dtype
 
@@ -113,13 +113,13 @@ class FarmSummary:
     @property
     def leaf_area_index(self) -> float: ...
 
-class FlightSetting:
+class Setting:
     @property
     def key(self) -> str: ...
     @property
     def help(self) -> str: ...
     @property
-    def usual(self) -> Optional[FlightValue]: ...
+    def usual(self) -> Optional[SettingValue]: ...
     @property
     def choices(self) -> List[str]: ...
 
@@ -184,15 +184,7 @@ class EstimateOptions:
     def __init__(self) -> None: ...
     crop_box: Optional[Sequence[float]]
     boxes: List[Box]
-    heading_deg: Optional[float]
-    plot_width_m: Optional[float]
-    plot_length_m: Optional[float]
-    rows: Optional[int]
-    columns: Optional[int]
-    plots: Optional[int]
-    crop: Optional[str]
-    noise_m: Optional[float]
-    calibrated: bool
+    settings: Mapping[str, SettingValue]
     threads: int
 
 class EstimateFilesOptions:
@@ -209,7 +201,7 @@ class EstimateFilesOptions:
 
 class FlightOptions:
     def __init__(self) -> None: ...
-    settings: Mapping[str, FlightValue]
+    settings: Mapping[str, SettingValue]
     trajectory: Optional[Path]
     waypoints: Optional[Path]
     formats: List[str]
@@ -231,7 +223,7 @@ def generate_farm(
     /,
 ) -> FarmSummary: ...
 def read_truth(farm: Path, /) -> List[TruePlot]: ...
-def flight_settings() -> List[FlightSetting]: ...
+def flight_settings() -> List[Setting]: ...
 def fly(place: Path, folder: Path, options: FlightOptions, progress: Progress, /) -> FlightSummary: ...
 def read_cloud(file: Path, progress: Progress, /) -> Cloud: ...
 def write_cloud(
@@ -247,6 +239,7 @@ def write_cloud(
 def convert_cloud(
     source: Path, file: Path, encoding: str, crs: str, topic: str, replace: bool, progress: Progress, /
 ) -> int: ...
+def estimate_settings(method: str, /) -> List[Setting]: ...
 def estimate_field(
     points: Union[Cloud, numpy.ndarray],
     options: EstimateOptions,

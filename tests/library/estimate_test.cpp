@@ -144,7 +144,9 @@ TEST_F(EstimateField, RefusesWhatTheProgramRefusesInTheSameWords) {
   const std::vector<std::array<double, 3>> none(5, {nan, 0, 0});
   EXPECT_EQ(message([&] { estimate_field(PointsView(none)); }),
             "the cloud has no point that is finite");
-  EXPECT_THAT(message([&] { estimate_field(cloud_->positions(), {.plot_width_m = 1000}); }),
+  EXPECT_THAT(message([&] {
+                estimate_field(cloud_->positions(), {.settings = {{"plot_width_m", 1000.0}}});
+              }),
               HasSubstr("plot_width_m 1000 must be in [0.1, 100]"));
   EXPECT_THAT(message([&] {
                 estimate_field(cloud_->positions(), {.crop_box = {{900, 900, 901, 901}}});

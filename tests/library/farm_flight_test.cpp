@@ -62,8 +62,8 @@ TEST(LibraryFlight, IsTheProgramsFlight) {
 }
 
 TEST(LibraryFlight, TellsItsSettings) {
-  std::map<std::string, FlightSetting> settings;
-  for (const FlightSetting& setting : flight_settings()) settings[setting.key] = setting;
+  std::map<std::string, Setting> settings;
+  for (const Setting& setting : flight_settings()) settings[setting.key] = setting;
   EXPECT_EQ(std::get<double>(*settings.at("altitude_m").usual), 8);
   EXPECT_EQ(std::get<std::string>(*settings.at("sensor").usual), "vlp16");
   EXPECT_THAT(settings.at("pattern").choices, ::testing::Contains("crosshatch"));
@@ -73,12 +73,12 @@ TEST(LibraryFlight, TellsItsSettings) {
 TEST(LibraryFlight, RefusesWhatCannotBe) {
   const TemporaryFolder folder;
   generate_farm("paper_flat", folder.path() / "farm", {.set = testing::kSmall, .seed = 101});
-  const auto flown_with = [&](const std::string& key, const FlightValue& value) {
+  const auto flown_with = [&](const std::string& key, const SettingValue& value) {
     return message([&] {
       fly(folder.path() / "farm", folder.path() / "scan", {.settings = {{key, value}}});
     });
   };
-  EXPECT_THAT(flown_with("altitude", 8.0), HasSubstr("a flight has no \"altitude\"; it has"));
+  EXPECT_THAT(flown_with("altitude", 8.0), HasSubstr("the flight has no \"altitude\"; it has"));
   EXPECT_THAT(flown_with("altitude_m", "8"), HasSubstr("altitude_m is a number"));
   EXPECT_THAT(flown_with("sub_rays", 1.5), HasSubstr("sub_rays is a whole number"));
   EXPECT_THAT(flown_with("altitude_m", -8.0), HasSubstr("--altitude"));

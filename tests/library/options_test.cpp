@@ -50,16 +50,17 @@ std::unique_ptr<fs::path> LibraryOptions::folder_;
 TEST_F(LibraryOptions, OfEstimatesAreTheProgramsHints) {
   run_program("estimator run " + cloud().string() +
               " -o hints_theirs --crop-box=-9,-8,9,8 --heading 91 --plot-width 1.5 --plot-length 4 "
-              "--rows 3 --columns 3 --crop soybean --noise 0.02 --no-calibration --units m "
+              "--rows 3 --columns 3 --crop soybean --noise 0.02 --ground-class 0,1,2 "
+              "--no-calibration --units m "
               "--leave-out-class 5,6 --seed 9 --csv theirs.csv");
   EstimateFilesOptions options{.units = "m", .leave_out_classes = {5, 6}, .seed = 9};
   options.csv = path("ours.csv");
-  options.field = {.crop_box = {{-9, -8, 9, 8}}, .heading_deg = 91, .plot_width_m = 1.5};
-  options.field.plot_length_m = 4;
-  options.field.rows = options.field.columns = 3;
-  options.field.crop = "soybean";
-  options.field.noise_m = 0.02;
-  options.field.calibrated = false;
+  options.field = {.crop_box = {{-9, -8, 9, 8}}};
+  options.field.settings = {{"heading_deg", 91.0},  {"plot_width_m", 1.5},
+                            {"plot_length_m", 4.0}, {"rows", 3.0},
+                            {"columns", 3.0},       {"crop", "soybean"},
+                            {"noise_m", 0.02},      {"ground_classes", std::vector{0.0, 1.0, 2.0}},
+                            {"calibrated", false}};
   EXPECT_EQ(estimate_files({cloud()}, path("hints_ours"), options).plots.size(), 9u);
   expect_same("hints_ours", "hints_theirs");
   expect_same("ours.csv", "theirs.csv");
@@ -78,11 +79,52 @@ TEST_F(LibraryOptions, OfEstimatesAreTheProgramsMapsAndMethods) {
   estimate_files({cloud()}, path("map_ours"), {.boxes = map, .id = "plot_number"});
   expect_same("map_ours", "map_theirs");
   run_program("estimator run " + cloud().string() +
-              " -o paper_theirs --method dhami2020 --plots 9");
+              " -o paper_theirs --method dhami2020 --plots 9 --voxel 0.06 --learn-box=-9,-8,9,8");
+  const EstimateOptions field{.settings = {{"plots", 9.0},
+                                           {"voxel_m", 0.06},
+                                           {"learn_box", std::vector{-9.0, -8.0, 9.0, 8.0}}}};
   const auto paper =
-      estimate_files({cloud()}, path("paper_ours"), {.field = {.plots = 9}, .method = "dhami2020"});
+      estimate_files({cloud()}, path("paper_ours"), {.field = field, .method = "dhami2020"});
   expect_same("paper_ours", "paper_theirs");
   EXPECT_EQ(paper.method, "dhami2020");
+}
+
+TEST_F(LibraryOptions, OfMethodsAreTheProgramsSettings) {
+  const std::string help = testing::run("estimator run --help", *folder_).output;
+  for (const char* method : {"lattice", "dhami2020"}) {
+    const std::vector<Setting> settings = estimate_settings(method);
+    EXPECT_GE(settings.size(), 10u);
+    EstimateOptions options;
+    for (const Setting& setting : settings) {
+      if (setting.usual) options.settings[setting.key] = *setting.usual;
+    }
+    options.settings["plots"] = 9.0;
+    const std::string ours = std::string("usual_") + method;
+    run_program("estimator run " + cloud().string() + " -o " + ours +
+                "_theirs --plots 9 --method " + method);
+    estimate_files({cloud()}, path(ours), {.field = options, .method = method});
+    expect_same(ours, ours + "_theirs");
+  }
+  EXPECT_THROW(estimate_settings("other"), BadInput);
+}
+
+TEST_F(LibraryOptions, AreRefusedByTheirKeyAndKind) {
+  const auto refused = [](const std::string& key, const SettingValue& value) -> std::string {
+    try {
+      estimate_field(read_cloud(cloud()).positions(), {.settings = {{key, value}}});
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_THAT(refused("row", 3.0), HasSubstr("lattice has no \"row\"; it has heading_deg"));
+  EXPECT_EQ(refused("rows", 2.5), "lattice's rows is a whole number");
+  EXPECT_EQ(refused("rows", "two"), "lattice's rows is a whole number");
+  EXPECT_EQ(refused("noise_m", true), "lattice's noise_m is a number");
+  EXPECT_EQ(refused("calibrated", 1.0), "lattice's calibrated is true or false");
+  EXPECT_EQ(refused("crop", 1.0), "lattice's crop is a text");
+  EXPECT_EQ(refused("ground_classes", 2.0), "lattice's ground_classes is whole numbers");
+  EXPECT_EQ(refused("rows", 0.0), "rows 0 must be in [1, 100000]");
 }
 
 TEST_F(LibraryOptions, OfFlightsAreTheProgramsSettings) {
@@ -90,7 +132,7 @@ TEST_F(LibraryOptions, OfFlightsAreTheProgramsSettings) {
       "lidarsim fly farm -o flown_theirs --lever-arm 0.1,0,0.05 --heading 30 --pattern crosshatch "
       "--speed 6 --format las --seed 5");
   fly(path("farm"), path("flown_ours"),
-      {.settings = {{"lever_arm_m", std::array{0.1, 0.0, 0.05}},
+      {.settings = {{"lever_arm_m", std::vector{0.1, 0.0, 0.05}},
                     {"heading_deg", 30.0},
                     {"pattern", "crosshatch"},
                     {"speed_m_s", 6.0}},

@@ -52,24 +52,28 @@ class Arguments(unittest.TestCase):
         self.assertEqual(converted, ("source", "file", "ascii", "utm", "/points", True, print))
 
     def test_of_estimates(self):
-        field = {"crop_box": [1.0, 2.0, 3.0, 4.0], "heading_deg": 5.0, "plot_width_m": 6.0, "plot_length_m": 7.0,
-                 "rows": 8, "columns": 9, "plots": 10, "crop": "maize", "noise_m": 0.01, "calibrated": False,
-                 "threads": 3}  # fmt: skip
+        field = {"crop_box": [1.0, 2.0, 3.0, 4.0], "threads": 3}
+        settings = {"heading_deg": 5.0, "rows": 8.0, "crop": "maize", "calibrated": False, "ground_classes": [2.0]}
+        given = {**field, **settings, "columns": None, "progress": print}
         points = numpy.zeros((5, 3))
         boxes = [plotscan.Box(1, 2, 3, 4, 5)]
-        given = sent("estimate_field", points, boxes=boxes, origin_m=(1.0, 2.0, 3.0), progress=print, **field)
-        self.assertIs(given[0], points)
-        self.assertEqual(given[2:], ((1.0, 2.0, 3.0), print))
-        self.expect_options(given[1], field)
-        self.assertEqual([box.width_m for box in given[1].boxes], [3])
+        sent_points, options, origin_m, progress = sent(
+            "estimate_field", points, boxes=boxes, origin_m=(1.0, 2.0, 3.0), **given
+        )
+        self.assertIs(sent_points, points)
+        self.assertEqual((origin_m, progress), ((1.0, 2.0, 3.0), print))
+        self.expect_options(options, {**field, "settings": settings})
+        self.assertIs(options.settings["calibrated"], False)
+        self.assertEqual([box.width_m for box in options.boxes], [3])
 
         files = {"method": "dhami2020", "boxes": Path("map"), "id": "name", "units": "ft",
                  "leave_out_classes": [5, 6], "csv": Path("table"), "seed": 5, "replace": True}  # fmt: skip
-        clouds, folder, options, progress = sent("estimate_files", "scan", "out", progress=print, **files, **field)
+        clouds, folder, options, progress = sent("estimate_files", "scan", "out", **files, **given)
         self.assertEqual((clouds, folder, progress), (["scan"], "out", print))
         self.expect_options(options, files)
-        self.expect_options(options.field, field)
+        self.expect_options(options.field, {**field, "settings": settings})
         self.assertEqual(sent("estimate_files", ["a", Path("b")], "out")[0], ["a", Path("b")])
+        self.assertEqual(sent("estimate_settings"), ("lattice",))
 
     def test_of_scores(self):
         self.assertEqual(sent("score_estimate", "estimate", "farm", min_iou=0.7), ("estimate", "farm", 0.7))

@@ -86,7 +86,7 @@ class Estimate(ExampleScan):
     def test_bad_options_are_refused(self):
         with self.assertRaisesRegex(ValueError, 'crop "rice" must be one of maize'):
             plotscan.estimate_field(self.cloud, crop="rice")
-        with self.assertRaisesRegex(TypeError, "widht"):
+        with self.assertRaisesRegex(plotscan.BadInput, 'lattice has no "widht"'):
             plotscan.estimate_files(self.scan, self.folder / "x", widht=3)
         with self.assertRaisesRegex(plotscan.BadInput, "none.pcd"):
             plotscan.estimate_files("none.pcd", self.folder / "x")

@@ -49,7 +49,7 @@ class Interface(unittest.TestCase):
 
     def test_all_is_what_is_public(self):
         modules = {"annotations", "os", "numpy", "Any", "Callable", "Dict", "List", "Mapping", "Optional",
-                   "Sequence", "Tuple", "Union", "Path", "Progress"}  # fmt: skip
+                   "Sequence", "Tuple", "Union", "Path", "Progress", "SettingValue"}  # fmt: skip
         self.assertEqual(public(vars(plotscan)) - modules, set(plotscan.__all__))
 
     def test_functions_tell_of_their_arguments_and_errors(self):

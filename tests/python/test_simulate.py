@@ -33,7 +33,7 @@ class Simulate(ExampleScan):
     def test_errors_have_the_programs_text(self):
         with self.assertRaisesRegex(plotscan.BadInput, "--altitude"):
             plotscan.fly(self.farm, self.folder / "x", altitude_m=-1)
-        with self.assertRaisesRegex(plotscan.BadInput, 'a flight has no "altitude"; it has'):
+        with self.assertRaisesRegex(plotscan.BadInput, 'the flight has no "altitude"; it has'):
             plotscan.fly(self.farm, self.folder / "x", altitude=8)
         with self.assertRaisesRegex(plotscan.BadInput, "exists|is there"):
             plotscan.generate_farm("paper_flat", self.farm, set=SMALL)

@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 
+#include "core/angle.h"
+
 namespace plotscan::view {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr double kUpSlope = 0.21;  // half of the view's angle: 24 degrees in all
 constexpr double kAir = 1.02;      // the picture's size over that of what it shows
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -22,6 +21,7 @@
 #include <vtkTextProperty.h>
 #include <vtkTexture.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "view/display.h"
 #include "view/plant_layout.h"
@@ -32,7 +32,6 @@
 namespace plotscan::view {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr double kHeightsShowUpTo_deg = 60;  // steeper, the scale counts metres of ground
 constexpr double kCreaseAngle_deg = 50;      // sharper edges are not shaded as round
 // Pixels drawn each way for one of the picture, so that awns and thin stems show.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
@@ -26,7 +26,6 @@ constexpr Range kHeight_px{400, 8192};
 constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
 constexpr double kWidest = 2;          // of the heights; wider pictures have smaller text
 constexpr double kLeastChart = 5;      // height of the chart, in texts
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr Rgb kInside{0, 136, 96};
 constexpr Rgb kBeyond = kGrey;
 constexpr double kInterval = 1.96;  // standard errors

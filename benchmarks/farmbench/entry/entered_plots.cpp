@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/trial_layout.h"
 #include "estimate/height_properties.h"
 #include "farmbench/entry/entered_rows.h"
 
@@ -18,7 +19,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uintmax_t kMostBytes = 64'000'000;
-constexpr std::size_t kMostPlots = 100'000;
 constexpr double kLeastHeight_m = -100;
 constexpr double kMostHeight_m = 1000;
 constexpr double kFarthest_m = 1e7;
@@ -146,7 +146,7 @@ std::vector<EnteredRow> read_rows(const fs::path& file, Problems& problems) {
   std::vector<EnteredRow> rows =
       is_json ? read_entered_features(file, problems) : read_entered_table(file, problems);
   if (rows.size() > kMostPlots) {
-    problems.add(name, formatted("has %zu plots; 100000 are the most", rows.size()));
+    problems.add(name, formatted("has %zu plots; %d are the most", rows.size(), kMostPlots));
     rows.clear();
   }
   return rows;

@@ -5,9 +5,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
@@ -20,7 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr std::array<const char*, 5> kBox = {"center_x_m", "center_y_m", "width_m", "length_m",
                                              "heading_deg"};
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 
 #include <unistd.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
@@ -24,7 +24,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kCommand = "farmbench export --dataset";
-constexpr double kDegrees = std::numbers::pi / 180;
 constexpr std::array<const char*, 5> kClasses = {"unlabelled", "ground", "crop", "weed", "other"};
 constexpr std::array<const char*, 3> kSplits = {"train", "validation", "test"};
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kUnturned_s = 0.1;  // a scan of a sensor that does not turn
-constexpr std::uint32_t kMostPlots = 0xFFFF;
+constexpr std::uint32_t kGreatestPlotId = 0xFFFF;
 
 template <class Value>
 void write_values(const fs::path& file, const std::vector<Value>& values) {
@@ -47,7 +47,7 @@ class ScanWriter {
         lidar_from_world_ * Eigen::Vector3f(point.x, point.y, point.z).cast<double>();
     for (const double value : {own.x(), own.y(), own.z(), point.intensity / 255.0})
       points_.push_back(static_cast<float>(value));
-    if (point.plot > kMostPlots)
+    if (point.plot > kGreatestPlotId)
       throw InputError("a plot's id is " + std::to_string(point.plot) +
                        "; labels have 16 bits for it, up to 65535");
     labels_.push_back(static_cast<std::uint32_t>(point.label) | point.plot << 16);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "cloud/surroundings.h"
@@ -18,8 +17,10 @@
 #include "methods/dhami2020/voting.h"
 #include "methods/dhami2020/voxel_filter.h"
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/trial_layout.h"
 #include "estimate/given_plots.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -28,8 +29,6 @@ namespace {
 using Points = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
-constexpr double kDegrees = std::numbers::pi / 180;
-constexpr int kMostPlots = 100000;
 constexpr int kMostThreads = 1024;
 
 // The z filter: what stands more than min_height_m above the levelled ground.

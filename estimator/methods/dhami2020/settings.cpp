@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/dhami2020/settings.h"
 
+#include "core/trial_layout.h"
+
 namespace plotscan::methods::dhami2020 {
 namespace {
 
@@ -9,10 +11,9 @@ using Flag = FlagSetting<Options>;
 using Number = NumberSetting<Options>;
 using Whole = WholeSetting<Options>;
 
-constexpr int kMostPlots = 100000;
-
 }  // namespace
 
+// A table may be long. NOLINTNEXTLINE(readability-function-size)
 const std::vector<MethodSetting<Options>>& settings() {
   static const std::vector<MethodSetting<Options>> all = {
       {.key = "plots",

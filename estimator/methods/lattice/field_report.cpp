@@ -9,14 +9,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
 
 json json_of(const plots::FieldFit& fit) {
   const TrialLayout& layout = fit.layout;
   const double row_heading = std::atan2(layout.row_axis.y(), layout.row_axis.x());
-  return {{"heading_deg", layout.heading_rad() * kDegrees},
-          {"second_axis_deg", wrap_heading(row_heading) * kDegrees},
-          {"skew_deg", layout.skew_rad() * kDegrees},
+  return {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
+          {"second_axis_deg", wrap_heading(row_heading) * kDegreesOfRadian},
+          {"skew_deg", layout.skew_rad() * kDegreesOfRadian},
           {"width_m", layout.width_m},
           {"length_m", layout.length_m},
           {"rows", layout.rows()},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/lattice/settings.h"
 
+#include "core/trial_layout.h"
 #include "heights/measure_heights.h"
 
 namespace plotscan::methods::lattice {
@@ -12,10 +13,9 @@ using OptionalText = OptionalTextSetting<Options>;
 using OptionalWhole = OptionalWholeSetting<Options>;
 using Wholes = WholesSetting<Options>;
 
-constexpr int kMostPlots = 100000;
-
 }  // namespace
 
+// A table may be long. NOLINTNEXTLINE(readability-function-size)
 const std::vector<MethodSetting<Options>>& settings() {
   static const std::vector<MethodSetting<Options>> all = {
       {.key = "heading_deg",

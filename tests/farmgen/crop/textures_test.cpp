@@ -113,21 +113,6 @@ TEST(Textures, VeinsRunAlongGrassBladesAndAsideInSoybeanLeaflets) {
   EXPECT_LT(across_bean, 2 * along_bean);
 }
 
-TEST(Textures, SoilFitsTogetherAtItsEdges) {
-  const Pixels pixels = decoded(*soil_texture());
-  double seam = 0;
-  double inside = 0;
-  for (int i = 0; i < pixels.width; ++i) {
-    const int last = pixels.width - 1;
-    seam += std::abs(pixels.at(i, 0).mean() - pixels.at(i, last).mean());
-    seam += std::abs(pixels.at(0, i).mean() - pixels.at(last, i).mean());
-    inside += std::abs(pixels.at(i, 100).mean() - pixels.at(i, 101).mean());
-    inside += std::abs(pixels.at(100, i).mean() - pixels.at(101, i).mean());
-  }
-  EXPECT_LT(seam, 1.5 * inside);
-  EXPECT_GT(mean_of(pixels).x(), mean_of(pixels).z()) << "brown";
-}
-
 TEST(Textures, APlantKeepsThemInItsFile) {
   PlantBuilder plant(Detail::light, {{"leaf", kGreen}, {"stem", {0.3F, 0.4F, 0.2F}}});
   plant.tube({.path = {{0, 0, 0}, {0, 0, 0.3}}, .radius_m = {0.004, 0.003}}, "stem");

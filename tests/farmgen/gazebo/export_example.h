@@ -77,7 +77,7 @@ class ExportExample {
   const farm::Farm& farm() const { return *farm_; }
 
   ExportSummary write(const std::string& name, const ExportOptions& options) const {
-    return export_world(*farm_, farm_folder(), path() / name, options, false, {.command = "test"});
+    return export_world(*farm_, farm_folder(), path() / name, options, {.command = "test"});
   }
 
  private:

@@ -143,8 +143,7 @@ TEST(Export, PlantsOutsidePlotsStandInTilesWhereTheyAreMany) {
     plant.position.x() = i % 2 == 0 ? 5 : -5;
     farm.plants.push_back(plant);
   }
-  export_world(farm, example.farm_folder(), example.path() / "many", {}, false,
-               {.command = "test"});
+  export_world(farm, example.farm_folder(), example.path() / "many", {}, {.command = "test"});
   EXPECT_FALSE(fs::exists(example.path() / "many/models/plants_outside_plots"));
   EXPECT_TRUE(fs::exists(example.path() / "many/models" / outside_model_name(2) / "meshes"));
 }
@@ -162,7 +161,7 @@ TEST(Export, LightMeshesAreTheModelsOwnElseSimplified) {
     fine.triangles.push_back({first, first + 1, first + 2});
   }
   farm.models[1].mesh = fine;
-  export_world(farm, example.farm_folder(), example.path() / "world", {.merge = Merge::none}, false,
+  export_world(farm, example.farm_folder(), example.path() / "world", {.merge = Merge::none},
                {.command = "test"});
   const auto triangles = [&](const std::string& model) {
     return corners_in(example.path() / "world/models" / model / "meshes" / (model + ".obj"))
@@ -233,7 +232,7 @@ TEST(Export, APlantModelCalledAsAPlotIsRefused) {
     farm::Farm farm = example.farm();
     farm.models[0].name = name;
     const std::string message = testing::message_of<InputError>([&] {
-      export_world(farm, example.farm_folder(), example.path() / "world", {.drone = true}, false,
+      export_world(farm, example.farm_folder(), example.path() / "world", {.drone = true},
                    {.command = "test"});
     });
     EXPECT_THAT(message, HasSubstr("plant model \"" + name + "\""));

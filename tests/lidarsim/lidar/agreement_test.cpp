@@ -103,7 +103,7 @@ TEST_P(ScansAgree, OfAFarmAndItsExportedWorld) {
   const auto [gazebo, merge] = GetParam();
   gazebo::export_world(
       farm, folder.path() / "farm", folder.path() / "export",
-      {.gazebo = gazebo, .merge = merge, .lod = gazebo::Detail::scan, .drone = false}, false,
+      {.gazebo = gazebo, .merge = merge, .lod = gazebo::Detail::scan, .drone = false},
       {.command = "farmgen export"});
   const auto world = gazebo::read_world(folder.path() / "export/world.sdf");
   const Points of_farm = scan_of(scene_content(farm));
