@@ -147,23 +147,25 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                     .terrain = farm.terrain,
                     .seed = seed,
                     .threads = threads};
+  std::vector<estimate::Estimate> estimates;
   for (const std::string& name : suite.methods) {
     const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
     MethodRun method = command == suite.commands.end()
                            ? run_method(method_named(name), field, truth)
                            : run_command(*command, field, truth);
     result.methods.push_back(std::move(method.result));
-    if (view && result.methods.size() == 1) {
-      write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
-                              .area = shown,
-                              .points = view_points(suite),
-                              .estimate = method.estimate,
-                              .truth = truth,
-                              .terrain = farm.terrain,
-                              .result = result});
-    }
+    if (view) estimates.push_back(std::move(method.estimate));
     const auto done = static_cast<double>(result.methods.size());
     report(progress, kRead + (1 - kRead) * done / static_cast<double>(suite.methods.size()));
+  }
+  if (view) {
+    write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
+                            .area = shown,
+                            .points = view_points(suite),
+                            .estimates = estimates,
+                            .truth = truth,
+                            .terrain = farm.terrain,
+                            .result = result});
   }
   return result;
 }
