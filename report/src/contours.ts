@@ -9,7 +9,7 @@ export interface Nodes {
 
 export type Place = [number, number];
 
-const kSteps = 24; // of a cell, each way
+const kSteps = 60; // of a cell, each way
 
 // Calls visit for the small squares that each cell is cut into, with their corners' values: those at
 // (x0, y0), (x1, y0), (x1, y1), (x0, y1). Cells with an unknown corner are left out.

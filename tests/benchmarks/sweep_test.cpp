@@ -104,9 +104,9 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
     rows.push_back({.case_name = name, .recall = recall, .rmse_m = rmse_m, .rmse_high_m = high_m});
   };
   add(40, 0.01, 0.02, 1);
-  add(30, 0.02, 0.04, 1);         // perhaps not
-  add(20, 0.01, 0.02, 0.8);       // too few
-  add(10, nothing, nothing, 0);   // nothing found
+  add(30, 0.02, 0.04, 1);        // perhaps not
+  add(20, 0.01, 0.02, 0.8);      // too few
+  add(10, nothing, nothing, 0);  // nothing found
   EXPECT_EQ(flight_needed(result, rows), 0U);
   EXPECT_EQ(flight_costs(result)[2].flight_s, 20);
   rows[1].rmse_high_m = nothing;  // of a single farm: the RMSE counts
@@ -118,8 +118,7 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
 TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   const TemporaryFolder folder;
   const fs::path suite = folder.write("s.yaml", with("6, 9.5, 119", "6, 119"));
-  const RunSummary summary =
-      run({.suite = suite, .output = folder.path() / "a", .build = "test"});
+  const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   run({.suite = suite, .output = folder.path() / "b", .jobs = 3, .threads = 4, .build = "test"});
   for (const char* file : {"sweep.csv", "sweep.md", "table.csv", "results.json"})
     EXPECT_EQ(read_text(folder.path() / "a" / file), read_text(folder.path() / "b" / file)) << file;
@@ -129,16 +128,15 @@ TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   EXPECT_THAT(csv.front(), ::testing::StartsWith("altitude_m,sensor,method,truth,farms,plots"));
   EXPECT_EQ(csv.size(), 1 + 4 * 8U);  // each height beside its truth
   const std::string asked = "6,vlp16,lattice/max true-boxes,height_max_m,1,4,4,0,0,1,";
-  const auto found = std::ranges::find_if(
-      csv, [&](const std::string& line) { return line.starts_with(asked); });
+  const auto found =
+      std::ranges::find_if(csv, [&](const std::string& line) { return line.starts_with(asked); });
   ASSERT_NE(found, csv.end());
   EXPECT_NEAR(std::stod(found->substr(asked.size())), 100 * rows[0].rmse_m, 1e-4);
   const std::string page = read_text(folder.path() / "a/report.html");
   EXPECT_THAT(page, HasSubstr("\"flights\":["));
   EXPECT_TRUE(fs::is_empty(folder.path() / "a/views")) << "a sweep shows no farm";
   // A second run finds all of it.
-  const RunSummary again =
-      run({.suite = suite, .output = folder.path() / "a", .build = "test"});
+  const RunSummary again = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   EXPECT_EQ(again.resumed, 4U);
   EXPECT_EQ(lines_of(read_text(folder.path() / "a/sweep.csv")), csv);
   EXPECT_EQ(report(folder.path() / "b", 1).result.sweep->axes.size(), 2U);

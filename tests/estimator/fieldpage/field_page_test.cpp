@@ -85,8 +85,7 @@ TEST_F(FieldPage, ShowsHowAMethodCameToItsPlots) {
       .box = box,
       .heights_m = {{"raw-max", 0.8}},
       .ground = estimate::PlotGround{.z_m = 5, .slope = {0.1, 0.2}, .tolerance_m = 0.05}};
-  estimate::write_estimate(folder,
-                           {.method = "dhami2020", .plots = {plot}, .clusters = {cluster}});
+  estimate::write_estimate(folder, {.method = "dhami2020", .plots = {plot}, .clusters = {cluster}});
   write_estimate_page({.estimate = folder, .html = html_});
   const nlohmann::json working = field_of(html_)["workings"][0];
   EXPECT_EQ(working["clusters"], nlohmann::json({{2.1, 3.2, 1.5, 4.5, 0.0}}));
