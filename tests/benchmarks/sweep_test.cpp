@@ -65,7 +65,7 @@ TEST(LoadSweep, TellsWhatIsWrong) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {
     const fs::path file = folder.write("s.yaml", text);
-    return message_of([&] { load_suite(file); });
+    return message_of<InputError>([&] { load_suite(file); });
   };
   EXPECT_THAT(message(with("altitude_m: [6", "altitude: [6")),
               HasSubstr("s.yaml:6: axes.altitude is no option of a flight that can vary"));
@@ -117,7 +117,7 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
 
 TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   const TemporaryFolder folder;
-  const fs::path suite = folder.write("s.yaml", with("6, 9.5, 119", "6, 119"));
+  const fs::path suite = folder.write("s.yaml", with("6, 9.5, 119", "6, 40"));
   const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   run({.suite = suite, .output = folder.path() / "b", .jobs = 3, .threads = 4, .build = "test"});
   for (const char* file : {"sweep.csv", "sweep.md", "table.csv", "results.json"})
