@@ -27,15 +27,18 @@ void write_farm_view(const fs::path& file, const FarmView& view) {
       view.scan, {.most = view.points,
                   .area = Eigen::AlignedBox2d(Eigen::Vector2d(view.area[0], view.area[1]),
                                               Eigen::Vector2d(view.area[2], view.area[3]))});
+  const estimate::Estimate& first = view.estimates.front();
   report::ShownField field{.name = view.result.case_name};
   field.facts = {{"seed", std::to_string(view.result.seed)},
-                 {"method", view.estimate.method},
+                 {"method", first.method},
                  {"points of the scan", std::to_string(view.result.points)}};
-  fieldpage::show_estimate(field, view.estimate);
-  fieldpage::show_truth(field, view.estimate, view.truth);
+  fieldpage::show_estimate(field, first);
+  for (const estimate::Estimate& estimate : view.estimates)
+    fieldpage::show_working(field, estimate);
+  fieldpage::show_truth(field, first, view.truth);
   fieldpage::show_terrain(field, view.terrain);
-  if (!view.result.methods.back().failure.empty())
-    field.notes.push_back(view.result.methods.back().failure);
+  if (!view.result.methods.front().failure.empty())
+    field.notes.push_back(view.result.methods.front().failure);
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
   const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(report::packed_field(field));

@@ -24,7 +24,8 @@ struct FarmView {
   std::filesystem::path scan;  // folder, or the cloud where only that was given to the methods
   cloud::Area area;            // of which points are shown
   std::size_t points = 1;      // at most
-  const estimate::Estimate& estimate;
+  // Of the suite's methods; the first one's plots are shown, and how each came to its own.
+  const std::vector<estimate::Estimate>& estimates;
   const std::vector<score::TruePlot>& truth;
   const terrain::Terrain& terrain;
   const FarmResult& result;  // whose case, seed and counts are told

@@ -9,6 +9,7 @@
 #include "farmbench/format.h"
 #include "farmbench/method_rows.h"
 #include "farmbench/suite_page.h"
+#include "farmbench/sweep_table.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
@@ -256,6 +257,7 @@ std::string published_cm(const SuiteResult& result, const TableRow& row) {
 
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table) {
+  if (result.sweep) return sweep_lines(result, table);
   std::vector<std::string> lines = plot_lines(plot_rows(result, table));
   for (const std::string& truth : shown_truths(result, table)) {
     lines.emplace_back("");
@@ -286,6 +288,10 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
   write_text(folder / "table.csv", table_csv(table));
   write_text(folder / "leaderboard.md", leaderboard(result, table));
   write_suite_page(folder, result, table);
+  if (result.sweep) {
+    write_text(folder / "sweep.csv", sweep_csv(result, table));
+    write_text(folder / "sweep.md", sweep_markdown(result, table));
+  }
   if (!result.baseline) return;
   for (const std::string& truth : shown_truths(result, table))
     write_text(folder / ("changes_" + truth + ".svg"),

@@ -10,12 +10,13 @@
 
 namespace plotscan::farmbench {
 
-// Writes table.csv, leaderboard.md and report.html into the results folder.
+// Writes table.csv, leaderboard.md and report.html into the results folder; of a sweep sweep.csv
+// and sweep.md, too.
 void write_reports(const std::filesystem::path& folder, const SuiteResult& result,
                    const std::vector<TableRow>& table);
 
 // The table for people, in at most 100 columns: method by case, for the tallest plant (the paper's
-// pattern) and the mean plant, beside the published figures.
+// pattern) and the mean plant, beside the published figures; of a sweep, its flights.
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table);
 

@@ -116,7 +116,7 @@ std::vector<Task> plan(const Suite& suite, const RunOptions& options) {
                        .seed = seed,
                        .name = suite_case.name + "-" + std::to_string(seed),
                        .made_from = made_from(suite, suite_case, seed, options.build),
-                       .viewed = seed == suite.seeds.front()});
+                       .viewed = !suite.sweep && seed == suite.seeds.front()});
       if (options.force) continue;
       tasks.back().result = earlier_result(options, tasks.back());
     }

@@ -163,19 +163,21 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                     .terrain = farm.terrain,
                     .seed = seed,
                     .threads = threads};
+  std::vector<estimate::Estimate> estimates;
   for (const std::string& name : suite.methods) {
     MethodRun method = run_named(name, suite, field, truth);
     result.methods.push_back(std::move(method.result));
-    if (view && result.methods.size() == 1) {
-      write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
-                              .area = shown,
-                              .points = view_points(suite),
-                              .estimate = method.estimate,
-                              .truth = truth,
-                              .terrain = farm.terrain,
-                              .result = result});
-    }
+    if (view) estimates.push_back(std::move(method.estimate));
     report(progress, kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+  }
+  if (view) {
+    write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
+                            .area = shown,
+                            .points = view_points(suite),
+                            .estimates = estimates,
+                            .truth = truth,
+                            .terrain = farm.terrain,
+                            .result = result});
   }
   return result;
 }

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <set>
-#include <variant>
 
 #include "description/load_description.h"
 
 #include "core/error.h"
 #include "core/yaml_section.h"
+#include "farmbench/flight_section.h"
 #include "farmbench/methods.h"
-#include "lidar/fly_settings.h"
+#include "farmbench/sweep_section.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -35,47 +35,6 @@ void require_farm(const YamlSection& section, const SuiteCase& suite_case) {
   } catch (const InputError& error) {
     section.fail("farm", std::string("does not hold: ") + error.what());
   }
-}
-
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
-  setting.of(flight) = section.number(key, setting.range);
-}
-
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
-  setting.of(flight) = section.number(key, setting.range);
-}
-
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
-  setting.of(flight) = static_cast<int>(section.integer(key, static_cast<int>(setting.range.low),
-                                                        static_cast<int>(setting.range.high)));
-}
-
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::VectorSetting& setting, lidar::FlyOptions& flight) {
-  const std::vector<double> numbers = section.numbers(key, 3, setting.range);
-  setting.of(flight) = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
-}
-
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
-  setting.of(flight) = setting.choices.empty()
-                           ? section.text(key)
-                           : setting.choices[section.choice(key, setting.choices)];
-}
-
-// The flight with what the parent's section "flight" replaces in it.
-lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions flight) {
-  if (!parent.has("flight")) return flight;
-  const YamlSection section = parent.section("flight");
-  for (const lidar::FlySetting& setting : lidar::fly_settings()) {
-    if (!section.has(setting.key)) continue;
-    std::visit([&](const auto& value) { read_setting(section, setting.key, value, flight); },
-               setting.value);
-  }
-  return flight;
 }
 
 cloud::Area read_survey(const YamlSection& section) {
@@ -107,6 +66,13 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
     section.fail("survey_m", "is of plots, and the case is without_plots");
   require_farm(section, suite_case);
   return suite_case;
+}
+
+// Of a sweep, the farm and flight that its cases have in common.
+SuiteCase read_base(const YamlSection& root) {
+  SuiteCase base = read_case(root, {});
+  if (base.without_plots) root.fail("without_plots", "is of cases, and a sweep asks about plots");
+  return base;
 }
 
 std::vector<SuiteCase> read_cases(const YamlSection& root) {
@@ -191,18 +157,8 @@ std::vector<std::string> read_truths(const YamlSection& root) {
   return truths;
 }
 
-}  // namespace
-
-Suite load_suite(const std::filesystem::path& file) {
-  const YamlSection root = YamlSection::load(file, {});
-  Suite suite{.file = file,
-              .name = read_name(root),
-              .cases = read_cases(root),
-              .seeds = read_seeds(root),
-              .methods = {},
-              .truths = read_truths(root)};
-  read_methods(root, suite);
-  suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
+// What the cases are compared with: one of them, and what somebody published.
+void read_comparisons(const YamlSection& root, Suite& suite) {
   if (root.has("baseline")) {
     std::vector<std::string> names;
     for (const SuiteCase& suite_case : suite.cases) names.push_back(suite_case.name);
@@ -214,6 +170,26 @@ Suite load_suite(const std::filesystem::path& file) {
     for (const YamlSection& entry : published.list("methods", 100, "row")) {
       suite.published->methods.push_back(entry.text("row"));
     }
+  }
+}
+
+}  // namespace
+
+Suite load_suite(const std::filesystem::path& file) {
+  const YamlSection root = YamlSection::load(file, {});
+  Suite suite{.file = file,
+              .name = read_name(root),
+              .cases = {},
+              .seeds = read_seeds(root),
+              .methods = {},
+              .truths = read_truths(root)};
+  read_methods(root, suite);
+  suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
+  if (root.has("axes")) {
+    read_sweep(root, read_base(root), suite);
+  } else {
+    suite.cases = read_cases(root);
+    read_comparisons(root, suite);
   }
   root.refuse_unread();
   return suite;

@@ -10,6 +10,7 @@
 #include "cloud/cloud_map.h"
 
 #include "farmbench/command_method.h"
+#include "farmbench/sweep.h"
 #include "lidar/fly.h"
 
 namespace plotscan::farmbench {
@@ -46,11 +47,12 @@ struct Suite {
   std::vector<std::string> truths = {};  // that the reports show; none: tallest and mean plant
   std::optional<Published> published = std::nullopt;
   std::optional<std::string> baseline = std::nullopt;  // the case that the others are compared with
+  std::optional<Sweep> sweep = std::nullopt;           // what the cases are combinations of
 };
 
-// Reads a suite (docs/benchmark.md). Paths of farms are relative to the suite's file. Throws
-// InputError (file:line, key, what is allowed) on an unknown key, a wrong type, an unknown method,
-// an impossible value, or a case whose farm description does not hold.
+// Reads a suite (docs/benchmark.md) or a sweep (docs/sweep.md). Paths of farms are relative to the
+// suite's file. Throws InputError (file:line, key, what is allowed) on an unknown key, a wrong
+// type, an unknown method, an impossible value, or a case whose farm description does not hold.
 Suite load_suite(const std::filesystem::path& file);
 
 }  // namespace plotscan::farmbench

@@ -11,6 +11,7 @@
 #include "farmbench/format.h"
 #include "farmbench/method_rows.h"
 #include "farmbench/reports.h"
+#include "farmbench/sweep_table.h"
 #include "report/decimals.h"
 #include "report/page.h"
 
@@ -132,21 +133,36 @@ std::vector<TableRow> shown_rows(std::vector<TableRow> table) {
   return table;
 }
 
+// What was asked, and what each combination's flights cost.
+json sweep_of(const SuiteResult& result) {
+  json document = to_json(*result.sweep);
+  const std::vector<MethodHeight> heights = heights_of(result, result.methods.front());
+  const auto asked = std::ranges::find(heights, result.sweep->height, &MethodHeight::height);
+  document["row"] = asked == heights.end() ? "" : asked->row;
+  json& flights = document["flights"] = json::array();
+  for (const FlightCost& cost : flight_costs(result))
+    flights.push_back({{"flight_s", number(cost.flight_s)}, {"points", number(cost.points)}});
+  return document;
+}
+
 }  // namespace
 
 json suite_document(const SuiteResult& result, const std::vector<TableRow>& table) {
-  json series = json::array();
-  for (const std::string& method : result.methods)
-    for (const MethodHeight& height : heights_of(result, method))
-      series.push_back(series_of(result, method, height));
   json document = {{"name", result.suite},
                    {"cases", cases_of(result)},
                    {"truths", shown_truths(result, table)},
                    {"farms", farms_of(result)},
-                   {"plots", truths_of(result)},
-                   {"series", std::move(series)},
                    {"table", rows_of(shown_rows(table))},
                    {"boxes", rows_of(plot_rows(result, table))}};
+  if (result.sweep) {
+    document["sweep"] = sweep_of(result);
+    return document;
+  }
+  document["plots"] = truths_of(result);
+  json& series = document["series"] = json::array();
+  for (const std::string& method : result.methods)
+    for (const MethodHeight& height : heights_of(result, method))
+      series.push_back(series_of(result, method, height));
   if (result.published)
     document["published"] = {{"source", result.published->source},
                              {"methods", result.published->methods}};
@@ -165,7 +181,7 @@ void write_suite_page(const std::filesystem::path& folder, const SuiteResult& re
   }
   OutputFile file(folder / "report.html", true);
   report::write_page(file.path(), {{"kind", "suite"},
-                                   {"title", "Suite " + result.suite},
+                                   {"title", (result.sweep ? "Sweep " : "Suite ") + result.suite},
                                    {"fields", std::move(fields)},
                                    {"suite", suite_document(result, table)}});
   file.commit();

@@ -17,6 +17,7 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
                      .truths = suite.truths,
                      .published = suite.published,
                      .baseline = suite.baseline,
+                     .sweep = suite.sweep,
                      .farms = std::move(farms)};
   for (const CommandMethod& command : suite.commands) {
     if (std::ranges::count(suite.methods, command.name) > 0) result.entered.push_back(command.name);
@@ -45,6 +46,7 @@ json to_json(const SuiteResult& result) {
   if (!result.entered.empty()) document["entered"] = result.entered;
   if (!result.truths.empty()) document["truths"] = result.truths;
   if (result.baseline) document["baseline"] = *result.baseline;
+  if (result.sweep) document["sweep"] = to_json(*result.sweep);
   return document;
 }
 
@@ -56,6 +58,7 @@ SuiteResult suite_result_from_json(const json& document) {
                      .truths = document.value("truths", std::vector<std::string>()),
                      .published = {},
                      .baseline = {},
+                     .sweep = {},
                      .farms = {}};
   for (const json& info : document.at("cases")) {
     result.cases.push_back({info.at("name"), {}});
@@ -67,6 +70,7 @@ SuiteResult suite_result_from_json(const json& document) {
     result.published = {.source = published.at("source"), .methods = published.at("methods")};
   }
   if (document.contains("baseline")) result.baseline = document["baseline"].get<std::string>();
+  if (document.contains("sweep")) result.sweep = sweep_from_json(document["sweep"]);
   for (const json& farm : document.at("farms")) result.farms.push_back(farm_result_from_json(farm));
   return result;
 }

@@ -27,7 +27,8 @@ struct SuiteResult {
   std::vector<std::string> truths = {};   // that the reports show; none: tallest and mean plant
   std::optional<Published> published = std::nullopt;
   std::optional<std::string> baseline = std::nullopt;
-  std::vector<FarmResult> farms;  // by case, by seed, in the suite's order
+  std::optional<Sweep> sweep = std::nullopt;  // case i is its combination i
+  std::vector<FarmResult> farms;              // by case, by seed, in the suite's order
 };
 
 SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms);

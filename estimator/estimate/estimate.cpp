@@ -2,6 +2,7 @@
 #include "estimate/estimate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,9 +20,14 @@ namespace {
 
 using nlohmann::json;
 
+// Of a plane of ground (PlotGround): z, the slopes east and north, the tolerance.
+constexpr std::array<const char*, 4> kPlane = {"ground_z_m", "ground_slope_x", "ground_slope_y",
+                                               "ground_tolerance_m"};
+
 // Whether a property is one of those that an estimate gives its plots.
 bool is_measured(std::string property) {
   if (property == "points" || property == "confidence" || property == "flags") return true;
+  if (std::ranges::count(kPlane, property) > 0) return true;
   for (const std::string_view before : {kError, kLow, kHigh}) {
     if (property.starts_with(before)) property.erase(0, before.size());
   }
@@ -44,6 +50,11 @@ PlotFeature feature_of(const PlotEstimate& plot, const std::string& id_property)
   }
   if (plot.confidence) feature.properties["confidence"] = *plot.confidence;
   if (!plot.flags.empty()) feature.properties["flags"] = plot.flags;
+  if (plot.ground) {
+    const PlotGround& ground = *plot.ground;
+    const std::array values = {ground.z_m, ground.slope.x(), ground.slope.y(), ground.tolerance_m};
+    for (std::size_t i = 0; i < values.size(); ++i) feature.properties[kPlane[i]] = values[i];
+  }
   return feature;
 }
 
@@ -79,6 +90,16 @@ std::map<std::string, HeightError> errors_of(const json& properties,
     if (std::isfinite(error.low95_m) && std::isfinite(error.high95_m)) errors[name] = error;
   }
   return errors;
+}
+
+std::optional<PlotGround> ground_of(const json& properties) {
+  std::array<double, kPlane.size()> values = {};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto found = properties.find(kPlane[i]);
+    if (found == properties.end() || !found->is_number()) return std::nullopt;
+    values[i] = found->get<double>();
+  }
+  return PlotGround{.z_m = values[0], .slope = {values[1], values[2]}, .tolerance_m = values[3]};
 }
 
 std::vector<std::string> flags_of(const json& properties) {
@@ -138,6 +159,10 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   }
   write_heights(folder / "heights.csv", estimate);
   if (estimate.ground) write_ground(folder, *estimate.ground, units);
+  if (estimate.clusters.empty()) return;
+  std::vector<PlotFeature> clusters;
+  for (const PlotBox& box : estimate.clusters) clusters.push_back({.box = box});
+  write_plot_features(folder / "clusters.geojson", clusters, estimate.crs, estimate.units);
 }
 
 Estimate read_estimate(const fs::path& path) {
@@ -150,6 +175,10 @@ Estimate read_estimate(const fs::path& path) {
   for (const PlotFeature& feature : placed.plots) {
     estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));
     any_height = any_height || !estimate.plots.back().heights_m.empty();
+  }
+  if (is_folder && fs::exists(path / "clusters.geojson")) {
+    for (const PlotFeature& cluster : read_plot_features(path / "clusters.geojson", "").plots)
+      estimate.clusters.push_back(cluster.box);
   }
   if (estimate.plots.empty() && estimate.method.empty()) throw InputError(file, "has no plots");
   if (!any_height && !estimate.plots.empty()) {
@@ -172,6 +201,7 @@ PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
   }
   plot.errors = errors_of(feature.properties, plot.heights_m);
   plot.flags = flags_of(feature.properties);
+  plot.ground = ground_of(feature.properties);
   const auto confidence = feature.properties.find("confidence");
   if (confidence != feature.properties.end() && confidence->is_number())
     plot.confidence = confidence->get<double>();

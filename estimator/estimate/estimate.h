@@ -24,6 +24,13 @@ struct HeightError {
   double high95_m = 0;
 };
 
+// The plane that a method took for the ground under a plot, in the cloud's frame.
+struct PlotGround {
+  double z_m = 0;                                   // at the box's centre
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // rise to a metre east, to a metre north
+  double tolerance_m = 0;  // points no farther from the plane count as ground
+};
+
 // One plot as found in, or measured from, a cloud.
 struct PlotEstimate {
   PlotId id = 0;   // as given, else a number from 1
@@ -36,6 +43,7 @@ struct PlotEstimate {
   std::map<std::string, HeightError> errors = {};   // of heights_m, by the same names
   std::optional<double> confidence = std::nullopt;  // that this is a plot, 0 to 1
   std::vector<std::string> flags = {};  // why not to trust the heights; none: they may be trusted
+  std::optional<PlotGround> ground = std::nullopt;  // of a method that has a plane for each plot
   // What was given with the plot's box (PlotMap), to be given back; not read by read_estimate.
   nlohmann::json attributes = nlohmann::json::object();
 };
@@ -50,20 +58,23 @@ struct Estimate {
   std::optional<CoordinateUnits> units = {};
   nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
+  // What the plots were made of, where a method first boxes clusters of points: dhami2020's boxes
+  // before the vote.
+  std::vector<PlotBox> clusters = {};
 };
 
 // The plots as write_estimate writes them.
 std::vector<PlotFeature> features_of(const Estimate& estimate);
 
 // Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system) in
-// metres, heights.csv and, where the method models it, the ground's grids
+// metres, heights.csv and, where the method has them, the ground's grids and clusters.geojson
 // (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
 // its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
 // else its plot_number, else its place in the file. The method is the one that the folder's
-// manifest.json names, "" without a manifest. The ground is not read. Throws InputError as
+// manifest.json names, "" without a manifest. The ground's grids are not read. Throws InputError as
 // read_plot_features does, when no plot has a height, and when a file that no method of ours wrote
 // has no plot.
 Estimate read_estimate(const std::filesystem::path& path);

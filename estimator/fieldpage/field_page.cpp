@@ -73,6 +73,7 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   field.facts.push_back({"plots", std::to_string(estimate.plots.size())});
   show_nothing(field, estimate);
   show_estimate(field, estimate);
+  show_working(field, estimate);
   if (options.truth) {
     show_truth(field, estimate, score::read_truth(*options.truth));
     const fs::path terrain = *options.truth / "truth" / "terrain.ply";

@@ -60,6 +60,21 @@ void show_estimate(report::ShownField& field, const estimate::Estimate& estimate
   if (estimate.ground) field.ground = report::shown_grid(*estimate.ground, Eigen::Vector3d::Zero());
 }
 
+void show_working(report::ShownField& field, const estimate::Estimate& estimate) {
+  report::ShownWorking working{.method = estimate.method, .clusters = estimate.clusters};
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    working.plots.push_back(plot.box);
+    if (!plot.ground) continue;
+    working.planes.push_back({.id = plot.id.text(),
+                              .box = plot.box,
+                              .z_m = plot.ground->z_m,
+                              .slope = plot.ground->slope,
+                              .tolerance_m = plot.ground->tolerance_m});
+  }
+  if (!working.clusters.empty() || !working.planes.empty())
+    field.workings.push_back(std::move(working));
+}
+
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth) {
   const score::FieldScore scored = score::score_field(truth, estimate);

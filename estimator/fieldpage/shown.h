@@ -19,6 +19,9 @@ namespace plotscan::fieldpage {
 // Puts an estimate into a field: its plots and its ground.
 void show_estimate(report::ShownField& field, const estimate::Estimate& estimate);
 
+// Adds how the method came to its plots, where the estimate tells: clusters, planes of ground.
+void show_working(report::ShownField& field, const estimate::Estimate& estimate);
+
 // Holds the field's plots, which are the estimate's, against true ones: which are found, their
 // truths, and the true boxes.
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,

@@ -73,6 +73,26 @@ json packed(const ShownBox& box) {
 }
 
 template <class Item>
+json packed(const std::vector<Item>& items);
+
+json packed(const ShownPlane& plane) {
+  constexpr int kSlopeDecimals = 6;
+  return {{"id", plane.id},
+          {"box", packed(plane.box)},
+          {"z", number(plane.z_m)},
+          {"slope",
+           {decimals(plane.slope.x(), kSlopeDecimals), decimals(plane.slope.y(), kSlopeDecimals)}},
+          {"tolerance", number(plane.tolerance_m)}};
+}
+
+json packed(const ShownWorking& working) {
+  return {{"method", working.method},
+          {"clusters", packed<PlotBox>(working.clusters)},
+          {"plots", packed<PlotBox>(working.plots)},
+          {"planes", packed<ShownPlane>(working.planes)}};
+}
+
+template <class Item>
 json packed(const std::vector<Item>& items) {
   json list = json::array();
   for (const Item& item : items) list.push_back(packed(item));
@@ -90,6 +110,7 @@ json packed_field(const ShownField& field) {
                    {"path", packed(field.path)},
                    {"plots", packed<ShownPlot>(field.plots)},
                    {"true_boxes", packed<ShownBox>(field.true_boxes)}};
+  if (!field.workings.empty()) document["workings"] = packed<ShownWorking>(field.workings);
   if (field.cloud) document["cloud"] = packed_cloud(*field.cloud);
   if (field.ground) document["ground"] = packed(*field.ground);
   if (field.terrain) document["terrain"] = packed(*field.terrain);

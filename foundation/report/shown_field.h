@@ -47,6 +47,24 @@ struct ShownBox {
   bool found = false;
 };
 
+// The plane that a method took for the ground under a plot.
+struct ShownPlane {
+  std::string id;  // of the plot
+  PlotBox box;
+  double z_m = 0;  // at the box's centre
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  double tolerance_m = 0;  // points no farther from it count as ground
+};
+
+// How a method came to its plots: boxes of clusters, from which the plots' boxes were made, and the
+// planes under these. Either may be empty.
+struct ShownWorking {
+  std::string method;
+  std::vector<PlotBox> clusters = {};
+  std::vector<PlotBox> plots = {};
+  std::vector<ShownPlane> planes = {};
+};
+
 // Heights of the nodes of a square grid, rows from south to north; NaN where there is none.
 struct ShownGrid {
   Eigen::Vector2d first = Eigen::Vector2d::Zero();  // the south-western node, the cloud's frame
@@ -75,6 +93,7 @@ struct ShownField {
   std::vector<Eigen::Vector3d> path = {};  // of the drone
   std::vector<ShownPlot> plots = {};
   std::vector<ShownBox> true_boxes = {};
+  std::vector<ShownWorking> workings = {};  // of methods that have any
 };
 
 // As pages hold it (docs/report-format.md), with binary values.

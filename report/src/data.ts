@@ -67,6 +67,23 @@ export interface TrueBox {
   found: boolean;
 }
 
+// The plane that a method took for the ground under a plot.
+export interface Plane {
+  id: string;
+  box: Box;
+  z: number; // at the box's centre
+  slope: [number, number]; // rise to a metre east, to a metre north
+  tolerance: number; // points no farther from it count as ground
+}
+
+// How a method came to its plots.
+export interface Working {
+  method: string;
+  clusters: Box[]; // before the vote
+  plots: Box[]; // after it
+  planes: Plane[];
+}
+
 export interface Field {
   name: string;
   facts: [string, string][];
@@ -74,6 +91,7 @@ export interface Field {
   path: [number, number, number][];
   plots: Plot[];
   true_boxes: TrueBox[];
+  workings?: Working[];
   cloud?: Cloud;
   ground?: Grid;
   terrain?: Grid;
@@ -98,6 +116,16 @@ export interface Series {
   high?: (number | null)[];
 }
 
+// What a suite asks whose cases are flights over one kind of farm.
+export interface Sweep {
+  axes: { key: string; values: (number | string)[] }[]; // case i is their combination i, the last varying fastest
+  height: string;
+  truth: string;
+  row: string; // of the table: the first method's height
+  goal?: { rmse_m: number; found: number };
+  flights: { flight_s: number; points: number }[]; // a case
+}
+
 export interface Suite {
   name: string;
   cases: { name: string; published_rmse_cm?: number }[];
@@ -109,6 +137,7 @@ export interface Suite {
   series: Series[];
   table: TableRow[];
   boxes: TableRow[];
+  sweep?: Sweep; // no plots and no series then
 }
 
 export interface Report {

@@ -1,5 +1,5 @@
 // One field: its points in three dimensions, the map of its plots, a plot from the side, their table.
-import { card } from "./card";
+import { card, type Card } from "./card";
 import type { Theme } from "./colours";
 import { lookOf, modesOf, type Key, type Mode } from "./colouring";
 import type { Field, Plot } from "./data";
@@ -13,6 +13,7 @@ import { saveButtons } from "./save";
 import { Scene, type Layer } from "./scene";
 import { Table, type Column } from "./table";
 import { onTheme, theme } from "./theme";
+import { drawInliers, drawVoting, inliersCsv, votingCsv } from "./working";
 
 const kNoise_m = 0.03;
 
@@ -44,6 +45,7 @@ export class FieldView {
   private table?: Table<Plot>;
   private map?: { update: () => void };
   private profile?: { update: () => void };
+  private readonly workings: Card[] = [];
   private readonly status = h("p", { class: "status", role: "status" });
   private readonly key = h("div", { class: "keys" });
   private readonly details = h("div", { class: "details" });
@@ -93,8 +95,26 @@ export class FieldView {
     profile.element.classList.add("profile");
     profile.element.append(this.details);
     this.table = this.plotTable();
-    parts.push(profile.element, this.table.element);
+    parts.push(profile.element, ...this.workingCards(), this.table.element);
     return parts;
+  }
+
+  // What of the methods' workings can be shown; drawn anew once all points are read.
+  private workingCards(): HTMLElement[] {
+    const { field, grounds } = this;
+    for (const working of field.workings ?? []) {
+      const options = () => ({ field, working, cloud: this.scene?.cloud?.cloud, tiles: this.scene?.cloud?.read ?? [], grounds });
+      if (working.clusters.length > 0) this.workings.push(card(() => ({
+        title: `Boxes before and after voting: ${working.method}`,
+        note: "(a) The least rectangle around each cluster of k-means; (b) the grid of boxes of the size and heading that most clusters agree on.",
+        draw: (colours, narrow) => drawVoting(options(), colours, narrow), csv: () => votingCsv(options()) })));
+      if (working.planes.length > 0) this.workings.push(card(() => ({
+        title: `Ground inliers of plots: ${working.method}`,
+        note: `Points within ${fixed(100 * working.planes[0].tolerance, 0)} cm of the plane that the method took for the plot's ground, seen along the plot's width: of ${counted(working.planes.length)} plots those whose ground is farthest from and nearest to a plane.`,
+        draw: (colours, narrow) => drawInliers(options(), colours, narrow), csv: () => inliersCsv(options()) })));
+    }
+    const cards = this.workings.map(({ element }) => element);
+    return cards.length > 0 ? [h("div", { class: "grid workings" }, ...cards)] : [];
   }
 
   private heightOrTruth(): string {
@@ -212,6 +232,7 @@ export class FieldView {
     if (!this.scene) return;
     this.colour();
     this.profile?.update();
+    for (const { update } of this.workings) update();
     this.status.textContent =
       `${counted(shown)} points${read > shown ? `, a fair sample of the ${counted(read)} that were read` : ""}. ` +
       "Drag turns, wheel or pinch zooms, right button or two fingers move; arrows, + and − do the same.";

@@ -3,6 +3,7 @@ import { readReport, type Report } from "./data";
 import { h } from "./dom";
 import { FieldView } from "./field_view";
 import { estimateFigures, SuiteView } from "./suite";
+import { SweepView } from "./sweep";
 import { themeChoice } from "./theme";
 
 function header(report: Report): HTMLElement {
@@ -39,7 +40,7 @@ function fieldsSection(report: Report): HTMLElement {
 function sections(report: Report): HTMLElement[] {
   const all: HTMLElement[] = [];
   if (report.fields.length > 0) all.push(fieldsSection(report));
-  if (report.suite) all.push(...new SuiteView(report.suite).sections);
+  if (report.suite) all.push(...(report.suite.sweep ? new SweepView(report.suite) : new SuiteView(report.suite)).sections);
   const figures = report.kind === "estimate" ? estimateFigures(report) : undefined;
   if (figures) all.push(figures);
   return all.length > 1 ? [links(all), ...all] : all;
@@ -58,7 +59,7 @@ function start(): void {
     document.title = report.title;
     page.append(header(report));
     page.append(...sections(report));
-    if (report.kind === "suite" && report.fields.length === 0)
+    if (report.kind === "suite" && !report.suite?.sweep && report.fields.length === 0)
       page.append(h("p", { class: "note" }, "These results have no views of their farms: farmbench run makes them, and shows one farm of each case in three dimensions."));
     if (report.fields.length === 0) document.documentElement.dataset.ready = String(Math.round(performance.now()));
     document.documentElement.dataset.interactive = String(Math.round(performance.now()));

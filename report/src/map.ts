@@ -1,7 +1,7 @@
 // The plots from above, coloured by what is asked of them.
 import { canvas, digitsOf, line, round, text, type Panel } from "./axes";
 import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
-import type { Field, Plot } from "./data";
+import type { Box, Field, Plot } from "./data";
 import { s } from "./dom";
 import { counted, csv, fixed, namedTruth, ticks } from "./numbers";
 import { corners } from "./place";
@@ -74,7 +74,7 @@ export interface MapOptions {
 }
 
 // From the field's metres to the drawing's pixels.
-interface Sheet {
+export interface Sheet {
   svg: SVGSVGElement;
   panel: Panel;
   theme: Theme;
@@ -91,9 +91,13 @@ const kHeight = 400;
 
 // An empty map with the axes of the cloud's coordinates.
 function sheetOf(field: Field, title: string, theme: Theme): Sheet {
-  const panel = { left: 46, top: 10, width: kWidth - 46 - 86, height: kHeight - 10 - 40 };
   const svg = canvas(kWidth, kHeight, theme, title);
-  const outlines = [...field.plots, ...field.true_boxes].flatMap((plot) => corners(plot.box));
+  return sheetIn(svg, { left: 46, top: 10, width: kWidth - 46 - 86, height: kHeight - 10 - 40 }, [...field.plots, ...field.true_boxes].map(({ box }) => box), theme);
+}
+
+// The same in a panel of a figure, around boxes.
+export function sheetIn(svg: SVGSVGElement, panel: Panel, boxes: Box[], theme: Theme): Sheet {
+  const outlines = boxes.flatMap(corners);
   const middle = (values: number[]) => (values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0);
   const span = (values: number[]) => (values.length ? Math.max(...values) - Math.min(...values) : 1) || 1;
   const xs = outlines.map(([x]) => x);
@@ -112,12 +116,12 @@ function sheetOf(field: Field, title: string, theme: Theme): Sheet {
     const v = top - (y - y0) * scale;
     svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y - fromY, 0), { anchor: "end", colour: theme.soft }));
   }
-  svg.append(text(left, kHeight - 8, axisName("east", fromX), { anchor: "middle" }),
-    text(12, top, axisName("north", fromY), { anchor: "middle", turned: true }));
+  svg.append(text(left, bottom + 32, axisName("east", fromX), { anchor: "middle" }),
+    text(panel.left - 34, top, axisName("north", fromY), { anchor: "middle", turned: true }));
   return { svg, panel, theme, scale, at: (x, y) => [left + (x - x0) * scale, top - (y - y0) * scale] };
 }
 
-const cornersOn = (sheet: Sheet, box: Plot["box"]): string =>
+export const cornersOn = (sheet: Sheet, box: Box): string =>
   corners(box).map(([x, y]) => sheet.at(x, y).map(round).join(",")).join(" ");
 
 // A plot's number where its box has room for it, along the box where that is narrow.

@@ -7,8 +7,13 @@ import { s } from "./dom";
 import { csv, fixed, namedTruth } from "./numbers";
 import type { Grounds } from "./place";
 
-const kBeyond = 1; // metres that are shown before and behind the plot
+export const kBeyond = 1; // metres that are shown before and behind the plot
 const kMostPoints = 9000;
+
+// A fair share of the points where they are many.
+export const fewOf = <Point>(points: Point[], most = kMostPoints): Point[] =>
+  points.length <= most ? points : points.filter((_, i) => (i * most) % points.length < most);
+
 const kHeightKinds = [0, 1, 3]; // colours of the heights
 
 // A point beside the plot's middle: along its length from the box's start, across, up.
@@ -21,7 +26,11 @@ export interface SidePoint {
 
 // The points between the plot's long sides.
 export function pointsOf(plot: Plot, cloud: Cloud, tiles: TilePoints[], grounds: Grounds): SidePoint[] {
-  const [x0, y0, width, length, heading] = plot.box;
+  return pointsOver(plot.box, cloud, tiles, (x, y) => grounds.ground?.height(x, y) ?? NaN);
+}
+
+// The same of any box, over any ground.
+export function pointsOver([x0, y0, width, length, heading]: Box, cloud: Cloud, tiles: TilePoints[], ground: (x: number, y: number) => number): SidePoint[] {
   const [c, d] = [Math.cos((heading * Math.PI) / 180), Math.sin((heading * Math.PI) / 180)];
   const reach = Math.hypot(width, length + 2 * kBeyond) / 2;
   const found: SidePoint[] = [];
@@ -38,7 +47,7 @@ export function pointsOf(plot: Plot, cloud: Cloud, tiles: TilePoints[], grounds:
       if (Math.abs(y * c - x * d) > width / 2 || Math.abs(along) > length / 2 + kBeyond) continue;
       const z = up + tile.step * places[4 * i + 2];
       found.push({
-        along: along + length / 2, z, above: z - (grounds.ground?.height(x + x0, y + y0) ?? NaN),
+        along: along + length / 2, z, above: z - ground(x + x0, y + y0),
         inside: Math.abs(along) <= length / 2,
       });
     }
@@ -47,7 +56,7 @@ export function pointsOf(plot: Plot, cloud: Cloud, tiles: TilePoints[], grounds:
 }
 
 // A line of ground along the plot's middle, in pieces without gaps.
-function groundLine(box: Box, height: (x: number, y: number) => number): [number, number][][] {
+export function groundLine(box: Box, height: (x: number, y: number) => number): [number, number][][] {
   const [x0, y0, , length, heading] = box;
   const [c, d] = [Math.cos((heading * Math.PI) / 180), Math.sin((heading * Math.PI) / 180)];
   const pieces: [number, number][][] = [[]];
@@ -174,7 +183,7 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
   const width = narrow ? 360 : 720;
   const length = plot.box[3];
   const names = profileHeights(plot, height);
-  const shown = points.length <= kMostPoints ? points : points.filter((_, i) => (i * kMostPoints) % points.length < kMostPoints);
+  const shown = fewOf(points);
   const kinds = kindsOf(shown, noise, theme);
   const lineOf = (surface?: Surface) => (surface ? groundLine(plot.box, (u, v) => surface.height(u, v)) : []);
   const [ground, terrain] = [lineOf(grounds.ground), lineOf(grounds.terrain)];

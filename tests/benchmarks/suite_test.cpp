@@ -99,6 +99,7 @@ TEST_P(ShippedSuite, IsSound) {
         description::load_description(suite_case.farm, suite_case.overrides), suite.seeds.front());
     EXPECT_FALSE(farm.plots.empty()) << suite_case.name;
     EXPECT_TRUE(suite_case.without_plots || !farm.plants.empty()) << suite_case.name;
+    if (suite.sweep) break;  // its cases are flights over one kind of farm
   }
 }
 

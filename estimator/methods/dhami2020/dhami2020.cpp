@@ -109,9 +109,10 @@ json to_json(const Lattice& lattice) {
   return document;
 }
 
-// Section IV-B: the plots of the map in its own frame.
-std::vector<estimate::PlotEstimate> find_plots(const cloud::CloudMap& map, const Points& voxels,
-                                               const Options& options, json& diagnostics) {
+// Section IV-B: the clusters and plots of the map in its own frame.
+void find_plots(const cloud::CloudMap& map, const Points& voxels, const Options& options,
+                estimate::Estimate& estimate) {
+  json& diagnostics = estimate.diagnostics;
   const cloud::Area area = options.crop_box.value_or(map.area());
   const GroundLevel level =
       options.level ? fit_ground_level(voxels) : GroundLevel{.offset_m = -map.origin().z()};
@@ -147,12 +148,20 @@ std::vector<estimate::PlotEstimate> find_plots(const cloud::CloudMap& map, const
   }
   diagnostics["grid"] = to_json(*lattice);
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
-  std::vector<estimate::PlotEstimate> plots =
-      fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
-  if (plots.empty())
+  estimate.clusters = boxes;
+  estimate.plots = fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
+  if (estimate.plots.empty())
     throw NothingToMeasure(
         "no box of the grid holds canopy; check the crop box and the minimum height");
-  return plots;
+}
+
+// From the map's frame to the cloud's.
+void move_by(const Eigen::Vector3d& origin, estimate::Estimate& estimate) {
+  for (PlotBox& box : estimate.clusters) box.center += origin.head<2>();
+  for (estimate::PlotEstimate& plot : estimate.plots) {
+    plot.box.center += origin.head<2>();
+    if (plot.ground) plot.ground->z_m += origin.z();
+  }
 }
 
 bool holds(const cloud::Area& outer, const cloud::Area& inner) {
@@ -193,12 +202,13 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
                           {"area_m", map.area()},
                           {"voxels", voxels.size()}};
   if (progress) progress(0.6);
-  estimate.plots = options.boxes.empty()
-                       ? find_plots(map, voxels, options, estimate.diagnostics)  // IV-B
-                       : estimate::given_plots(options.boxes, map.origin());
+  if (options.boxes.empty())
+    find_plots(map, voxels, options, estimate);  // IV-B
+  else
+    estimate.plots = estimate::given_plots(options.boxes, map.origin());
   if (progress) progress(0.8);
   measure_heights(estimate.plots, map.points(), voxels, options);  // IV-C
-  for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += map.origin().head<2>();
+  move_by(map.origin(), estimate);
   if (progress) progress(1);
   return estimate;
 }

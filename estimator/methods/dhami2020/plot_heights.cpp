@@ -41,11 +41,24 @@ void append_heights(const std::vector<Eigen::Vector3f>& points, const GroundPlan
   }
 }
 
+// The plane as z over x and y; nothing where it stands upright.
+std::optional<estimate::PlotGround> plot_ground(const GroundPlane& plane, const PlotBox& box,
+                                                double tolerance_m) {
+  constexpr double kLeastUp = 1e-6;
+  if (plane.normal.z() < kLeastUp) return std::nullopt;
+  const Eigen::Vector2d slope = -plane.normal.head<2>() / plane.normal.z();
+  return estimate::PlotGround{
+      .z_m = plane.centroid.z() + slope.dot(box.center - plane.centroid.head<2>()),
+      .slope = slope,
+      .tolerance_m = tolerance_m};
+}
+
 void measure_plot(estimate::PlotEstimate& plot, const std::vector<Eigen::Vector3f>& raw,
                   const std::vector<Eigen::Vector3f>& voxels, double tolerance_m) {
   plot.points = raw.size();
   const std::optional<GroundPlane> ground = find_ground_plane(in_double(voxels), tolerance_m);
   if (!ground) return;
+  plot.ground = plot_ground(*ground, plot.box, tolerance_m);
   std::vector<double> heights_m;
   append_heights(voxels, *ground, tolerance_m, heights_m);
   if (!heights_m.empty()) plot.heights_m["voxel-max"] = std::ranges::max(heights_m);

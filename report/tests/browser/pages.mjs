@@ -5,6 +5,16 @@ import { join } from "node:path";
 
 export const hostile = ["<script>document.title='hit'</script>", "\"><img src=x onerror=\"document.title='hit'\">", "'&amp;</script>"];
 
+// Eight flights over the farm of a small suite, in another folder than the suite's own.
+const sweep = (worlds) => `name: flights
+farm: ${worlds}/paper_flat.yaml
+set: {terrain.side_m: 30, terrain.vertices: 20, "plots.rows": "[{plots: 4}]", plants.count: 30}
+axes: {altitude_m: [6, 12], speed_m_s: [3, 6], sensor: [vlp16, puck_hires]}
+enough: {rmse_cm: 100, found: 1}
+seeds: [1]
+methods: [lattice true-boxes]
+`;
+
 export function makePages(programs, work) {
   rmSync(work, { recursive: true, force: true });
   mkdirSync(work, { recursive: true });
@@ -24,7 +34,9 @@ export function makePages(programs, work) {
   run("estimator", "run", scan, "--boxes", "map.geojson", "-o", "estimate", "-q");
   run("lidarsim", "view", scan, "--plots", "farm", "-o", "scan.html", "-q");
   run("estimator", "report", "estimate", "--truth", "farm", "--cloud", scan, "-o", "estimate.html", "-q");
-  run("farmbench", "run", "smoke", "--methods", "lattice,dhami2020 true-boxes,oracle-ground", "-o", "suite", "-q");
-  for (const page of ["scan.html", "estimate.html", "suite/report.html"])
+  run("farmbench", "run", "smoke", "--methods", "lattice,dhami2020,dhami2020 true-boxes,oracle-ground", "-o", "suite", "-q");
+  writeFileSync(join(work, "flights.yaml"), sweep(join(import.meta.dirname, "../../../worlds")));
+  run("farmbench", "sweep", "flights.yaml", "-o", "sweep", "-q");
+  for (const page of ["scan.html", "estimate.html", "suite/report.html", "sweep/report.html"])
     if (!existsSync(join(work, page))) throw new Error(`no ${page}`);
 }

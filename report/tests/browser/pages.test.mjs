@@ -102,9 +102,8 @@ test("an estimate: a plot is chosen on the map, in the table, by key and in the 
   });
 });
 
-test("every figure and table is saved, and its files open", async () => {
-  await open(at("estimate.html"), {}, async (page, kept) => {
-    await page.locator(".map .plot").nth(1).click();
+for (const [name, least] of [["estimate", [5, 6, 6]], ["suite/report", [9, 10, 12]], ["sweep/report", [1, 1, 2]]]) test(`${name}: every figure and table is saved, and its files open`, async () => {
+  await open(at(`${name}.html`), {}, async (page, kept) => {
     const counts = { svg: 0, png: 0, csv: 0 };
     for (const button of await page.locator(".saves button").all()) {
       const { name, bytes } = await saved(page, button);
@@ -126,7 +125,7 @@ test("every figure and table is saved, and its files open", async () => {
         assert.ok(!bytes.includes("NaN"), name);
       }
     }
-    assert.ok(counts.svg >= 5 && counts.png >= 6 && counts.csv >= 6, JSON.stringify(counts));
+    assert.ok(Object.values(counts).every((count, i) => count >= least[i]), JSON.stringify(counts));
     sound(kept);
   });
 });
@@ -162,8 +161,56 @@ test("a suite: soon interactive, a farm of each case, figures, tables that sort"
   });
 });
 
+test("the paper's steps: boxes before and after voting, ground inliers", async () => {
+  await open(at("suite/report.html"), {}, async (page, kept) => {
+    const field = JSON.parse(await page.locator("#report").textContent()).fields[0];
+    const voting = page.locator("figure", { has: page.locator("h3", { hasText: "Boxes before and after voting: dhami2020" }) });
+    const [steps] = field.workings;
+    assert.equal(steps.method, "dhami2020");
+    assert.ok(steps.clusters.length > 0 && steps.plots.length > 0);
+    // The true plots stand in both panels.
+    assert.equal(await voting.locator("polygon").count(), steps.clusters.length + steps.plots.length + 2 * field.true_boxes.length);
+    assert.ok((await voting.locator("path").first().getAttribute("d")).length > 10_000, "points above the ground");
+    const inliers = page.locator("figure", { has: page.locator("h3", { hasText: "Ground inliers of plots: dhami2020 true-boxes" }) });
+    const { bytes } = await saved(page, inliers.locator("button", { hasText: "CSV" }));
+    const rows = bytes.toString().trim().split("\r\n").slice(1).map((row) => row.split(",").map(Number));
+    const { slope, tolerance } = field.workings[1].planes[0];
+    for (const [, , , above, ground] of rows) {
+      const off = Math.abs(above) / Math.hypot(1, ...slope);
+      if (Math.abs(off - tolerance) > 2e-3) assert.equal(ground, off < tolerance ? 1 : 0);
+    }
+    assert.ok(rows.some((row) => row[4] === 1) && rows.some((row) => row[4] === 0));
+    await voting.screenshot({ path: join(shots, "voting.png") });
+    await inliers.screenshot({ path: join(shots, "inliers.png") });
+    sound(kept);
+  });
+});
+
+test("a sweep: contours, the flight that is needed, limits of one's own", async () => {
+  await open(at("sweep/report.html"), {}, async (page, kept) => {
+    const figure = page.locator("#figures figure");
+    assert.equal(await figure.locator("svg circle").count() > 0, true);
+    assert.ok((await figure.locator("svg path").count()) > 1, "bands");
+    const rows = readFileSync(at("sweep/sweep.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
+    const at_ = (name) => rows[0].indexOf(name);
+    const own = rows.filter((row) => row[at_("method")].startsWith("lattice/mean"));
+    assert.equal(own.length, 8);
+    const best = own.reduce((a, b) => (Number(b[at_("flight_s")]) < Number(a[at_("flight_s")]) ? b : a));
+    const said = page.locator(".answer");
+    assert.ok((await said.textContent()).includes(`altitude ${best[0]} m, speed ${best[1]} m/s, sensor ${best[2]};`), await said.textContent());
+    const cells = await page.locator("#tables tbody tr").first().locator("td").allTextContents();
+    assert.equal(cells[3], Number(own[0][at_("rmse_cm")]).toFixed(2));
+    await page.locator("input[type=number]").first().fill("0.001");
+    assert.ok((await said.textContent()).startsWith("None"));
+    await page.locator("#figures select").first().selectOption("found");
+    assert.ok((await figure.locator("h3").textContent()).startsWith("Plots found"));
+    await page.screenshot({ path: join(shots, "sweep.png"), fullPage: true });
+    sound(kept);
+  });
+});
+
 test("a phone in the dark: nothing sticks out", async () => {
-  for (const name of ["scan", "estimate", "suite/report"]) {
+  for (const name of ["scan", "estimate", "suite/report", "sweep/report"]) {
     await open(at(`${name}.html`), { size: phone, colours: "dark" }, async (page, kept) => {
       const [inner, outer] = await page.evaluate(() => [window.innerWidth, document.documentElement.scrollWidth]);
       assert.ok(outer <= inner, `${name}: ${outer} of ${inner} pixels`);

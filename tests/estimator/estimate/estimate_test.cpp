@@ -43,6 +43,26 @@ TEST(Estimate, ReadsWhatItWrites) {
   EXPECT_TRUE(read.plots[1].heights_m.empty());
 }
 
+TEST(Estimate, KeepsClustersAndPlanesOfGround) {
+  const TemporaryFolder folder;
+  Estimate written = two_plots();
+  written.plots[0].ground = {.z_m = 101.25, .slope = {0.1, -0.05}, .tolerance_m = 0.05};
+  written.clusters = {{.center = {3, 4}, .width_m = 1, .length_m = 5, .heading_rad = 0.25}};
+  write_estimate(folder.path(), written);
+  const Estimate read = read_estimate(folder.path());
+  ASSERT_TRUE(read.plots[0].ground);
+  EXPECT_EQ(read.plots[0].ground->z_m, 101.25);
+  EXPECT_EQ(read.plots[0].ground->slope, Eigen::Vector2d(0.1, -0.05));
+  EXPECT_EQ(read.plots[0].ground->tolerance_m, 0.05);
+  EXPECT_FALSE(read.plots[1].ground);
+  ASSERT_EQ(read.clusters.size(), 1U);
+  EXPECT_EQ(read.clusters[0].center, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(read.clusters[0].length_m, 5);
+  // A map that carries such a property keeps it under another name.
+  const auto given = given_attributes({.box = {}, .properties = {{"ground_z_m", 7}}});
+  EXPECT_EQ(given, nlohmann::json({{"given_ground_z_m", 7}}));
+}
+
 // A box in UTM: its corners, its centre and a program that reads the polygon alone keep every
 // millimetre, and the file names the system.
 TEST(Estimate, KeepsMillimetresInMapGridCoordinates) {

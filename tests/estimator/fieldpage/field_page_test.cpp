@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "estimate/estimate.h"
 #include "fieldpage/shown.h"
 
 namespace plotscan::fieldpage {
@@ -72,6 +73,27 @@ TEST_F(FieldPage, SaysWhichPlotsAreFoundExtraAndMissed) {
   const std::string page = read_text(html_);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("<img"), std::string::npos);
+}
+
+TEST_F(FieldPage, ShowsHowAMethodCameToItsPlots) {
+  const fs::path folder = folder_.path() / "estimate";
+  fs::create_directories(folder);
+  const PlotBox box{.center = {2, 3}, .width_m = 1, .length_m = 4};
+  const PlotBox cluster{.center = {2.1, 3.2}, .width_m = 1.5, .length_m = 4.5};
+  const estimate::PlotEstimate plot{
+      .id = 7,
+      .box = box,
+      .heights_m = {{"raw-max", 0.8}},
+      .ground = estimate::PlotGround{.z_m = 5, .slope = {0.1, 0.2}, .tolerance_m = 0.05}};
+  estimate::write_estimate(folder, {.method = "dhami2020", .plots = {plot}, .clusters = {cluster}});
+  write_estimate_page({.estimate = folder, .html = html_});
+  const nlohmann::json working = field_of(html_)["workings"][0];
+  EXPECT_EQ(working["clusters"], nlohmann::json({{2.1, 3.2, 1.5, 4.5, 0.0}}));
+  EXPECT_EQ(working["plots"], nlohmann::json({{2.0, 3.0, 1.0, 4.0, 0.0}}));
+  EXPECT_EQ(working["planes"][0]["z"], 5.0);
+  EXPECT_EQ(working["planes"][0]["slope"], nlohmann::json({0.1, 0.2}));
+  write_estimate_page({.estimate = estimate_, .html = folder_.path() / "other.html"});
+  EXPECT_FALSE(field_of(folder_.path() / "other.html").contains("workings"));
 }
 
 TEST_F(FieldPage, WithoutTruthNothingIsScored) {

@@ -89,6 +89,31 @@ TEST(Dhami2020, MeasuresPerpendicularToTiltedGround) {
   EXPECT_LT(worst_error_m(given, farm, "raw-max"), 1e-3);
 }
 
+TEST(Dhami2020, TellsTheClustersAndThePlotsPlanes) {
+  SyntheticFarm farm;
+  farm.slope = {0.15, -0.08};
+  farm.offset = {500000, 5000000, 600};
+  const estimate::Estimate estimate = estimate_plots(farm.map(), {.plots = 30});
+  ASSERT_EQ(estimate.clusters.size(), 30U);
+  for (const PlotBox& box : farm.boxes()) {
+    const auto nearest = std::ranges::min(estimate.clusters, {}, [&](const PlotBox& cluster) {
+      return (cluster.center - box.center).norm();
+    });
+    EXPECT_LT((nearest.center - box.center).norm(), 0.3);
+  }
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    ASSERT_TRUE(plot.ground);
+    EXPECT_NEAR(plot.ground->slope.x(), 0.15, 1e-3);
+    EXPECT_NEAR(plot.ground->slope.y(), -0.08, 1e-3);
+    const Eigen::Vector2d place = plot.box.center - farm.offset.head<2>();
+    EXPECT_NEAR(plot.ground->z_m, 600 + farm.ground_z(place), 2e-3);
+    EXPECT_EQ(plot.ground->tolerance_m, 0.05);
+  }
+  const estimate::Estimate given = estimate_plots(farm.map(), {.boxes = farm.boxes()});
+  EXPECT_TRUE(given.clusters.empty());
+  EXPECT_TRUE(given.plots.front().ground);
+}
+
 TEST(Dhami2020, GivesTheSameHeightsInMapGridCoordinates) {
   SyntheticFarm farm;
   const estimate::Estimate near = estimate_plots(farm.map(), {.plots = 30});
