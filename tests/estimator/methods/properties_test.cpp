@@ -179,7 +179,7 @@ TEST(Properties, AHazeMovesHeightsByMillimetresInMostPlots) {
   }
 }
 
-// Most of an interval is what points do not tell; it must not narrow with fewer of them.
+// Most of an interval is what points do not tell; the rest widens with fewer of them.
 TEST(Properties, IntervalsOfHalfOfThePointsHold) {
   for (const std::uint64_t seed : {9, 10}) {
     const Points points = RandomField(seed).points();
@@ -199,7 +199,7 @@ TEST(Properties, IntervalsOfHalfOfThePointsHold) {
       const double height_m = plot.heights_m.at("p90");
       inside += error.low95_m <= height_m && height_m <= error.high95_m;
     }
-    EXPECT_GT(after_m, 0.98 * before_m);
+    EXPECT_GT(after_m, before_m);
     EXPECT_GE(inside, 0.95 * static_cast<double>(all.plots.size()));
   }
 }
