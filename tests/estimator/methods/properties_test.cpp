@@ -179,7 +179,7 @@ TEST(Properties, AHazeMovesHeightsByMillimetresInMostPlots) {
   }
 }
 
-// Most of an interval is what points do not tell; the rest widens with fewer of them.
+// Most of an interval is what points do not tell; that of p90 widens a little with fewer of them.
 TEST(Properties, IntervalsOfHalfOfThePointsHold) {
   for (const std::uint64_t seed : {9, 10}) {
     const Points points = RandomField(seed).points();
