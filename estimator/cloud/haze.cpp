@@ -64,7 +64,8 @@ class Voxels {
   }
 
   std::size_t index_of(const Eigen::Array3i& at) const {
-    return static_cast<std::size_t>((at.y() * across_ + at.x()) * up_ + at.z());
+    const Eigen::Index column = Eigen::Index{at.y()} * across_ + at.x();
+    return static_cast<std::size_t>(column * up_ + at.z());
   }
 
   int a_metre_;
