@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -14,17 +15,9 @@ namespace plotscan::cloud {
 namespace {
 
 constexpr double kSlab_m = 0.5;
-constexpr int kLevelReach = 2;    // tiles to each side
 constexpr int kSupportReach = 1;  // tiles to each side, and slabs
 constexpr int kExtentReach = 7;   // tiles to each side
-constexpr std::size_t kLevelSample = 64;
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 int slab_of(double z_m) { return static_cast<int>(std::floor(z_m / kSlab_m)); }
 
@@ -32,9 +25,9 @@ int slab_of(double z_m) { return static_cast<int>(std::floor(z_m / kSlab_m)); }
 class Columns {
  public:
   Columns(const TiledPoints& cloud, const OutlierOptions& options)
-      : cloud_(cloud), options_(options), arena_(options.threads) {
-    find_rows();
-    find_levels();
+      : cloud_(cloud), options_(options), arena_(options.threads), rows_(cloud.tiles) {
+    for (const double level : tile_levels(cloud, rows_, options.threads))
+      first_slab_.push_back(slab_of(level - options.farthest_m));
     count_slabs();
   }
 
@@ -67,51 +60,6 @@ class Columns {
     double high_m = -kNowhere;
   };
 
-  std::size_t size(std::size_t tile) const { return cloud_.begin[tile + 1] - cloud_.begin[tile]; }
-
-  void find_rows() {
-    const std::vector<Tile>& tiles = cloud_.tiles;
-    rows_.assign(static_cast<std::size_t>(tiles.back().y - tiles.front().y) + 2, tiles.size());
-    for (std::size_t tile = tiles.size(); tile-- > 0;)
-      rows_[static_cast<std::size_t>(tiles[tile].y - tiles.front().y)] = tile;
-    for (std::size_t row = rows_.size() - 1; row-- > 0;)  // rows without tiles
-      rows_[row] = std::min(rows_[row], rows_[row + 1]);
-  }
-
-  // Calls visit(tile) for those that lie at most `reach` tiles away.
-  template <class Visit>
-  void visit_around(std::size_t tile, int reach, const Visit& visit) const {
-    const std::vector<Tile>& tiles = cloud_.tiles;
-    const Tile middle = tiles[tile];
-    const std::int32_t last_row = static_cast<std::int32_t>(rows_.size()) - 2;
-    const std::int32_t row = middle.y - tiles.front().y;
-    for (int y = std::max(row - reach, 0); y <= std::min(row + reach, last_row); ++y) {
-      const auto end = tiles.begin() + static_cast<std::ptrdiff_t>(rows_[y + 1]);
-      auto at = std::lower_bound(tiles.begin() + static_cast<std::ptrdiff_t>(rows_[y]), end,
-                                 middle.x - reach, [](Tile a, std::int32_t x) { return a.x < x; });
-      for (; at != end && at->x <= middle.x + reach; ++at)
-        visit(static_cast<std::size_t>(at - tiles.begin()));
-    }
-  }
-
-  // Each tile's median height, of a sample, then the median of these around it.
-  void find_levels() {
-    std::vector<float> own(cloud_.tiles.size());
-    for_each([&](std::size_t tile) {
-      const std::size_t step = std::max<std::size_t>(1, size(tile) / kLevelSample);
-      std::vector<float> z;
-      for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; i += step)
-        z.push_back(cloud_.points[i].z());
-      own[tile] = median(z);
-    });
-    first_slab_.resize(own.size());
-    for_each([&](std::size_t tile) {
-      std::vector<float> levels;
-      visit_around(tile, kLevelReach, [&](std::size_t other) { levels.push_back(own[other]); });
-      first_slab_[tile] = slab_of(median(levels) - options_.farthest_m);
-    });
-  }
-
   // Nothing where a point lies too far from its level.
   std::optional<std::size_t> slab_in(std::size_t tile, double z_m) const {
     const int slab = slab_of(z_m) - first_slab_[tile];
@@ -134,8 +82,8 @@ class Columns {
     std::size_t near = 0;
     std::size_t over = 0;
     const int middle = first_slab_[tile] + static_cast<int>(slab);
-    visit_around(tile, kSupportReach, [&](std::size_t other) {
-      over += size(other);
+    rows_.visit_around(tile, kSupportReach, [&](std::size_t other) {
+      over += cloud_.size(other);
       for (int at = middle - kSupportReach; at <= middle + kSupportReach; ++at) {
         const int index = at - first_slab_[other];
         if (index >= 0 && index < static_cast<int>(slabs_))
@@ -149,7 +97,7 @@ class Columns {
   // Of everything around a tile that is not lonely.
   Extent extent_around(std::size_t tile) const {
     Extent extent;
-    visit_around(tile, kExtentReach, [&](std::size_t other) {
+    rows_.visit_around(tile, kExtentReach, [&](std::size_t other) {
       const auto reaches_out = [&](std::size_t slab) {
         return counts_[other * slabs_ + slab] > 0 && !is_lonely(other, slab);
       };
@@ -167,9 +115,9 @@ class Columns {
   const TiledPoints& cloud_;
   const OutlierOptions& options_;
   mutable tbb::task_arena arena_;
-  std::vector<std::size_t> rows_;  // first tile of each row of tiles; one more ends the last
-  std::vector<int> first_slab_;    // of each tile's column
-  std::size_t slabs_ = 0;          // of a column
+  TileRows rows_;
+  std::vector<int> first_slab_;  // of each tile's column
+  std::size_t slabs_ = 0;        // of a column
   std::vector<std::uint32_t> counts_;
 };
 
@@ -182,17 +130,7 @@ std::size_t drop_outliers(TiledPoints& cloud, const OutlierOptions& options) {
     const Columns columns(cloud, options);
     columns.for_each([&](std::size_t tile) { outliers[tile] = columns.outliers(tile); });
   }
-  std::size_t kept = 0;
-  for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile) {
-    const std::size_t first = cloud.begin[tile];
-    cloud.begin[tile] = kept;
-    for (std::size_t i = 0; i < outliers[tile].size(); ++i)
-      if (!outliers[tile][i]) cloud.points[kept++] = cloud.points[first + i];
-  }
-  const std::size_t dropped = cloud.points.size() - kept;
-  cloud.begin.back() = kept;
-  cloud.points.resize(kept);
-  return dropped;
+  return take_out(cloud, outliers);
 }
 
 }  // namespace plotscan::cloud

@@ -2,19 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
-#include "cloud/point_key.h"
-#include <Eigen/Core>
+#include "cloud/tiled_points.h"
 
 namespace plotscan::cloud {
-
-// Points by tile, tiles in their order.
-struct TiledPoints {
-  std::vector<Tile> tiles = {};
-  std::vector<std::size_t> begin = {};  // of each tile's points; one more than tiles, ends the last
-  std::vector<Eigen::Vector3f> points = {};  // z up, metres
-};
 
 struct OutlierOptions {
   // From the median height of the ground and crop within 2 m: trees, birds, clouds, mirror images.

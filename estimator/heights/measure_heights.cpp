@@ -2,6 +2,7 @@
 #include "heights/measure_heights.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -30,6 +31,16 @@ double scanned_share(const PlotPoints& plot) {
          static_cast<double>(cells.count());
 }
 
+// Standard error of a quantile of the returns' heights, were they drawn at random: half of what
+// lies between the quantiles one standard error of the share below and above (Woodruff 1952).
+double sampling_error_m(const HeightProfile& profile, double area_share) {
+  const double returns = std::max<double>(1, static_cast<double>(profile.returns));
+  const double share_sd = std::sqrt(area_share * (1 - area_share) / returns);
+  return (profile.quantile(std::min(1.0, area_share + share_sd)) -
+          profile.quantile(std::max(0.0, area_share - share_sd))) /
+         2;
+}
+
 SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
   const double noise_m = surface.noise_m;
   const KnownReturns known = known_returns(plot.box, plot.points, surface);
@@ -42,8 +53,10 @@ SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
                              .noise_m = noise_m,
                              .ground = known.ground}};
   seen.canopy.ground_error_m = known.ground.standard_error_m;
-  for (const auto& [name, quantile] : canopy_quantiles())
+  for (const auto& [name, quantile] : canopy_quantiles()) {
     seen.canopy.quantiles_m[name] = canopy.profile.quantile(quantile.area_share);
+    seen.canopy.sampling_m[name] = sampling_error_m(canopy.profile, quantile.area_share);
+  }
   return seen;
 }
 

@@ -91,7 +91,8 @@ FieldPlants quantile_heights(std::span<const PlotCanopy> field) {
     for (const auto& [name, quantile] : canopy_quantiles()) {
       plants.plots[i].heights[name] =
           height_of(field[i].quantiles_m.at(name),
-                    std::hypot(quantile.relative_sd * field[i].top_m, field[i].ground_error_m));
+                    std::hypot(quantile.relative_sd * field[i].top_m, field[i].ground_error_m,
+                               field[i].sampling_m.at(name)));
     }
   }
   return plants;

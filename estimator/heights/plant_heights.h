@@ -17,6 +17,7 @@ struct PlotCanopy {
   double top_m = 0;          // height that 1 % of the area exceeds, without noise
   Eigen::VectorXd features;  // by feature_names()
   std::map<std::string, double> quantiles_m = {};  // what stands for a height without calibration
+  std::map<std::string, double> sampling_m = {};   // their standard errors, of so few returns
   double ground_error_m = 0;                       // standard error of the ground under it
 };
 

@@ -155,7 +155,31 @@ TEST(Properties, OutliersMoveHeightsByMillimetres) {
   }
 }
 
-// Most of an interval is what points do not tell; it must not narrow with fewer of them.
+// One return in a hundred stray in the air within 10 m. Those at the canopy's own spacing from it
+// stay, and move the tallest plant of one plot in 36 by 0.13 m.
+TEST(Properties, AHazeMovesHeightsByMillimetresInMostPlots) {
+  for (const std::uint64_t seed : {7, 8}) {
+    Points points = RandomField(seed).points();
+    const Estimate estimate = estimate_of(points);
+    RandomStream random(seed, random_purpose("test/properties/haze"), 0);
+    for (std::size_t i = points.size() / 100; i > 0; --i) {
+      points.emplace_back(random.uniform(-0.5, 0.5) * kSide_m, random.uniform(-0.5, 0.5) * kSide_m,
+                          random.uniform(-5, 10));
+    }
+    const Estimate of_hazy = estimate_of(points);
+    ASSERT_EQ(of_hazy.plots.size(), estimate.plots.size());
+    for (const char* name : {"mean", "p90", "max"}) {
+      std::vector<double> moved_m;
+      for (const PlotEstimate& plot : estimate.plots)
+        moved_m.push_back(std::abs(plot_at(of_hazy, plot.box.center).heights_m.at(name) -
+                                   plot.heights_m.at(name)));
+      EXPECT_LT(quantile(moved_m, 0.5), 0.005) << name;
+      EXPECT_LT(quantile(moved_m, 0.9), 0.02) << name;
+    }
+  }
+}
+
+// Most of an interval is what points do not tell; that of p90 widens a little with fewer of them.
 TEST(Properties, IntervalsOfHalfOfThePointsHold) {
   for (const std::uint64_t seed : {9, 10}) {
     const Points points = RandomField(seed).points();
@@ -175,7 +199,7 @@ TEST(Properties, IntervalsOfHalfOfThePointsHold) {
       const double height_m = plot.heights_m.at("p90");
       inside += error.low95_m <= height_m && height_m <= error.high95_m;
     }
-    EXPECT_GT(after_m, 0.98 * before_m);
+    EXPECT_GT(after_m, before_m);
     EXPECT_GE(inside, 0.95 * static_cast<double>(all.plots.size()));
   }
 }
