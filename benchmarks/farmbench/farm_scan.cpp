@@ -5,7 +5,7 @@
 #include "farmfolder/write_farm.h"
 #include "planting/generate.h"
 
-#include "farmbench/survey.h"
+#include "farmbench/internal/survey.h"
 #include "lidar/canopy_height.h"
 
 namespace plotscan::farmbench {

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
-#include "farmbench/method_rows.h"
+#include "farmbench/internal/method_rows.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "farmbench/change_chart.h"
-#include "farmbench/failures.h"
 #include "farmbench/format.h"
-#include "farmbench/method_rows.h"
-#include "farmbench/suite_page.h"
-#include "farmbench/sweep_table.h"
+#include "farmbench/internal/change_chart.h"
+#include "farmbench/internal/failures.h"
+#include "farmbench/internal/method_rows.h"
+#include "farmbench/internal/suite_page.h"
+#include "farmbench/internal/sweep_table.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "farmbench/suite.h"
+#include "farmbench/internal/suite.h"
 
 namespace plotscan::farmbench {
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "cloud/field_finder.h"
+#include "cloud/internal/field_finder.h"
 
 #include "core/csv.h"
 #include "core/error.h"

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "cloud/field_density.h"
-#include "cloud/field_hull.h"
-#include "cloud/haze.h"
-#include "cloud/outliers.h"
+#include "cloud/internal/field_hull.h"
+#include "cloud/internal/haze.h"
+#include "cloud/internal/outliers.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "cloud/field_hull.h"
+#include "cloud/internal/field_hull.h"
 
 #include "core/statistics.h"
 #include "core/text.h"

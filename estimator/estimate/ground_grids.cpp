@@ -11,7 +11,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "estimate/esri_grid.h"
+#include "estimate/internal/esri_grid.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;

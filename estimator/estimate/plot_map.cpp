@@ -8,7 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "estimate/vector_map.h"
+#include "estimate/internal/vector_map.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "ground/grid.h"
+#include "ground/internal/grid.h"
 
 namespace plotscan::ground {
 

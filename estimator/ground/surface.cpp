@@ -9,13 +9,13 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
-#include "ground/bare_noise.h"
 #include "ground/columns.h"
-#include "ground/lower_surface.h"
-#include "ground/misfit.h"
-#include "ground/mixture.h"
-#include "ground/solver.h"
-#include "ground/uncertainty.h"
+#include "ground/internal/bare_noise.h"
+#include "ground/internal/lower_surface.h"
+#include "ground/internal/misfit.h"
+#include "ground/internal/mixture.h"
+#include "ground/internal/solver.h"
+#include "ground/internal/uncertainty.h"
 
 namespace plotscan::ground {
 namespace {

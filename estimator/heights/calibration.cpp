@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "core/text.h"
-#include "heights/calibration_files.h"
+#include "heights/internal/calibration_files.h"
 
 namespace plotscan::heights {
 namespace {

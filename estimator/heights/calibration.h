@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "heights/kriging.h"
+#include "heights/internal/kriging.h"
 
 namespace plotscan::heights {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/csv.h"
-#include "heights/box_cells.h"
-#include "heights/deconvolve.h"
-#include "heights/semivariogram.h"
+#include "heights/internal/box_cells.h"
+#include "heights/internal/deconvolve.h"
+#include "heights/internal/semivariogram.h"
 
 namespace plotscan::heights {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
-#include "heights/box_cells.h"
+#include "heights/internal/box_cells.h"
 
 namespace plotscan::heights {
 namespace {

@@ -7,11 +7,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "heights/box_cells.h"
 #include "heights/features.h"
-#include "heights/flags.h"
+#include "heights/internal/box_cells.h"
+#include "heights/internal/flags.h"
+#include "heights/internal/plant_heights.h"
 #include "heights/known_returns.h"
-#include "heights/plant_heights.h"
 
 namespace plotscan::heights {
 namespace {

@@ -9,12 +9,12 @@
 #include <tbb/task_arena.h>
 
 #include "core/text.h"
-#include "plots/canopy_raster.h"
-#include "plots/field_signs.h"
-#include "plots/heading.h"
-#include "plots/lattice.h"
-#include "plots/layout.h"
-#include "plots/outline.h"
+#include "plots/internal/canopy_raster.h"
+#include "plots/internal/field_signs.h"
+#include "plots/internal/heading.h"
+#include "plots/internal/lattice.h"
+#include "plots/internal/layout.h"
+#include "plots/internal/outline.h"
 
 namespace plotscan::plots {
 namespace {

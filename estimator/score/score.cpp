@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
-#include "score/matching.h"
+#include "score/internal/matching.h"
 
 namespace plotscan::score {
 namespace fs = std::filesystem;

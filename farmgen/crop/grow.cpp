@@ -3,11 +3,11 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "crop/crop_files.h"
-#include "crop/maize.h"
-#include "crop/soybean.h"
-#include "crop/textures.h"
-#include "crop/wheat.h"
+#include "crop/internal/crop_files.h"
+#include "crop/internal/maize.h"
+#include "crop/internal/soybean.h"
+#include "crop/internal/textures.h"
+#include "crop/internal/wheat.h"
 
 namespace plotscan::crop {
 namespace {

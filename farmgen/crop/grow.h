@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crop/cultivar.h"
-#include "crop/plant_builder.h"
+#include "crop/internal/cultivar.h"
+#include "crop/internal/plant_builder.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::crop {
@@ -17,7 +17,7 @@ struct GrowOptions {
   std::vector<std::string> assignments = {};  // "key=value" in place of the crop's parameters
   Detail detail = Detail::scan;
   std::string cultivar_file = {};  // a user's file over the crop's own (docs/plants.md); or empty
-  // Materials get pictures of their surfaces (crop/textures.h) in place of plain colours.
+  // Materials get pictures of their surfaces (crop/internal/textures.h) in place of plain colours.
   bool textured = false;
 };
 

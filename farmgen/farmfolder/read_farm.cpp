@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "farmfolder/plant_table.h"
+#include "farmfolder/internal/plant_table.h"
+#include "farmfolder/internal/world.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
-#include "farmfolder/world.h"
 
 #include "core/error.h"
 #include "core/manifest.h"

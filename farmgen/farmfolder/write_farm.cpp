@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "farmfolder/plant_table.h"
+#include "farmfolder/internal/plant_table.h"
+#include "farmfolder/internal/world.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
-#include "farmfolder/world.h"
 #include "sdfxml/elements.h"
 
 #include "core/output_folder.h"

@@ -13,10 +13,10 @@
 
 #include "core/error.h"
 #include "core/output_folder.h"
-#include "gazebo/drone.h"
-#include "gazebo/fly_script.h"
-#include "gazebo/readme.h"
-#include "gazebo/world_file.h"
+#include "gazebo/internal/drone.h"
+#include "gazebo/internal/fly_script.h"
+#include "gazebo/internal/readme.h"
+#include "gazebo/internal/world_file.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

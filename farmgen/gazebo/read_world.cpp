@@ -6,11 +6,11 @@
 #include "core/error.h"
 #include "core/isolated.h"
 #include "core/text.h"
-#include "gazebo/geometry.h"
-#include "gazebo/includes.h"
-#include "gazebo/load_world.h"
-#include "gazebo/resources.h"
-#include "gazebo/world_bytes.h"
+#include "gazebo/internal/geometry.h"
+#include "gazebo/internal/includes.h"
+#include "gazebo/internal/load_world.h"
+#include "gazebo/internal/resources.h"
+#include "gazebo/internal/world_bytes.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gazebo/labels.h"
+#include "gazebo/internal/labels.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::gazebo {

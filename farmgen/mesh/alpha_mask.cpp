@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/image_pixels.h"
+#include "mesh/internal/image_pixels.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -9,9 +9,9 @@
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/isolated.h"
-#include "mesh/assimp_mesh.h"
-#include "mesh/mesh_bytes.h"
-#include "mesh/mesh_files.h"
+#include "mesh/internal/assimp_mesh.h"
+#include "mesh/internal/mesh_bytes.h"
+#include "mesh/internal/mesh_files.h"
 
 namespace plotscan::mesh {
 namespace {

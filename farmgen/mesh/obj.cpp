@@ -7,7 +7,7 @@
 
 #include "core/text_file.h"
 #include "mesh/alpha_mask.h"
-#include "mesh/mtl_comments.h"
+#include "mesh/internal/mtl_comments.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "planting/plant_models.h"
+#include "planting/internal/plant_models.h"
 
 namespace plotscan::planting {
 

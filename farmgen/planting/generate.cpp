@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "farmfolder/plot_table.h"
-#include "planting/plant_layout.h"
-#include "planting/plant_models.h"
+#include "planting/internal/plant_layout.h"
+#include "planting/internal/plant_models.h"
+#include "planting/internal/sown_plants.h"
+#include "planting/internal/weeds.h"
 #include "planting/plot_layout.h"
-#include "planting/sown_plants.h"
-#include "planting/weeds.h"
 #include "terrain/make_terrain.h"
 
 #include "core/error.h"

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "terrain/heightmap.h"
-#include "terrain/lattice.h"
-#include "terrain/random_terrain.h"
-#include "terrain/refine.h"
-#include "terrain/xyz_file.h"
+#include "terrain/internal/heightmap.h"
+#include "terrain/internal/lattice.h"
+#include "terrain/internal/random_terrain.h"
+#include "terrain/internal/refine.h"
+#include "terrain/internal/xyz_file.h"
 
 #include "core/error.h"
 #include "core/text.h"

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/printable.h"
+#include "core/internal/printable.h"
 #include "core/text.h"
 
 namespace plotscan {

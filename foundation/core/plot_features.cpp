@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/geodesy.h"
-#include "core/rectangle_fit.h"
+#include "core/internal/rectangle_fit.h"
 #include "core/text.h"
 
 namespace plotscan {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/coordinate_units.h"
+#include "core/internal/plot_id.h"
 #include "core/plot_box.h"
-#include "core/plot_id.h"
 
 namespace plotscan {
 
@@ -57,9 +57,9 @@ std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property
 
 // Reads what write_plot_features writes, and any FeatureCollection of polygons that are nearly
 // rectangles (from QGIS, say), in metres or the units that the file names: the box is the rectangle
-// nearest to the polygon, length the longer side (core/rectangle_fit.h). Throws InputError on a
-// missing file, broken JSON, a polygon that is farther from a rectangle than rectangle_tolerance_m,
-// a non-finite number, and a file that is in longitude and latitude.
+// nearest to the polygon, length the longer side (core/internal/rectangle_fit.h). Throws InputError
+// on a missing file, broken JSON, a polygon that is farther from a rectangle than
+// rectangle_tolerance_m, a non-finite number, and a file that is in longitude and latitude.
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path);
 
 // Plots in the metres of a coordinate system.

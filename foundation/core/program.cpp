@@ -19,14 +19,14 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/interrupt.h"
+#include "core/internal/interrupt.h"
+#include "core/internal/printable.h"
+#include "core/internal/program_completion.h"
+#include "core/internal/program_help.h"
+#include "core/internal/program_pages.h"
+#include "core/internal/progress_display.h"
 #include "core/manifest.h"
 #include "core/nearest_name.h"
-#include "core/printable.h"
-#include "core/program_completion.h"
-#include "core/program_help.h"
-#include "core/program_pages.h"
-#include "core/progress_display.h"
 #include "core/text.h"
 
 namespace plotscan {

@@ -15,7 +15,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "core/raw_folder.h"
+#include "core/internal/raw_folder.h"
 
 namespace plotscan {
 namespace {

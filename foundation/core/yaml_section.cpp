@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/internal/printable.h"
 #include "core/nearest_name.h"
-#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/text_file.h"
-#include "report/packed.h"
+#include "report/internal/packed.h"
 
 namespace plotscan::report {
 namespace {

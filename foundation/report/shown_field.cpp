@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "report/decimals.h"
-#include "report/pack_cloud.h"
-#include "report/packed.h"
+#include "report/internal/pack_cloud.h"
+#include "report/internal/packed.h"
 
 namespace plotscan::report {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "lidar/beam.h"
-#include "lidar/returns.h"
+#include "lidar/internal/beam.h"
+#include "lidar/internal/returns.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "lidar/embree.h"
-#include "lidar/swaying_plants.h"
+#include "lidar/internal/swaying_plants.h"
 
 namespace plotscan::lidar {
 

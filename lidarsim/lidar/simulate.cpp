@@ -12,9 +12,9 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
-#include "lidar/beam.h"
-#include "lidar/range_noise.h"
-#include "lidar/rounded.h"
+#include "lidar/internal/beam.h"
+#include "lidar/internal/range_noise.h"
+#include "lidar/internal/rounded.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/progress.h"
-#include "lidar/returns.h"
+#include "lidar/internal/returns.h"
 #include "lidar/scene.h"
 #include "scan/point.h"
 #include "sensor/sensor.h"

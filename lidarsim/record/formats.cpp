@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "record/las_file.h"
+#include "record/internal/las_file.h"
 #include "record/ros/points.h"
 #include "record/ros/recorder.h"
 #include "record/velodyne/pcap_format.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scan/cloud_layout.h"
-#include "scan/las_format.h"
+#include "scan/internal/cloud_layout.h"
+#include "scan/internal/las_format.h"
 
 namespace plotscan::scan {
 namespace {

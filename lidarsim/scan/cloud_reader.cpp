@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "scan/cloud_layout.h"
+#include "scan/internal/cloud_layout.h"
+#include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
-#include "scan/las_format.h"
 
 namespace plotscan::scan {
 namespace {

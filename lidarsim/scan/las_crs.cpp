@@ -6,7 +6,7 @@
 
 #include "core/coordinate_units.h"
 #include "core/text.h"
-#include "scan/wkt.h"
+#include "scan/internal/wkt.h"
 
 namespace plotscan::scan {
 namespace {

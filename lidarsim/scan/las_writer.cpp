@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
-#include "scan/las_format.h"
+#include "scan/internal/las_format.h"
 
 namespace plotscan::scan {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scan/laszip_file.h"
+#include "scan/internal/laszip_file.h"
 
 namespace plotscan::scan {
 namespace {

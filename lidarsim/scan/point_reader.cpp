@@ -9,8 +9,8 @@
 
 #include "core/csv.h"
 #include "core/error.h"
-#include "scan/cloud_layout.h"
-#include "scan/las_format.h"
+#include "scan/internal/cloud_layout.h"
+#include "scan/internal/las_format.h"
 
 namespace plotscan::scan {
 namespace {

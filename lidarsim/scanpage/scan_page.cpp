@@ -11,7 +11,7 @@
 #include "record/scan_folder.h"
 #include "report/page.h"
 #include "report/shown_field.h"
-#include "scanpage/fitted_ground.h"
+#include "scanpage/internal/fitted_ground.h"
 #include "scanpage/read_cloud.h"
 
 namespace plotscan::scanpage {

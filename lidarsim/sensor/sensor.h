@@ -42,7 +42,8 @@ struct PacketFormat {
   double distance_step_m = 0.002;  // of their distances
 };
 
-// A wedge prism that turns about the x axis, one of a Risley scanner's two (sensor/risley.h).
+// A wedge prism that turns about the x axis, one of a Risley scanner's two
+// (sensor/internal/risley.h).
 struct Wedge {
   double slant_rad = 0;  // between its flat and its slanted side
   double refractive_index = 1;

@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import type { Cloud, Tile } from "../src/data";
 import { bytesOf, inflated, levelCounts, readDifferences, unpackedTile } from "../src/decode";
 
-// As foundation/report/packed.cpp writes them, from its description.
+// As foundation/report/internal/packed.cpp writes them, from its description.
 function differences(numbers: number[]): number[] {
   const folded = numbers.map((number, i) => {
     let difference = (number - (i ? numbers[i - 1] : 0)) & 65535;

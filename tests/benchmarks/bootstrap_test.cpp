@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farmbench/bootstrap.h"
+#include "farmbench/internal/bootstrap.h"
 
 #include <cmath>
 

@@ -13,10 +13,10 @@
 #include "core/error.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
+#include "farmbench/internal/suite_page.h"
 #include "farmbench/run.h"
+#include "farmbench/submission/internal/submission.h"
 #include "farmbench/submission/score_submission.h"
-#include "farmbench/submission/submission.h"
-#include "farmbench/suite_page.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
-#include "farmbench/farm_queue.h"
+#include "farmbench/internal/farm_queue.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::farmbench {

@@ -9,8 +9,8 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "farmbench/internal/suite_page.h"
 #include "farmbench/reports.h"
-#include "farmbench/suite_page.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/interrupt.h"
+#include "core/internal/interrupt.h"
 
 #include <csignal>
 #include <filesystem>

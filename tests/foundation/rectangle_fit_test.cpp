@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/rectangle_fit.h"
+#include "core/internal/rectangle_fit.h"
 
 #include <cmath>
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Reads which folder includes headers of which, and fails where folders go round in a circle, where a file includes a
-header that is in no folder, or where docs/architecture.md does not name a folder that has headers.
+header that is in no folder, or where docs/architecture.md does not name a folder that has headers. A room's headers that
+others include lie in the room; those for itself in its subfolder internal/.
 
 usage: rooms.py SOURCE_FOLDER
 """
@@ -10,6 +11,7 @@ import sys
 from pathlib import Path
 
 ROOTS = ("foundation", "farmgen", "lidarsim", "estimator", "benchmarks", "library", "viewer")
+INTERNAL = "internal"
 INCLUDE = re.compile(r'^\s*#include "([^"]+/[^"/]+)"', re.MULTILINE)
 
 
@@ -20,16 +22,40 @@ def sources(source):
                 yield root, path
 
 
+def room_of(path):
+    return (path.parent.parent if path.parent.name == INTERNAL else path.parent).as_posix()
+
+
 def folder_of(source, header):
-    """The folder that a header is included from, "estimator/methods/lattice"; nothing where it is in none."""
-    return next((str(Path(root, header).parent) for root in ROOTS if (source / root / header).exists()), None)
+    """The room that a header is included from, "estimator/methods/lattice"; nothing where it is in none."""
+    return next((room_of(Path(root, header)) for root in ROOTS if (source / root / header).exists()), None)
+
+
+def misplaced(source):
+    """What others include of a room's internal/, and what of a room nobody else includes."""
+    wanted, made = set(), []
+    for _, path in sources(source):
+        room = room_of(path.relative_to(source))
+        for header in INCLUDE.findall(path.read_text()):
+            if folder_of(source, header) in (None, room):
+                continue
+            wanted.add(header)
+            if Path(header).parent.name == INTERNAL:
+                made.append(f"{path}: includes {header}, which is internal to another room")
+    open_rooms = {folder_of(source, header) for header in wanted}
+    for root, path in sources(source):
+        header = path.relative_to(source / root)
+        is_open = path.suffix == ".h" and root != "library" and header.parent.name not in ("", INTERNAL)
+        if is_open and header.as_posix() not in wanted and room_of(path.relative_to(source)) in open_rooms:
+            made.append(f"{path}: no other room includes it: it belongs into {INTERNAL}/")
+    return made
 
 
 def arrows(source):
     """Folder -> {folder that it includes: a file that does}, and what is included and is nowhere (but is made)."""
     found, lost = {}, []
     for _, path in sources(source):
-        folder = path.parent.relative_to(source).as_posix()
+        folder = room_of(path.relative_to(source))
         uses = found.setdefault(folder, {})
         for header in INCLUDE.findall(path.read_text()):
             other = folder_of(source, header)
@@ -61,6 +87,7 @@ def circle(found):
 
 def main(source):
     found, mistakes = arrows(source)
+    mistakes += misplaced(source)
     if round_trip := circle(found):
         mistakes.append("folders in a circle: " + " -> ".join(round_trip))
         mistakes += [f"  {found[a][b]} includes {b}/" for a, b in zip(round_trip, round_trip[1:])]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/camera.h"
+#include "view/internal/camera.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

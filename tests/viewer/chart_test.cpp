@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "view/box_labels.h"
-#include "view/height_colours.h"
-#include "view/scale.h"
+#include "view/internal/box_labels.h"
+#include "view/internal/height_colours.h"
+#include "view/internal/scale.h"
 
 namespace plotscan::view {
 namespace {

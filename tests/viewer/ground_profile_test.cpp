@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view/ground_profile.h"
+#include "view/internal/ground_profile.h"
 
 #include <cmath>
 #include <limits>

@@ -11,7 +11,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
-#include "view/plant_layout.h"
+#include "view/internal/plant_layout.h"
 
 namespace plotscan::view {
 namespace {

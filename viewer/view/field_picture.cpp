@@ -8,13 +8,13 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scan/cloud_reader.h"
-#include "view/axes.h"
-#include "view/box_labels.h"
-#include "view/display.h"
-#include "view/height_colours.h"
-#include "view/page.h"
-#include "view/top_heights.h"
-#include "view/window.h"
+#include "view/internal/axes.h"
+#include "view/internal/box_labels.h"
+#include "view/internal/display.h"
+#include "view/internal/height_colours.h"
+#include "view/internal/page.h"
+#include "view/internal/top_heights.h"
+#include "view/internal/window.h"
 
 namespace plotscan::view {
 namespace {

@@ -9,12 +9,12 @@
 #include <vtkObject.h>
 #include <vtkRenderer.h>
 
-#include "view/actors.h"
-#include "view/camera.h"
-#include "view/display.h"
-#include "view/page.h"
-#include "view/panel.h"
-#include "view/window.h"
+#include "view/internal/actors.h"
+#include "view/internal/camera.h"
+#include "view/internal/display.h"
+#include "view/internal/page.h"
+#include "view/internal/panel.h"
+#include "view/internal/window.h"
 
 namespace plotscan::view {
 namespace {

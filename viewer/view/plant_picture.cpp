@@ -23,11 +23,11 @@
 
 #include "core/angle.h"
 #include "core/error.h"
-#include "view/display.h"
-#include "view/plant_layout.h"
-#include "view/scale.h"
-#include "view/surfaces.h"
-#include "view/window.h"
+#include "view/internal/display.h"
+#include "view/internal/plant_layout.h"
+#include "view/internal/scale.h"
+#include "view/internal/surfaces.h"
+#include "view/internal/window.h"
 
 namespace plotscan::view {
 namespace {

@@ -10,13 +10,13 @@
 #include "core/statistics.h"
 #include "core/text.h"
 #include "scan/cloud_reader.h"
-#include "view/axes.h"
-#include "view/display.h"
-#include "view/ground_profile.h"
-#include "view/height_lines.h"
-#include "view/page.h"
-#include "view/side_view.h"
-#include "view/window.h"
+#include "view/internal/axes.h"
+#include "view/internal/display.h"
+#include "view/internal/ground_profile.h"
+#include "view/internal/height_lines.h"
+#include "view/internal/page.h"
+#include "view/internal/side_view.h"
+#include "view/internal/window.h"
 
 namespace plotscan::view {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "core/trial_layout.h"
 #include "estimate/height_properties.h"
-#include "farmbench/entry/entered_rows.h"
+#include "farmbench/entry/internal/entered_rows.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;

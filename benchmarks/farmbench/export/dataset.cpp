@@ -13,7 +13,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
-#include "farmbench/export/labelled_scans.h"
+#include "farmbench/export/internal/labelled_scans.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/text_file.h"
 

@@ -9,7 +9,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "farmbench/entry/sha256.h"
-#include "farmbench/export/task_sheet.h"
+#include "farmbench/export/internal/task_sheet.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {

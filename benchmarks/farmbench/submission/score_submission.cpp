@@ -14,7 +14,7 @@
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/run.h"
-#include "farmbench/submission/submission.h"
+#include "farmbench/submission/internal/submission.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {

@@ -7,14 +7,14 @@
 #include <string>
 
 #include "cloud/surroundings.h"
-#include "methods/dhami2020/ground_level.h"
-#include "methods/dhami2020/k_means.h"
-#include "methods/dhami2020/lattice.h"
-#include "methods/dhami2020/oriented_box.h"
-#include "methods/dhami2020/plot_grid.h"
-#include "methods/dhami2020/plot_heights.h"
+#include "methods/dhami2020/internal/ground_level.h"
+#include "methods/dhami2020/internal/k_means.h"
+#include "methods/dhami2020/internal/lattice.h"
+#include "methods/dhami2020/internal/oriented_box.h"
+#include "methods/dhami2020/internal/plot_grid.h"
+#include "methods/dhami2020/internal/plot_heights.h"
+#include "methods/dhami2020/internal/voting.h"
 #include "methods/dhami2020/settings.h"
-#include "methods/dhami2020/voting.h"
 #include "methods/dhami2020/voxel_filter.h"
 
 #include "core/angle.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "record/ros/cloud.h"
-#include "record/ros/inertial.h"
+#include "record/ros/internal/cloud.h"
+#include "record/ros/internal/inertial.h"
 
 namespace plotscan::record {
 namespace {

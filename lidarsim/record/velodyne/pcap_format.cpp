@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/velodyne/pcap_format.h"
 
-#include "record/velodyne/pcap_reader.h"
-#include "record/velodyne/pcap_writer.h"
+#include "record/velodyne/internal/pcap_reader.h"
+#include "record/velodyne/internal/pcap_writer.h"
 
 namespace plotscan::record {
 namespace {

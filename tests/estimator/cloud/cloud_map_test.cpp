@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud/cloud_map.h"
 
-#include "cloud/field_finder.h"
+#include "cloud/internal/field_finder.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cloud/field_hull.h"
+#include "cloud/internal/field_hull.h"
 
 #include <cmath>
 #include <numbers>

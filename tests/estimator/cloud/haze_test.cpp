@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cloud/haze.h"
+#include "cloud/internal/haze.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cloud/outliers.h"
+#include "cloud/internal/outliers.h"
 
 #include <cmath>
 

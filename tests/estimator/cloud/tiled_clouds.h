@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "cloud/tiled_points.h"
+#include "cloud/internal/tiled_points.h"
 
 #include "core/random.h"
 

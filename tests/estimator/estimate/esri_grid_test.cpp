@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/esri_grid.h"
+#include "estimate/internal/esri_grid.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimate/vector_map.h"
+#include "estimate/internal/vector_map.h"
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heights/deconvolve.h"
+#include "heights/internal/deconvolve.h"
 
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heights/semivariogram.h"
+#include "heights/internal/semivariogram.h"
 
 #include <algorithm>
 #include <cmath>

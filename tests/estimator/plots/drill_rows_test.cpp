@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/drill_rows.h"
+#include "plots/internal/drill_rows.h"
 
 #include <gtest/gtest.h>
 

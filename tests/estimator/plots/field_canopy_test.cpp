@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/field_canopy.h"
+#include "plots/internal/field_canopy.h"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "plots/field_signs.h"
+#include "plots/internal/field_signs.h"
 
 namespace plotscan::plots {
 namespace {

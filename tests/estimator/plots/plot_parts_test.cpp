@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/plot_parts.h"
+#include "plots/internal/plot_parts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/segments.h"
+#include "plots/internal/segments.h"
 
 #include <functional>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "score/matching.h"
+#include "score/internal/matching.h"
 
 #include <algorithm>
 #include <functional>

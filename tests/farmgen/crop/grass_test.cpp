@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/grass.h"
+#include "crop/internal/grass.h"
 
 #include <algorithm>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "crop/axis.h"
+#include "crop/internal/axis.h"
 #include "mesh/measure.h"
 
 namespace plotscan::crop {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/textures.h"
+#include "crop/internal/textures.h"
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include <png.h>
 
 #include "core/error.h"
-#include "crop/plant_builder.h"
+#include "crop/internal/plant_builder.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
 

@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
-#include "gazebo/naming.h"
+#include "gazebo/internal/naming.h"
 
 namespace plotscan::gazebo {
 namespace {

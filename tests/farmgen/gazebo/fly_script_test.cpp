@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // fly_drone.sh, run against a fake Gazebo on PATH.
-#include "gazebo/fly_script.h"
+#include "gazebo/internal/fly_script.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -13,7 +13,7 @@
 #include <tinyxml2.h>
 
 #include "core/error.h"
-#include "gazebo/naming.h"
+#include "gazebo/internal/naming.h"
 
 namespace plotscan::gazebo {
 namespace {

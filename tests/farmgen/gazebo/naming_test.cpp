@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/naming.h"
+#include "gazebo/internal/naming.h"
 
 #include "sdfxml/elements.h"
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include "../example_farm.h"
 #include "description/load_description.h"
 #include "planting/plot_layout.h"
-#include "terrain/random_terrain.h"
+#include "terrain/internal/random_terrain.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

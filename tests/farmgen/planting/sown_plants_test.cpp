@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/sown_plants.h"
+#include "planting/internal/sown_plants.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/weeds.h"
+#include "planting/internal/weeds.h"
 
 #include <cmath>
 

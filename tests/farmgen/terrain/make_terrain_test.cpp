@@ -12,7 +12,7 @@
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
 #include "planting/generate.h"
-#include "terrain/refine.h"
+#include "terrain/internal/refine.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slope, rolling, furrows and clods against closed forms.
-#include "terrain/relief.h"
+#include "terrain/internal/relief.h"
 
 #include <cmath>
 #include <complex>
 #include <numbers>
 
+#include "terrain/internal/refine.h"
 #include "terrain/make_terrain.h"
-#include "terrain/refine.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"

@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "report/pack_cloud.h"
-#include "report/packed.h"
+#include "report/internal/pack_cloud.h"
+#include "report/internal/packed.h"
 #include "report/shown_cloud.h"
 #include "report/shown_field.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sub-rays' footprint against the closed forms of the Gaussian.
-#include "lidar/beam.h"
+#include "lidar/internal/beam.h"
 
 #include <cmath>
 

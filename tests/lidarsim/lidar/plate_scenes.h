@@ -11,7 +11,7 @@
 #include "simulated.h"
 #include <Eigen/Geometry>
 
-#include "lidar/beam.h"
+#include "lidar/internal/beam.h"
 
 namespace plotscan::lidar {
 

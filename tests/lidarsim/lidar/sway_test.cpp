@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/sway.h"
+#include "lidar/internal/sway.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lidar/bent_stem.h"
+#include "lidar/internal/bent_stem.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -9,9 +9,9 @@
 #include "small_farm.h"
 #include <gtest/gtest.h>
 
-#include "lidar/bent_stem.h"
+#include "lidar/internal/bent_stem.h"
+#include "lidar/internal/sway.h"
 #include "lidar/scene.h"
-#include "lidar/sway.h"
 
 namespace plotscan::lidar {
 namespace {

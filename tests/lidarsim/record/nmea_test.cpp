@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/velodyne/nmea.h"
+#include "record/velodyne/internal/nmea.h"
 
 #include <gtest/gtest.h>
 

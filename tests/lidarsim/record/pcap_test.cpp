@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "record/convert.h"
-#include "record/velodyne/ethernet.h"
-#include "record/velodyne/nmea.h"
-#include "record/velodyne/pcap_reader.h"
-#include "record/velodyne/pcap_writer.h"
+#include "record/velodyne/internal/ethernet.h"
+#include "record/velodyne/internal/nmea.h"
+#include "record/velodyne/internal/pcap_reader.h"
+#include "record/velodyne/internal/pcap_writer.h"
 
 namespace plotscan::record {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "record/convert.h"
-#include "record/ros/cloud.h"
+#include "record/ros/internal/cloud.h"
 #include "record/scan_folder.h"
 
 namespace plotscan::record {

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "record/convert.h"
-#include "record/ros/cloud.h"
+#include "record/ros/internal/cloud.h"
 #include "record/ros/points.h"
 #include "scan/point_reader.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/ros/unpack.h"
+#include "record/ros/internal/unpack.h"
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "record/convert.h"
-#include "record/velodyne/pcap_reader.h"
+#include "record/velodyne/internal/pcap_reader.h"
 
 namespace plotscan::record {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <pcl/io/vlp_grabber.h>
 
-#include "record/velodyne/pcap_writer.h"
+#include "record/velodyne/internal/pcap_writer.h"
 
 namespace plotscan::record {
 namespace {

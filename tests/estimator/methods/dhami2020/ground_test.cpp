@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/ground_level.h"
 #include "methods/dhami2020/ground_plane.h"
+#include "methods/dhami2020/internal/ground_level.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"

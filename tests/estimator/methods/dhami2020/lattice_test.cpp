@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/lattice.h"
+#include "methods/dhami2020/internal/lattice.h"
 
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "methods/dhami2020/plot_grid.h"
+#include "methods/dhami2020/internal/plot_grid.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/oriented_box.h"
+#include "methods/dhami2020/internal/oriented_box.h"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/voting.h"
+#include "methods/dhami2020/internal/voting.h"
 
 #include <numbers>
 #include <vector>

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "farmbench/internal/suite_result.h"
+
+namespace plotscan::farmbench {
+
+// A line for each method and case where a method gave up, with how often and what it said the first
+// time: "mine, flat: 2 of 10 farms, took more than 60 s and was stopped".
+std::vector<std::string> failure_lines(const SuiteResult& result);
+
+}  // namespace plotscan::farmbench

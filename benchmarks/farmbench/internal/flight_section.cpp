@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/internal/flight_section.h"
+
+#include <variant>
+#include <vector>
+
+namespace plotscan::farmbench {
+namespace {
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = section.number(key, setting.range);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = section.number(key, setting.range);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = static_cast<int>(section.integer(key, static_cast<int>(setting.range.low),
+                                                        static_cast<int>(setting.range.high)));
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::VectorSetting& setting, lidar::FlyOptions& flight) {
+  const std::vector<double> numbers = section.numbers(key, 3, setting.range);
+  setting.of(flight) = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
+}
+
+void read_setting(const YamlSection& section, const std::string& key,
+                  const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
+  setting.of(flight) = setting.choices.empty()
+                           ? section.text(key)
+                           : setting.choices[section.choice(key, setting.choices)];
+}
+
+}  // namespace
+
+void read_fly_setting(const YamlSection& section, const lidar::FlySetting& setting,
+                      lidar::FlyOptions& flight) {
+  std::visit([&](const auto& value) { read_setting(section, setting.key, value, flight); },
+             setting.value);
+}
+
+lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions flight) {
+  if (!parent.has("flight")) return flight;
+  const YamlSection section = parent.section("flight");
+  for (const lidar::FlySetting& setting : lidar::fly_settings())
+    if (section.has(setting.key)) read_fly_setting(section, setting, flight);
+  return flight;
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/internal/method_rows.h"
+
+#include <algorithm>
+#include <set>
+
+#include "score/height_score.h"
+
+namespace plotscan::farmbench {
+
+std::string row_name(const std::string& method, const std::string& height) {
+  const std::size_t space = method.find(' ');
+  if (space == std::string::npos) return method + "/" + height;
+  return method.substr(0, space) + "/" + height + method.substr(space);
+}
+
+std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::string& method) {
+  if (std::ranges::count(result.entered, method) == 0) return method_named(method).heights;
+  std::set<std::string> names;
+  for (const FarmResult& farm : result.farms) {
+    for (const MethodResult& run : farm.methods)
+      if (run.method == method) names.merge(score::estimated_heights(run.score));
+  }
+  std::vector<MethodHeight> heights;
+  for (const std::string& name : names) heights.push_back({name, row_name(method, name)});
+  if (heights.empty()) heights.push_back({"", method});
+  return heights;
+}
+
+void require_methods(const SuiteResult& result) {
+  std::vector<std::string> known;
+  for (const std::string& method : result.methods)
+    if (std::ranges::count(result.entered, method) == 0) known.push_back(method);
+  require_known_methods(known);
+}
+
+}  // namespace plotscan::farmbench

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/internal/run_farm.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <limits>
+
+#include "cloud/cloud_map.h"
+#include "description/load_description.h"
+#include "farmfolder/write_farm.h"
+#include "planting/generate.h"
+
+#include "core/error.h"
+#include "core/manifest.h"
+#include "farmbench/farm_scan.h"
+#include "farmbench/internal/farm_view.h"
+#include "farmbench/methods.h"
+#include "lidar/fly_settings.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+// How far a farm is when it has been flown, and when its cloud has been read.
+constexpr double kFlown = 0.5;
+constexpr double kRead = 0.6;
+constexpr double kShown_m = 4;  // around the plots, on pages
+
+// What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
+cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Eigen::Array2d low(kFar, kFar);
+  Eigen::Array2d high(-kFar, -kFar);
+  for (const score::TruePlot& plot : plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) {
+      low = low.min(corner.array());
+      high = high.max(corner.array());
+    }
+  }
+  low -= margin_m;
+  high += margin_m;
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+// What a method says of a field, and how it went.
+struct MethodRun {
+  estimate::Estimate estimate;
+  MethodResult result;
+};
+
+// `truth`: all plots of the field, those that are not scored among them.
+MethodRun run_method(const Method& method, const Field& field,
+                     const std::vector<score::TruePlot>& truth) {
+  MethodRun run{.estimate = {.method = method.name},
+                .result = {.method = method.name, .failure = {}, .score = {}}};
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    run.estimate = method.estimate(field);
+    run.estimate.method = method.name;
+    run.result.diagnostics = run.estimate.diagnostics;
+  } catch (const InputError& error) {
+    run.result.failure = error.what();
+  }
+  run.result.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.result.score = score::score_field(truth, run.estimate);
+  return run;
+}
+
+MethodRun run_command(const CommandMethod& method, const Field& field,
+                      const std::vector<score::TruePlot>& truth) {
+  CommandResult ran = run_command_method(method, field);
+  return {.estimate = ran.estimate,
+          .result = {.method = method.name,
+                     .seconds = ran.seconds,
+                     .peak_memory_mb = ran.peak_memory_mb,
+                     .failure = ran.failure,
+                     .score = score::score_field(truth, ran.estimate)}};
+}
+
+MethodRun run_named(const std::string& name, const Suite& suite, const Field& field,
+                    const std::vector<score::TruePlot>& truth) {
+  const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
+  if (command == suite.commands.end()) return run_method(method_named(name), field, truth);
+  return run_command(*command, field, truth);
+}
+
+double share_of(std::size_t done, std::size_t all) {
+  return static_cast<double>(done) / static_cast<double>(all);
+}
+
+void report(const ProgressReport& progress, double share) {
+  if (progress) progress(share);
+}
+
+std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
+  std::vector<score::TruePlot> some;
+  std::ranges::copy_if(plots, std::back_inserter(some), &score::TruePlot::scored);
+  return some;
+}
+
+FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
+  return {.case_name = run.suite_case.name,
+          .seed = run.seed,
+          .made_from = {},
+          .shots = flown.shots,
+          .points = flown.points,
+          .flight_s = flown.duration_s,
+          .methods = {}};
+}
+
+}  // namespace
+
+json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
+               const std::string& build) {
+  json files = json::array();
+  for (const fs::path& file : planting::input_files(
+           description::load_description(suite_case.farm, suite_case.overrides))) {
+    files.push_back({{"file", file.filename().string()}, {"hash", file_hash(file)}});
+  }
+  json document = {{"plotscan", version()},
+                   {"build", build},
+                   {"files", files},
+                   {"set", suite_case.overrides},
+                   {"seed", seed},
+                   {"flight", lidar::settings_json(suite_case.flight)},
+                   {"crop_margin_m", suite.crop_margin_m},
+                   {"methods", suite.methods}};
+  for (const CommandMethod& command : suite.commands) {
+    if (std::ranges::count(suite.methods, command.name) > 0)
+      document["commands"].push_back(made_from(command));
+  }
+  if (suite_case.survey) document["survey_m"] = *suite_case.survey;
+  if (suite_case.without_plots) document["without_plots"] = true;
+  return document;
+}
+
+FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
+  const auto& [suite, suite_case, seed, folder, threads, view] = run;
+  const FarmPlace place{suite_case, seed, folder, threads};
+  const farm::Farm farm = make_farm(place);
+  const ScannedFarm scanned =
+      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
+  std::vector<score::TruePlot> truth = standing_plots(place);
+  const cloud::Area shown = field_area(truth, kShown_m);
+  std::vector<score::TruePlot> plots = scored(truth);
+  const cloud::CloudMap map =
+      cloud::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
+  if (suite_case.without_plots) {
+    truth.clear();
+    plots.clear();
+  }
+  report(progress, kRead);
+  FarmResult result = result_of(run, scanned.flown);
+  const fs::path poses = folder / "scan" / "poses.csv";
+  const Field field{.cloud = scanned.cloud,
+                    .poses = poses,
+                    .map = map,
+                    .plots = plots,
+                    .terrain = farm.terrain,
+                    .seed = seed,
+                    .threads = threads};
+  std::vector<estimate::Estimate> estimates;
+  for (const std::string& name : suite.methods) {
+    MethodRun method = run_named(name, suite, field, truth);
+    result.methods.push_back(std::move(method.result));
+    if (view) estimates.push_back(std::move(method.estimate));
+    report(progress, kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+  }
+  if (view) {
+    write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
+                            .area = shown,
+                            .points = view_points(suite),
+                            .estimates = estimates,
+                            .truth = truth,
+                            .terrain = farm.terrain,
+                            .result = result});
+  }
+  return result;
+}
+
+}  // namespace plotscan::farmbench

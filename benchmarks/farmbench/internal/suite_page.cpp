@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/internal/suite_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/output_file.h"
+#include "farmbench/format.h"
+#include "farmbench/internal/farm_view.h"
+#include "farmbench/internal/method_rows.h"
+#include "farmbench/internal/sweep_table.h"
+#include "farmbench/reports.h"
+#include "report/decimals.h"
+#include "report/page.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+using nlohmann::json;
+
+json number(double value) {
+  constexpr int kDecimals = 5;  // of metres
+  return std::isfinite(value) ? json(report::decimals(value, kDecimals)) : json();
+}
+
+json packed(const TableRow& row) {
+  return {{"case", row.case_name},
+          {"method", row.method},
+          {"truth", row.truth},
+          {"named", row.named},
+          {"shown", row.shown},
+          {"farms", row.farms},
+          {"plots", row.plots},
+          {"found", row.found},
+          {"missed", row.missed},
+          {"extra", row.extra},
+          {"recall", number(row.recall)},
+          {"precision", number(row.precision)},
+          {"iou_mean", number(row.iou_mean)},
+          {"iou_min", number(row.iou_min)},
+          {"center_rmse_m", number(row.center_rmse_m)},
+          {"heading_rmse_deg", number(degrees(row.heading_rmse_rad))},
+          {"rmse_m", number(row.rmse_m)},
+          {"rmse_low_m", number(row.rmse_low_m)},
+          {"rmse_high_m", number(row.rmse_high_m)},
+          {"rmse_change_m", number(row.rmse_change_m)},
+          {"rmse_change_low_m", number(row.rmse_change_low_m)},
+          {"rmse_change_high_m", number(row.rmse_change_high_m)},
+          {"bias_m", number(row.bias_m)},
+          {"mae_m", number(row.mae_m)},
+          {"r2", number(row.r2)},
+          {"farm_bias_m", number(row.within.farm_bias_m)},
+          {"within_m", number(row.within.within_m)},
+          {"r2_within", number(row.within.r2)},
+          {"rho_within", number(row.within.rho)},
+          {"coverage95", number(row.coverage95)},
+          {"flagged", row.flagged},
+          {"large_unflagged", row.large_unflagged},
+          {"seconds", number(row.seconds)}};
+}
+
+const std::vector<score::PlotScore>& plots_of(const FarmResult& farm) {
+  static const std::vector<score::PlotScore> none;
+  return farm.methods.empty() ? none : farm.methods.front().score.plots;
+}
+
+// Every true plot of the suite, farm after farm.
+json truths_of(const SuiteResult& result) {
+  std::set<std::string> names;
+  for (const FarmResult& farm : result.farms)
+    for (const score::PlotScore& plot : plots_of(farm))
+      for (const auto& [name, value] : plot.truth.heights_m) names.insert(name);
+  json truths = json::object();
+  for (const std::string& name : names) {
+    json& values = truths[name] = json::array();
+    for (const FarmResult& farm : result.farms) {
+      for (const score::PlotScore& plot : plots_of(farm)) {
+        const auto value = plot.truth.heights_m.find(name);
+        values.push_back(value == plot.truth.heights_m.end() ? json() : number(value->second));
+      }
+    }
+  }
+  return truths;
+}
+
+json estimate_of(const score::PlotScore& plot, const std::string& height) {
+  if (!plot.found) return {};
+  const auto found = plot.found->heights_m.find(height);
+  return found == plot.found->heights_m.end() ? json() : number(found->second);
+}
+
+// What a method says of the plots of truths_of, null where it says nothing.
+json series_of(const SuiteResult& result, const std::string& method, const MethodHeight& height) {
+  json values = json::array();
+  for (const FarmResult& farm : result.farms) {
+    const auto run = std::ranges::find(farm.methods, method, &MethodResult::method);
+    const bool ran = run != farm.methods.end() && run->score.plots.size() == plots_of(farm).size();
+    for (std::size_t i = 0; i < plots_of(farm).size(); ++i)
+      values.push_back(ran ? estimate_of(run->score.plots[i], height.height) : json());
+  }
+  return {{"row", height.row}, {"height", height.height}, {"values", std::move(values)}};
+}
+
+json cases_of(const SuiteResult& result) {
+  json cases = json::array();
+  for (const CaseInfo& info : result.cases) {
+    cases.push_back({{"name", info.name}});
+    if (info.published_rmse_cm) cases.back()["published_rmse_cm"] = *info.published_rmse_cm;
+  }
+  return cases;
+}
+
+json farms_of(const SuiteResult& result) {
+  json farms = json::array();
+  for (const FarmResult& farm : result.farms) {
+    farms.push_back(
+        {{"case", farm.case_name}, {"seed", farm.seed}, {"plots", plots_of(farm).size()}});
+  }
+  return farms;
+}
+
+json rows_of(const std::vector<TableRow>& table) {
+  json rows = json::array();
+  for (const TableRow& row : table) rows.push_back(packed(row));
+  return rows;
+}
+
+// Those of heights that reports hold against the truth.
+std::vector<TableRow> shown_rows(std::vector<TableRow> table) {
+  std::erase_if(table, [](const TableRow& row) { return !row.shown && !row.named; });
+  return table;
+}
+
+// What was asked, and what each combination's flights cost.
+json sweep_of(const SuiteResult& result) {
+  json document = to_json(*result.sweep);
+  const std::vector<MethodHeight> heights = heights_of(result, result.methods.front());
+  const auto asked = std::ranges::find(heights, result.sweep->height, &MethodHeight::height);
+  document["row"] = asked == heights.end() ? "" : asked->row;
+  json& flights = document["flights"] = json::array();
+  for (const FlightCost& cost : flight_costs(result))
+    flights.push_back({{"flight_s", number(cost.flight_s)}, {"points", number(cost.points)}});
+  return document;
+}
+
+}  // namespace
+
+json suite_document(const SuiteResult& result, const std::vector<TableRow>& table) {
+  json document = {{"name", result.suite},
+                   {"cases", cases_of(result)},
+                   {"truths", shown_truths(result, table)},
+                   {"farms", farms_of(result)},
+                   {"table", rows_of(shown_rows(table))},
+                   {"boxes", rows_of(plot_rows(result, table))}};
+  if (result.sweep) {
+    document["sweep"] = sweep_of(result);
+    return document;
+  }
+  document["plots"] = truths_of(result);
+  json& series = document["series"] = json::array();
+  for (const std::string& method : result.methods)
+    for (const MethodHeight& height : heights_of(result, method))
+      series.push_back(series_of(result, method, height));
+  if (result.published)
+    document["published"] = {{"source", result.published->source},
+                             {"methods", result.published->methods}};
+  if (result.baseline) document["baseline"] = *result.baseline;
+  return document;
+}
+
+void write_suite_page(const std::filesystem::path& folder, const SuiteResult& result,
+                      const std::vector<TableRow>& table) {
+  json fields = json::array();
+  std::set<std::string> seen;
+  for (const FarmResult& farm : result.farms) {
+    if (!seen.insert(farm.case_name).second) continue;
+    if (auto view = read_farm_view(farm_view_file(folder, farm.case_name, farm.seed)))
+      fields.push_back(std::move(*view));
+  }
+  OutputFile file(folder / "report.html", true);
+  report::write_page(file.path(), {{"kind", "suite"},
+                                   {"title", (result.sweep ? "Sweep " : "Suite ") + result.suite},
+                                   {"fields", std::move(fields)},
+                                   {"suite", suite_document(result, table)}});
+  file.commit();
+}
+
+}  // namespace plotscan::farmbench

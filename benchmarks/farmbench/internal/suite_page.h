@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "farmbench/internal/suite_result.h"
+#include "farmbench/table.h"
+
+namespace plotscan::farmbench {
+
+// What the page shows of a suite (docs/report-format.md): its table, and every plot's truths beside
+// what each method says of it.
+nlohmann::json suite_document(const SuiteResult& result, const std::vector<TableRow>& table);
+
+// Writes folder/report.html: the suite, and of each case the farm whose view (farm_view.h) lies in
+// the folder.
+void write_suite_page(const std::filesystem::path& folder, const SuiteResult& result,
+                      const std::vector<TableRow>& table);
+
+}  // namespace plotscan::farmbench

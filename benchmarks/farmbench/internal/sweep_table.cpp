@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/internal/sweep_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "farmbench/format.h"
+#include "farmbench/internal/method_rows.h"
+
+namespace plotscan::farmbench {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+// The name of the rows of the height that the sweep asks about.
+std::string asked_row(const SuiteResult& result) {
+  for (const MethodHeight& height : heights_of(result, result.methods.front()))
+    if (height.height == result.sweep->height) return height.row;
+  return "";  // an entered method that never gave it
+}
+
+std::size_t place_of(const SuiteResult& result, const std::string& case_name) {
+  const auto found = std::ranges::find(result.cases, case_name, &CaseInfo::name);
+  check(found != result.cases.end(), "a table of other cases");
+  return found - result.cases.begin();
+}
+
+Cells values_of(const SuiteResult& result, const TableRow& row) {
+  Cells cells;
+  for (const nlohmann::json& value : combination(*result.sweep, place_of(result, row.case_name)))
+    cells.push_back(text_of(value));
+  return cells;
+}
+
+Cells axis_keys(const SuiteResult& result) {
+  Cells keys;
+  for (const SweepAxis& axis : result.sweep->axes) keys.push_back(axis.key);
+  return keys;
+}
+
+// To so many decimals; what could not be computed is an empty field.
+std::string rounded(double value, int decimals) {
+  const double power = std::pow(10.0, decimals);
+  return std::isnan(value) ? "" : format_number(std::round(value * power) / power);
+}
+
+std::string csv_line(const Cells& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_field(cell);
+  return line + "\n";
+}
+
+// "altitude_m 20, speed_m_s 4, sensor vlp16".
+std::string named_values(const SuiteResult& result, const TableRow& row) {
+  const Cells keys = axis_keys(result);
+  const Cells values = values_of(result, row);
+  Cells named;
+  for (std::size_t i = 0; i < keys.size(); ++i) named.push_back(keys[i] + " " + values[i]);
+  return joined(named, ", ");
+}
+
+std::string answer(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  if (!result.sweep->goal) return "";
+  const SweepGoal& goal = *result.sweep->goal;
+  const std::string asked =
+      formatted("RMSE of at most %s cm (upper end of its 95 %% interval), %s %% of the plots found",
+                format_number(100 * goal.rmse_m).c_str(), format_number(100 * goal.found).c_str());
+  const auto needed = flight_needed(result, rows);
+  if (!needed) return asked + ": none of these flights.";
+  const TableRow& row = rows[*needed];
+  return asked + formatted(": the shortest flight that does has %s; %.0f s over %zu plots.",
+                           named_values(result, row).c_str(),
+                           flight_costs(result)[place_of(result, row.case_name)].flight_s,
+                           row.farms == 0 ? 0 : row.plots / row.farms);
+}
+
+std::string about(const SuiteResult& result) {
+  return formatted("RMSE and bias in cm of %s over the plots found, against %s",
+                   asked_row(result).c_str(), result.sweep->truth.c_str());
+}
+
+// The upper end of the RMSE's interval; of a single farm, which has none, the RMSE.
+double surely_at_most(const TableRow& row) {
+  return std::isnan(row.rmse_high_m) ? row.rmse_m : row.rmse_high_m;
+}
+
+// The cells of a row for people.
+Cells told(const SuiteResult& result, const TableRow& row) {
+  const FlightCost cost = flight_costs(result)[place_of(result, row.case_name)];
+  Cells cells = values_of(result, row);
+  cells.insert(cells.end(),
+               {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                number("%+.2f", 100 * row.bias_m), formatted("%zu of %zu", row.found, row.plots),
+                std::to_string(row.extra), number("%.0f", cost.flight_s),
+                number("%.2f", 1e-6 * cost.points)});
+  return cells;
+}
+
+Cells told_heads(const SuiteResult& result) {
+  Cells heads = axis_keys(result);
+  heads.insert(heads.end(), {"RMSE [95 %]", "bias", "found", "extra", "flight, s", "Mpoints"});
+  return heads;
+}
+
+std::string markdown_line(const Cells& cells) { return "| " + joined(cells, " | ") + " |\n"; }
+
+}  // namespace
+
+std::vector<FlightCost> flight_costs(const SuiteResult& result) {
+  std::map<std::string, std::size_t> place;
+  for (const CaseInfo& info : result.cases) place.emplace(info.name, place.size());
+  std::vector<FlightCost> costs(result.cases.size());
+  std::vector<double> farms(result.cases.size());
+  for (const FarmResult& farm : result.farms) {
+    const std::size_t i = place.at(farm.case_name);
+    farms[i] += 1;
+    costs[i].flight_s += farm.flight_s;
+    costs[i].points += static_cast<double>(farm.points);
+  }
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    costs[i].flight_s /= farms[i];
+    costs[i].points /= farms[i];
+  }
+  return costs;
+}
+
+std::vector<TableRow> sweep_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
+  std::vector<TableRow> rows;
+  std::ranges::copy_if(table, std::back_inserter(rows),
+                       [&, asked = asked_row(result)](const TableRow& row) {
+                         return row.method == asked && row.truth == result.sweep->truth;
+                       });
+  return rows;
+}
+
+std::optional<std::size_t> flight_needed(const SuiteResult& result,
+                                         const std::vector<TableRow>& rows) {
+  if (!result.sweep->goal) return std::nullopt;
+  const SweepGoal& goal = *result.sweep->goal;
+  const std::vector<FlightCost> costs = flight_costs(result);
+  const auto cost = [&](std::size_t i) {
+    return costs[place_of(result, rows[i].case_name)].flight_s;
+  };
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool reached = surely_at_most(rows[i]) <= goal.rmse_m && rows[i].recall >= goal.found;
+    if (reached && (!best || cost(i) < cost(*best))) best = i;
+  }
+  return best;
+}
+
+std::string sweep_csv(const SuiteResult& result, const std::vector<TableRow>& table) {
+  Cells heads = axis_keys(result);
+  for (const char* name :
+       {"method", "truth", "farms", "plots", "found", "missed", "extra", "recall", "rmse_cm",
+        "rmse_lo_cm", "rmse_hi_cm", "bias_cm", "within_cm", "flight_s", "points"})
+    heads.emplace_back(name);
+  std::string text = csv_line(heads);
+  const std::vector<FlightCost> costs = flight_costs(result);
+  for (const TableRow& row : table) {
+    if (!row.named && (!row.shown || row.truth != result.sweep->truth)) continue;
+    const FlightCost& cost = costs[place_of(result, row.case_name)];
+    Cells cells = values_of(result, row);
+    cells.insert(cells.end(), {row.method, row.truth});
+    for (const std::size_t count : {row.farms, row.plots, row.found, row.missed, row.extra})
+      cells.push_back(std::to_string(count));
+    for (const double value : {row.recall, 100 * row.rmse_m, 100 * row.rmse_low_m,
+                               100 * row.rmse_high_m, 100 * row.bias_m, 100 * row.within.within_m})
+      cells.push_back(rounded(value, 4));
+    cells.insert(cells.end(), {rounded(cost.flight_s, 1), rounded(cost.points, 0)});
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow>& table) {
+  const std::vector<TableRow> rows = sweep_rows(result, table);
+  std::string text = "# Sweep " + result.suite + "\n\n" + about(result) +
+                     ", with 95 % bootstrap intervals over farms.\n\n";
+  if (const std::string said = answer(result, rows); !said.empty()) text += said + "\n\n";
+  const Cells heads = told_heads(result);
+  text += markdown_line(heads) + markdown_line(Cells(heads.size(), "---"));
+  for (const TableRow& row : rows) text += markdown_line(told(result, row));
+  return text;
+}
+
+std::vector<std::string> sweep_lines(const SuiteResult& result,
+                                     const std::vector<TableRow>& table) {
+  const std::vector<TableRow> rows = sweep_rows(result, table);
+  std::vector<Cells> all = {told_heads(result)};
+  for (const TableRow& row : rows) all.push_back(told(result, row));
+  std::vector<std::size_t> widths(all.front().size());
+  for (const Cells& cells : all)
+    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+  std::vector<std::string> lines = {about(result)};
+  for (const Cells& cells : all) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      line += (i == 0 ? "" : "  ") + std::string(widths[i] - cells[i].size(), ' ') + cells[i];
+    lines.push_back(line);
+  }
+  if (const std::string said = answer(result, rows); !said.empty())
+    lines.insert(lines.end(), {"", said});
+  return lines;
+}
+
+}  // namespace plotscan::farmbench

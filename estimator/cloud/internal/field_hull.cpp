@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/internal/field_hull.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "core/error.h"
+
+namespace plotscan::cloud {
+namespace {
+
+constexpr double kDenseShare = 0.25;
+constexpr std::uint64_t kLeastTypical = 16;  // points: fewer tell a square's density badly
+constexpr int kCoarsest = 4;                 // squares of 2^4 m
+constexpr int kFirmNeighbours = 2;           // of 8
+constexpr int kGroupBits = 2;                // groups are told apart on squares of 4 x 4 squares
+
+Tile coarse(Tile tile, int bits) { return {tile.x >> bits, tile.y >> bits}; }
+
+std::vector<TileCount> coarsened(std::span<const TileCount> counts) {
+  std::map<Tile, std::uint64_t> sums;
+  for (const TileCount& count : counts) sums[coarse(count.tile, 1)] += count.points;
+  std::vector<TileCount> result;
+  for (const auto& [tile, points] : sums) result.push_back({tile, points});
+  return result;
+}
+
+// What the square of the median point holds: unlike the median square's, it is not drawn down by
+// wide and thinly scanned surroundings.
+std::uint64_t typical_count(std::span<const TileCount> counts) {
+  std::vector<std::uint64_t> sorted;
+  std::uint64_t total = 0;
+  for (const TileCount& count : counts) {
+    sorted.push_back(count.points);
+    total += count.points;
+  }
+  std::ranges::sort(sorted);
+  std::uint64_t below = 0;
+  for (const std::uint64_t points : sorted) {
+    below += points;
+    if (2 * below >= total) return points;
+  }
+  return 0;
+}
+
+// The dense squares of which enough neighbours are dense: a square of thin surroundings is so by
+// chance now and then. All of them where the cloud is too small for that.
+std::vector<Tile> dense_squares(std::span<const TileCount> counts) {
+  const double threshold = kDenseShare * static_cast<double>(typical_count(counts));
+  std::vector<Tile> dense;
+  for (const TileCount& count : counts)
+    if (static_cast<double>(count.points) >= threshold) dense.push_back(count.tile);
+  const auto is_dense = [&](Tile tile) { return std::ranges::binary_search(dense, tile); };
+  std::vector<Tile> firm;
+  std::ranges::copy_if(dense, std::back_inserter(firm), [&](Tile tile) {
+    int neighbours = -1;  // itself
+    for (const int dx : {-1, 0, 1})
+      for (const int dy : {-1, 0, 1}) neighbours += is_dense({tile.x + dx, tile.y + dy});
+    return neighbours >= kFirmNeighbours;
+  });
+  return firm.empty() ? dense : firm;
+}
+
+// Of squares that lie in coarse squares which touch each other.
+std::vector<Tile> largest_group(const std::vector<Tile>& squares) {
+  std::map<Tile, std::vector<Tile>> left;
+  for (const Tile square : squares) left[coarse(square, kGroupBits)].push_back(square);
+  std::vector<Tile> largest;
+  while (!left.empty()) {
+    std::vector<Tile> group;
+    std::vector<Tile> open = {left.begin()->first};
+    while (!open.empty()) {
+      const Tile at = open.back();
+      open.pop_back();
+      const auto found = left.find(at);
+      if (found == left.end()) continue;
+      group.insert(group.end(), found->second.begin(), found->second.end());
+      left.erase(found);
+      for (const int dx : {-1, 0, 1})
+        for (const int dy : {-1, 0, 1}) open.push_back({at.x + dx, at.y + dy});
+    }
+    if (group.size() > largest.size()) largest = std::move(group);
+  }
+  return largest;
+}
+
+// Twice the area of the triangle a, b, c: positive when they turn left.
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// Half of a hull: the points that turn left (Andrew, "Another efficient algorithm for convex hulls
+// in two dimensions", Information Processing Letters 9(5), 1979, 216-219).
+template <class Iterator>
+void append_chain(Iterator first, Iterator last, std::vector<Eigen::Vector2d>& hull) {
+  const std::size_t start = hull.size();
+  for (; first != last; ++first) {
+    while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *first) <= 0)
+      hull.pop_back();
+    hull.push_back(*first);
+  }
+  hull.pop_back();  // begins the other chain
+}
+
+}  // namespace
+
+FieldHull::FieldHull(std::span<const Tile> tiles) {
+  std::vector<Eigen::Vector2d> points;
+  for (const Tile tile : tiles) {
+    for (const double dx : {0.0, 1.0})
+      for (const double dy : {0.0, 1.0}) points.emplace_back(tile.x + dx, tile.y + dy);
+  }
+  std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return std::pair(p.x(), p.y()); });
+  append_chain(points.begin(), points.end(), corners_);
+  append_chain(points.rbegin(), points.rend(), corners_);
+}
+
+bool FieldHull::holds(Tile tile) const {
+  const Eigen::Vector2d centre(tile.x + 0.5, tile.y + 0.5);
+  for (std::size_t i = 0; i < corners_.size(); ++i)
+    if (turn(corners_[i], corners_[(i + 1) % corners_.size()], centre) < 0) return false;
+  return true;
+}
+
+Area FieldHull::bounds() const {
+  Eigen::Vector2d low = corners_.front();
+  Eigen::Vector2d high = low;
+  for (const Eigen::Vector2d& corner : corners_) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  return {low.x(), low.y(), high.x(), high.y()};
+}
+
+FieldHull find_field(std::span<const TileCount> counts) {
+  if (counts.empty()) throw InputError("a cloud without points has no field");
+  std::vector<TileCount> squares(counts.begin(), counts.end());
+  int bits = 0;
+  for (; bits < kCoarsest && typical_count(squares) < kLeastTypical; ++bits)
+    squares = coarsened(squares);
+  // Each square's opposite corner tiles, a square further out.
+  std::vector<Tile> tiles;
+  for (const Tile square : largest_group(dense_squares(squares))) {
+    const auto corner = [bits](std::int32_t index, int by) { return (index + by) * (1 << bits); };
+    for (const int x : {corner(square.x, -1), corner(square.x, 2) - 1})
+      for (const int y : {corner(square.y, -1), corner(square.y, 2) - 1}) tiles.push_back({x, y});
+  }
+  return FieldHull(tiles);
+}
+
+}  // namespace plotscan::cloud

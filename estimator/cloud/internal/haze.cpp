@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/internal/haze.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::cloud {
+namespace {
+
+constexpr double kSlab_m = 0.5;
+constexpr std::ptrdiff_t kOutwards = 12;  // slabs, that crops of 3 m fill half of
+constexpr std::int32_t kBlock = 8;        // tiles to each side
+constexpr double kMostVoxelsAMetre = 10;
+
+using Marks = std::vector<std::vector<char>>;  // by tile, of its points
+using Profile = std::vector<std::uint32_t>;    // by slab
+using Block = std::pair<std::int32_t, std::int32_t>;
+
+// Counts in voxels over a tile and one voxel around it: 9 of them side by side, and 3 high, are a
+// point's cube. Counts end at 255.
+class Voxels {
+ public:
+  Voxels(const Eigen::Vector3d& corner, double height_m, int a_metre)
+      : a_metre_(a_metre),
+        corner_(corner),
+        across_(a_metre + 2),
+        up_(static_cast<int>(std::ceil(height_m * a_metre)) + 2),
+        counts_(static_cast<std::size_t>(across_ * across_ * up_), 0) {}
+
+  void add(const Eigen::Vector3f& point) {
+    const Eigen::Array3i at = voxel_of(point);
+    const Eigen::Array3i size(across_, across_, up_);
+    if ((at < 0).any() || (at >= size).any()) return;
+    std::uint8_t& count = counts_[index_of(at)];
+    if (count < 255) ++count;
+  }
+
+  // Of the cube around a point of the tile, up to `most` and then any number above it.
+  std::size_t around(const Eigen::Vector3f& point, std::size_t most) const {
+    const Eigen::Array3i size(across_, across_, up_);
+    const Eigen::Array3i at = voxel_of(point).max(1).min(size - 2);
+    std::size_t count = counts_[index_of(at)];
+    for (int dy = -1; dy <= 1 && count <= most; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+        for (int dz = -1; dz <= 1; ++dz)
+          if (dx != 0 || dy != 0 || dz != 0)
+            count += counts_[index_of(at + Eigen::Array3i(dx, dy, dz))];
+    return count;
+  }
+
+ private:
+  Eigen::Array3i voxel_of(const Eigen::Vector3f& point) const {
+    const Eigen::Array3d at = (point.cast<double>() - corner_).array() * a_metre_;
+    return at.max(-9.0).min(1e6).floor().cast<int>() + 1;
+  }
+
+  std::size_t index_of(const Eigen::Array3i& at) const {
+    const Eigen::Index column = Eigen::Index{at.y()} * across_ + at.x();
+    return static_cast<std::size_t>(column * up_ + at.z());
+  }
+
+  int a_metre_;
+  Eigen::Vector3d corner_;
+  int across_;
+  int up_;
+  std::vector<std::uint8_t> counts_;
+};
+
+// A cloud's points, each in a slab over its tile's level.
+class Air {
+ public:
+  Air(const TiledPoints& cloud, const HazeOptions& options)
+      : cloud_(cloud),
+        options_(options),
+        rows_(cloud.tiles),
+        slabs_(static_cast<std::ptrdiff_t>(std::ceil(2 * options.farthest_m / kSlab_m)) + 1) {
+    for (const double level_m : tile_levels(cloud, rows_, options.threads))
+      bottom_m_.push_back(std::floor((level_m - options.farthest_m) / kSlab_m) * kSlab_m);
+    for (const Tile tile : cloud.tiles) west_ = std::min(west_, tile.x);
+  }
+
+  std::ptrdiff_t slabs() const { return slabs_; }
+
+  // Not of the profile where a point lies beyond the air.
+  std::ptrdiff_t slab_of(std::size_t tile, const Eigen::Vector3f& point) const {
+    const double slab = std::floor((point.z() - bottom_m_[tile]) / kSlab_m);
+    return static_cast<std::ptrdiff_t>(std::clamp(slab, -1.0, static_cast<double>(slabs_)));
+  }
+
+  bool holds(std::ptrdiff_t slab) const { return slab >= 0 && slab < slabs_; }
+
+  Block block_of(std::size_t tile) const {
+    const Tile at = cloud_.tiles[tile];
+    return {(at.x - west_) / kBlock, (at.y - cloud_.tiles.front().y) / kBlock};
+  }
+
+  // Of the tile's points: which are alone in their cubes.
+  std::vector<char> alone(std::size_t tile) const {
+    std::vector<char> result(cloud_.size(tile), 0);
+    const auto density_m2 = static_cast<double>(cloud_.size(tile));
+    const double voxels_m = std::round(3 * std::sqrt(density_m2 / options_.column_points));
+    const int a_metre = static_cast<int>(std::clamp(voxels_m, 1.0, kMostVoxelsAMetre));
+    if (9 * density_m2 / (a_metre * a_metre) < options_.column_points / 2) return result;
+    Voxels voxels(corner_of(tile), static_cast<double>(slabs_) * kSlab_m, a_metre);
+    rows_.visit_around(tile, 1, [&](std::size_t other) {
+      for (std::size_t i = cloud_.begin[other]; i < cloud_.begin[other + 1]; ++i)
+        voxels.add(cloud_.points[i]);
+    });
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] =
+          voxels.around(cloud_.points[cloud_.begin[tile] + i], options_.alone) <= options_.alone;
+    return result;
+  }
+
+ private:
+  // In the points' own frame, at the bottom of the tile's air.
+  Eigen::Vector3d corner_of(std::size_t tile) const {
+    Eigen::Vector3f low = cloud_.points[cloud_.begin[tile]];
+    for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i)
+      low = low.cwiseMin(cloud_.points[i]);
+    return {std::floor(low.x()), std::floor(low.y()), bottom_m_[tile]};
+  }
+
+  const TiledPoints& cloud_;
+  const HazeOptions& options_;
+  TileRows rows_;
+  std::ptrdiff_t slabs_;
+  std::vector<double> bottom_m_;  // of each tile's air
+  std::int32_t west_ = std::numeric_limits<std::int32_t>::max();
+};
+
+// Of each block that has any: how many points are alone, in it and the 8 around it.
+std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air, const Marks& alone) {
+  std::map<Block, Profile> own;
+  for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile) {
+    for (std::size_t i = 0; i < alone[tile].size(); ++i) {
+      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[cloud.begin[tile] + i]);
+      if (!alone[tile][i] || !air.holds(slab)) continue;
+      Profile& profile = own[air.block_of(tile)];
+      profile.resize(static_cast<std::size_t>(air.slabs()));
+      ++profile[static_cast<std::size_t>(slab)];
+    }
+  }
+  std::map<Block, Profile> around = own;
+  for (auto& [block, sum] : around) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto other = own.find({block.first + dx, block.second + dy});
+        if ((dx == 0 && dy == 0) || other == own.end()) continue;
+        for (std::size_t slab = 0; slab < sum.size(); ++slab) sum[slab] += other->second[slab];
+      }
+    }
+  }
+  return around;
+}
+
+// The lower quartile of kOutwards slabs from `first` on.
+double quartile(const Profile& alone, std::ptrdiff_t first) {
+  std::array<std::uint32_t, kOutwards> outwards{};
+  std::copy_n(alone.begin() + first, kOutwards, outwards.begin());
+  std::ranges::nth_element(outwards, outwards.begin() + kOutwards / 4);
+  return outwards[kOutwards / 4];
+}
+
+// Whether strays, so many expected, may be most of what is alone.
+bool may_be_strays(double alone, double expected) {
+  return expected > 0 && alone <= 2 * expected + 3 * std::sqrt(2 * expected);
+}
+
+// By slab: whether what is alone there is taken for strays.
+std::vector<char> hazy_slabs(const Profile& alone) {
+  const auto slabs = static_cast<std::ptrdiff_t>(alone.size());
+  std::vector<char> result(alone.size(), 0);
+  double above = 0;
+  for (std::ptrdiff_t slab = slabs / 2; slab < slabs && above == 0; ++slab) {
+    const double expected = quartile(alone, std::min(slab + 1, slabs - kOutwards));
+    if (!may_be_strays(alone[static_cast<std::size_t>(slab)], expected)) continue;
+    above = expected;
+    std::fill(result.begin() + slab, result.end(), 1);
+  }
+  for (std::ptrdiff_t slab = 0; slab < slabs / 2; ++slab) {
+    const double below = quartile(alone, std::max<std::ptrdiff_t>(slab - kOutwards, 0));
+    result[static_cast<std::size_t>(slab)] =
+        may_be_strays(alone[static_cast<std::size_t>(slab)], std::max(above, below));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::size_t drop_haze(TiledPoints& cloud, const HazeOptions& options) {
+  if (cloud.points.empty()) return 0;
+  const Air air(cloud, options);
+  Marks marks(cloud.tiles.size());
+  tbb::task_arena arena(options.threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, marks.size(),
+                      [&](std::size_t tile) { marks[tile] = air.alone(tile); });
+  });
+  std::map<Block, std::vector<char>> hazy;
+  for (const auto& [block, alone] : profiles_of(cloud, air, marks)) hazy[block] = hazy_slabs(alone);
+  for (std::size_t tile = 0; tile < marks.size(); ++tile) {
+    const auto slabs = hazy.find(air.block_of(tile));
+    for (std::size_t i = 0; i < marks[tile].size(); ++i) {
+      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[cloud.begin[tile] + i]);
+      marks[tile][i] =
+          marks[tile][i] && air.holds(slab) && slabs->second[static_cast<std::size_t>(slab)];
+    }
+  }
+  return take_out(cloud, marks);
+}
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/internal/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::cloud {
+namespace {
+
+constexpr double kSlab_m = 0.5;
+constexpr int kSupportReach = 1;  // tiles to each side, and slabs
+constexpr int kExtentReach = 7;   // tiles to each side
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+int slab_of(double z_m) { return static_cast<int>(std::floor(z_m / kSlab_m)); }
+
+// The points of a field as columns of slabs over its tiles.
+class Columns {
+ public:
+  Columns(const TiledPoints& cloud, const OutlierOptions& options)
+      : cloud_(cloud), options_(options), arena_(options.threads), rows_(cloud.tiles) {
+    for (const double level : tile_levels(cloud, rows_, options.threads))
+      first_slab_.push_back(slab_of(level - options.farthest_m));
+    count_slabs();
+  }
+
+  // Of the tile's points, in their order: whether each is an outlier.
+  std::vector<char> outliers(std::size_t tile) const {
+    std::vector<char> result;
+    std::vector<signed char> lonely(slabs_, -1);  // by slab; -1: not looked at
+    std::optional<Extent> extent;
+    for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i) {
+      const double z = cloud_.points[i].z();
+      const std::optional<std::size_t> slab = slab_in(tile, z);
+      if (slab && lonely[*slab] < 0) lonely[*slab] = is_lonely(tile, *slab);
+      if (slab && lonely[*slab] && !extent) extent = extent_around(tile);
+      const double margin = options_.lonely_margin_m;
+      result.push_back(
+          !slab || (lonely[*slab] && (z < extent->low_m - margin || z > extent->high_m + margin)));
+    }
+    return result;
+  }
+
+  // Calls work(tile) for all tiles.
+  template <class Work>
+  void for_each(const Work& work) const {
+    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, cloud_.tiles.size(), work); });
+  }
+
+ private:
+  struct Extent {
+    double low_m = kNowhere;
+    double high_m = -kNowhere;
+  };
+
+  // Nothing where a point lies too far from its level.
+  std::optional<std::size_t> slab_in(std::size_t tile, double z_m) const {
+    const int slab = slab_of(z_m) - first_slab_[tile];
+    if (slab < 0 || slab >= static_cast<int>(slabs_)) return std::nullopt;
+    return static_cast<std::size_t>(slab);
+  }
+
+  void count_slabs() {
+    slabs_ = static_cast<std::size_t>(std::ceil(2 * options_.farthest_m / kSlab_m)) + 1;
+    counts_.assign(slabs_ * cloud_.tiles.size(), 0);
+    for_each([&](std::size_t tile) {
+      for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i) {
+        const auto slab = slab_in(tile, cloud_.points[i].z());
+        if (slab) ++counts_[tile * slabs_ + *slab];
+      }
+    });
+  }
+
+  bool is_lonely(std::size_t tile, std::size_t slab) const {
+    std::size_t near = 0;
+    std::size_t over = 0;
+    const int middle = first_slab_[tile] + static_cast<int>(slab);
+    rows_.visit_around(tile, kSupportReach, [&](std::size_t other) {
+      over += cloud_.size(other);
+      for (int at = middle - kSupportReach; at <= middle + kSupportReach; ++at) {
+        const int index = at - first_slab_[other];
+        if (index >= 0 && index < static_cast<int>(slabs_))
+          near += counts_[other * slabs_ + static_cast<std::size_t>(index)];
+      }
+    });
+    return near <= options_.lonely_points &&
+           static_cast<double>(near) <= options_.lonely_share * static_cast<double>(over);
+  }
+
+  // Of everything around a tile that is not lonely.
+  Extent extent_around(std::size_t tile) const {
+    Extent extent;
+    rows_.visit_around(tile, kExtentReach, [&](std::size_t other) {
+      const auto reaches_out = [&](std::size_t slab) {
+        return counts_[other * slabs_ + slab] > 0 && !is_lonely(other, slab);
+      };
+      const auto bottom_m = [&](std::size_t slab) {
+        return (first_slab_[other] + static_cast<double>(slab)) * kSlab_m;
+      };
+      for (std::size_t slab = 0; slab < slabs_ && bottom_m(slab) < extent.low_m; ++slab)
+        if (reaches_out(slab)) extent.low_m = bottom_m(slab);
+      for (std::size_t slab = slabs_; slab-- > 0 && bottom_m(slab) + kSlab_m > extent.high_m;)
+        if (reaches_out(slab)) extent.high_m = bottom_m(slab) + kSlab_m;
+    });
+    return extent;
+  }
+
+  const TiledPoints& cloud_;
+  const OutlierOptions& options_;
+  mutable tbb::task_arena arena_;
+  TileRows rows_;
+  std::vector<int> first_slab_;  // of each tile's column
+  std::size_t slabs_ = 0;        // of a column
+  std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace
+
+std::size_t drop_outliers(TiledPoints& cloud, const OutlierOptions& options) {
+  if (cloud.points.empty()) return 0;
+  std::vector<std::vector<char>> outliers(cloud.tiles.size());
+  {
+    const Columns columns(cloud, options);
+    columns.for_each([&](std::size_t tile) { outliers[tile] = columns.outliers(tile); });
+  }
+  return take_out(cloud, outliers);
+}
+
+}  // namespace plotscan::cloud

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cloud/internal/tiled_points.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::cloud {
+namespace {
+
+constexpr int kLevelReach = 2;  // tiles to each side
+constexpr std::size_t kLevelSample = 64;
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+}  // namespace
+
+TileRows::TileRows(const std::vector<Tile>& tiles)
+    : tiles_(tiles),
+      rows_(static_cast<std::size_t>(tiles.back().y - tiles.front().y) + 2, tiles.size()) {
+  for (std::size_t tile = tiles.size(); tile-- > 0;)
+    rows_[static_cast<std::size_t>(tiles[tile].y - tiles.front().y)] = tile;
+  for (std::size_t row = rows_.size() - 1; row-- > 0;)  // rows without tiles
+    rows_[row] = std::min(rows_[row], rows_[row + 1]);
+}
+
+std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads) {
+  std::vector<float> own(cloud.tiles.size());
+  std::vector<double> result(cloud.tiles.size());
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t tile) {
+      const std::size_t step = std::max<std::size_t>(1, cloud.size(tile) / kLevelSample);
+      std::vector<float> z;
+      for (std::size_t i = cloud.begin[tile]; i < cloud.begin[tile + 1]; i += step)
+        z.push_back(cloud.points[i].z());
+      own[tile] = median(z);
+    });
+    tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t tile) {
+      std::vector<float> levels;
+      rows.visit_around(tile, kLevelReach,
+                        [&](std::size_t other) { levels.push_back(own[other]); });
+      result[tile] = median(levels);
+    });
+  });
+  return result;
+}
+
+std::size_t take_out(TiledPoints& cloud, const std::vector<std::vector<char>>& marked) {
+  std::size_t kept = 0;
+  std::size_t tiles = 0;
+  for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile) {
+    const std::size_t first = cloud.begin[tile];
+    const std::size_t begin = kept;
+    for (std::size_t i = 0; i < marked[tile].size(); ++i)
+      if (!marked[tile][i]) cloud.points[kept++] = cloud.points[first + i];
+    if (kept == begin) continue;
+    cloud.tiles[tiles] = cloud.tiles[tile];
+    cloud.begin[tiles++] = begin;
+  }
+  const std::size_t taken = cloud.points.size() - kept;
+  cloud.tiles.resize(tiles);
+  cloud.begin.resize(tiles + 1);
+  cloud.begin.back() = kept;
+  cloud.points.resize(kept);
+  return taken;
+}
+
+}  // namespace plotscan::cloud

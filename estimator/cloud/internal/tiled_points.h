@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "cloud/internal/point_key.h"
+#include <Eigen/Core>
+
+namespace plotscan::cloud {
+
+// Points by tile, tiles in their order.
+struct TiledPoints {
+  std::vector<Tile> tiles = {};
+  std::vector<std::size_t> begin = {};  // of each tile's points; one more than tiles, ends the last
+  std::vector<Eigen::Vector3f> points = {};  // z up, metres
+
+  std::size_t size(std::size_t tile) const { return begin[tile + 1] - begin[tile]; }
+};
+
+// Finds the tiles around a tile. The tiles must outlive it, and be one at least.
+class TileRows {
+ public:
+  explicit TileRows(const std::vector<Tile>& tiles);
+
+  // Calls visit(tile) for those that lie at most `reach` tiles away, itself too.
+  template <class Visit>
+  void visit_around(std::size_t tile, int reach, const Visit& visit) const {
+    const Tile middle = tiles_[tile];
+    const std::int32_t last_row = static_cast<std::int32_t>(rows_.size()) - 2;
+    const std::int32_t row = middle.y - tiles_.front().y;
+    for (int y = std::max(row - reach, 0); y <= std::min(row + reach, last_row); ++y) {
+      const auto end = tiles_.begin() + static_cast<std::ptrdiff_t>(rows_[y + 1]);
+      auto at = std::lower_bound(tiles_.begin() + static_cast<std::ptrdiff_t>(rows_[y]), end,
+                                 middle.x - reach, [](Tile a, std::int32_t x) { return a.x < x; });
+      for (; at != end && at->x <= middle.x + reach; ++at)
+        visit(static_cast<std::size_t>(at - tiles_.begin()));
+    }
+  }
+
+ private:
+  const std::vector<Tile>& tiles_;
+  std::vector<std::size_t> rows_;  // first tile of each row of tiles; one more ends the last
+};
+
+// Each tile's level: the median of the median heights of the tiles at most 2 away, each of which is
+// that of a sample of its points.
+std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads);
+
+// Takes out the points that are marked, of each tile in their order, and tiles without any other.
+// Returns how many points.
+std::size_t take_out(TiledPoints& cloud, const std::vector<std::vector<char>>& marked);
+
+}  // namespace plotscan::cloud

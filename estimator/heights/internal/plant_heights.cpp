@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heights/internal/plant_heights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/statistics.h"
+#include "heights/crop_model.h"
+#include "heights/ratio_model.h"
+
+namespace plotscan::heights {
+namespace {
+
+// Of Student's t with the 24 degrees of freedom that a standard deviation from 25 farms has.
+constexpr double kQuantile95 = 2.064;
+
+Height height_of(double value_m, double sd_m) {
+  return {.value_m = value_m,
+          .standard_error_m = sd_m,
+          .low95_m = value_m - kQuantile95 * sd_m,
+          .high95_m = value_m + kQuantile95 * sd_m};
+}
+
+// Neighbours in the wrong order get their mean, until all are in order (pool adjacent violators,
+// Ayer et al. 1955): the nearest ordered values in the sense of least squares.
+void put_in_order(std::span<Height* const> heights) {
+  struct Pool {
+    double sum;
+    std::size_t count;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Pool> pools;
+  for (const Height* height : heights) {
+    pools.push_back({.sum = height->value_m, .count = 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
+      pools[pools.size() - 2].sum += pools.back().sum;
+      pools[pools.size() - 2].count += pools.back().count;
+      pools.pop_back();
+    }
+  }
+  std::size_t next = 0;
+  for (const Pool& pool : pools) {
+    for (std::size_t i = 0; i < pool.count; ++i, ++next)
+      *heights[next] = height_of(pool.mean(), heights[next]->standard_error_m);
+  }
+}
+
+// What the heights are by definition: no percentile over a higher one or over the tallest plant,
+// nor the mean over the tallest.
+void put_in_order(std::map<std::string, Height>& heights) {
+  const std::array plants = {&heights.at("p50"), &heights.at("p90"), &heights.at("p95"),
+                             &heights.at("p99"), &heights.at("max")};
+  put_in_order(plants);
+  const std::array canopy = {&heights.at("canopy_p95"), &heights.at("canopy_p99")};
+  put_in_order(canopy);
+  Height& mean = heights.at("mean");
+  mean = height_of(std::min(mean.value_m, heights.at("max").value_m), mean.standard_error_m);
+}
+
+// Certainly that one.
+Eigen::VectorXd given(const Calibration& calibration, const std::string& crop) {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
+                               static_cast<Eigen::Index>(calibration.index_of(crop)));
+}
+
+double middle_top_m(std::span<const PlotCanopy> field) {
+  std::vector<double> tops;
+  for (const PlotCanopy& plot : field) tops.push_back(plot.top_m);
+  return quantile(tops, 0.5);
+}
+
+}  // namespace
+
+const std::map<std::string, CanopyQuantile>& canopy_quantiles() {
+  static const std::map<std::string, CanopyQuantile> quantiles = {
+      {"mean", {.area_share = 0.9, .relative_sd = 0.1}},
+      {"p50", {.area_share = 0.9, .relative_sd = 0.1}},
+      {"p90", {.area_share = 0.98, .relative_sd = 0.08}},
+      {"p95", {.area_share = 0.99, .relative_sd = 0.08}},
+      {"p99", {.area_share = 0.997, .relative_sd = 0.08}},
+      {"max", {.area_share = 0.999, .relative_sd = 0.08}},
+      {"canopy_p95", {.area_share = 0.95, .relative_sd = 0.06}},
+      {"canopy_p99", {.area_share = 0.99, .relative_sd = 0.03}}};
+  return quantiles;
+}
+
+FieldPlants quantile_heights(std::span<const PlotCanopy> field) {
+  FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    for (const auto& [name, quantile] : canopy_quantiles()) {
+      plants.plots[i].heights[name] =
+          height_of(field[i].quantiles_m.at(name),
+                    std::hypot(quantile.relative_sd * field[i].top_m, field[i].ground_error_m,
+                               field[i].sampling_m.at(name)));
+    }
+  }
+  return plants;
+}
+
+FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
+                               const std::optional<std::string>& crop) {
+  FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
+  if (field.empty()) return plants;
+  std::vector<Eigen::VectorXd> features;
+  for (const PlotCanopy& plot : field) features.push_back(plot.features);
+  const Eigen::VectorXd middle = calibration.scaled(field_features(features));
+  const Eigen::VectorXd crops =
+      crop ? given(calibration, *crop) : CropModel(calibration).probabilities(middle);
+  for (std::size_t i = 0; i < calibration.crops.size(); ++i)
+    plants.crops[calibration.crops[i]] = crops(static_cast<Eigen::Index>(i));
+  const RatioModel model(calibration);
+  const FieldRatios ratios = model.at(middle, middle_top_m(field), crops, !crop);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
+    const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
+    Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
+    PlantHeights& plot = plants.plots[i];
+    plot.unlike = model.unlike(scaled, crops);
+    if (plot.unlike > 1) {
+      const FieldRatios own = model.at(scaled, field[i].top_m, crops, !crop);
+      sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
+    }
+    for (std::size_t k = 0; k < calibration.heights.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      plot.heights[calibration.heights[k]] =
+          height_of(values(row) * field[i].top_m,
+                    std::hypot(std::sqrt(sds(row)) * field[i].top_m, field[i].ground_error_m));
+    }
+    put_in_order(plot.heights);
+  }
+  return plants;
+}
+
+}  // namespace plotscan::heights

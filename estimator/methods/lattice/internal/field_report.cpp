@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/lattice/internal/field_report.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace plotscan::methods::lattice {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
+
+json json_of(const plots::FieldFit& fit) {
+  const TrialLayout& layout = fit.layout;
+  const double row_heading = std::atan2(layout.row_axis.y(), layout.row_axis.x());
+  return {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
+          {"second_axis_deg", wrap_heading(row_heading) * kDegreesOfRadian},
+          {"skew_deg", layout.skew_rad() * kDegreesOfRadian},
+          {"width_m", layout.width_m},
+          {"length_m", layout.length_m},
+          {"rows", layout.rows()},
+          {"columns", layout.columns()},
+          {"row_pitch_m", layout.row_pitch_m},
+          {"column_pitch_m", layout.column_pitch_m},
+          {"columns_aligned", fit.columns_aligned},
+          {"rms_along_length_m", fit.rms_along_length_m},
+          {"rms_along_width_m", fit.rms_along_width_m},
+          {"leaf_spread_m", fit.leaf_spread_m},
+          {"side_contrast", fit.side_contrast}};
+}
+
+json json_of(const plots::FieldSigns& signs) {
+  return {{"held_share", signs.held_share},
+          {"filled_share", signs.filled_share},
+          {"surface_share", signs.surface_share},
+          {"squareness", signs.squareness},
+          {"aspect", signs.aspect},
+          {"roughness", signs.roughness},
+          {"unevenness", signs.unevenness},
+          {"mean_unevenness", signs.mean_unevenness},
+          {"evidence_per_plot", signs.evidence}};
+}
+
+}  // namespace
+
+json json_of(const plots::PlotField& field) {
+  json report = field.fit ? json_of(*field.fit) : json::object();
+  if (field.signs) report["signs"] = json_of(*field.signs);
+  return report;
+}
+
+}  // namespace plotscan::methods::lattice

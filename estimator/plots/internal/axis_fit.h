@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: plots, or their drill rows, along one axis of a field.
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "plots/internal/segments.h"
+
+namespace plotscan::plots {
+
+// What the user knows of the plots along an axis.
+struct AxisHint {
+  std::optional<double> side_m = std::nullopt;  // of a plot
+  std::optional<int> count = std::nullopt;      // of plots that follow each other
+};
+
+// How well bands of one shape explain what is seen along an axis.
+struct AxisFit {
+  BandShape shape;
+  std::vector<std::vector<int>> begins = {};  // by profile; one list where they share it
+  double misfit = std::numeric_limits<double>::infinity();
+  double parameters = 0;
+  bool drilled = false;       // put together from drill rows,
+  BandShape seen_shape = {};  // which are these bands
+  std::vector<std::vector<int>> seen = {};
+
+  double cost(double price) const { return misfit + price * parameters; }
+};
+
+// A line's profiles, and what a parameter is to gain: Schwarz's criterion.
+struct Line {
+  double cell_m = 0;
+  AxisHint hint = {};
+  std::vector<ProfileSums> profiles = {};
+  double price = 0;
+  double independent = 0;
+};
+
+// A profile along the view's r for each list of bands of c.
+Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
+             const AxisHint& hint);
+
+// The bands that explain the line best, of those that are plots or drill rows of plots: the same on
+// all profiles, or on each its own. Its misfit is infinite where there are none.
+AxisFit fit_axis(const Line& line, bool shared);
+
+// The same where its bands are drill rows, or other parts of plots: of whole plots.
+AxisFit put_together(const Line& line, AxisFit fit);
+
+std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile);
+
+// What the same bands cost on another line.
+double bands_cost(const Line& line, const Segmentation& bands);
+
+}  // namespace plotscan::plots

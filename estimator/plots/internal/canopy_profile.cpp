@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/canopy_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kBlock_m =
+    0.5;  // across the line: as wide as plants, so that blocks differ by chance
+constexpr double kTrend_m = 0.75;  // on either side: a block's own trend, which is no noise
+constexpr double kLeaf_m = 0.3;    // cells so near see the same leaves
+constexpr double kLeastError =
+    0.02;  // of the profile's greatest mean: no model is better than that
+
+// A block's canopy along the line less the profile and its own trend.
+std::vector<double> noise_of(const std::vector<double>& block, const std::vector<double>& seen,
+                             const std::vector<double>& mean, int trend) {
+  const int cells = static_cast<int>(block.size());
+  std::vector<double> sum(block.size() + 1), count(sum), noise(block.size());
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    sum[i + 1] = sum[i] + (seen[i] > 0 ? block[i] - mean[i] : 0);
+    count[i + 1] = count[i] + (seen[i] > 0 ? 1 : 0);
+  }
+  for (int i = 0; i < cells; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto low = static_cast<std::size_t>(std::max(0, i - trend));
+    const auto high = static_cast<std::size_t>(std::min(cells, i + trend + 1));
+    if (seen[at] == 0) continue;
+    noise[at] = block[at] - mean[at] - (sum[high] - sum[low]) / (count[high] - count[low]);
+  }
+  return noise;
+}
+
+// Ratio of the variance of sums over near cells to what independent ones would have.
+double likeness(const std::vector<std::vector<double>>& noises, int near) {
+  double single = 0, together = 0;
+  for (const std::vector<double>& noise : noises) {
+    for (std::size_t i = 0; i + static_cast<std::size_t>(near) <= noise.size();
+         i += static_cast<std::size_t>(near)) {
+      double sum = 0;
+      for (std::size_t k = i; k < i + static_cast<std::size_t>(near); ++k) {
+        sum += noise[k];
+        single += noise[k] * noise[k];
+      }
+      together += sum * sum;
+    }
+  }
+  return single > 0 ? std::max(1.0, together / single) : 1;
+}
+
+// Mean over the cells within reach.
+std::vector<double> smoothed(const std::vector<double>& values, const std::vector<double>& counts,
+                             int reach) {
+  const int cells = static_cast<int>(values.size());
+  std::vector<double> sum(values.size() + 1), count(sum), smooth(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum[i + 1] = sum[i] + values[i];
+    count[i + 1] = count[i] + counts[i];
+  }
+  for (int i = 0; i < cells; ++i) {
+    const auto low = static_cast<std::size_t>(std::max(0, i - reach));
+    const auto high = static_cast<std::size_t>(std::min(cells, i + reach + 1));
+    smooth[static_cast<std::size_t>(i)] =
+        (sum[high] - sum[low]) / std::max(1.0, count[high] - count[low]);
+  }
+  return smooth;
+}
+
+// Canopy along the line in strips as wide as plants.
+struct Blocks {
+  std::vector<std::vector<double>> canopy, seen;  // by strip, then by cell
+  std::vector<double> sum, count;                 // over the strips that see a cell
+
+  explicit Blocks(std::size_t cells) : sum(cells), count(cells) {}
+
+  void add(const RowView& view, int low, int high) {
+    std::vector<double> block(sum.size()), sees(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const int r = static_cast<int>(i);
+      if (view.seen_cells(r, r + 1, low, high) == 0) continue;
+      sees[i] = 1;
+      block[i] = view.cover(r, r + 1, low, high);
+      sum[i] += block[i];
+      count[i] += 1;
+    }
+    canopy.push_back(std::move(block));
+    seen.push_back(std::move(sees));
+  }
+};
+
+Blocks blocks_of(const RowView& view, std::span<const Band> across, int width) {
+  Blocks blocks(static_cast<std::size_t>(view.r_cells()));
+  for (const Band& band : across) {
+    const int parts = std::max(1, band.size() / width);
+    for (int part = 0; part < parts; ++part)
+      blocks.add(view, band.begin + band.size() * part / parts,
+                 band.begin + band.size() * (part + 1) / parts);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across) {
+  const auto in_cells = [&](double length_m) {
+    return std::max(1, static_cast<int>(std::lround(length_m / view.cell_m())));
+  };
+  Blocks blocks = blocks_of(view, across, in_cells(kBlock_m));
+  const std::size_t cells = blocks.sum.size();
+  CanopyProfile profile{.mean = blocks.sum, .weight = std::vector<double>(cells)};
+  for (std::size_t i = 0; i < cells; ++i) profile.mean[i] /= std::max(1.0, blocks.count[i]);
+  std::vector<double> variance(cells);
+  for (std::size_t k = 0; k < blocks.canopy.size(); ++k) {
+    blocks.canopy[k] = noise_of(blocks.canopy[k], blocks.seen[k], profile.mean, in_cells(kTrend_m));
+    for (std::size_t i = 0; i < cells; ++i)
+      variance[i] += blocks.canopy[k][i] * blocks.canopy[k][i];
+  }
+  variance = smoothed(variance, blocks.count, in_cells(kLeaf_m));
+  const double alike = likeness(blocks.canopy, in_cells(kLeaf_m));
+  const double least = cells > 0 ? kLeastError * *std::ranges::max_element(profile.mean) : 0;
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (blocks.count[i] == 0) continue;
+    profile.weight[i] =
+        1 / (alike * (variance[i] / blocks.count[i] + std::max(1e-12, least * least)));
+    profile.independent += 1 / alike;
+  }
+  return profile;
+}
+
+ProfileSums::ProfileSums(const CanopyProfile& profile) {
+  for (auto* sums : {&weight_, &y_, &yy_, &x_, &xx_, &xy_}) sums->assign(1, 0);
+  for (std::size_t i = 0; i < profile.mean.size(); ++i) {
+    const double w = profile.weight[i], y = profile.mean[i], x = static_cast<double>(i) + 0.5;
+    weight_.push_back(weight_.back() + w);
+    y_.push_back(y_.back() + w * y);
+    yy_.push_back(yy_.back() + w * y * y);
+    x_.push_back(x_.back() + w * x);
+    xx_.push_back(xx_.back() + w * x * x);
+    xy_.push_back(xy_.back() + w * x * y);
+  }
+}
+
+double ProfileSums::mean(int begin, int end) const {
+  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  const double weight = weight_[e] - weight_[b];
+  return weight > 0 ? (y_[e] - y_[b]) / weight : 0;
+}
+
+double ProfileSums::centroid(int begin, int end) const {
+  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  const double canopy = y_[e] - y_[b];
+  return canopy > 0 ? (xy_[e] - xy_[b]) / canopy : 0.5 * (begin + end);
+}
+
+double ProfileSums::squares(int begin, int end, double level) const {
+  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  return yy_[e] - yy_[b] - 2 * level * (y_[e] - y_[b]) + level * level * (weight_[e] - weight_[b]);
+}
+
+double ProfileSums::squares(int begin, int end, double from, double to) const {
+  if (begin >= end) return 0;
+  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  const double slope = (to - from) / (end - begin), start = from - slope * begin;
+  return squares(begin, end, start) - 2 * slope * (xy_[e] - xy_[b]) +
+         2 * start * slope * (x_[e] - x_[b]) + slope * slope * (xx_[e] - xx_[b]);
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: how high the canopy stands along a line, and how sure that is.
+
+#include <span>
+#include <vector>
+
+#include "plots/internal/row_view.h"
+
+namespace plotscan::plots {
+
+// Mean canopy by cell along a view's r, over the cells across it. Weights are inverse variances of
+// the means, from how the blocks across differ, less their own trend; neighbouring cells see the
+// same leaves, and weigh so much the less.
+struct CanopyProfile {
+  std::vector<double> mean, weight;
+  double independent = 0;  // how many independent cells the profile is worth
+};
+
+// Over the given bands of c only.
+CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across);
+
+// Sums over a profile's cells in constant time.
+class ProfileSums {
+ public:
+  explicit ProfileSums(const CanopyProfile& profile);
+
+  int cells() const { return static_cast<int>(weight_.size()) - 1; }
+  // Weighted mean over the cells [begin, end); 0 where none was seen.
+  double mean(int begin, int end) const;
+  // Where the canopy over the cells has its middle.
+  double centroid(int begin, int end) const;
+  // Weighted squares about a level, and about a line that leads from one level at the beginning of
+  // the cells to another at their end.
+  double squares(int begin, int end, double level) const;
+  double squares(int begin, int end, double from, double to) const;
+
+ private:
+  std::vector<double> weight_, y_, yy_, x_, xx_, xy_;
+};
+
+}  // namespace plotscan::plots

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/canopy_raster.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the table
+constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
+constexpr int kCoverBits = 32;  // above which a cell's sum of covers lies, below its count
+constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
+constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
+
+struct Bounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+
+  void add(const Eigen::Vector2d& place) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  void add(const Bounds& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+};
+
+Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
+  const std::span<const Eigen::Vector3f> points = field.points();
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Bounds{},
+      [&](const tbb::blocked_range<std::size_t>& some, Bounds bounds) {
+        for (std::size_t i = some.begin(); i != some.end(); ++i) {
+          if (!field.leaves_out(points[i]))
+            bounds.add(ab_from_world * points[i].head<2>().cast<double>());
+        }
+        return bounds;
+      },
+      [](Bounds one, const Bounds& other) {
+        one.add(other);
+        return one;
+      });
+}
+
+std::uint64_t share_of(double z_m, const CanopyScale& scale) {
+  const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
+  return static_cast<std::uint64_t>(std::lround(std::clamp(share, 0.0, 1.0) * kFullCover));
+}
+
+std::uint64_t count_of(std::uint64_t cell) { return cell & ((std::uint64_t{1} << kCoverBits) - 1); }
+
+}  // namespace
+
+Eigen::Matrix2d Frame::ab_from_world() const {
+  Eigen::Matrix2d world_from_ab;
+  world_from_ab << a_axis, b_axis;
+  return world_from_ab.inverse();
+}
+Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
+  return origin + ab.x() * a_axis + ab.y() * b_axis;
+}
+
+CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
+                           std::span<const std::uint64_t> returns)
+    : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
+  std::vector<std::uint32_t> cover(returns.size());
+  std::ranges::transform(returns, cover.begin(), [](std::uint64_t cell) {
+    const std::uint64_t all = count_of(cell);
+    return all > 0 ? static_cast<std::uint32_t>((cell >> kCoverBits) / all) : kUnseen;
+  });
+  sum_up(cover);
+}
+
+void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
+  covered_.assign(seen_.size(), 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells_); ++i) {
+    std::uint32_t seen = 0, covered = 0;
+    for (std::size_t j = 0; j + 1 < stride; ++j) {
+      const std::uint32_t cell = cover[i * (stride - 1) + j];
+      seen += cell != kUnseen ? 1 : 0;
+      covered += cell != kUnseen ? cell : 0;
+      const std::size_t at = (i + 1) * stride + j + 1;
+      seen_[at] = seen_[at - stride] + seen;
+      covered_[at] = covered_[at - stride] + covered;
+    }
+  }
+}
+
+std::uint64_t CanopyRaster::sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0,
+                                int b1) const {
+  a0 = std::clamp(a0, 0, a_cells_);
+  a1 = std::clamp(a1, a0, a_cells_);
+  b0 = std::clamp(b0, 0, b_cells_);
+  b1 = std::clamp(b1, b0, b_cells_);
+  const auto at = [&](int a, int b) {
+    return table[static_cast<std::size_t>(a) * (static_cast<std::size_t>(b_cells_) + 1) +
+                 static_cast<std::size_t>(b)];
+  };
+  // Unsigned arithmetic: right even where the table wrapped around.
+  return at(a1, b1) - at(a0, b1) - at(a1, b0) + at(a0, b0);
+}
+
+double CanopyRaster::seen_cells(int a0, int a1, int b0, int b1) const {
+  return static_cast<double>(sum(seen_, a0, a1, b0, b1));
+}
+
+double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
+  const double seen = seen_cells(a0, a1, b0, b1);
+  if (seen == 0) return 0;
+  return static_cast<double>(sum(covered_, a0, a1, b0, b1)) / (seen * kFullCover);
+}
+
+std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                                    std::span<const CanopyScale> scales, int threads) {
+  const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
+  const std::span<const Eigen::Vector3f> points = field.points();
+  tbb::task_arena arena(threads);
+  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
+  if (!(bounds.low.x() <= bounds.high.x()))
+    return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
+  const Eigen::Vector2d extent = bounds.high - bounds.low;
+  while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
+  const int a_cells = static_cast<int>(extent.x() / cell_m) + 1;
+  const int b_cells = static_cast<int>(extent.y() / cell_m) + 1;
+  const auto cells = static_cast<std::size_t>(a_cells) * static_cast<std::size_t>(b_cells);
+  std::vector<std::vector<std::uint64_t>> returns(scales.size(), std::vector<std::uint64_t>(cells));
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
+          for (std::size_t i = some.begin(); i != some.end(); ++i) {
+            if (field.leaves_out(points[i])) continue;
+            const Eigen::Vector2d ab =
+                (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
+            const auto a =
+                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.x()), 0, a_cells - 1));
+            const auto b =
+                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
+            const std::size_t cell = a * static_cast<std::size_t>(b_cells) + b;
+            for (std::size_t k = 0; k < scales.size(); ++k) {
+              std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
+              sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
+                             std::memory_order_relaxed);
+            }
+          }
+        });
+  });
+  Frame frame = axes;
+  frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;
+  std::vector<CanopyRaster> rasters;
+  rasters.reserve(returns.size());
+  for (const std::vector<std::uint64_t>& sums : returns)
+    rasters.emplace_back(frame, cell_m, a_cells, b_cells, sums);
+  return rasters;
+}
+
+}  // namespace plotscan::plots

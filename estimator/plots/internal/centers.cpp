@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/centers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plots/internal/depth_profile.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kMostShift_m = 0.3, kShiftStep_m = 0.02;
+constexpr double kEdge_m = 0.12;   // width of the edges' filter
+constexpr double kBeyond_m = 0.6;  // of a plot's edge that takes part
+
+struct Neighbour {
+  double at_m = 0;  // from the plot's centre
+  double depth = 0;
+};
+
+// The nearest places before and after along the axis, where they overlap aside of it.
+std::vector<Neighbour> neighbours_of(const Lattice& lattice, const std::vector<double>& depths,
+                                     std::size_t of, bool along_r) {
+  const Place& self = lattice.places[of];
+  const double side_m = along_r ? lattice.c_size_m : lattice.r_size_m;
+  const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
+  std::vector<Neighbour> near;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& other = lattice.places[i];
+    const double aside_m = std::abs(along_r ? other.c_m - self.c_m : other.r_m - self.r_m);
+    const double along_m = along_r ? other.r_m - self.r_m : other.c_m - self.c_m;
+    if (i == of || aside_m >= side_m || std::abs(along_m) > 1.8 * size_m + 1) continue;
+    if (std::abs(along_m) < 0.5 * size_m) continue;
+    // It covers only a part of this plot's side where rows are offset.
+    near.push_back({along_m, depths[i] * std::min(1.0, (side_m - aside_m) / (0.9 * side_m))});
+  }
+  return near;
+}
+
+// Weight of a cell that lies `inside_m` within the edge: derivative of a normal kernel.
+double edge_weight(double inside_m) {
+  const double x = inside_m / kEdge_m;
+  return std::abs(x) < 4 ? x * std::exp(-0.5 * x * x) : 0;
+}
+
+// A plot's cover without what its neighbours add.
+struct OwnCover {
+  std::vector<double> x_m, cover;
+
+  // Height of both edges of a box of size_m about at_m.
+  double edges(double at_m, double size_m) const {
+    double height = 0;
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      height += cover[i] * edge_weight(size_m / 2 - std::abs(x_m[i] - at_m));
+    }
+    return height;
+  }
+};
+
+OwnCover own_cover(const DepthProfile& profile, const std::vector<Neighbour>& near,
+                   const BlurredBox& box) {
+  OwnCover own{.x_m = profile.x_m, .cover = {}};
+  for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
+    double depth = profile.depth[i];
+    for (const Neighbour& other : near) depth -= other.depth * box(profile.x_m[i] - other.at_m);
+    own.cover.push_back(1 - std::exp(-std::max(0.0, depth)));
+  }
+  return own;
+}
+
+// The size whose edges are steepest over all plots: leaves lean out over the sown area, and a box
+// of another size would move towards the blunter one of a plot's edges.
+double steepest_size(const std::vector<OwnCover>& covers, double size_m) {
+  double best = -1, best_size_m = size_m;
+  for (double wider = -0.1; wider <= 0.4; wider += 0.02) {
+    double height = 0;
+    for (const OwnCover& own : covers) height += own.edges(0, size_m + wider);
+    if (height <= best) continue;
+    best = height;
+    best_size_m = size_m + wider;
+  }
+  return best_size_m;
+}
+
+// Where the two edges are steepest together.
+std::optional<double> shift_of(const OwnCover& own, double size_m) {
+  const int steps = static_cast<int>(std::lround(kMostShift_m / kShiftStep_m));
+  std::vector<double> gains;
+  for (int step = -steps; step <= steps; ++step) {
+    gains.push_back(own.edges(step * kShiftStep_m, size_m));
+  }
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(gains) - gains.begin());
+  if (best == 0 || best + 1 == gains.size()) return std::nullopt;
+  const double bend = gains[best - 1] - 2 * gains[best] + gains[best + 1];
+  const double part = bend < 0 ? 0.5 * (gains[best - 1] - gains[best + 1]) / bend : 0;
+  return (static_cast<double>(best) - steps + part) * kShiftStep_m;
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> measured_shifts(const Lattice& lattice, bool along_r) {
+  const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
+  const double blur_m = along_r ? lattice.r_blur_m : lattice.c_blur_m;
+  const BlurredBox box(size_m, blur_m);
+  std::vector<DepthProfile> profiles;
+  std::vector<double> depths;
+  for (const Place& place : lattice.places) {
+    profiles.push_back(profile_of(lattice, place, along_r, size_m / 2 + kBeyond_m));
+    depths.push_back(plateau_depth(profiles.back(), size_m));
+  }
+  std::vector<OwnCover> covers;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    covers.push_back(own_cover(profiles[i], neighbours_of(lattice, depths, i, along_r), box));
+  }
+  const double steep_m = steepest_size(covers, size_m);
+  std::vector<std::optional<double>> shifts;
+  for (const OwnCover& own : covers) shifts.push_back(shift_of(own, steep_m));
+  return shifts;
+}
+
+}  // namespace plotscan::plots

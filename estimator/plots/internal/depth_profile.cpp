@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/depth_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kMostCover = 0.98;  // deeper is not measured
+
+double depth_of(double cover) { return -std::log(1 - std::min(kMostCover, cover)); }
+
+// Cells across the plot's other side.
+struct Strip {
+  int low, high;
+};
+Strip strip_of(const Lattice& lattice, const Place& place, bool along_r) {
+  const double half_m = 0.4 * (along_r ? lattice.c_size_m : lattice.r_size_m);
+  const double center_m = along_r ? place.c_m : place.r_m;
+  const double cell_m = lattice.view.cell_m();
+  return {static_cast<int>(std::lround((center_m - half_m) / cell_m)),
+          static_cast<int>(std::lround((center_m + half_m) / cell_m))};
+}
+
+double cover_at(const Lattice& lattice, bool along_r, int cell, const Strip& strip) {
+  return along_r ? lattice.view.cover(cell, cell + 1, strip.low, strip.high)
+                 : lattice.view.cover(strip.low, strip.high, cell, cell + 1);
+}
+
+bool seen_at(const Lattice& lattice, bool along_r, int cell, const Strip& strip) {
+  return (along_r ? lattice.view.seen_cells(cell, cell + 1, strip.low, strip.high)
+                  : lattice.view.seen_cells(strip.low, strip.high, cell, cell + 1)) > 0;
+}
+
+// Normal distribution function at multiples of 1/100 within 4.
+constexpr int kTableSteps = 400;
+const std::array<double, 2 * kTableSteps + 2>& normal_table() {
+  static const auto table = [] {
+    std::array<double, 2 * kTableSteps + 2> values{};
+    for (int i = 0; i < 2 * kTableSteps + 2; ++i) {
+      values[static_cast<std::size_t>(i)] =
+          0.5 * std::erfc(-(i - kTableSteps) / 100.0 / std::sqrt(2.0));
+    }
+    return values;
+  }();
+  return table;
+}
+
+}  // namespace
+
+DepthProfile profile_of(const Lattice& lattice, const Place& place, bool along_r, double reach_m) {
+  const double cell_m = lattice.view.cell_m();
+  const double center_m = along_r ? place.r_m : place.c_m;
+  const Strip strip = strip_of(lattice, place, along_r);
+  DepthProfile profile;
+  const int last = static_cast<int>(std::floor((center_m + reach_m) / cell_m));
+  for (int cell = static_cast<int>(std::floor((center_m - reach_m) / cell_m)); cell <= last;
+       ++cell) {
+    if (!seen_at(lattice, along_r, cell, strip)) continue;
+    profile.x_m.push_back((cell + 0.5) * cell_m - center_m);
+    profile.depth.push_back(depth_of(cover_at(lattice, along_r, cell, strip)));
+  }
+  return profile;
+}
+
+DepthProfile pooled_profile(const Lattice& lattice, bool along_r, double reach_m) {
+  const double cell_m = lattice.view.cell_m();
+  const int bins = static_cast<int>(reach_m / cell_m);
+  std::vector<double> cover(static_cast<std::size_t>(2 * bins + 1)), count(cover);
+  for (const Place& place : lattice.places) {
+    const double center = (along_r ? place.r_m : place.c_m) / cell_m;
+    const Strip strip = strip_of(lattice, place, along_r);
+    for (int bin = -bins; bin <= bins; ++bin) {
+      const int cell = static_cast<int>(std::lround(center + bin - 0.5));  // its middle is at + 1/2
+      if (!seen_at(lattice, along_r, cell, strip)) continue;
+      cover[static_cast<std::size_t>(bin + bins)] += cover_at(lattice, along_r, cell, strip);
+      count[static_cast<std::size_t>(bin + bins)] += 1;
+    }
+  }
+  DepthProfile profile;
+  for (int bin = -bins; bin <= bins; ++bin) {
+    const auto at = static_cast<std::size_t>(bin + bins);
+    if (count[at] == 0) continue;
+    profile.x_m.push_back(bin * cell_m);
+    profile.depth.push_back(depth_of(cover[at] / count[at]));
+  }
+  return profile;
+}
+
+double plateau_depth(const DepthProfile& profile, double size_m) {
+  const double half_m = std::max(size_m / 4, size_m / 2 - 0.35);
+  double transmitted = 0, count = 0;
+  for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
+    if (std::abs(profile.x_m[i]) > half_m) continue;
+    transmitted += std::exp(-profile.depth[i]);
+    count += 1;
+  }
+  return count > 0 ? -std::log(transmitted / count) : 0;
+}
+
+BlurredBox::BlurredBox(double size_m, double blur_m) : half_m_(size_m / 2), per_m_(100 / blur_m) {}
+
+double BlurredBox::edge(double x_m) const {
+  const double at = std::clamp(x_m * per_m_ + kTableSteps, 0.0, 2.0 * kTableSteps);
+  const auto low = static_cast<std::size_t>(at);
+  const double part = at - static_cast<double>(low);
+  const auto& table = normal_table();
+  return table[low] * (1 - part) + table[low + 1] * part;
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: how deep the canopy is along a line through plots.
+
+#include <vector>
+
+#include "plots/internal/lattice.h"
+
+namespace plotscan::plots {
+
+// Optical depth of the canopy, -ln(1 - cover), at distances from a plot's centre. Depths of
+// canopies that overlap add up (Beer-Lambert's law), which covers do not.
+struct DepthProfile {
+  std::vector<double> x_m, depth;
+};
+
+// Along r or c, over the middle four fifths of the plot's other side, as far as reach_m.
+DepthProfile profile_of(const Lattice& lattice, const Place& place, bool along_r, double reach_m);
+// The same from the mean cover of all plots.
+DepthProfile pooled_profile(const Lattice& lattice, bool along_r, double reach_m);
+
+// Depth of the middle of the plot, within size_m.
+double plateau_depth(const DepthProfile& profile, double size_m);
+
+// A box of height 1 about 0, blurred by a normal kernel.
+class BlurredBox {
+ public:
+  BlurredBox(double size_m, double blur_m);
+  double operator()(double x_m) const { return edge(x_m + half_m_) - edge(x_m - half_m_); }
+
+ private:
+  // The normal distribution function, from a table.
+  double edge(double x_m) const;
+  double half_m_, per_m_;
+};
+
+}  // namespace plotscan::plots

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/drill_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include "plots/internal/steps.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr int kMostRows = 12;               // of a plot
+constexpr double kLeastGapOfSpacing = 0.2;  // by which a step between plots is wider
+constexpr double kMostOthers = 0.34;        // of the groups: plots of which not all rows were seen
+
+using Lines = std::vector<std::vector<double>>;
+
+// Steps from row to row, up to `within`, and those from plot to plot, from `between` on.
+struct Steps {
+  double within = 0, between = 0;
+  double spacing = 0;  // mean of those within
+};
+
+// Where the sorted steps jump by the greatest factors, with a tenth of them on either side at
+// least: from row to row and from plot to plot, or from plot to plot and over missing plots.
+std::vector<Steps> steps_of(const Lines& middles) {
+  constexpr std::size_t kTried = 4;
+  std::vector<double> steps;
+  for (const std::vector<double>& line : middles)
+    for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(line[i] - line[i - 1]);
+  std::ranges::sort(steps);
+  const std::size_t few = std::max<std::size_t>(1, steps.size() / 10);
+  std::vector<Steps> found;
+  double sum = 0;
+  for (std::size_t i = 0; i + few <= steps.size(); ++i) {
+    if (i >= few && steps[i] > steps[i - 1])
+      found.push_back(
+          {.within = steps[i - 1], .between = steps[i], .spacing = sum / static_cast<double>(i)});
+    sum += steps[i];
+  }
+  std::ranges::stable_sort(found, std::ranges::greater(),
+                           [](const Steps& at) { return at.between / at.within; });
+  found.resize(std::min(found.size(), kTried));
+  return found;
+}
+
+double most_frequent(const std::vector<double>& values) {
+  double most = 0;
+  std::ptrdiff_t times = 0;
+  for (const double value : values) {
+    const auto count = std::ranges::count(values, value);
+    if (count > times || (count == times && value > most)) {
+      times = count;
+      most = value;
+    }
+  }
+  return most;
+}
+
+// First and last row of each group between wider steps.
+using Groups = std::vector<std::pair<std::size_t, std::size_t>>;
+
+Groups groups_of(const std::vector<double>& line, double widest_step) {
+  Groups groups;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] - line[i - 1] <= widest_step) continue;
+    groups.emplace_back(first, i - 1);
+    first = i;
+  }
+  return groups;
+}
+
+// Pieces of a plot, of which rows were not seen, become one: their outer rows are a plot's.
+void join_pieces(Groups& ends, const std::vector<double>& line, double span, double spacing) {
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t k = i + 1; k < ends.size(); ++k) {
+      const double length = line[ends[k].second] - line[ends[i].first];
+      if (std::abs(length - span) > 0.3 * spacing) continue;
+      ends[i].second = ends[k].second;
+      ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                 ends.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      break;
+    }
+  }
+}
+
+// Places at equal steps between others: plots of which not all rows were seen.
+void fill_in(std::vector<double>& places) {
+  constexpr double kTolerance = 0.15;  // of a step
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < places.size(); ++i) steps.push_back(places[i] - places[i - 1]);
+  const double step = usual_step(steps);
+  std::vector<double> filled;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double times = i > 0 && step > 0 ? (places[i] - places[i - 1]) / step : 1;
+    const double whole = std::round(times);
+    if (std::abs(times - whole) < kTolerance) {
+      for (double k = 1; k < whole; ++k)
+        filled.push_back(places[i - 1] + k / whole * (places[i] - places[i - 1]));
+    }
+    filled.push_back(places[i]);
+  }
+  places = std::move(filled);
+}
+
+struct Grouped {
+  DrilledPlots plots;
+  double others = 1;  // share of the groups that are no whole plot
+};
+
+// The rows in groups between wider steps.
+std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
+  std::vector<Groups> groups;
+  std::vector<double> sizes;
+  for (const std::vector<double>& line : middles) {
+    groups.push_back(groups_of(line, steps.within));
+    for (const auto& [first, last] : groups.back())
+      sizes.push_back(static_cast<double>(last - first + 1));
+  }
+  DrilledPlots plots{.rows = static_cast<int>(most_frequent(sizes)), .spacing = steps.spacing};
+  if (plots.rows < 2 || plots.rows > kMostRows) return std::nullopt;
+  const double span = (plots.rows - 1) * steps.spacing;
+  double all = 0, whole = 0, length = 0;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const std::vector<double>& line = middles[i];
+    join_pieces(groups[i], line, span, steps.spacing);
+    plots.begins.emplace_back();
+    for (const auto& [first, last] : groups[i]) {
+      ++all;
+      const double found = line[last] - line[first];
+      if (std::abs(found - span) > 0.3 * steps.spacing) continue;
+      ++whole;
+      length += found;
+      plots.begins.back().push_back(0.5 * (line[first] + line[last]));
+    }
+  }
+  if (whole == 0) return std::nullopt;
+  plots.spacing = length / (whole * (plots.rows - 1));
+  return Grouped{.plots = std::move(plots), .others = 1 - whole / all};
+}
+
+}  // namespace
+
+std::optional<DrilledPlots> drilled_plots(const Lines& middles, double most_spacing,
+                                          double least_gap) {
+  std::optional<Grouped> best;
+  for (const Steps& steps : steps_of(middles)) {
+    // Leaves move the rows that are seen towards the gap: half of it must be left.
+    const double least_break =
+        steps.spacing + 0.5 * std::max(least_gap, kLeastGapOfSpacing * steps.spacing);
+    if (steps.spacing > most_spacing || steps.between < least_break) continue;
+    std::optional<Grouped> rows = grouped(middles, steps);
+    if (rows && (!best || rows->others < best->others)) best = std::move(rows);
+  }
+  if (!best || best->others > kMostOthers) return std::nullopt;
+  DrilledPlots plots = std::move(best->plots);
+  for (std::vector<double>& line : plots.begins) {
+    fill_in(line);
+    for (double& begin : line) begin -= plots.width() / 2;
+  }
+  return plots;
+}
+
+}  // namespace plotscan::plots

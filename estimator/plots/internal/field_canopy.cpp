@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/field_canopy.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "core/statistics.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeast_m = 0.05;      // lower is no canopy, however little the noise
+constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
+constexpr double kLeastShare = 0.1;    // of a block's returns, where there is canopy
+constexpr double kTop = 0.9;           // quantile of a block's canopy returns: its top
+constexpr std::size_t kMostBlocks = 1 << 18;
+constexpr int kPatches = 3;           // of a block's side
+constexpr float kLeastReturns = 4;    // of a patch that is judged
+constexpr double kSurfaceSigmas = 2;  // of the noise: what scatters less is a surface
+
+// Heights told apart by 10 %.
+class HeightCounts {
+ public:
+  explicit HeightCounts(double least_m) : least_m_(least_m) {}
+  void add(double height_m) {
+    const double step = std::log(height_m / least_m_) * kPerLog;
+    ++counts_[std::min(counts_.size() - 1, static_cast<std::size_t>(std::max(0.0, step)))];
+  }
+  double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
+  double quantile(double share) const {
+    const double wanted = share * count();
+    double below = 0;
+    std::size_t step = 0;
+    while (step + 1 < counts_.size() && below + counts_[step] < wanted) below += counts_[step++];
+    return least_m_ * std::exp((static_cast<double>(step) + 0.5) / kPerLog);
+  }
+
+ private:
+  static constexpr double kPerLog = 10.5;  // steps a factor e
+  double least_m_;
+  std::array<std::uint32_t, 64> counts_{};
+};
+
+// Returns of a patch as if they lay on a plane; metres.
+class Patch {
+ public:
+  void add(const Eigen::Vector3f& point) {
+    ++count_;
+    sum_ += point;
+    products_ += point * point.transpose();
+  }
+  float count() const { return count_; }
+  float mean_height() const { return sum_.z() / std::max(1.0F, count_); }
+  // Of the returns about the plane through them, whatever way it stands.
+  double sd_about_plane() const {
+    const Eigen::Matrix3d covariance =
+        (products_ - sum_ * sum_.transpose() / count_).cast<double>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, axes.eigenvalues()(0)) / std::max(1.0, count_ - 3.0));
+  }
+
+ private:
+  float count_ = 0;
+  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
+};
+
+}  // namespace
+
+struct FieldCanopy::Block {
+  explicit Block(double canopy_m) : heights(canopy_m) {}
+  std::uint32_t count = 0;
+  HeightCounts heights;
+  std::array<Patch, static_cast<std::size_t>(kPatches) * kPatches> patches{};
+
+  bool has_canopy() const { return heights.count() >= kLeastShare * count; }
+  // Most of the patches that stand above the ground scatter no more than noise does.
+  bool is_surface(double canopy_m, double noise_m) const {
+    int high = 0, smooth = 0;
+    for (const Patch& patch : patches) {
+      if (patch.count() < kLeastReturns || patch.mean_height() < canopy_m) continue;
+      ++high;
+      smooth += patch.sd_about_plane() < kSurfaceSigmas * noise_m ? 1 : 0;
+    }
+    return 2 * smooth > high;
+  }
+};
+
+// How many blocks cover the points; 0 where no point is finite.
+std::size_t FieldCanopy::lay_out_blocks() {
+  low_.setConstant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low_;
+  for (const Eigen::Vector3f& point : points_) {
+    if (!point.allFinite()) continue;
+    low_ = low_.cwiseMin(point.head<2>().cast<double>());
+    high = high.cwiseMax(point.head<2>().cast<double>());
+  }
+  if (!(low_.x() <= high.x())) return 0;
+  const auto blocks = [&](double extent_m) {
+    return static_cast<std::size_t>(extent_m / block_m_) + 1;
+  };
+  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
+  blocks_along_y_ = blocks(high.y() - low_.y());
+  return blocks(high.x() - low_.x()) * blocks_along_y_;
+}
+
+// Each task fills blocks of its own with all of their points, in the points' order.
+std::vector<FieldCanopy::Block> FieldCanopy::filled_blocks(std::size_t count,
+                                                           double canopy_m) const {
+  constexpr std::size_t kTasks = 8;
+  constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> block_of_point(points_.size());
+  tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
+    block_of_point[i] =
+        points_[i].allFinite() ? static_cast<std::uint32_t>(block_of(points_[i])) : kNoBlock;
+  });
+  const auto patch_m = static_cast<float>(block_m_ / kPatches);
+  std::vector<Block> field(count, Block(canopy_m));
+  tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
+    const std::size_t begin = task * count / kTasks, end = (task + 1) * count / kTasks;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (block_of_point[i] < begin || block_of_point[i] >= end) continue;
+      const Eigen::Vector3f& point = points_[i];
+      Block& block = field[block_of_point[i]];
+      ++block.count;
+      if (point.z() > canopy_m) block.heights.add(point.z());
+      const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * kPatches / block_m_;
+      const Eigen::Vector2d corner(std::floor(at.x()), std::floor(at.y()));
+      const Eigen::Vector2f within = (at - corner).cast<float>();
+      block
+          .patches[static_cast<std::size_t>(at.x()) % kPatches * kPatches +
+                   static_cast<std::size_t>(at.y()) % kPatches]
+          .add({within.x() * patch_m, within.y() * patch_m, point.z()});
+    }
+  });
+  return field;
+}
+
+std::size_t FieldCanopy::block_of(const Eigen::Vector3f& point) const {
+  const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) / block_m_;
+  return static_cast<std::size_t>(at.x()) * blocks_along_y_ + static_cast<std::size_t>(at.y());
+}
+
+// With their neighbours: a surface's edge fills its blocks in part.
+void FieldCanopy::leave_out_surfaces() {
+  const auto along = static_cast<std::ptrdiff_t>(blocks_along_y_);
+  const auto count = static_cast<std::ptrdiff_t>(surface_.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    if (surface_[static_cast<std::size_t>(i)] == 0) continue;
+    for (std::ptrdiff_t row = i - along; row <= i + along; row += along) {
+      for (std::ptrdiff_t k = row - 1; k <= row + 1; ++k)
+        if (k >= 0 && k < count) left_out_[static_cast<std::size_t>(k)] = 1;
+    }
+  }
+}
+
+bool FieldCanopy::leaves_out(const Eigen::Vector3f& point) const {
+  return !point.allFinite() || left_out_[block_of(point)] != 0;
+}
+
+double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const {
+  double all = 0, surfaces = 0;
+  for (std::size_t i = 0; i < stands_out_.size(); ++i) {
+    if (stands_out_[i] == 0) continue;
+    const std::size_t along_x = i / blocks_along_y_, along_y = i % blocks_along_y_;
+    const Eigen::Vector2d middle =
+        low_ + block_m_ * Eigen::Vector2d(static_cast<double>(along_x) + 0.5,
+                                          static_cast<double>(along_y) + 0.5);
+    const bool near = std::ranges::any_of(places, [&](const Eigen::Vector2d& place) {
+      return (place - middle).squaredNorm() < reach_m * reach_m;
+    });
+    all += near ? 1 : 0;
+    surfaces += near && surface_[i] != 0 ? 1 : 0;
+  }
+  return surfaces / std::max(1.0, all);
+}
+
+FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads)
+    : points_(points) {
+  const double low_m = std::max(kLeast_m, 2 * noise_m), canopy_m = 1.5 * low_m;
+  scale_ = {low_m, 2 * low_m};
+  const std::size_t count = lay_out_blocks();
+  if (count == 0) return;
+  tbb::task_arena arena(threads);
+  const std::vector<Block> field = arena.execute([&] { return filled_blocks(count, canopy_m); });
+  std::vector<double> scanned, tops;
+  for (const Block& block : field)
+    if (block.count > 0) scanned.push_back(block.count);
+  const double least = kLeastDensity * quantile(std::move(scanned), 0.5);
+  for (const Block& block : field) {
+    const bool canopy = block.count >= least && block.has_canopy();
+    stands_out_.push_back(canopy);
+    surface_.push_back(canopy && block.is_surface(canopy_m, noise_m));
+    left_out_.push_back(block.count < least);
+    if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kTop));
+  }
+  leave_out_surfaces();
+  if (!tops.empty()) scale_.high_m = std::max(quantile(std::move(tops), 0.5), 2 * low_m);
+}
+
+}  // namespace plotscan::plots

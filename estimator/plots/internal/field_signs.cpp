@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/field_signs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/statistics.h"
+#include "plots/internal/roughness.h"
+
+namespace plotscan::plots {
+namespace {
+
+// Of a plot, that takes part in its outline: half the gap to the next one.
+constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
+constexpr double kPiece_m = 1;        // of a plot, in which canopy is taken
+constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked for
+constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
+constexpr double kLeastRoughness =
+    0.08;                             // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
+constexpr double kLeastGap_m = 0.05;  // a cell of the raster: no less is seen
+constexpr double kMostAspect = 12;    // plots are sown and harvested one by one: no long rows
+constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
+// So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
+constexpr std::size_t kFewPlots = 4;
+constexpr double kLeastSquarenessOfFew = 1.05;
+// Closed plots reach 0.3, plots of few single plants 0.5 as these stand at random: not in the mean
+// of all plots, and little stands beside the plots. Trees two by two: 0.7, in the mean too; bushes:
+// 0.5 and more, which hold up to 0.7 of the canopy.
+constexpr double kMostUneven = 0.45;
+constexpr double kLeastHeldOfUneven = 0.85;
+constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
+constexpr double kLeastFilled = 0.6;   // of the places
+constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
+// Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01.
+constexpr double kLeastConfidence = 0.05;
+
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
+  return cells_about(lattice, place.r_m, place.c_m, around_m);
+}
+
+double canopy_in(const RowView& view, const CellBox& box) {
+  return view.cover(box.r0, box.r1, box.c0, box.c1) *
+         view.seen_cells(box.r0, box.r1, box.c0, box.c1);
+}
+
+// The plots' mean canopy by place in a plot, x and y in its half sizes.
+struct Patch {
+  int r_cells = 0, c_cells = 0;
+  std::vector<double> canopy = {}, seen = {};
+};
+
+Patch pooled(const Lattice& lattice, double around_m) {
+  const double cell_m = lattice.view.cell_m();
+  Patch patch{.r_cells = static_cast<int>((lattice.r_size_m + 2 * around_m) / cell_m),
+              .c_cells = static_cast<int>((lattice.c_size_m + 2 * around_m) / cell_m)};
+  patch.canopy.assign(
+      static_cast<std::size_t>(patch.r_cells) * static_cast<std::size_t>(patch.c_cells), 0);
+  patch.seen = patch.canopy;
+  for (const Place& place : lattice.places) {
+    const CellBox box = cells_about(lattice, place, around_m);
+    std::size_t at = 0;
+    for (int r = box.r0; r < box.r0 + patch.r_cells; ++r) {
+      for (int c = box.c0; c < box.c0 + patch.c_cells; ++c, ++at) {
+        if (lattice.view.seen_cells(r, r + 1, c, c + 1) == 0) continue;
+        patch.canopy[at] += lattice.view.cover(r, r + 1, c, c + 1);
+        patch.seen[at] += 1;
+      }
+    }
+  }
+  return patch;
+}
+
+// Squares about one level within an outline and one beyond it, the least over the outline's size.
+template <class Inside>
+double best_misfit(const Patch& patch, const Inside& inside) {
+  double best = std::numeric_limits<double>::infinity();
+  constexpr int kScales = 17;
+  const auto scale_of = [](int step) { return 0.6 + 0.05 * step; };
+  for (int i = 0; i < kScales; ++i) {
+    for (int k = 0; k < kScales; ++k) {
+      const double r_scale = scale_of(i), c_scale = scale_of(k);
+      double n[2] = {}, sum[2] = {}, squares = 0;
+      std::size_t at = 0;
+      for (int r = 0; r < patch.r_cells; ++r) {
+        const double y = (2 * (r + 0.5) / patch.r_cells - 1) / r_scale;
+        for (int c = 0; c < patch.c_cells; ++c, ++at) {
+          if (patch.seen[at] == 0) continue;
+          const double x = (2 * (c + 0.5) / patch.c_cells - 1) / c_scale;
+          const double canopy = patch.canopy[at] / patch.seen[at];
+          const int in = inside(x, y) ? 1 : 0;
+          n[in] += 1;
+          sum[in] += canopy;
+          squares += canopy * canopy;
+        }
+      }
+      best = std::min(best, squares - sum[0] * sum[0] / std::max(1.0, n[0]) -
+                                sum[1] * sum[1] / std::max(1.0, n[1]));
+    }
+  }
+  return best;
+}
+
+double squareness_of(const Lattice& lattice) {
+  const auto half_gap = [](double pitch_m, double size_m) {
+    return pitch_m > 0 ? std::max(0.0, (pitch_m - size_m) / 2) : kAround_m;
+  };
+  const double around_m = std::clamp(std::min(half_gap(lattice.r_pitch_m, lattice.r_size_m),
+                                              half_gap(lattice.c_pitch_m, lattice.c_size_m)),
+                                     kLeastAround_m, kAround_m);
+  const Patch patch = pooled(lattice, around_m);
+  const double of_ellipse =
+      best_misfit(patch, [](double x, double y) { return x * x + y * y < 1; });
+  const double of_rectangle =
+      best_misfit(patch, [](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 1; });
+  return of_ellipse / std::max(1e-9, of_rectangle);
+}
+
+double least_gap_m(const Lattice& lattice) {
+  const auto gap = [](double pitch_m, double size_m) {
+    return pitch_m > 0 ? pitch_m - size_m : std::numeric_limits<double>::infinity();
+  };
+  return std::min(gap(lattice.r_pitch_m, lattice.r_size_m),
+                  gap(lattice.c_pitch_m, lattice.c_size_m));
+}
+
+double filled_share(const Lattice& lattice) {
+  std::map<int, std::pair<int, int>> ends;  // by row: first and last column
+  for (const Place& place : lattice.places) {
+    auto& [first, last] = ends.try_emplace(place.row, place.column, place.column).first->second;
+    first = std::min(first, place.column);
+    last = std::max(last, place.column);
+  }
+  double places = 0;
+  for (const auto& [row, end] : ends) places += end.second - end.first + 1;
+  return static_cast<double>(lattice.places.size()) / std::max(1.0, places);
+}
+
+// Canopy of the square metres of a plot, or of the mean plot; one after the other along its sides.
+class Pieces {
+ public:
+  explicit Pieces(const Lattice& lattice)
+      : lattice_(lattice),
+        r_parts_(parts_of(lattice.r_size_m)),
+        c_parts_(parts_of(lattice.c_size_m)) {}
+
+  std::vector<double> of(const Place& place) const {
+    const CellBox box = cells_about(lattice_, place, 0);
+    std::vector<double> canopy;
+    for (int i = 0; i < r_parts_; ++i)
+      for (int k = 0; k < c_parts_; ++k)
+        canopy.push_back(lattice_.view.cover(box.r0 + (box.r1 - box.r0) * i / r_parts_,
+                                             box.r0 + (box.r1 - box.r0) * (i + 1) / r_parts_,
+                                             box.c0 + (box.c1 - box.c0) * k / c_parts_,
+                                             box.c0 + (box.c1 - box.c0) * (k + 1) / c_parts_));
+    return canopy;
+  }
+
+  std::vector<double> of_mean_plot() const {
+    std::vector<double> sum(static_cast<std::size_t>(r_parts_ * c_parts_));
+    for (const Place& place : lattice_.places) {
+      const std::vector<double> canopy = of(place);
+      std::ranges::transform(sum, canopy, sum.begin(), std::plus());
+    }
+    return sum;
+  }
+
+ private:
+  static int parts_of(double size_m) {
+    return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
+  }
+
+  const Lattice& lattice_;
+  int r_parts_, c_parts_;
+};
+
+double spread_over_mean(std::span<const double> canopy) {
+  double sum = 0, squares = 0;
+  for (const double value : canopy) {
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / static_cast<double>(canopy.size());
+  return std::sqrt(std::max(0.0, squares / static_cast<double>(canopy.size()) - mean * mean)) /
+         std::max(1e-9, mean);
+}
+
+// Median over the plots.
+double unevenness_of(const Lattice& lattice, const Pieces& pieces) {
+  std::vector<double> spreads;
+  for (const Place& place : lattice.places) spreads.push_back(spread_over_mean(pieces.of(place)));
+  return quantile(std::move(spreads), 0.5);
+}
+
+std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
+  std::vector<Eigen::Vector2d> centres;
+  for (const Place& place : lattice.places)
+    centres.push_back(lattice.view.to_world(place.r_m, place.c_m));
+  return centres;
+}
+
+}  // namespace
+
+FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
+                    double evidence) {
+  const RowView& view = lattice.view;
+  const Pieces pieces(lattice);
+  const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
+  FieldSigns signs{.plots = lattice.places.size(),
+                   .filled_share = filled_share(lattice),
+                   .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
+                   .squareness = squareness_of(lattice),
+                   .roughness = roughness(lattice, field.points(), noise_m),
+                   .unevenness = unevenness_of(lattice, pieces),
+                   .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
+                   .aspect = std::max(lattice.r_size_m, lattice.c_size_m) /
+                             std::min(lattice.r_size_m, lattice.c_size_m),
+                   .least_gap_m = least_gap_m(lattice),
+                   .evidence = evidence / static_cast<double>(lattice.places.size())};
+  for (const Place& place : lattice.places)
+    signs.held_share += canopy_in(view, cells_about(lattice, place, 0));
+  signs.held_share /= std::max(1e-9, canopy_in(view, {0, view.r_cells(), 0, view.c_cells()}));
+  return signs;
+}
+
+std::string no_plots_because(const FieldSigns& signs) {
+  if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
+    return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
+  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGap_m)
+    return "rows of a crop or a vineyard lie here, not plots";
+  const bool few = signs.plots < kFewPlots;
+  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
+    return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
+  if (signs.mean_unevenness > kMostUneven ||
+      (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
+    return "single bushes or trees stand here, not plots that are covered by a crop";
+  if (signs.held_share < kLeastHeld || signs.filled_share < kLeastFilled ||
+      signs.evidence < kLeastEvidence || field_confidence(signs) < kLeastConfidence)
+    return "canopy lies here, but not in plots of one size at equal steps";
+  return "";
+}
+
+double field_confidence(const FieldSigns& signs) {
+  const auto share = [](double value, double none, double all) {
+    return std::clamp((value - none) / (all - none), 0.0, 1.0);
+  };
+  return share(signs.held_share, kLeastHeld, 1) * share(signs.squareness, kLeastSquareness, 1.3) *
+         share(std::log(signs.evidence), std::log(kLeastEvidence), std::log(4 * kLeastEvidence));
+}
+
+}  // namespace plotscan::plots

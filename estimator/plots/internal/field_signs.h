@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: whether what lies on a lattice is a field of plots.
+
+#include <string>
+
+#include "plots/internal/lattice.h"
+#include "plots/plot_field.h"
+
+namespace plotscan::plots {
+
+// `lattice` is on a raster of the field's canopy.
+FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
+                    double evidence);
+
+// Why these are no plots; "" where they are.
+std::string no_plots_because(const FieldSigns& signs);
+
+// 0 to 1: how clearly the field is one of plots.
+double field_confidence(const FieldSigns& signs);
+
+}  // namespace plotscan::plots

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: the two directions along which a field's alleys run.
+
+#include <optional>
+#include <vector>
+
+#include "plots/internal/canopy_raster.h"
+
+namespace plotscan::plots {
+
+struct FieldAxes {
+  double first_rad = 0;   // direction of one family of lines
+  double second_rad = 0;  // of the other, 60 to 120 degrees further
+};
+
+// The pair of directions along which the canopy's lines are sharpest: means along lines, over the
+// whole field and in blocks of some metres, whose steps across the lines are squared and summed.
+// Long lines show weak alleys, short ones those of rows with offsets of their own. Two pairs where
+// the families disagree, and none without canopy. With a hint, the first direction is sought near
+// it.
+std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
+                                 int threads);
+
+}  // namespace plotscan::plots

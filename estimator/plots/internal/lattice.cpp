@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include <Eigen/LU>
+
+#include "core/statistics.h"
+#include "plots/internal/steps.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kReach_m = 0.2;
+constexpr double kLeastShare = 0.3;
+constexpr double kLeastContrast = 0.25;
+constexpr double kWellCovered = 0.6;
+
+double inner_cover(const Lattice& lattice, const Place& place) {
+  const double margin_m = 0.1 * std::min(lattice.r_size_m, lattice.c_size_m);
+  const CellBox box = cells_about(lattice, place.r_m, place.c_m, -margin_m);
+  return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
+}
+
+// Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
+double outline_contrast(const Lattice& lattice, const Place& place) {
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
+  const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
+  const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
+  const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
+  const RowView& view = lattice.view;
+  return (view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb) +
+          view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb) +
+          view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0) +
+          view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)) /
+         4;
+}
+
+// The columns that run through all rows: positions that lie together; none where they do not.
+std::vector<double> columns_of(std::vector<double> positions, double pitch_m) {
+  std::ranges::sort(positions);
+  std::vector<double> columns;
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= positions.size(); ++i) {
+    if (i < positions.size() && positions[i] - positions[i - 1] < 0.35 * pitch_m) continue;
+    if (positions[i - 1] - positions[begin] > 0.5 * pitch_m) return {};
+    columns.push_back((positions[begin] + positions[i - 1]) / 2);
+    begin = i;
+  }
+  return columns;
+}
+
+// The layout's plots as places, not numbered along their rows.
+void place_plots(const Layout& layout, Lattice& lattice) {
+  const auto middle_m = [&](const Band& band) { return band.middle() * lattice.view.cell_m(); };
+  std::vector<double> row_steps, steps;
+  for (std::size_t i = 0; i < layout.rows.size(); ++i) {
+    const Row& row = layout.rows[i];
+    const double r_m = middle_m(row.band);
+    if (i > 0) row_steps.push_back(r_m - middle_m(layout.rows[i - 1].band));
+    for (std::size_t j = 0; j < row.plots.size(); ++j) {
+      const double c_m = middle_m(row.plots[j]);
+      if (j > 0) steps.push_back(c_m - middle_m(row.plots[j - 1]));
+      lattice.places.push_back({.row = static_cast<int>(i), .r_m = r_m, .c_m = c_m, .full = true});
+    }
+  }
+  lattice.rows = static_cast<int>(layout.rows.size());
+  lattice.r_pitch_m = usual_step(row_steps);
+  lattice.c_pitch_m = usual_step(steps);
+}
+
+// Every place has the nearest of the columns that run through all rows.
+void number_columns(const std::vector<double>& columns, Lattice& lattice) {
+  for (Place& place : lattice.places) {
+    const auto nearest = std::ranges::min_element(
+        columns, {}, [&](double column) { return std::abs(column - place.c_m); });
+    place.column = static_cast<int>(nearest - columns.begin());
+  }
+  lattice.columns = static_cast<int>(columns.size());
+}
+
+// Every row by itself, from the place nearest to the first of all plots.
+void number_each_row(double pitch_m, Lattice& lattice) {
+  const double start_m = std::ranges::min(lattice.places, {}, &Place::c_m).c_m;
+  const Place* last = nullptr;
+  for (Place& place : lattice.places) {
+    const bool first = last == nullptr || last->row != place.row;
+    const double step_m = place.c_m - (first ? start_m : last->c_m);
+    const int steps = static_cast<int>(std::lround(step_m / pitch_m));
+    place.column = first ? steps : last->column + std::max(1, steps);
+    lattice.columns = std::max(lattice.columns, place.column + 1);
+    last = &place;
+  }
+}
+
+void number(const Layout& layout, Lattice& lattice) {
+  place_plots(layout, lattice);
+  const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
+  std::vector<double> positions;
+  for (const Place& place : lattice.places) positions.push_back(place.c_m);
+  const std::vector<double> columns =
+      layout.aligned ? columns_of(std::move(positions), pitch_m) : std::vector<double>{};
+  lattice.aligned = !columns.empty();
+  if (lattice.aligned) {
+    number_columns(columns, lattice);
+  } else {
+    number_each_row(pitch_m, lattice);
+  }
+}
+
+// Places where a row may hold more plots.
+class MorePlaces {
+ public:
+  MorePlaces(const Lattice& lattice, int row) : lattice_(lattice) {
+    std::ranges::copy_if(lattice.places, std::back_inserter(present_),
+                         [&](const Place& place) { return place.row == row; });
+    std::ranges::sort(present_, {}, &Place::c_m);
+  }
+
+  void between_plots() {
+    for (std::size_t i = 1; i < present_.size(); ++i) {
+      const double gap_m = present_[i].c_m - present_[i - 1].c_m;
+      const int steps = static_cast<int>(std::lround(gap_m / lattice_.c_pitch_m));
+      for (int k = 1; k < steps; ++k)
+        add(present_[i - 1].c_m + gap_m * k / steps, present_[i - 1].column + k);
+    }
+  }
+  void in_columns_of_other_rows() {
+    for (const Place& other : lattice_.places) add(other.c_m, other.column);
+  }
+  void beyond_ends() {
+    if (present_.empty()) return;
+    add(present_.front().c_m - lattice_.c_pitch_m, present_.front().column - 1);
+    add(present_.back().c_m + lattice_.c_pitch_m, present_.back().column + 1);
+  }
+  const std::vector<Place>& added() const { return added_; }
+
+ private:
+  void add(double c_m, int column) {
+    const auto near = [&](const Place& place) {
+      return std::abs(place.c_m - c_m) < lattice_.c_size_m;
+    };
+    if (present_.empty() || std::ranges::any_of(present_, near) ||
+        std::ranges::any_of(added_, near))
+      return;
+    Place place = present_.front();
+    place.c_m = c_m;
+    place.column = column;
+    place.full = false;
+    added_.push_back(place);
+  }
+
+  const Lattice& lattice_;
+  std::vector<Place> present_, added_;
+};
+
+// Places between a row's plots, in columns that other rows have and, unless their number was told,
+// beyond its ends.
+void add_places(Lattice& lattice, bool beyond_ends) {
+  if (lattice.c_pitch_m <= 0) return;
+  std::vector<Place> added;
+  for (int row = 0; row < lattice.rows; ++row) {
+    MorePlaces more(lattice, row);
+    more.between_plots();
+    if (lattice.aligned) more.in_columns_of_other_rows();
+    if (beyond_ends) more.beyond_ends();
+    added.insert(added.end(), more.added().begin(), more.added().end());
+  }
+  lattice.places.insert(lattice.places.end(), added.begin(), added.end());
+}
+
+void test_places(Lattice& lattice) {
+  std::vector<double> covers, contrasts;
+  for (Place& place : lattice.places) {
+    place.share = inner_cover(lattice, place);
+    place.contrast = outline_contrast(lattice, place);
+    if (!place.full) continue;
+    covers.push_back(place.share);
+    contrasts.push_back(place.contrast);
+  }
+  const double full_cover = quantile(covers, 0.5);
+  lattice.contrast = quantile(contrasts, 0.5);
+  for (Place& place : lattice.places) {
+    place.share /= std::max(1e-6, full_cover);
+    place.contrast /= std::max(1e-6, lattice.contrast);
+    // A lodged plot leans over its neighbour and shows no edge there, but it is covered.
+    place.full = place.share >= kLeastShare &&
+                 (place.contrast >= kLeastContrast || place.share >= kWellCovered);
+  }
+}
+
+void take_fullest(Lattice& lattice, std::size_t plots) {
+  std::vector<Place*> places;
+  for (Place& place : lattice.places) places.push_back(&place);
+  std::ranges::stable_sort(places, std::greater(), &Place::share);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
+}
+
+// Numbers from 0, without those that no plot has.
+int close_up(std::vector<Place>& places, int Place::*number) {
+  std::vector<int> used;
+  for (const Place& place : places) used.push_back(place.*number);
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (Place& place : places)
+    place.*number = static_cast<int>(std::ranges::lower_bound(used, place.*number) - used.begin());
+  return static_cast<int>(used.size());
+}
+
+// Numbers from 0; they are steps along a row, so none is left out.
+int begin_at_0(std::vector<Place>& places, int Place::*number) {
+  if (places.empty()) return 0;
+  const auto [least, most] = std::ranges::minmax(places, {}, number);
+  const int first = least.*number, count = most.*number - first + 1;
+  for (Place& place : places) place.*number -= first;
+  return count;
+}
+
+// Of the places that hold a plot. Columns of their own in each row lie a pitch from number to
+// number.
+void renumber(Lattice& lattice) {
+  std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
+  lattice.rows = close_up(lattice.places, &Place::row);
+  lattice.columns = lattice.aligned ? close_up(lattice.places, &Place::column)
+                                    : begin_at_0(lattice.places, &Place::column);
+  std::ranges::sort(lattice.places, [](const Place& a, const Place& b) {
+    return std::tuple(a.row, a.column, a.c_m) < std::tuple(b.row, b.column, b.c_m);
+  });
+}
+
+}  // namespace
+
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m) {
+  const auto at = [&](double m) {
+    return static_cast<int>(std::lround(m / lattice.view.cell_m()));
+  };
+  const double r_half = lattice.r_size_m / 2 + around_m, c_half = lattice.c_size_m / 2 + around_m;
+  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
+}
+
+Lattice fit_lattice(const Layout& layout, const Hints& hints) {
+  Lattice lattice{.view = layout.view,
+                  .r_size_m = layout.r_shape.size * layout.view.cell_m(),
+                  .c_size_m = layout.c_shape.size * layout.view.cell_m(),
+                  .r_band_m = layout.r_shape.size * layout.view.cell_m(),
+                  .c_band_m = layout.c_shape.size * layout.view.cell_m()};
+  number(layout, lattice);
+  straighten(lattice);
+  add_places(lattice, !hints.rows && !hints.columns);
+  test_places(lattice);
+  if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
+  renumber(lattice);
+  straighten(lattice);
+  straighten(lattice);
+  return lattice;
+}
+
+TrialLayout layout_of(const Lattice& lattice) {
+  const RowView& view = lattice.view;
+  const Eigen::Vector2d along_r = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized();
+  const Eigen::Vector2d along_c = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized();
+  const bool by_c = lattice.c_size_m > lattice.r_size_m;  // the plots' length lies along c
+  TrialLayout layout{.origin = view.to_world(0, 0),
+                     .row_axis = by_c ? along_r : along_c,
+                     .column_axis = by_c ? along_c : along_r,
+                     .width_m = std::min(lattice.r_size_m, lattice.c_size_m),
+                     .length_m = std::max(lattice.r_size_m, lattice.c_size_m),
+                     .column_pitch_m = by_c ? lattice.r_pitch_m : lattice.c_pitch_m,
+                     .row_pitch_m = by_c ? lattice.c_pitch_m : lattice.r_pitch_m};
+  Eigen::Matrix2d axes;
+  axes << layout.row_axis, layout.column_axis;
+  const Eigen::Matrix2d layout_from_world = axes.inverse();
+  for (const Place& place : lattice.places) {
+    layout.places.push_back(
+        {.row = (by_c ? place.column : place.row) + 1,
+         .column = (by_c ? place.row : place.column) + 1,
+         .position_m = layout_from_world * (view.to_world(place.r_m, place.c_m) - layout.origin)});
+  }
+  return layout;
+}
+
+}  // namespace plotscan::plots

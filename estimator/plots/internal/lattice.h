@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: the lattice on which a field's plots lie, and which of its places hold
+// one.
+
+#include <vector>
+
+#include "core/trial_layout.h"
+#include "plots/internal/layout.h"
+
+namespace plotscan::plots {
+
+// A place of the lattice. Coordinates are the view's, metres.
+struct Place {
+  int row = 0, column = 0;  // from 0
+  double r_m = 0, c_m = 0;  // centre
+  double share = 0;         // its canopy as a share of a full plot's
+  double contrast = 0;      // of its sides, as a share of a full plot's
+  bool full = false;        // holds a plot
+};
+
+struct Lattice {
+  RowView view;
+  double r_size_m = 0, c_size_m = 0;      // of a plot
+  double r_band_m = 0, c_band_m = 0;      // of the layout's bands
+  double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
+  double r_pitch_m = 0, c_pitch_m = 0;    // 0 where there is one row or one column only
+  int rows = 0, columns = 0;
+  bool aligned = true;  // columns run through all rows; else every row has its own offset
+  double r_per_c = 0;   // how far a row's plots move along r for every metre along c
+  double c_per_r = 0;   // how far a column's plots move along c for every metre along r
+  double r_rms_m = 0, c_rms_m = 0;  // plots' centres about the lattice
+  double contrast = 0;              // median of the plots' sides
+  std::vector<Place> places = {};
+};
+
+// Cells [r0, r1) x [c0, c1) of the lattice's raster.
+struct CellBox {
+  int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
+};
+
+// Those of a plot about (r_m, c_m), and so much around it.
+CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m);
+
+// The lattice through a layout's plots: places between them and beyond their ends are tested for
+// canopy, and so are the layout's plots. Where their number was told, the places with the most
+// canopy are plots.
+Lattice fit_lattice(const Layout& layout, const Hints& hints);
+
+// The same as a layout of plots, their length the longer side.
+TrialLayout layout_of(const Lattice& lattice);
+
+// Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
+// too where they are aligned, and steps are equal but for alleys that clearly differ; else every
+// row has its offset and the common pitch.
+void straighten(Lattice& lattice);
+
+}  // namespace plotscan::plots

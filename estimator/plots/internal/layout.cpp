@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "core/statistics.h"
+#include "plots/internal/layout_criterion.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kSameColumn_m = 0.15;  // off which leaves do not move what is seen of a plot
+constexpr double kLeastShare = 0.3;     // of the usual plot's canopy: less is a missing one
+
+std::vector<Band> whole(int cells) { return {{0, cells}}; }
+
+std::vector<std::vector<Band>> each_alone(const std::vector<Band>& bands) {
+  std::vector<std::vector<Band>> lists;
+  lists.reserve(bands.size());
+  for (const Band& band : bands) lists.push_back({band});
+  return lists;
+}
+
+// Of a row's plots those that are there.
+void leave_out_missing(Layout& layout) {
+  std::vector<double> covers;
+  const auto cover = [&](const Row& row, const Band& plot) {
+    return layout.view.cover(row.band.begin, row.band.end, plot.begin, plot.end);
+  };
+  for (const Row& row : layout.rows)
+    for (const Band& plot : row.plots) covers.push_back(cover(row, plot));
+  const double least = kLeastShare * quantile(covers, 0.5);
+  for (Row& row : layout.rows)
+    std::erase_if(row.plots, [&](const Band& plot) { return cover(row, plot) < least; });
+  std::erase_if(layout.rows, [](const Row& row) { return row.plots.empty(); });
+}
+
+Layout layout_of(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
+  Layout layout{.view = view, .r_shape = r_fit.shape, .c_shape = c_fit.shape};
+  layout.r_drilled = r_fit.drilled;
+  layout.c_drilled = c_fit.drilled;
+  layout.aligned = c_fit.begins.size() == 1;
+  layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
+  layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
+  const std::vector<Band> rows = bands_of(r_fit, 0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    layout.rows.push_back({rows[i], bands_of(c_fit, i)});
+  leave_out_missing(layout);
+  return layout;
+}
+
+// What is known along either axis of a view.
+struct ViewHints {
+  AxisHint r, c;
+};
+
+// Rows over the whole field, then what lies along them: the same columns in all, or each row's own.
+std::vector<Layout> layouts_with_rows(const RowView& view, const ViewHints& hints) {
+  const RowView along = view.turned();
+  Line r_line = line_of(view, {whole(view.c_cells())}, hints.r);
+  AxisFit r_fit = fit_axis(r_line, true);
+  if (!std::isfinite(r_fit.misfit)) return {};
+  std::vector<Band> rows = bands_of(put_together(r_line, r_fit), 0);
+  Line c_line = line_of(along, {rows}, hints.c);
+  AxisFit columns = fit_axis(c_line, true);
+  std::vector<Layout> layouts;
+  const Line each = line_of(along, each_alone(rows), hints.c);
+  const AxisFit own = fit_axis(each, false);
+  if (std::isfinite(own.misfit))
+    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(each, own)));
+  if (!std::isfinite(columns.misfit)) return layouts;
+  // Without the alleys between the columns the rows show more clearly, and the columns then.
+  r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)}, hints.r);
+  r_fit = fit_axis(r_line, true);
+  if (!std::isfinite(r_fit.misfit)) return layouts;
+  rows = bands_of(put_together(r_line, r_fit), 0);
+  c_line = line_of(along, {rows}, hints.c);
+  columns = fit_axis(c_line, true);
+  if (std::isfinite(columns.misfit))
+    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(c_line, columns)));
+  return layouts;
+}
+
+// Both ways of seeing the field as rows.
+std::vector<Layout> layouts_on(const RowView& view, const ViewHints& hints) {
+  std::vector<Layout> layouts = layouts_with_rows(view, hints);
+  for (Layout& layout : layouts_with_rows(view.turned(), {hints.c, hints.r}))
+    layouts.push_back(std::move(layout));
+  return layouts;
+}
+
+// Where the hints say what lies along the length and what along the width: the length is no
+// shorter.
+bool is_longer_along(bool a_axis, const Layout& layout) {
+  const bool r_is_a = !layout.view.swapped;
+  const int along = r_is_a == a_axis ? layout.r_shape.size : layout.c_shape.size;
+  const int across = r_is_a == a_axis ? layout.c_shape.size : layout.r_shape.size;
+  return along >= across;
+}
+
+// The plots' length may lie along either axis of the raster.
+std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints) {
+  const AxisHint length{hints.length_m, hints.rows}, width{hints.width_m, hints.columns};
+  std::vector<Layout> layouts;
+  for (const bool along_a : {true, false}) {
+    for (Layout& layout :
+         layouts_on(view, along_a ? ViewHints{length, width} : ViewHints{width, length})) {
+      if (is_longer_along(along_a, layout)) layouts.push_back(std::move(layout));
+    }
+  }
+  return layouts;
+}
+
+// Places of the layout that may hold so many plots, some of which failed.
+bool may_hold(const Layout& layout, int plots) {
+  constexpr double kLeastFilled = 0.6;
+  std::size_t columns = 0;
+  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
+  const auto places = static_cast<double>(layout.rows.size() * columns);
+  return plots <= places && plots >= kLeastFilled * places;
+}
+
+// As many plots as told: those that the canopy suggests, else whole rows and columns of so many.
+std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
+  std::vector<Layout> layouts = layouts_as_told(view, hints);
+  const auto keep_told = [&] {
+    std::erase_if(layouts, [&](const Layout& layout) { return !may_hold(layout, *hints.plots); });
+  };
+  keep_told();
+  if (!layouts.empty()) return layouts;
+  for (int rows = 1; rows <= *hints.plots; ++rows) {
+    if (*hints.plots % rows != 0) continue;
+    Hints whole_rows = hints;
+    whole_rows.rows = rows;
+    whole_rows.columns = *hints.plots / rows;
+    if (hints.rows.value_or(rows) != rows) continue;
+    if (hints.columns.value_or(*whole_rows.columns) != *whole_rows.columns) continue;
+    for (Layout& layout : layouts_as_told(view, whole_rows)) layouts.push_back(std::move(layout));
+  }
+  keep_told();
+  return layouts;
+}
+
+std::vector<Layout> layouts_in(const RowView& view, const Hints& hints) {
+  if (hints.plots) return layouts_of_plots(view, hints);
+  return hints.tell_layout() ? layouts_as_told(view, hints) : layouts_on(view, {});
+}
+
+// Of the layouts with columns through all rows the one that explains the whole field best, along
+// both axes, where all plots' edges add up, and cell by cell.
+void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
+  const Line a = line_of(view, {whole(view.c_cells())}, {});
+  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {});
+  const auto cost = [&](const Layout& layout) {
+    const bool turned = layout.view.swapped;
+    return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
+           criterion(layout);
+  };
+  const Layout* best = nullptr;
+  for (const Layout& layout : layouts)
+    if (layout.aligned && (best == nullptr || cost(layout) < cost(*best))) best = &layout;
+  if (best == nullptr) return;
+  std::vector<Layout> left = {*best};
+  std::ranges::copy_if(layouts, std::back_inserter(left),
+                       [](const Layout& layout) { return !layout.aligned; });
+  layouts = std::move(left);
+}
+
+// Median over a row's plots of how far the nearest of another row lies, cells.
+double shift_between(const Row& row, const Row& other) {
+  std::vector<double> shifts;
+  for (const Band& plot : row.plots) {
+    const auto after = std::ranges::lower_bound(other.plots, plot.begin, {}, &Band::begin);
+    double nearest = std::numeric_limits<double>::infinity();
+    if (after != other.plots.end()) nearest = after->begin - plot.begin;
+    if (after != other.plots.begin())
+      nearest = std::min<double>(nearest, plot.begin - std::prev(after)->begin);
+    shifts.push_back(nearest);
+  }
+  return quantile(std::move(shifts), 0.5);
+}
+
+// Whether plots that were sought row by row go on from row to row all the same.
+bool is_in_columns(const Layout& layout) {
+  const double most = kSameColumn_m / layout.view.cell_m();
+  for (std::size_t i = 1; i < layout.rows.size(); ++i)
+    if (shift_between(layout.rows[i - 1], layout.rows[i]) > most) return false;
+  return true;
+}
+
+}  // namespace
+
+Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
+  const RowView view{.raster = &raster};
+  if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
+  std::vector<Layout> layouts = layouts_in(view, hints);
+  leave_best_aligned(view, layouts);
+  for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
+  const double without = criterion({.view = view});
+  Layout best{.view = view};
+  for (Layout& layout : layouts) {
+    layout.evidence = 0.5 * (without - criterion(layout));
+    if (layout.evidence > best.evidence) best = std::move(layout);
+  }
+  return best;
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: rows of plots on a canopy raster.
+
+#include <vector>
+
+#include "plots/internal/axis_fit.h"
+#include "plots/internal/hints.h"
+
+namespace plotscan::plots {
+
+struct Row {
+  Band band;                     // across the row
+  std::vector<Band> plots = {};  // along it
+};
+
+// Rows of equal plots, and how clearly the canopy shows them.
+struct Layout {
+  RowView view;
+  BandShape r_shape = {}, c_shape = {};       // of a plot along r and along c
+  bool r_drilled = false, c_drilled = false;  // the shape is that of a whole number of drill rows
+  Segmentation r_seen = {}, c_seen = {};      // the bands that show: drill rows, or the plots
+  std::vector<Row> rows = {};
+  bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
+  double evidence = 0;  // by how much it explains the profiles better than one closed canopy
+};
+
+// The layout that explains the canopy along both axes best, for its number of parameters: bands
+// over the whole field along either axis, or over the whole field along one and in each row by
+// itself along the other. Without rows where nothing stands out, or nothing that is as the hints
+// say.
+Layout best_layout(const CanopyRaster& raster, const Hints& hints = {});
+
+}  // namespace plotscan::plots

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/layout_criterion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeafClump_m = 0.3;  // cells of a square of that side see the same leaves
+constexpr double kMostGap_m = 1.5;    // that leaves may close
+constexpr double kPiece_m = 1;        // in which a canopy is even
+
+struct Sums {
+  double cells = 0, canopy = 0, squares = 0;
+
+  Sums& operator-=(const Sums& other) {
+    cells -= other.cells;
+    canopy -= other.canopy;
+    squares -= other.squares;
+    return *this;
+  }
+  // Squares about the mean.
+  double left() const { return squares - canopy * canopy / std::max(1.0, cells); }
+};
+
+Sums sums_over(const RowView& view, const Band& r, const Band& c) {
+  Sums sums;
+  for (int i = std::max(0, r.begin); i < std::min(r.end, view.r_cells()); ++i) {
+    for (int k = std::max(0, c.begin); k < std::min(c.end, view.c_cells()); ++k) {
+      if (view.seen_cells(i, i + 1, k, k + 1) == 0) continue;
+      const double canopy = view.cover(i, i + 1, k, k + 1);
+      ++sums.cells;
+      sums.canopy += canopy;
+      sums.squares += canopy * canopy;
+    }
+  }
+  return sums;
+}
+
+// Squares of leaves that anything is seen of.
+double seen_clumps(const RowView& view) {
+  const int side = std::max(1, static_cast<int>(std::lround(kLeafClump_m / view.cell_m())));
+  double seen = 0;
+  for (int r = 0; r < view.r_cells(); r += side)
+    for (int c = 0; c < view.c_cells(); c += side)
+      seen += view.seen_cells(r, r + side, c, c + side) > 0 ? 1 : 0;
+  return seen;
+}
+
+// Equal parts of a band, about as long as a piece.
+std::vector<Band> pieces_of(const Band& band, double cell_m) {
+  const int parts = std::max(1, static_cast<int>(std::lround(band.size() * cell_m / kPiece_m)));
+  std::vector<Band> pieces;
+  for (int i = 0; i < parts; ++i)
+    pieces.push_back(
+        {band.begin + band.size() * i / parts, band.begin + band.size() * (i + 1) / parts});
+  return pieces;
+}
+
+double number_of_lines(const Layout& layout) {
+  double plots = 0, most = 0;
+  for (const Row& row : layout.rows) {
+    plots += static_cast<double>(row.plots.size());
+    most = std::max(most, static_cast<double>(row.plots.size()));
+  }
+  return static_cast<double>(layout.rows.size()) + (layout.aligned ? most : plots);
+}
+
+// A stretch between two bands that leaves may close; empty where it is wider.
+Band gap_between(const Band& one, const Band& next, double cell_m) {
+  if ((next.begin - one.end) * cell_m > kMostGap_m) return {};
+  return {one.end, std::max(one.end, next.begin)};
+}
+
+// What is left of the canopy's variation when every piece of the plots and of the gaps between them
+// has a level, and all else one.
+double variation_left(const Layout& layout) {
+  const RowView& view = layout.view;
+  Sums beyond = sums_over(view, {0, view.r_cells()}, {0, view.c_cells()});
+  double left = 0;
+  const auto take = [&](const Band& r_band, const Band& c_band) {
+    if (r_band.size() <= 0 || c_band.size() <= 0) return;
+    for (const Band& r : pieces_of(r_band, view.cell_m())) {
+      for (const Band& c : pieces_of(c_band, view.cell_m())) {
+        const Sums sums = sums_over(view, r, c);
+        left += sums.left();
+        beyond -= sums;
+      }
+    }
+  };
+  for (std::size_t i = 0; i < layout.rows.size(); ++i) {
+    const Row& row = layout.rows[i];
+    const bool last_row = i + 1 == layout.rows.size();
+    const Band gap =
+        last_row ? Band{} : gap_between(row.band, layout.rows[i + 1].band, view.cell_m());
+    for (std::size_t k = 0; k < row.plots.size(); ++k) {
+      take(row.band, row.plots[k]);
+      take(gap, row.plots[k]);
+      if (k > 0) take(row.band, gap_between(row.plots[k - 1], row.plots[k], view.cell_m()));
+    }
+  }
+  return left + beyond.left();
+}
+
+}  // namespace
+
+double criterion(const Layout& layout) {
+  const double independent = seen_clumps(layout.view);
+  return independent * std::log(std::max(1e-12, variation_left(layout))) +
+         std::log(std::max(2.0, independent)) * number_of_lines(layout);
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: the size that all plots of a lattice share.
+
+#include "plots/internal/lattice.h"
+
+namespace plotscan::plots {
+
+// Measures the lattice's r_size_m, c_size_m, r_blur_m and c_blur_m. The cover of all plots is
+// pooled about their centres; its optical depth is fitted as a blurred box, on a level of its own,
+// and the same box at the neighbours; the size is where the depth falls through half.
+void fit_edges(Lattice& lattice);
+
+}  // namespace plotscan::plots

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/QR>
+
+#include "core/statistics.h"
+#include "plots/internal/centers.h"
+#include "plots/internal/lattice.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeastError_m = 0.005;  // of centres about the lattice, however few they are
+
+// Which row, or which column, each plot lies in.
+class Groups {
+ public:
+  Groups(std::vector<int> of_plots, int count)
+      : of_plots_(std::move(of_plots)), counts_(static_cast<std::size_t>(count)) {
+    for (const int group : of_plots_) counts_[static_cast<std::size_t>(group)] += 1;
+  }
+
+  std::size_t plots() const { return of_plots_.size(); }
+  std::size_t count() const { return counts_.size(); }
+  std::size_t of(std::size_t plot) const { return static_cast<std::size_t>(of_plots_[plot]); }
+  const std::vector<double>& counts() const { return counts_; }
+
+  std::vector<double> means(const std::vector<double>& values) const {
+    std::vector<double> sums(count());
+    for (std::size_t i = 0; i < plots(); ++i) sums[of(i)] += values[i];
+    for (std::size_t g = 0; g < count(); ++g) sums[g] /= std::max(1.0, counts_[g]);
+    return sums;
+  }
+  // The plots' values less those of their groups.
+  std::vector<double> less(const std::vector<double>& values,
+                           const std::vector<double>& of_groups) const {
+    std::vector<double> rest(values);
+    for (std::size_t i = 0; i < plots(); ++i) rest[i] -= of_groups[of(i)];
+    return rest;
+  }
+  // Each plot has its group's.
+  std::vector<double> spread_out(const std::vector<double>& of_groups) const {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < plots(); ++i) values.push_back(of_groups[of(i)]);
+    return values;
+  }
+
+ private:
+  std::vector<int> of_plots_;
+  std::vector<double> counts_;
+};
+
+double sum_of_squares(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return squares;
+}
+
+double spread_of(std::vector<double> values) {
+  const double middle = mean(values);
+  for (double& value : values) value -= middle;
+  return sum_of_squares(values);
+}
+
+// Of what is left of plots' values about one mean for each group and one slope.
+double rms_of(const std::vector<double>& rest, const Groups& groups) {
+  const double free = static_cast<double>(rest.size()) - static_cast<double>(groups.count()) - 1;
+  return std::sqrt(sum_of_squares(rest) / std::max(1.0, free));
+}
+
+// y = at[group] + slope * x.
+struct LinesOfGroups {
+  std::vector<double> at;
+  double slope = 0, rms_m = 0;
+};
+
+LinesOfGroups fit_lines(const Groups& groups, const std::vector<double>& x,
+                        const std::vector<double>& y) {
+  const std::vector<double> mean_x = groups.means(x), mean_y = groups.means(y);
+  const std::vector<double> from_x = groups.less(x, mean_x), from_y = groups.less(y, mean_y);
+  const double xx = sum_of_squares(from_x);
+  double xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) xy += from_x[i] * from_y[i];
+  LinesOfGroups lines{.at = mean_y, .slope = xx > 0 ? xy / xx : 0};
+  for (std::size_t g = 0; g < groups.count(); ++g) lines.at[g] -= lines.slope * mean_x[g];
+  std::vector<double> rest = groups.less(y, lines.at);
+  for (std::size_t i = 0; i < x.size(); ++i) rest[i] -= lines.slope * x[i];
+  lines.rms_m = rms_of(rest, groups);
+  return lines;
+}
+
+// Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
+// steps, but for those alleys that clearly differ.
+std::vector<double> with_equal_steps(const std::vector<double>& positions,
+                                     const std::vector<double>& counts, double sigma_m) {
+  const auto size = static_cast<Eigen::Index>(positions.size());
+  if (size < 3) return positions;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < positions.size(); ++i)
+    steps.push_back(positions[i] - positions[i - 1]);
+  const double step_m = quantile(steps, 0.5);
+  std::vector<std::size_t> alleys;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double error_m = sigma_m * std::sqrt(1 / counts[i] + 1 / counts[i + 1]);
+    if (std::abs(steps[i] - step_m) > std::max(0.06, 4 * error_m)) alleys.push_back(i);
+  }
+  const auto unknowns = static_cast<Eigen::Index>(2 + alleys.size());
+  if (unknowns >= size) return positions;
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, unknowns);
+  Eigen::VectorXd right(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double weight = std::sqrt(counts[at]);
+    design(i, 0) = weight;
+    design(i, 1) = weight * static_cast<double>(i);
+    for (std::size_t k = 0; k < alleys.size(); ++k) {
+      design(i, static_cast<Eigen::Index>(2 + k)) = at > alleys[k] ? weight : 0;
+    }
+    right(i) = weight * positions[at];
+  }
+  const Eigen::VectorXd fitted = design.colPivHouseholderQr().solve(right);
+  std::vector<double> smooth;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    smooth.push_back(design.row(i).dot(fitted) / design(i, 0));
+  }
+  return smooth;
+}
+
+// Centres as measured, and their rows and columns.
+struct Centers {
+  Groups row, column;
+  std::vector<double> r, c;
+};
+
+Centers measured_centers(const Lattice& lattice) {
+  const auto r_shifts = measured_shifts(lattice, true), c_shifts = measured_shifts(lattice, false);
+  std::vector<int> rows, columns;
+  std::vector<double> r, c;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& place = lattice.places[i];
+    rows.push_back(place.row);
+    columns.push_back(place.column);
+    r.push_back(place.r_m + r_shifts[i].value_or(0));
+    c.push_back(place.c_m + c_shifts[i].value_or(0));
+  }
+  return {.row = {std::move(rows), lattice.rows},
+          .column = {std::move(columns), lattice.columns},
+          .r = std::move(r),
+          .c = std::move(c)};
+}
+
+// c of a plot = its column's place + its row's offset.
+struct Columns {
+  std::vector<double> column_at, row_offset;
+  double rms_m = 0;
+};
+
+// Of plots whose rows' offsets were taken out of c.
+std::vector<double> columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
+  if (aligned) {
+    std::vector<double> at = centers.column.means(c);
+    const double error_m = rms_of(centers.column.less(c, at), centers.column);
+    return with_equal_steps(at, centers.column.counts(), error_m);
+  }
+  std::vector<double> numbers(centers.column.count());
+  for (std::size_t column = 0; column < numbers.size(); ++column)
+    numbers[column] = static_cast<double>(column);
+  const double pitch_m = fit_lines(centers.row, centers.column.spread_out(numbers), c).slope;
+  for (double& number : numbers) number *= pitch_m;
+  return numbers;
+}
+
+// Columns and rows' offsets in turn.
+Columns fit_columns(const Centers& centers, bool aligned) {
+  constexpr int kRounds = 8;
+  Columns fit;
+  fit.row_offset.assign(centers.row.count(), 0);
+  for (int round = 0; round < kRounds; ++round) {
+    fit.column_at = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
+    const std::vector<double> rest = centers.column.less(centers.c, fit.column_at);
+    fit.row_offset = centers.row.means(rest);
+    fit.rms_m = rms_of(centers.row.less(rest, fit.row_offset), centers.row);
+  }
+  return fit;
+}
+
+// c that every metre along r adds, where the rows' offsets lie on a line.
+struct Skew {
+  double c_per_r = 0, error = 0;
+  bool straight = false;
+};
+
+Skew fit_skew(const Centers& centers, const std::vector<double>& row_at, const Columns& columns) {
+  const std::vector<double> x = centers.row.spread_out(row_at);
+  const std::vector<double> y = centers.row.spread_out(columns.row_offset);
+  const double spread = spread_of(x), mean_x = mean(x), mean_y = mean(y);
+  if (spread <= 0) return {};
+  Skew skew{.error = std::max(kLeastError_m, columns.rms_m) / std::sqrt(spread), .straight = true};
+  for (std::size_t i = 0; i < x.size(); ++i)
+    skew.c_per_r += (x[i] - mean_x) * (y[i] - mean_y) / spread;
+  for (std::size_t row = 0; row < row_at.size(); ++row) {
+    const double off_m = columns.row_offset[row] - mean_y - skew.c_per_r * (row_at[row] - mean_x);
+    const double error_m = columns.rms_m / std::sqrt(centers.row.counts()[row]);
+    skew.straight = skew.straight && std::abs(off_m) < std::max(0.03, 3.5 * error_m);
+  }
+  return skew;
+}
+
+// How rows and columns run: slopes to the view's axes.
+struct Directions {
+  double r_per_c = 0, c_per_r = 0;
+  bool columns_straight = false;  // the rows' offsets are those of straight columns
+};
+
+// Axes are perpendicular unless the rows' offsets say otherwise beyond doubt. `between` is the
+// cosine between the view's axes.
+Directions directions_of(const Centers& centers, const LinesOfGroups& rows, const Skew& skew,
+                         double between) {
+  const double along_rows = spread_of(centers.row.less(centers.c, centers.row.means(centers.c)));
+  const double row_error =
+      along_rows > 0 ? std::max(kLeastError_m, rows.rms_m) / std::sqrt(along_rows) : 1;
+  const double off = skew.c_per_r + (between + rows.slope) / (1 + between * rows.slope);
+  const double error = std::hypot(skew.error, row_error);
+  const bool rows_tell = along_rows > 1;
+  const bool columns_tell = skew.straight && centers.row.count() >= 2;
+  const bool right_angle = std::abs(off) < std::max(0.001, 3 * error);
+  const bool skewed = columns_tell && rows_tell && !right_angle &&
+                      (centers.row.count() >= 3 || std::abs(off) <= 0.01);
+  const bool straight = columns_tell && (skewed || right_angle);
+  const double by_columns = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
+  if (!rows_tell) return {by_columns, skew.c_per_r, straight};
+  if (skewed) return {rows.slope, skew.c_per_r, straight};
+  if (!straight) return {rows.slope, skew.c_per_r - off, straight};
+  const double share = skew.error * skew.error / (error * error);
+  return {rows.slope - (1 - share) * off, skew.c_per_r - share * off, straight};
+}
+
+// The rows' offsets on one line along the columns.
+std::vector<double> offsets_on_line(const Centers& centers, const Columns& columns,
+                                    double c_per_r) {
+  std::vector<double> offsets = centers.row.spread_out(columns.row_offset);
+  for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] -= c_per_r * centers.r[i];
+  const double offset_m = mean(offsets);
+  std::vector<double> on_line = centers.row.means(centers.r);
+  for (double& row : on_line) row = offset_m + c_per_r * row;
+  return on_line;
+}
+
+}  // namespace
+
+void straighten(Lattice& lattice) {
+  const Centers centers = measured_centers(lattice);
+  const LinesOfGroups rows = fit_lines(centers.row, centers.c, centers.r);
+  Columns columns = fit_columns(centers, lattice.aligned);
+  // Offsets of each row's own say nothing of the plots' sides, even where they lie on a line.
+  const Skew skew = lattice.aligned ? fit_skew(centers, rows.at, columns) : Skew{};
+  const Directions directions =
+      directions_of(centers, rows, skew, lattice.view.r_axis().dot(lattice.view.c_axis()));
+  lattice.r_per_c = directions.r_per_c;
+  lattice.c_per_r = directions.c_per_r;
+  lattice.r_rms_m = rows.rms_m;
+  lattice.c_rms_m = columns.rms_m;
+
+  std::vector<double> r_at_0 = centers.r;
+  for (std::size_t i = 0; i < r_at_0.size(); ++i) r_at_0[i] -= lattice.r_per_c * centers.c[i];
+  const std::vector<double> row_at =
+      with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r_rms_m);
+  if (directions.columns_straight)
+    columns.row_offset = offsets_on_line(centers, columns, lattice.c_per_r);
+  const std::vector<double> row_middle = centers.row.means(centers.r);
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    Place& place = lattice.places[i];
+    const std::size_t row = centers.row.of(i);
+    const double c_m = columns.column_at[centers.column.of(i)] + columns.row_offset[row];
+    place.r_m = row_at[row] + lattice.r_per_c * c_m;
+    place.c_m = c_m + lattice.c_per_r * (place.r_m - row_middle[row]);
+  }
+}
+
+}  // namespace plotscan::plots

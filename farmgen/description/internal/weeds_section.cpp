@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "description/internal/weeds_section.h"
+
+#include <tuple>
+
+#include "description/internal/models_section.h"
+#include "description/internal/values.h"
+
+#include "core/yaml_section.h"
+
+namespace plotscan::description {
+namespace {
+
+constexpr Range kDensity = {0, 1000};
+constexpr Range kMargin = {0, 1000};
+
+}  // namespace
+
+planting::WeedsDescription read_weeds(const YamlSection& section,
+                                      std::vector<planting::ModelDescription>& models) {
+  planting::WeedsDescription weeds;
+  weeds.per_m2 = section.number("per_m2", kDensity);
+  weeds.where = static_cast<planting::WeedPlace>(
+      section.choice("where", {"everywhere", "alleys", "plots"}, 0));
+  weeds.margin_m = section.number("margin_m", kMargin, weeds.margin_m);
+  std::tie(weeds.min_scale, weeds.max_scale) = scale_at(section);
+  weeds.models = read_models(section, models);
+  return weeds;
+}
+
+}  // namespace plotscan::description

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/internal/includes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <string_view>
+
+#include <ignition/math/SemanticVersion.hh>
+#include <sdf/parser.hh>
+#include <tinyxml2.h>
+
+#include "core/error.h"
+#include "gazebo/internal/quiet.h"
+
+namespace plotscan::gazebo {
+namespace fs = std::filesystem;
+namespace {
+
+std::string trimmed(const char* text) {
+  const std::string_view blanks = " \t\r\n";
+  const std::string whole = text == nullptr ? "" : text;
+  const auto begin = whole.find_first_not_of(blanks);
+  if (begin == std::string::npos) return "";
+  return whole.substr(begin, whole.find_last_not_of(blanks) - begin + 1);
+}
+
+// libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
+constexpr std::uint64_t kMostModels = 10000;
+// It takes some 25 bytes for one of the file.
+constexpr std::uint64_t kMostBytes = 32'000'000;
+
+// Whether it is made of whole numbers and dots, which is all that SemanticVersion survives.
+bool is_version(std::string_view text) {
+  int numbers = 1;
+  for (;; ++numbers) {
+    unsigned number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (text.empty()) return numbers <= 3;
+    if (text.front() != '.') return false;
+    text.remove_prefix(1);
+  }
+}
+
+bool is_too_new(const std::string& version) {
+  return ignition::math::SemanticVersion(version) >
+         ignition::math::SemanticVersion(sdf::SDF::Version());
+}
+
+// Of anything else libsdformat would print what it is not.
+void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
+  const std::string_view name = root.Name();
+  if (name == "robot") return;  // URDF, which libsdformat reads, too
+  if (name != "sdf")
+    throw InputError(file, "is not an SDF file: its root is <" + std::string(name) + ">");
+  const char* version = root.Attribute("version");
+  if (version == nullptr) throw InputError(file, "<sdf> has no version");
+  if (!is_version(version)) {
+    throw InputError(file, std::string("<sdf> has the version \"") + version +
+                               "\", which is no number such as 1.9");
+  }
+  if (is_too_new(version)) {
+    throw InputError(
+        file, std::string("is SDF ") + version + "; up to " + sdf::SDF::Version() + " is read");
+  }
+}
+
+// libsdformat crashes on a description of a model that lacks something.
+void require_config(const fs::path& config) {
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(config.c_str()) != tinyxml2::XML_SUCCESS) {
+    throw InputError(config, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
+                     std::string("cannot be parsed as XML: ") + document.ErrorName());
+  }
+  const tinyxml2::XMLElement* model = document.FirstChildElement("model");
+  const tinyxml2::XMLElement* sdf = model == nullptr ? nullptr : model->FirstChildElement("sdf");
+  if (sdf == nullptr) throw InputError(config, "has no <model> with an <sdf> that names its file");
+  bool readable = false;
+  for (; sdf != nullptr; sdf = sdf->NextSiblingElement("sdf")) {
+    const auto line = static_cast<std::size_t>(sdf->GetLineNum());
+    if (trimmed(sdf->GetText()).empty()) throw InputError(config, line, "<sdf> names no file");
+    const char* version = sdf->Attribute("version");
+    if (version == nullptr || !is_version(version))
+      throw InputError(config, line, "<sdf> has no version that is a number such as 1.9");
+    readable = readable || !is_too_new(version);
+  }
+  if (!readable) {
+    throw InputError(
+        config, std::string("names no file for SDF ") + sdf::SDF::Version() + " or an older one");
+  }
+}
+
+class Follower {
+ public:
+  explicit Follower(const ResourceFinder& finder) : finder_(finder) {}
+
+  // Returns how many models the file holds with all that it includes.
+  std::uint64_t follow(const fs::path& file) {
+    if (const auto known = models_.find(file); known != models_.end()) return known->second;
+    require_file(file);
+    if (fs::file_size(file) > kMostBytes) {
+      throw InputError(file, "has " + std::to_string(fs::file_size(file)) +
+                                 " bytes; SDF is read up to " + std::to_string(kMostBytes));
+    }
+    tinyxml2::XMLDocument document;
+    if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
+      throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
+                       std::string("cannot be parsed as XML: ") + document.ErrorName());
+    }
+    if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
+    require_sdf(*document.RootElement(), file);
+    open_.push_back(file);
+    const std::uint64_t models = walk(*document.RootElement(), file);
+    open_.pop_back();
+    includes_.files.push_back(file);
+    models_[file] = models;
+    return models;
+  }
+
+  Includes take() { return std::move(includes_); }
+
+ private:
+  std::uint64_t walk(const tinyxml2::XMLElement& parent, const fs::path& file) {
+    std::uint64_t models = 0;
+    for (auto* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const std::string_view name = child->Name();
+      if (name == "include") models += follow_include(*child, file);
+      if (name == "model") ++models;
+      if (name == "world" || name == "model") models += walk(*child, file);
+      if (models > kMostModels) {
+        throw InputError(file, static_cast<std::size_t>(child->GetLineNum()),
+                         "more than " + std::to_string(kMostModels) +
+                             " models with those of includes; join them, as farmgen export "
+                             "--merge plot does");
+      }
+    }
+    return models;
+  }
+
+  std::uint64_t follow_include(const tinyxml2::XMLElement& include, const fs::path& file) {
+    const auto line = static_cast<std::size_t>(include.GetLineNum());
+    const tinyxml2::XMLElement* element = include.FirstChildElement("uri");
+    const std::string uri = trimmed(element == nullptr ? nullptr : element->GetText());
+    if (uri.empty()) throw InputError(file, line, "<include> has no <uri>");
+    const auto found = is_remote(uri) ? std::nullopt : finder_.find(uri, file);
+    if (!found) throw InputError(file, line, "<include> " + finder_.not_found(uri, file));
+    const auto [known, is_new] = includes_.by_uri.try_emplace(uri, *found);
+    if (known->second != *found) {
+      throw InputError(file, line,
+                       "<include> " + uri + " means " + found->string() + " here and " +
+                           known->second.string() + " elsewhere; name them model://");
+    }
+    const fs::path sdf = fs::is_directory(*found) ? sdf_of_model(*found, file, line) : *found;
+    if (std::find(open_.begin(), open_.end(), sdf) != open_.end())
+      throw InputError(file, line, "<include> " + uri + " goes round in a circle: " + circle(sdf));
+    return follow(sdf);
+  }
+
+  static fs::path sdf_of_model(const fs::path& folder, const fs::path& file, std::size_t line) {
+    for (const char* config : {"model.config", "manifest.xml"}) {
+      if (!fs::exists(folder / config)) continue;
+      require_config(folder / config);
+      break;
+    }
+    const std::string sdf = sdf::getModelFilePath(folder.string());
+    if (sdf.empty()) {
+      throw InputError(file, line,
+                       "<include> leads to " + folder.string() +
+                           ", which has no model.config that names an SDF file");
+    }
+    return fs::path(sdf).lexically_normal();
+  }
+
+  std::string circle(const fs::path& again) const {
+    std::string way;
+    for (auto file = std::find(open_.begin(), open_.end(), again); file != open_.end(); ++file)
+      way += file->string() + " includes ";
+    return way + again.string();
+  }
+
+  const ResourceFinder& finder_;
+  std::vector<fs::path> open_;  // files being followed, each included by the one before it
+  std::map<fs::path, std::uint64_t> models_;  // of the files that were followed to their end
+  Includes includes_;
+};
+
+}  // namespace
+
+Includes follow_includes(const fs::path& file, const ResourceFinder& finder) {
+  const Quiet quiet;
+  Follower follower(finder);
+  const std::uint64_t models = follower.follow(fs::absolute(file).lexically_normal());
+  Includes includes = follower.take();
+  includes.models = models;
+  return includes;
+}
+
+}  // namespace plotscan::gazebo

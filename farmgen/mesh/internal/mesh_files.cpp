@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/internal/mesh_files.h"
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "core/error.h"
+
+namespace plotscan::mesh {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_gltf(const fs::path& mesh) {
+  const std::string extension = mesh.extension().string();
+  return extension.size() > 3 && (extension[1] == 'g' || extension[1] == 'G');  // .gltf, .glb
+}
+
+bool is_in_folder(const fs::path& file, const fs::path& folder) {
+  const fs::path way = fs::absolute(file).lexically_normal().lexically_relative(
+      fs::absolute(folder / ".").lexically_normal());
+  return !way.empty() && *way.begin() != "..";
+}
+
+}  // namespace
+
+MeshFiles::MeshFiles(fs::path mesh) : mesh_(std::move(mesh)), own_folder_only_(is_gltf(mesh_)) {}
+
+Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
+  const std::string objection = file == mesh_.string() ? "" : this->objection(file);
+  if (objection.empty()) return DefaultIOSystem::Open(file, mode);
+  if (refused_.empty()) refused_ = "names " + std::string(file) + ", which " + objection;
+  return nullptr;
+}
+
+std::string MeshFiles::objection(const fs::path& file) const {
+  std::error_code error;
+  if (own_folder_only_ && !is_in_folder(file, mesh_.parent_path())) return "leaves its folder";
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) return "is not a regular file";
+  return "";
+}
+
+void require_glb_length(const fs::path& path) {
+  std::array<char, 12> header{};  // "glTF", version, length; little-endian
+  std::ifstream(path, std::ios::binary).read(header.data(), header.size());
+  if (std::string_view(header.data(), 4) != "glTF") return;
+  std::uint32_t length = 0;
+  std::memcpy(&length, header.data() + 8, sizeof length);
+  if (length <= fs::file_size(path)) return;
+  throw InputError(path, "promises " + std::to_string(length) + " bytes, but has " +
+                             std::to_string(fs::file_size(path)));
+}
+
+}  // namespace plotscan::mesh

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planting/internal/plant_models.h"
+
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "crop/grow.h"
+#include "mesh/measure.h"
+
+namespace plotscan::planting {
+namespace {
+
+constexpr double kTallest_m = 120;                  // no tree is taller
+constexpr std::size_t kMostTriangles = 20'000'000;  // of all models, scan and light: about 1 GB
+
+// The light mesh is for simulators, which show leaves as pictures; the scan mesh is for lasers.
+mesh::Mesh grown(const ModelDescription& model, crop::Detail detail,
+                 const std::filesystem::path& source) {
+  const GrownPlant& plant = *model.grown;
+  try {
+    return crop::grow({.crop = plant.crop,
+                       .stage = plant.stage,
+                       .assignments = plant.assignments,
+                       .detail = detail,
+                       .textured = detail == crop::Detail::light},
+                      plant.seed);
+  } catch (const InputError& error) {
+    throw InputError(source, "model " + model.name + ": " + error.what());
+  }
+}
+
+// Gives the mesh's materials the reflectances stated for their names; returns the names it has.
+std::set<std::string> apply_reflectance(const std::map<std::string, float>& stated,
+                                        mesh::Mesh& mesh) {
+  std::set<std::string> names;
+  for (mesh::Material& material : mesh.materials) {
+    names.insert(material.name);
+    const auto found = stated.find(material.name);
+    if (found != stated.end()) material.reflectance = found->second;
+  }
+  return names;
+}
+
+// Throws InputError when a mesh file has no material that is named. (Of a grown plant
+// read_crop_reflectance has seen to it.)
+void apply_reflectance(const ModelDescription& description, const std::filesystem::path& source,
+                       farm::PlantModel& model) {
+  const std::set<std::string> names = apply_reflectance(description.reflectance, model.mesh);
+  if (model.light) apply_reflectance(description.reflectance, *model.light);
+  for (const auto& [name, reflectance] : description.reflectance) {
+    if (description.grown || names.contains(name)) continue;
+    throw InputError(source, "model " + model.name + ": reflectance: " + name +
+                                 " is not a material of " + description.mesh.string() +
+                                 ", which has " + joined({names.begin(), names.end()}, ", "));
+  }
+}
+
+farm::PlantModel make_model(const ModelDescription& description,
+                            const std::filesystem::path& source) {
+  farm::PlantModel model{.name = description.name, .mesh = {}};
+  if (description.grown) {
+    model.mesh = grown(description, crop::Detail::scan, source);
+    model.light = grown(description, crop::Detail::light, source);
+  } else {
+    model.mesh = mesh::import_mesh(description.mesh, description.options, &model.notes);
+    if (description.light) model.light = mesh::import_mesh(*description.light, description.options);
+  }
+  apply_reflectance(description, source, model);
+  model.height_m = mesh::mesh_height(model.mesh);
+  if (model.height_m > kTallest_m) {
+    throw InputError(description.grown ? source : description.mesh,
+                     "model " + model.name + formatted(" is %.4g m tall", model.height_m) +
+                         formatted("; a plant has up to %.0f m (unit_m says what the file's "
+                                   "numbers are)",
+                                   kTallest_m));
+  }
+  if (model.height_m > 0) return model;
+  if (description.grown) throw InputError(source, "model " + model.name + ": has no height");
+  throw InputError(description.mesh,
+                   "has no vertex above its origin; is z its up axis? (up: y, foot: lowest)");
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> model_files(const std::vector<ModelDescription>& models) {
+  std::vector<std::filesystem::path> files;
+  for (const ModelDescription& model : models) {
+    if (!model.grown) files.push_back(model.mesh);
+    if (model.light) files.push_back(*model.light);
+  }
+  return files;
+}
+
+std::vector<farm::PlantModel> make_models(const std::vector<ModelDescription>& models,
+                                          const std::filesystem::path& source) {
+  std::vector<farm::PlantModel> made;
+  made.reserve(models.size());
+  std::size_t triangles = 0;
+  for (const ModelDescription& model : models) {
+    made.push_back(make_model(model, source));
+    triangles += made.back().mesh.triangles.size();
+    if (made.back().light) triangles += made.back().light->triangles.size();
+    if (triangles <= kMostTriangles) continue;
+    throw InputError(source, "models: the first " + std::to_string(made.size()) + " of " +
+                                 std::to_string(models.size()) + " have " +
+                                 std::to_string(triangles) + " triangles; at most " +
+                                 std::to_string(kMostTriangles) +
+                                 " are allowed; fewer or simpler models would fit");
+  }
+  return made;
+}
+
+}  // namespace plotscan::planting

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planting/internal/weeds.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "planting/plot_layout.h"
+#include <Eigen/Geometry>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "farm/heights.h"
+
+namespace plotscan::planting {
+namespace {
+
+constexpr double kMostWeeds = 1e6;
+
+// A rectangle of ground, turned as the plots are.
+struct Field {
+  Eigen::Rotation2Dd world_from_field = Eigen::Rotation2Dd::Identity();
+  Eigen::AlignedBox2d box;
+
+  double area_m2() const { return box.sizes().prod(); }
+  Eigen::Vector2d at(const Eigen::Vector2d& share) const {
+    return world_from_field * (box.min() + share.cwiseProduct(box.sizes()));
+  }
+};
+
+// The rectangle about all plots with its margin; without plots the one about the terrain.
+Field field_of(const std::vector<farm::Plot>& plots, const terrain::Terrain& terrain,
+               double margin_m) {
+  Field field;
+  if (plots.empty()) {
+    for (const Eigen::Vector3d& vertex : terrain.vertices()) {
+      field.box.extend(Eigen::Vector2d(vertex.head<2>()));
+    }
+    return field;
+  }
+  field.world_from_field = Eigen::Rotation2Dd(plots.front().box.heading_rad);
+  for (const farm::Plot& plot : plots) {
+    for (const Eigen::Vector2d& corner : plot.box.corners()) {
+      field.box.extend(field.world_from_field.inverse() * corner);
+    }
+  }
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
+  return {field.world_from_field,
+          Eigen::AlignedBox2d(field.box.min() - margin, field.box.max() + margin)};
+}
+
+std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& field,
+                              const std::filesystem::path& source) {
+  const double weeds = description.per_m2 * field.area_m2();
+  if (weeds > kMostWeeds) {
+    throw InputError(
+        source, formatted("weeds.per_m2 makes %.0f weeds on %.0f m2; at most %.0f are allowed, "
+                          "%.3g a square metre, or more with a smaller weeds.margin_m",
+                          weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
+  }
+  return static_cast<std::uint64_t>(std::llround(weeds));
+}
+
+bool wanted(WeedPlace where, std::uint32_t plot) {
+  if (where == WeedPlace::everywhere) return true;
+  return (where == WeedPlace::plots) == (plot != 0);
+}
+
+farm::Plant drawn_weed(const WeedsDescription& description, std::uint64_t number,
+                       std::uint64_t seed) {
+  farm::Plant weed{.kind = farm::PlantKind::weed};
+  weed.model = description.models[RandomStream(seed, random_purpose("weed/model"), number)
+                                      .below(description.models.size())];
+  const double yaw =
+      RandomStream(seed, random_purpose("weed/yaw"), number).uniform(0, 2 * std::numbers::pi);
+  weed.rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+  RandomStream scale(seed, random_purpose("weed/scale"), number);
+  for (int axis = 0; axis < 3; ++axis) {
+    weed.scale[axis] = scale.uniform(description.min_scale, description.max_scale);
+  }
+  return weed;
+}
+
+}  // namespace
+
+std::vector<farm::Plant> draw_weeds(const WeedsDescription& description,
+                                    const std::vector<farm::Plot>& plots,
+                                    const std::vector<farm::PlantModel>& models,
+                                    const terrain::Terrain& terrain,
+                                    const std::filesystem::path& source, std::uint64_t seed) {
+  const Field field = field_of(plots, terrain, description.margin_m);
+  const PlotFinder finder(plots);
+  std::vector<farm::Plant> weeds;
+  const std::uint64_t count = number_of_weeds(description, field, source);
+  for (std::uint64_t number = 1; number <= count; ++number) {
+    RandomStream random(seed, random_purpose("weed/position"), number);
+    const double along_x = random.uniform();
+    const Eigen::Vector2d place = field.at({along_x, random.uniform()});
+    const std::uint32_t plot = finder.plot_at(place);
+    const auto ground = terrain.height(place.x(), place.y());
+    if (!wanted(description.where, plot) || !ground) continue;
+    farm::Plant weed = drawn_weed(description, number, seed);
+    weed.plot = plot;
+    weed.position = {place.x(), place.y(), *ground};
+    weed.height_m = farm::placed_height(models[weed.model], weed, *ground);
+    weeds.push_back(weed);
+  }
+  return weeds;
+}
+
+}  // namespace plotscan::planting

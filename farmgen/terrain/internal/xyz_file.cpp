@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "terrain/internal/xyz_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "terrain/internal/refine.h"
+
+#include "core/error.h"
+
+namespace plotscan::terrain {
+namespace {
+
+constexpr std::string_view kSeparators = " \t\r,;";
+
+struct PointOnLine {
+  Eigen::Vector3d point;
+  std::size_t line;
+};
+
+double number_of(std::string_view field, const std::filesystem::path& path, std::size_t line) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size())
+    throw InputError(path, line,
+                     "\"" + std::string(field) + "\" is not a number; x y z are expected");
+  if (!std::isfinite(value))
+    throw InputError(path, line, "\"" + std::string(field) + "\" is not finite");
+  return value;
+}
+
+// The three numbers of a line; false when it holds nothing.
+bool parse(std::string_view text, const std::filesystem::path& path, PointOnLine& parsed) {
+  text = text.substr(0, text.find('#'));
+  Eigen::Index fields = 0;
+  while (true) {
+    const auto begin = text.find_first_not_of(kSeparators);
+    if (begin == std::string_view::npos) break;
+    text.remove_prefix(begin);
+    const std::string_view field = text.substr(0, text.find_first_of(kSeparators));
+    text.remove_prefix(field.size());
+    if (fields == 3) throw InputError(path, parsed.line, "has more than three numbers");
+    parsed.point[fields++] = number_of(field, path, parsed.line);
+  }
+  if (fields == 1 || fields == 2)
+    throw InputError(path, parsed.line,
+                     "has " + std::to_string(fields) + " of the three numbers x y z");
+  return fields == 3;
+}
+
+void require_different_places(const std::filesystem::path& path, std::vector<PointOnLine> points) {
+  const auto key = [](const PointOnLine& each) {
+    return std::array{each.point.x(), each.point.y(), static_cast<double>(each.line)};
+  };
+  std::sort(points.begin(), points.end(),
+            [&](const PointOnLine& a, const PointOnLine& b) { return key(a) < key(b); });
+  const auto twice = std::adjacent_find(
+      points.begin(), points.end(), [](const PointOnLine& a, const PointOnLine& b) {
+        return a.point.x() == b.point.x() && a.point.y() == b.point.y();
+      });
+  if (twice == points.end()) return;
+  throw InputError(path, (twice + 1)->line,
+                   "has the x and y of line " + std::to_string(twice->line) + " again");
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> read_xyz(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  std::vector<PointOnLine> parsed;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    PointOnLine next{.point = Eigen::Vector3d::Zero(), .line = ++line};
+    if (parse(std::string_view(text).substr(begin, end - begin), path, next))
+      parsed.push_back(next);
+    if (parsed.size() > kMostTerrainVertices) {
+      throw InputError(path, line,
+                       "is point " + std::to_string(parsed.size()) + "; at most " +
+                           std::to_string(kMostTerrainVertices) + " are allowed");
+    }
+    begin = end + 1;
+  }
+  if (parsed.size() < 3)
+    throw InputError(path,
+                     "has " + std::to_string(parsed.size()) + " points; a terrain has 3 or more");
+  require_different_places(path, parsed);
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(parsed.size());
+  for (const PointOnLine& each : parsed) points.push_back(each.point);
+  return points;
+}
+
+}  // namespace plotscan::terrain

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/internal/printable.h"
+
+#include <cstdint>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace plotscan {
+namespace {
+
+// The bytes of the character that begins the text; 0: it begins with none.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  // Neither longer than need be, nor a surrogate, nor beyond U+10FFFF.
+  const std::uint8_t second = byte(1);
+  const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
+                     (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
+  return wrong ? 0 : length;
+}
+
+bool is_control(std::string_view character) {
+  const auto lead = static_cast<std::uint8_t>(character[0]);
+  if (character.size() == 1) return (lead < 0x20 && lead != '\n' && lead != '\t') || lead == 0x7f;
+  return lead == 0xc2 && static_cast<std::uint8_t>(character[1]) < 0xa0;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    const std::string_view character = text.substr(0, length == 0 ? 1 : length);
+    if (length > 0 && !is_control(character)) {
+      shown += character;
+    } else {
+      for (const char byte : character) shown += formatted("\\x%02x", byte & 0xff);
+    }
+    text.remove_prefix(character.size());
+  }
+  return shown;
+}
+
+void require_utf8(std::string_view text, const std::filesystem::path& file) {
+  std::size_t line = 1;
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length == 0) throw InputError(file, line, "is no UTF-8 text; save it in that encoding");
+    if (text.front() == '\n') ++line;
+    text.remove_prefix(length);
+  }
+}
+
+}  // namespace plotscan

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/internal/raw_folder.h"
+
+#include <fcntl.h>
+
+namespace plotscan {
+
+void remove_tree(int folder, const char* name) {
+  if (unlinkat(folder, name, 0) == 0) return;
+  const int opened = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (opened < 0) return;
+  // Names may be passed over while others go: until nothing goes any more. Somebody who keeps on
+  // writing is not waited for.
+  constexpr int kMostPasses = 100;
+  bool gone = true;
+  for (int pass = 0; gone && pass < kMostPasses; ++pass) {
+    gone = false;
+    lseek(opened, 0, SEEK_SET);
+    for_each_name(opened, [&](const char* entry) {
+      remove_tree(opened, entry);
+      gone = gone || faccessat(opened, entry, F_OK, AT_SYMLINK_NOFOLLOW) != 0;
+    });
+  }
+  close(opened);
+  unlinkat(folder, name, AT_REMOVEDIR);
+}
+
+}  // namespace plotscan

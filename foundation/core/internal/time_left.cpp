@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/internal/time_left.h"
+
+#include <cmath>
+
+namespace plotscan {
+
+std::optional<double> TimeLeft::at(double elapsed_s, double share) {
+  const double step_s = elapsed_s - before_s_;
+  if (step_s > 0) {
+    // The older a speed against the whole time, the less it counts.
+    constexpr double kMemory = 1.0 / 3;
+    const double kept = before_s_ > 0 ? std::exp(-step_s / (kMemory * elapsed_s)) : 0;
+    speed_ = kept * speed_ + (1 - kept) * (share - before_share_) / step_s;
+    before_s_ = elapsed_s;
+    before_share_ = share;
+  }
+  if (elapsed_s < kSilent_s || speed_ <= 0) return std::nullopt;
+  return (1 - share) / speed_;
+}
+
+}  // namespace plotscan

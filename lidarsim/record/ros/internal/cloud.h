@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "record/ros/internal/messages.h"
+#include "scan/point.h"
+
+namespace plotscan::record {
+
+// A cloud without points, of the fields that velodyne_pointcloud writes, where it writes them (x y
+// z intensity ring time, 22 bytes), and behind them our labels (return_number return_count class
+// plot plant). `time` counts in seconds from the header's stamp.
+ros::PointCloud2 labelled_cloud(ros::Header header);
+
+// Adds the point to such a cloud, at this place in the sensor's frame.
+void add_point(ros::PointCloud2& cloud, const scan::LabelledPoint& point,
+               const Eigen::Vector3f& position_m, float since_stamp_s);
+
+// The points of a cloud of any fields.
+class CloudPoints {
+ public:
+  // Whether points have a place: x, y and z.
+  static bool fits(const ros::PointCloud2& cloud);
+
+  // Throws InputError where the cloud has no x, y, z, is big-endian, or its sizes do not fit its
+  // data. The cloud must outlive this.
+  explicit CloudPoints(const ros::PointCloud2& cloud);
+
+  std::size_t size() const { return size_; }
+  // Of LabelledPoint, that the cloud has.
+  std::vector<std::string> fields() const;
+  // In the cloud's frame, members that the cloud lacks as they are by default; `time` in seconds
+  // since the cloud's stamp, from the field `time` (seconds) or `t` (nanoseconds, Ouster's).
+  scan::LabelledPoint point(std::size_t index) const;
+
+ private:
+  struct Field {
+    std::size_t offset = 0;
+    std::uint8_t datatype = 0;
+  };
+  std::optional<Field> field(const char* name) const;
+  double number(const std::uint8_t* point, const Field& field) const;
+  template <class Value>
+  void set(Value& value, const std::uint8_t* point, const std::optional<Field>& field) const;
+
+  const ros::PointCloud2& cloud_;
+  std::size_t size_ = 0;
+  std::optional<Field> x_, y_, z_, intensity_, ring_, time_, time_ns_, return_number_,
+      return_count_, class_, plot_, plant_;
+};
+
+}  // namespace plotscan::record

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <optional>
+
+#include "core/text.h"
+#include "record/ros/internal/binary_file.h"
+#include "record/ros/internal/definitions.h"
+#include "record/ros/internal/file.h"
+#include "record/ros/internal/mcap_format.h"
+
+namespace plotscan::record::ros {
+namespace {
+
+// rosbag2's default.
+constexpr std::size_t kChunkSize = std::size_t{768} << 10;
+
+void append_record(std::string& bytes, McapOp op, std::string_view content) {
+  append_number(bytes, op);
+  append_number(bytes, static_cast<std::uint64_t>(content.size()));
+  bytes += content;
+}
+
+std::string header_content() {
+  std::string content;
+  append_text(content, "ros2");
+  append_text(content, "plotscan");
+  return content;
+}
+
+// Quality of service in the form of rosbag2 up to version 8 of its metadata: keep the last 10,
+// reliable, volatile (transient local where latched), no deadlines. Newer rosbag2 takes the numbers
+// for these where there is a metadata record "rosbag2" that tells no version.
+std::string qos_profiles(bool latched) {
+  const std::string forever = "    sec: 9223372036\n    nsec: 854775807\n";
+  return formatted("- history: 1\n  depth: 10\n  reliability: 1\n  durability: %d\n",
+                   latched ? 1 : 2) +
+         "  deadline:\n" + forever + "  lifespan:\n" + forever + "  liveliness: 1\n" +
+         "  liveliness_lease_duration:\n" + forever + "  avoid_ros_namespace_conventions: false";
+}
+
+std::string rosbag2_metadata() {
+  std::string content;
+  append_text(content, "rosbag2");
+  append_text(content, "");  // an empty map
+  return content;
+}
+
+struct ChunkIndex {
+  std::int64_t first_ns = 0;
+  std::int64_t last_ns = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+  std::map<std::uint16_t, std::uint64_t> index_offsets;  // by channel
+  std::uint64_t index_length = 0;
+  std::uint64_t size = 0;  // of its records
+};
+
+std::string content_of(const ChunkIndex& chunk) {
+  std::string content;
+  append_number(content, chunk.first_ns);
+  append_number(content, chunk.last_ns);
+  append_number(content, chunk.offset);
+  append_number(content, chunk.length);
+  std::string offsets;
+  for (const auto& [channel, offset] : chunk.index_offsets) {
+    append_number(offsets, channel);
+    append_number(offsets, offset);
+  }
+  append_text(content, offsets);
+  append_number(content, chunk.index_length);
+  append_text(content, "");  // compression
+  append_number(content, chunk.size);
+  append_number(content, chunk.size);
+  return content;
+}
+
+class McapWriter : public FileWriter {
+ public:
+  McapWriter(const std::filesystem::path& file, std::vector<Topic> topics)
+      : out_(file), topics_(std::move(topics)), counts_(topics_.size()) {
+    for (const Topic& topic : topics_) schemas_.try_emplace(topic.type, 0);
+    std::uint16_t next = 0;
+    for (auto& [type, id] : schemas_) id = ++next;
+    std::string bytes(kMcapMagic);
+    append_record(bytes, McapOp::header, header_content());
+    metadata_at_ = bytes.size();
+    append_record(bytes, McapOp::metadata, rosbag2_metadata());
+    metadata_length_ = bytes.size() - metadata_at_;
+    bytes += schema_records() + channel_records();
+    write_data(bytes);
+  }
+
+  Version version() const override { return Version::ros2; }
+
+  void write(std::size_t topic, Time time, std::string_view message) override {
+    const auto channel = static_cast<std::uint16_t>(topic + 1);
+    if (chunk_.empty()) chunk_first_ = time;
+    if (!first_) first_ = time;
+    last_ = time;
+    std::string& entries = index_[channel];
+    append_number(entries, time.ns);
+    append_number(entries, static_cast<std::uint64_t>(chunk_.size()));
+    std::string content;
+    append_number(content, channel);
+    append_number(content, static_cast<std::uint32_t>(counts_[topic]++));
+    append_number(content, time.ns);
+    append_number(content, time.ns);
+    content += message;
+    append_record(chunk_, McapOp::message, content);
+    if (chunk_.size() > kChunkSize) end_chunk();
+  }
+
+  void close() override {
+    end_chunk();
+    std::string bytes;
+    std::string crc;
+    append_number(crc, data_crc_);
+    append_record(bytes, McapOp::data_end, crc);
+    out_.write(bytes);
+    write_summary();
+    out_.close();
+  }
+
+ private:
+  // Schemas are shared by topics of one type.
+  std::string schema_records() const {
+    std::string records;
+    for (const auto& [type, id] : schemas_) {
+      std::string content;
+      append_number(content, id);
+      append_text(content, ros2_name(type));
+      append_text(content, "ros2msg");
+      append_text(content, message_definition(type, Version::ros2));
+      append_record(records, McapOp::schema, content);
+    }
+    return records;
+  }
+
+  std::string channel_records() const {
+    std::string records;
+    for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
+      std::string metadata;
+      append_text(metadata, "offered_qos_profiles");
+      append_text(metadata, qos_profiles(topics_[topic].latched));
+      std::string content;
+      append_number(content, static_cast<std::uint16_t>(topic + 1));
+      append_number(content, schemas_.at(topics_[topic].type));
+      append_text(content, topics_[topic].name);
+      append_text(content, "cdr");
+      append_text(content, metadata);
+      append_record(records, McapOp::channel, content);
+    }
+    return records;
+  }
+
+  void end_chunk() {
+    if (chunk_.empty()) return;
+    ChunkIndex chunk{.first_ns = chunk_first_.ns,
+                     .last_ns = last_.ns,
+                     .offset = out_.offset(),
+                     .index_offsets = {},
+                     .size = chunk_.size()};
+    std::string content;
+    append_number(content, chunk.first_ns);
+    append_number(content, chunk.last_ns);
+    append_number(content, chunk.size);
+    append_number(content, mcap_crc(chunk_));
+    append_text(content, "");  // compression
+    append_number(content, chunk.size);
+    content += chunk_;
+    std::string bytes;
+    append_record(bytes, McapOp::chunk, content);
+    chunk.length = bytes.size();
+    for (const auto& [channel, entries] : index_) {
+      chunk.index_offsets[channel] = chunk.offset + bytes.size();
+      std::string index;
+      append_number(index, channel);
+      append_text(index, entries);
+      append_record(bytes, McapOp::message_index, index);
+    }
+    chunk.index_length = bytes.size() - chunk.length;
+    write_data(bytes);
+    chunks_.push_back(std::move(chunk));
+    chunk_.clear();
+    index_.clear();
+  }
+
+  // The summary: schemas, channels, chunk indexes, statistics, where each group lies, the footer.
+  void write_summary() {
+    const std::uint64_t begin = out_.offset();
+    std::string bytes;
+    std::string offsets;
+    const auto group = [&](McapOp op, const std::string& records) {
+      std::string content;
+      append_number(content, op);
+      append_number(content, begin + bytes.size());
+      append_number(content, static_cast<std::uint64_t>(records.size()));
+      append_record(offsets, McapOp::summary_offset, content);
+      bytes += records;
+    };
+    group(McapOp::schema, schema_records());
+    group(McapOp::channel, channel_records());
+    group(McapOp::statistics, statistics_record());
+    group(McapOp::metadata_index, metadata_index_record());
+    std::string chunk_records;
+    for (const ChunkIndex& chunk : chunks_)
+      append_record(chunk_records, McapOp::chunk_index, content_of(chunk));
+    if (!chunks_.empty()) group(McapOp::chunk_index, chunk_records);
+    const std::uint64_t offsets_begin = begin + bytes.size();
+    bytes += offsets;
+    append_number(bytes, McapOp::footer);
+    append_number(bytes, kMcapFooterSize);
+    append_number(bytes, begin);
+    append_number(bytes, offsets_begin);
+    append_number(bytes, mcap_crc(bytes));
+    out_.write(bytes + std::string(kMcapMagic));
+  }
+
+  std::string statistics_record() const {
+    std::uint64_t messages = 0;
+    std::string counts;
+    for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
+      messages += counts_[topic];
+      append_number(counts, static_cast<std::uint16_t>(topic + 1));
+      append_number(counts, counts_[topic]);
+    }
+    std::string content;
+    append_number(content, messages);
+    append_number(content, static_cast<std::uint16_t>(schemas_.size()));
+    append_number(content, static_cast<std::uint32_t>(topics_.size()));
+    append_number(content, std::uint32_t{0});  // attachments
+    append_number(content, std::uint32_t{1});  // metadata
+    append_number(content, static_cast<std::uint32_t>(chunks_.size()));
+    append_number(content, first_.value_or(Time{}).ns);
+    append_number(content, last_.ns);
+    append_text(content, counts);
+    std::string record;
+    append_record(record, McapOp::statistics, content);
+    return record;
+  }
+
+  std::string metadata_index_record() const {
+    std::string content;
+    append_number(content, metadata_at_);
+    append_number(content, metadata_length_);
+    append_text(content, "rosbag2");
+    std::string record;
+    append_record(record, McapOp::metadata_index, content);
+    return record;
+  }
+
+  void write_data(const std::string& bytes) {
+    data_crc_ = mcap_crc(bytes, data_crc_);
+    out_.write(bytes);
+  }
+
+  BinaryOutput out_;
+  std::vector<Topic> topics_;
+  std::map<std::string, std::uint16_t> schemas_;  // id by type
+  std::vector<std::uint64_t> counts_;             // messages by topic
+  std::uint64_t metadata_at_ = 0;
+  std::uint64_t metadata_length_ = 0;
+  std::uint32_t data_crc_ = 0;
+  std::optional<Time> first_;
+  Time last_;
+  std::string chunk_;
+  Time chunk_first_;
+  std::map<std::uint16_t, std::string> index_;  // of the chunk, by channel
+  std::vector<ChunkIndex> chunks_;
+};
+
+}  // namespace
+
+std::unique_ptr<FileWriter> create_mcap(const std::filesystem::path& file,
+                                        std::vector<Topic> topics) {
+  return std::make_unique<McapWriter>(file, std::move(topics));
+}
+
+}  // namespace plotscan::record::ros

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "record/velodyne/internal/packet.h"
+#include "scan/point.h"
+#include "scan/trajectory.h"
+#include "sensor/sensor.h"
+
+namespace plotscan::record {
+
+// How the sensor moved while it recorded.
+struct Placement {
+  scan::Trajectory world_from_body;  // its first pose is at time 0 of the points
+  Eigen::Isometry3d body_from_lidar;
+};
+
+// Turns data packets into points. Of each return: the azimuth, interpolated between the blocks'
+// as the manual says (section 9.5), the laser's own direction and origin, and the time of its shot.
+class VelodyneDecoder {
+ public:
+  // Without a placement the points are in the lidar frame of their own instants.
+  VelodyneDecoder(const sensor::Sensor& sensor, std::optional<Placement> placement);
+
+  // Appends the packet's returns in the order of firing; its first firing was at time_s. Of two
+  // returns of a shot the nearer comes first; two that are the same are one.
+  void decode(const DataPacket& packet, double time_s, std::vector<scan::LabelledPoint>& points);
+
+ private:
+  // A firing of a laser.
+  struct Shot {
+    std::size_t laser = 0;
+    double head_rad = 0;  // the head's azimuth
+    double time_s = 0;
+  };
+
+  void add_return(const Shot& shot, PacketReturn measured, int number, int count,
+                  std::vector<scan::LabelledPoint>& points) const;
+
+  sensor::Sensor sensor_;
+  double distance_step_m_ = 0;
+  std::optional<Placement> placement_;
+  double last_turn_ = 0;  // hundredths of a degree from block to block, where a packet tells none
+};
+
+}  // namespace plotscan::record

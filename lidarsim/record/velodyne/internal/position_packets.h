@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "record/recording/flight_record.h"
+#include "record/velodyne/internal/nmea.h"
+#include "record/velodyne/internal/packet.h"
+
+namespace plotscan::record {
+
+// What a GPS receiver in the body's origin says of a whole second, from the reported trajectory,
+// held at its ends. Without an anchor the flight is nowhere on Earth: the fix has no position.
+GpsFix gps_fix(const FlightRecord& flight, UtcTime second);
+
+// The position packet that the sensor sends so long after the flight's start: the fix of the last
+// whole second, the clock locked to the receiver's pulse.
+PositionPacket position_packet(const FlightRecord& flight, double time_s);
+
+}  // namespace plotscan::record

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include <pcl/io/lzf.h>
+
+#include "core/error.h"
+#include "scan/internal/cloud_layout.h"
+#include "scan/internal/rows.h"
+
+namespace plotscan::scan {
+namespace {
+
+// LZF turns at most 264 bytes into 3 of a back reference.
+constexpr std::uint64_t kMaxLzfRatio = 88;
+
+// The bytes of a number, read as unsigned of its size.
+template <class Bits>
+Bits load(const char* bytes, bool swap) {
+  Bits bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  if (!swap || sizeof bits == 1) return bits;
+  if constexpr (sizeof bits == 2) return __builtin_bswap16(bits);
+  if constexpr (sizeof bits == 4) return __builtin_bswap32(bits);
+  if constexpr (sizeof bits == 8) return __builtin_bswap64(bits);
+  return bits;
+}
+
+template <class Bits>
+double integer(char kind, Bits bits) {
+  return kind == 'I' ? static_cast<double>(static_cast<std::make_signed_t<Bits>>(bits))
+                     : static_cast<double>(bits);
+}
+
+double number(const ScalarField& field, const char* bytes, bool swap) {
+  switch (field.size) {
+    case 1:
+      return integer(field.kind, load<std::uint8_t>(bytes, swap));
+    case 2:
+      return integer(field.kind, load<std::uint16_t>(bytes, swap));
+    case 4: {
+      const auto bits = load<std::uint32_t>(bytes, swap);
+      return field.kind == 'F' ? std::bit_cast<float>(bits) : integer(field.kind, bits);
+    }
+    default: {
+      const auto bits = load<std::uint64_t>(bytes, swap);
+      return field.kind == 'F' ? std::bit_cast<double>(bits) : integer(field.kind, bits);
+    }
+  }
+}
+
+}  // namespace
+
+double decode(const ScalarField& field, const char* bytes, bool swap) {
+  double value = number(field, bytes, swap);
+  if (field.bits > 0)
+    value = (static_cast<unsigned>(value) >> field.shift) & ((1u << field.bits) - 1);
+  const bool scaled = field.scale != 1 || field.add != 0;
+  return scaled ? value * field.scale + field.add : value;
+}
+
+namespace {
+
+// Floats whose bytes stand in the other order have any exponent: some 40 % of them are no lengths.
+// Throws InputError where a tenth of the coordinates is none; `value` returns that of a field in a
+// record.
+template <class Value>
+void require_lengths(const std::filesystem::path& file, const Wanted& wanted, std::uint64_t records,
+                     Value&& value) {
+  constexpr double kLeast_m = 1e-30;
+  constexpr double kMost_m = 1e12;
+  std::uint64_t coordinates = 0;
+  std::uint64_t garbled = 0;
+  for (const ScalarField& field : wanted.fields) {
+    const bool is_coordinate = field.name == "x" || field.name == "y" || field.name == "z";
+    if (!is_coordinate || field.kind != 'F') continue;
+    for (std::uint64_t i = 0; i < records; ++i) {
+      const double length_m = std::abs(value(field, i));
+      ++coordinates;
+      if (length_m > kMost_m || (length_m > 0 && length_m < kLeast_m)) ++garbled;
+    }
+  }
+  // A handful of points proves nothing.
+  constexpr std::uint64_t kFewest = 300;
+  if (coordinates < kFewest || 10 * garbled <= coordinates) return;
+  throw InputError(file,
+                   std::to_string(100 * garbled / coordinates) +
+                       " % of its coordinates are no lengths: below 1e-30 m or beyond 1e12 m; "
+                       "is their byte order another than the header says?");
+}
+
+bool must_swap(const CloudLayout& layout) {
+  return layout.big_endian != (std::endian::native == std::endian::big);
+}
+
+[[noreturn]] void fail_truncated(const std::filesystem::path& file, const CloudLayout& layout,
+                                 std::uint64_t body_size) {
+  throw InputError(file, "is truncated: the header promises " + std::to_string(layout.points) +
+                             " points of " + std::to_string(layout.record_size) +
+                             " bytes, the file holds " + std::to_string(body_size) + " bytes");
+}
+
+void read_binary(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
+                 const Wanted& wanted) {
+  const std::uint64_t body_size = std::filesystem::file_size(file) - layout.body_offset;
+  if (layout.points > body_size / layout.record_size) fail_truncated(file, layout, body_size);
+  const bool swap = must_swap(layout);
+  const std::size_t records_a_read = std::max<std::size_t>(1, (1u << 20) / layout.record_size);
+  std::vector<char> buffer(records_a_read * layout.record_size);
+  Rows rows(wanted);
+  for (std::uint64_t done = 0; done < wanted.points;) {
+    const std::size_t records = std::min<std::uint64_t>(records_a_read, wanted.points - done);
+    in.read(buffer.data(), static_cast<std::streamsize>(records * layout.record_size));
+    if (!in) throw InputError(file, "cannot be read to its end");
+    if (done == 0) {
+      require_lengths(file, wanted, records, [&](const ScalarField& field, std::uint64_t i) {
+        return decode(field, buffer.data() + i * layout.record_size + field.offset, swap);
+      });
+    }
+    for (std::size_t i = 0; i < records; ++i) {
+      const char* record = buffer.data() + i * layout.record_size;
+      for (const ScalarField& field : wanted.fields)
+        rows.add(decode(field, record + field.offset, swap));
+      rows.end_row();
+    }
+    done += records;
+  }
+  rows.flush();
+}
+
+// A binary_compressed body: two 32-bit sizes, then LZF over all x, all y, and so on.
+std::vector<char> decompress(const std::filesystem::path& file, std::ifstream& in,
+                             const CloudLayout& layout) {
+  std::array<std::uint32_t, 2> sizes{};  // compressed, decompressed
+  in.read(reinterpret_cast<char*>(sizes.data()), sizeof sizes);
+  const std::uint64_t body_size = std::filesystem::file_size(file) - layout.body_offset;
+  if (!in || sizes[0] > body_size - sizeof sizes) fail_truncated(file, layout, body_size);
+  if (sizes[1] / layout.record_size != layout.points || sizes[1] % layout.record_size != 0 ||
+      sizes[1] > sizes[0] * kMaxLzfRatio) {
+    throw InputError(
+        file, "the compressed body does not fit the header: " + std::to_string(layout.points) +
+                  " points of " + std::to_string(layout.record_size) + " bytes are promised, " +
+                  std::to_string(sizes[1]) + " bytes are there");
+  }
+  std::vector<char> compressed(sizes[0]);
+  std::vector<char> body(sizes[1]);
+  in.read(compressed.data(), static_cast<std::streamsize>(compressed.size()));
+  if (!in || pcl::lzfDecompress(compressed.data(), sizes[0], body.data(), sizes[1]) != sizes[1])
+    throw InputError(file, "the compressed body is broken");
+  return body;
+}
+
+void read_compressed(const std::filesystem::path& file, std::ifstream& in,
+                     const CloudLayout& layout, const Wanted& wanted) {
+  const std::vector<char> body = decompress(file, in, layout);
+  const bool swap = must_swap(layout);
+  const auto value = [&](const ScalarField& field, std::uint64_t i) {
+    return decode(field, body.data() + field.offset * layout.points + i * field.size, swap);
+  };
+  require_lengths(file, wanted, wanted.points, value);
+  Rows rows(wanted);
+  for (std::uint64_t i = 0; i < wanted.points; ++i) {
+    for (const ScalarField& field : wanted.fields) rows.add(value(field, i));
+    rows.end_row();
+  }
+  rows.flush();
+}
+
+}  // namespace
+
+void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
+               std::span<const ScalarField> fields, const RowSink& sink, std::uint64_t limit) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(layout.body_offset));
+  const Wanted wanted{std::min(layout.points, limit), fields, sink};
+  switch (layout.body) {
+    case CloudBody::ascii:
+      return read_ascii(file, in, layout, wanted);
+    case CloudBody::binary:
+      return read_binary(file, in, layout, wanted);
+    case CloudBody::compressed:
+      return read_compressed(file, in, layout, wanted);
+    case CloudBody::laz:
+#ifdef PLOTSCAN_HAVE_LASZIP
+      return read_laz(file, layout, wanted);
+#else
+      break;
+#endif
+  }
+  throw std::logic_error("unknown kind of cloud body");
+}
+
+}  // namespace plotscan::scan

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: what a cloud's header tells about the points that follow it.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/coordinate_units.h"
+#include "core/utc_time.h"
+#include "scan/internal/cloud_system.h"
+
+namespace plotscan::scan {
+
+enum class CloudBody {
+  ascii,       // one point a line
+  binary,      // one record a point
+  compressed,  // PCD: LZF over field after field
+  laz,         // LAS records as LASzip packs them
+};
+
+// Where one number of a point lies, and how it is read: value = number * scale + add.
+struct ScalarField {
+  std::string name;
+  char kind = 'F';         // I: signed, U: unsigned, F: float
+  std::size_t size = 4;    // of one element, bytes: 1, 2, 4 or 8; a float has 4 or 8
+  std::size_t count = 1;   // elements
+  std::size_t column = 0;  // of an ascii line
+  std::size_t offset = 0;  // in a binary record, bytes
+  // LAS packs several numbers in a byte: this one has `bits` bits from bit `shift` on; 0: all.
+  int shift = 0;
+  int bits = 0;
+  double scale = 1;
+  double add = 0;
+};
+
+struct CloudLayout {
+  std::string format;  // "PCD, binary", for people
+  CloudBody body = CloudBody::ascii;
+  bool big_endian = false;
+  std::uint64_t points = 0;     // kMaxPoints where nothing but the file's end tells
+  std::size_t columns = 0;      // of an ascii line
+  std::size_t record_size = 0;  // of a point, bytes
+  std::vector<ScalarField> fields;
+  std::uint64_t body_offset = 0;  // of the first point, bytes from the file's start
+  std::size_t body_line = 0;      // of the first point, lines from 1
+
+  bool in_degrees = false;         // x and y
+  CoordinateUnits units;           // else
+  std::vector<std::string> notes;  // what the reader should be told, a sentence each
+
+  // What only text without a header of its own kind says (text_header.cpp).
+  bool is_text = false;
+  char separator = ' ';     // of a line's columns; ' ': any blanks
+  bool has_counts = false;  // a line of one number counts the points that follow it (.pts)
+
+  // What only LAS says.
+  bool is_las = false;
+  int point_format = 0;
+  std::string crs_wkt;
+  int crs_epsg = 0;                // from GeoTIFF keys; 0: none
+  bool adjusted_gps_time = false;  // GPS time less 1e9 s; else of the GPS week
+  std::optional<UtcTime> start;    // of the points' time 0, in files of ours
+
+  // Adds a field behind the others; its column and offset are set here.
+  void append(ScalarField field);
+  // "EPSG:<code>", well-known text where that names no code, or "".
+  std::string crs() const;
+  // Nothing when there is none of that name.
+  const ScalarField* find(std::string_view name) const;
+};
+
+// A cloud's file while its header is read: lines with their numbers, refusing what is no text.
+class HeaderLines {
+ public:
+  explicit HeaderLines(const std::filesystem::path& file);
+
+  // The next line's words; an empty line has none. InputError at the end of the file.
+  const std::vector<std::string>& next();
+  // The next line, or nothing at the end of the file.
+  std::optional<std::string> next_text();
+  // Bytes before the line after the last one read.
+  std::uint64_t offset() const { return offset_; }
+  std::size_t line() const { return line_; }
+  [[noreturn]] void fail(const std::string& what) const;
+  // A word of the last line as a whole number in [low, high], or InputError.
+  std::uint64_t whole_number(const std::string& word, std::uint64_t low, std::uint64_t high) const;
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::size_t line_ = 0;
+  std::uint64_t offset_ = 0;
+  std::vector<std::string> words_;
+};
+
+// The columns of an ascii line, without the blanks around them. A separator of ' ' stands for any
+// blanks.
+void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
+// A whole word as a number, of either sign, nan and inf too.
+std::optional<double> number_of(std::string_view word);
+// Whether a line of a text cloud is none of points: "#..." or "//...".
+bool is_comment(std::string_view line);
+
+// The most bytes one point may have: ample for descriptors of a thousand numbers.
+inline constexpr std::size_t kMaxRecordSize = std::size_t{1} << 16;
+// The most points a file may promise, so that sizes in bytes never overflow.
+inline constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 40;
+
+CloudLayout read_pcd_header(const std::filesystem::path& file);
+CloudLayout read_ply_header(const std::filesystem::path& file);
+CloudLayout read_las_header(const std::filesystem::path& file);
+// Lines of x y z, with or without a line of names or a count in front of them.
+CloudLayout read_text_header(const std::filesystem::path& file);
+// By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
+CloudLayout read_cloud_header(const std::filesystem::path& file);
+
+// Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
+// header's last line unless each is one float.
+void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
+
+// The first field of one readable number that has one of the names, the first name's first. Names
+// are in small letters, without underscores and CloudCompare's "scalar_": "ReturnNumber" and
+// "scalar_return_number" are "returnnumber". nullptr when there is none.
+const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
+
+// Of a LAS file's adjusted GPS time; nothing outside of a century from 1980.
+std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
+
+// Receives points as rows of numbers, row after row, a number for each field asked for.
+using RowSink = std::function<void(std::span<const double> rows)>;
+
+// Hands on these fields (of one element each) of the first `limit` points that the layout
+// describes. InputError when the file is truncated or broken.
+void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
+               std::span<const ScalarField> fields, const RowSink& sink,
+               std::uint64_t limit = kMaxPoints);
+
+}  // namespace plotscan::scan

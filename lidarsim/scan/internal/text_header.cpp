@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "scan/internal/cloud_layout.h"
+
+namespace plotscan::scan {
+namespace {
+
+// Lines looked through for the first point.
+constexpr std::size_t kMostHeaderLines = 100;
+
+// Names of x, y and z, as plain_name leaves them, the first found counts.
+struct AxisNames {
+  const char* axis;
+  std::vector<std::string> names;
+};
+
+const std::array<AxisNames, 3>& axis_names() {
+  static const std::array<AxisNames, 3> names = {
+      {{"x", {"x", "xm", "xcoordinate", "easting", "eastingm", "east", "longitude", "lon", "long"}},
+       {"y", {"y", "ym", "ycoordinate", "northing", "northingm", "north", "latitude", "lat"}},
+       {"z",
+        {"z", "zm", "zcoordinate", "elevation", "elevationm", "elev", "altitude", "altitudem",
+         "alt", "height", "heightm", "up"}}}};
+  return names;
+}
+
+// "X [m]", "\"x\"" and "X_" are one name.
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : name.substr(0, name.find_first_of("[("))) {
+    if (c != '_' && c != '"' && c != '\'' && c != ' ')
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return plain;
+}
+
+// Semicolon, comma, or blanks (tabs are blanks).
+char separator_of(std::string_view line) {
+  for (const char separator : {';', ','})
+    if (line.find(separator) != std::string_view::npos) return separator;
+  return ' ';
+}
+
+bool is_point(const std::vector<std::string_view>& columns) {
+  return std::ranges::count_if(columns, [](auto word) { return number_of(word).has_value(); }) >= 3;
+}
+
+// A point whose numbers have decimal commas.
+bool has_decimal_commas(std::string_view line) {
+  std::string pointed(line);
+  std::ranges::replace(pointed, ',', '.');
+  std::vector<std::string_view> columns;
+  split_columns(pointed, separator_of(pointed), columns);
+  return pointed != line && is_point(columns);
+}
+
+// What stands in front of the points.
+struct TextHeader {
+  std::string first_point;
+  bool has_count = false;  // the line before the points, or the one before that, is one number
+  std::string names;       // the last line with words, without the sign of a comment
+  bool names_in_comment = false;
+  std::size_t names_line = 0;
+};
+
+std::string_view without_byte_order_mark(std::string_view line) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return line.starts_with(kMark) ? line.substr(kMark.size()) : line;
+}
+
+void take_header_line(const HeaderLines& lines, std::string_view line, TextHeader& header) {
+  const bool comment = is_comment(line);
+  const std::size_t begin = comment ? line.find_first_not_of("#/ \t") : 0;
+  std::vector<std::string_view> words;
+  split_columns(line, ' ', words);
+  if (words.empty() || begin == std::string_view::npos) return;
+  if (words.size() == 1 && number_of(words[0])) {
+    header.has_count = true;
+    return;
+  }
+  header.names = line.substr(begin);
+  header.names_in_comment = comment;
+  header.names_line = lines.line();
+}
+
+TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, CloudLayout& layout) {
+  TextHeader header;
+  std::vector<std::string_view> columns;
+  while (lines.line() < kMostHeaderLines) {
+    if (!header.has_count) {
+      layout.body_offset = lines.offset();
+      layout.body_line = lines.line() + 1;
+    }
+    const std::optional<std::string> text = lines.next_text();
+    if (!text) break;
+    const std::string_view line = without_byte_order_mark(*text);
+    split_columns(line, separator_of(line), columns);
+    if (!is_comment(line) && is_point(columns)) {
+      header.first_point = line;
+      if (text->size() != line.size()) layout.body_offset += text->size() - line.size();
+      return header;
+    }
+    if (!is_comment(line) && has_decimal_commas(line)) {
+      throw InputError(file, lines.line(),
+                       "has numbers with decimal commas; write them with points (sed 'y/,/./')");
+    }
+    take_header_line(lines, line, header);
+  }
+  throw InputError(file,
+                   "is neither a PCD, nor a PLY, nor a LAS cloud, nor text: none of its first " +
+                       std::to_string(kMostHeaderLines) + " lines is a point, x y z");
+}
+
+// The names, one a column; empty where there are none.
+std::vector<std::string> column_names(const TextHeader& header, char separator) {
+  std::vector<std::string_view> words;
+  split_columns(header.names, separator, words);
+  if (words.size() < 3) split_columns(header.names, separator_of(header.names), words);
+  return {words.begin(), words.end()};
+}
+
+// The columns of x, y and z by their names; nothing unless all three are named.
+std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::string>& names) {
+  std::vector<std::string> plain(names.size());
+  std::ranges::transform(names, plain.begin(), plain_name);
+  std::array<std::size_t, 3> columns{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto found = plain.end();
+    for (const std::string& name : axis_names()[axis].names)
+      if (found == plain.end()) found = std::ranges::find(plain, name);
+    if (found == plain.end()) return std::nullopt;
+    columns[axis] = static_cast<std::size_t>(found - plain.begin());
+  }
+  return columns;
+}
+
+bool is_longitude(const std::string& name) { return plain_name(name).starts_with("lon"); }
+
+// Gives every column its name; x, y and z are called that.
+void add_fields(const std::vector<std::string>& names, const std::array<std::size_t, 3>& xyz,
+                CloudLayout& layout) {
+  for (std::size_t column = 0; column < layout.columns; ++column) {
+    ScalarField field{.name = {}, .size = 8, .column = column};
+    const auto axis = std::ranges::find(xyz, column);
+    if (axis != xyz.end()) {
+      field.name = axis_names()[static_cast<std::size_t>(axis - xyz.begin())].axis;
+    } else if (names.size() == layout.columns) {
+      field.name = names[column];
+    }
+    if (!field.name.empty()) layout.fields.push_back(std::move(field));
+  }
+}
+
+}  // namespace
+
+CloudLayout read_text_header(const std::filesystem::path& file) {
+  HeaderLines lines(file);
+  CloudLayout layout;
+  layout.is_text = true;
+  layout.points = kMaxPoints;
+  const TextHeader header = read_lines(file, lines, layout);
+  layout.has_counts = header.has_count;
+  layout.format = "text";
+  layout.separator = separator_of(header.first_point);
+  std::vector<std::string_view> columns;
+  split_columns(header.first_point, layout.separator, columns);
+  layout.columns = columns.size();
+
+  const std::vector<std::string> names = column_names(header, layout.separator);
+  const auto named = named_columns(names);
+  if (!named && !names.empty() && !header.names_in_comment) {
+    throw InputError(file, header.names_line,
+                     "names the columns " + joined(names, ", ") +
+                         "; x, y and z (or easting, northing and height) must be among them");
+  }
+  const std::array<std::size_t, 3> xyz = named.value_or(std::array<std::size_t, 3>{0, 1, 2});
+  const bool in_front = xyz == std::array<std::size_t, 3>{0, 1, 2};
+  if (names.size() != columns.size() && !in_front) {
+    throw InputError(file, header.names_line,
+                     "names " + std::to_string(names.size()) + " columns; the first point has " +
+                         std::to_string(columns.size()));
+  }
+  layout.in_degrees = named && is_longitude(names[xyz[0]]);
+  add_fields(names, xyz, layout);
+  return layout;
+}
+
+}  // namespace plotscan::scan

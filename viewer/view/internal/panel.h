@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "view/internal/page.h"
+
+class vtkRenderer;
+
+namespace plotscan::view {
+
+// Pixels drawn each way for one of a panel.
+inline constexpr int kPanelSamples = 3;
+
+// What the renderer's camera sees, anti-aliased. Where shade_m is above 0, corners and places
+// between things that stand no farther than that from each other are darker, as under a cloudy sky
+// (screen-space ambient occlusion). Needs a Display.
+Raster drawn_panel(vtkRenderer& renderer, const Eigen::Vector2i& size_px, double shade_m);
+
+}  // namespace plotscan::view

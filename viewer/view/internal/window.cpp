@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/internal/window.h"
+
+#include <vtkImageShrink3D.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkRenderWindow.h>
+#include <vtkWindowToImageFilter.h>
+
+#include "core/error.h"
+#include "core/output_file.h"
+
+namespace plotscan::view {
+
+void require_range(double value, const Range& range, const std::string& what) {
+  if (!range.contains(value)) {
+    throw InputError(what + " " + formatted("%.10g", value) + " is not in " + range.text());
+  }
+}
+
+void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
+  window.OffScreenRenderingOn();
+  window.SetMultiSamples(8);
+  window.SetSize(width_px, height_px);
+}
+
+void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples) {
+  window.Render();
+  OutputFile file(png, true);
+  vtkNew<vtkWindowToImageFilter> capture;
+  capture->SetInput(&window);
+  capture->ReadFrontBufferOff();
+  vtkNew<vtkPNGWriter> writer;
+  vtkNew<vtkImageShrink3D> shrink;
+  shrink->SetInputConnection(capture->GetOutputPort());
+  shrink->SetShrinkFactors(samples, samples, 1);
+  shrink->AveragingOn();
+  writer->SetInputConnection(shrink->GetOutputPort());
+  writer->SetFileName(file.path().c_str());
+  writer->SetCompressionLevel(9);
+  writer->Write();
+  if (writer->GetErrorCode() != 0) throw WriteError(png);
+  file.commit();
+}
+
+}  // namespace plotscan::view
