@@ -107,9 +107,6 @@ void refuse_second_document(const std::string& text, const std::filesystem::path
   DocumentStart document;
   if (!parser.HandleNextDocument(document) || !parser.HandleNextDocument(document)) return;
   const auto line = static_cast<std::size_t>(std::max(document.mark.line, 0) + 1);
-  const auto at = static_cast<std::size_t>(std::max(document.mark.pos, 0));
-  if (at < text.size() && std::string(",]}").find(text[at]) != std::string::npos)
-    throw InputError(file, line, std::string("not YAML: \"") + text[at] + "\" belongs to nothing");
   throw InputError(file, line, "begins a second YAML document (---); one is read");
 }
 
