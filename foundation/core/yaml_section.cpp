@@ -242,9 +242,15 @@ void YamlSection::allow_only(const std::vector<std::string>& keys) const {
 
 bool YamlSection::has(const std::string& key) const { return value(key).IsDefined(); }
 
-bool YamlSection::is_list(const std::string& key) const { return value(key).IsSequence(); }
+bool YamlSection::is_list(const std::string& key) const {
+  const YAML::Node found = value(key);
+  return found && found.IsSequence();
+}
 
-bool YamlSection::is_map(const std::string& key) const { return value(key).IsMap(); }
+bool YamlSection::is_map(const std::string& key) const {
+  const YAML::Node found = value(key);
+  return found && found.IsMap();
+}
 
 std::vector<std::string> YamlSection::keys() const {
   std::vector<std::string> all;
