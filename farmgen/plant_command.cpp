@@ -43,8 +43,9 @@ void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
   if (!fs::is_directory(fs::absolute(output).parent_path()))
     throw InputError(output, "cannot be created: there is no such folder");
   const TemporaryPath partial(partial_path(output));
-  std::error_code ignored;  // writing into the folder says what is wrong
-  fs::create_directory(partial.path(), ignored);
+  std::error_code error;
+  fs::create_directory(partial.path(), error);
+  if (error) throw WriteError(output, error.value());
   mesh::write_obj(partial.path() / output.filename(), mesh);
   std::vector<fs::path> names;
   for (const auto& file : fs::directory_iterator(partial.path())) {
