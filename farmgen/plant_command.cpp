@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plant_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/manifest.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
 #include "crop/grow.h"
@@ -30,20 +32,28 @@ void require_free(const fs::path& path) {
   if (fs::exists(path)) throw InputError(path, "exists; --force replaces it");
 }
 
+bool have_same_bytes(const fs::path& a, const fs::path& b) {
+  return fs::is_regular_file(b) && file_hash(a) == file_hash(b);
+}
+
 // The mesh, its materials and their pictures, written beside their places and renamed when they are
-// whole.
+// whole, the mesh last: where it is, all is. What a run that was killed left of the same is no
+// other's.
 void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
   if (!fs::is_directory(fs::absolute(output).parent_path()))
     throw InputError(output, "cannot be created: there is no such folder");
   const TemporaryPath partial(partial_path(output));
-  std::error_code ignored;  // writing into the folder says what is wrong
-  fs::create_directory(partial.path(), ignored);
+  std::error_code error;
+  fs::create_directory(partial.path(), error);
+  if (error) throw WriteError(output, error.value());
   mesh::write_obj(partial.path() / output.filename(), mesh);
   std::vector<fs::path> names;
   for (const auto& file : fs::directory_iterator(partial.path())) {
     names.push_back(file.path().filename());
-    if (!replace) require_free(output.parent_path() / names.back());
+    const fs::path place = output.parent_path() / names.back();
+    if (!replace && !have_same_bytes(file.path(), place)) require_free(place);
   }
+  std::ranges::partition(names, [&](const fs::path& name) { return name != output.filename(); });
   for (const fs::path& name : names) {
     fs::rename(partial.path() / name, output.parent_path() / name);
   }
@@ -52,10 +62,7 @@ void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
 void run_plant(const Program& program, const PlantArguments& arguments) {
   const fs::path output = arguments.output;
   if (output.extension() != ".obj") throw InputError(output, "does not end in .obj");
-  if (!arguments.force) {
-    require_free(output);
-    require_free(fs::path(output).replace_extension(".mtl"));
-  }
+  if (!arguments.force) require_free(output);
   crop::GrowOptions options = arguments.options;
   options.detail = arguments.detail == "light" ? crop::Detail::light : crop::Detail::scan;
   const mesh::Mesh mesh = crop::grow(options, program.common().seed);

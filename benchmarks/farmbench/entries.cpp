@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "farmbench/text_file.h"
 #include "score/score_files.h"
 
@@ -38,7 +39,7 @@ EnteredFarm farm_from_json(const json& document, const std::string& method) {
 
 Entry read_entry(const fs::path& file) {
   try {
-    const json document = json::parse(read_text(file));
+    const json document = json::parse(read_json_text(file));
     Entry entry{.method = document.at("method"),
                 .suite = document.at("suite"),
                 .program_sha256 = document.at("program_sha256"),

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
@@ -90,7 +91,7 @@ std::optional<fs::path> view_file(const RunOptions& options, const Task& task) {
 
 void read_times(const fs::path& output, const std::string& farm, FarmResult& result) {
   const fs::path file = times_file(output, farm);
-  if (fs::exists(file)) set_times(result, json::parse(read_text(file)));
+  if (fs::exists(file)) set_times(result, json::parse(read_json_text(file)));
 }
 
 // The farm's result where there is one made from the same; a broken file is as good as none.
@@ -99,7 +100,7 @@ std::optional<FarmResult> earlier_result(const RunOptions& options, const Task& 
   const auto view = view_file(options, task);
   if (!fs::exists(file) || (view && !fs::exists(*view))) return std::nullopt;
   try {
-    FarmResult result = farm_result_from_json(json::parse(read_text(file)));
+    FarmResult result = farm_result_from_json(json::parse(read_json_text(file)));
     read_times(options.output, task.name, result);
     if (result.made_from == task.made_from) return result;
   } catch (const json::exception&) {
@@ -244,7 +245,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
 
 SuiteResult read_results(const fs::path& output) {
   const fs::path file = output / "results.json";
-  const std::string text = read_text(file);
+  const std::string text = read_json_text(file);
   try {
     const json document = json::parse(text);
     require_known_format(document, file);

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/json_text.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -81,7 +82,7 @@ nlohmann::json read_manifest(const fs::path& folder) {
   if (!fs::exists(path))
     throw InputError(folder, "not a folder written by plotscan (it has no manifest.json)");
   try {
-    nlohmann::json manifest = nlohmann::json::parse(read_text(path));
+    nlohmann::json manifest = nlohmann::json::parse(read_json_text(path));
     if (!manifest.is_object()) throw InputError(path, "not a manifest: a JSON object is expected");
     require_known_format(manifest, path);
     return manifest;

@@ -11,6 +11,7 @@
 #include "core/format.h"
 #include "core/geodesy.h"
 #include "core/internal/rectangle_fit.h"
+#include "core/json_text.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -201,7 +202,9 @@ std::string stated_crs(const json& document) {
 }
 
 bool within_degrees(const json& coordinates) {
-  if (coordinates.is_array() && !coordinates.empty() && coordinates[0].is_number()) {
+  // To a loop, a text is a list of one entry: itself.
+  if (!coordinates.is_array()) return false;
+  if (!coordinates.empty() && coordinates[0].is_number()) {
     return std::abs(coordinates.at(0).get<double>()) <= 180 &&
            std::abs(coordinates.at(1).get<double>()) <= 90;
   }
@@ -337,7 +340,7 @@ PlacedPlots read_plot_features(const std::filesystem::path& path, const std::str
                                " bytes; plots are read from up to " + std::to_string(kMostBytes));
   }
   try {
-    return plot_features_of(json::parse(read_text(path)), path, crs, unit_m);
+    return plot_features_of(json::parse(read_json_text(path)), path, crs, unit_m);
   } catch (const json::exception& error) {
     fail_foreign(path, error);
   }

@@ -5,8 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
+
+#include <yaml-cpp/eventhandler.h>
 
 #include "core/error.h"
 #include "core/format.h"
@@ -79,17 +82,41 @@ void require_size(std::uintmax_t bytes, const std::filesystem::path& file) {
                              std::to_string(kMostBytes));
 }
 
+// Where a document begins; what it holds is not kept.
+struct DocumentStart : YAML::EventHandler {
+  YAML::Mark mark = {};
+  void OnDocumentStart(const YAML::Mark& start) override { mark = start; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Not by YAML::LoadAll: a bracket or comma that belongs to nothing is an empty document to it, over
+// and over, until there is no memory left.
+void refuse_second_document(const std::string& text, const std::filesystem::path& file) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  DocumentStart document;
+  if (!parser.HandleNextDocument(document) || !parser.HandleNextDocument(document)) return;
+  const auto line = static_cast<std::size_t>(std::max(document.mark.line, 0) + 1);
+  throw InputError(file, line, "begins a second YAML document (---); one is read");
+}
+
 YAML::Node parse_map(const std::string& text, const std::filesystem::path& file) {
   require_size(text.size(), file);
   require_utf8(text, file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw InputError(file, static_cast<std::size_t>(std::max(documents[1].Mark().line, 0) + 1),
-                       "begins a second YAML document (---); one is read");
-    }
-    YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
+    YAML::Node root = YAML::Load(text);
     if (!root.IsMap()) throw InputError(file, 1, "is not a map of keys to values");
+    refuse_second_document(text, file);
     return root;
   } catch (const YAML::Exception& error) {
     throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), "not YAML: " + error.msg);
@@ -215,9 +242,15 @@ void YamlSection::allow_only(const std::vector<std::string>& keys) const {
 
 bool YamlSection::has(const std::string& key) const { return value(key).IsDefined(); }
 
-bool YamlSection::is_list(const std::string& key) const { return value(key).IsSequence(); }
+bool YamlSection::is_list(const std::string& key) const {
+  const YAML::Node found = value(key);
+  return found && found.IsSequence();
+}
 
-bool YamlSection::is_map(const std::string& key) const { return value(key).IsMap(); }
+bool YamlSection::is_map(const std::string& key) const {
+  const YAML::Node found = value(key);
+  return found && found.IsMap();
+}
 
 std::vector<std::string> YamlSection::keys() const {
   std::vector<std::string> all;

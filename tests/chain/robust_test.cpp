@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <random>
 #include <string>
 
 #include "programs.h"
@@ -110,35 +109,6 @@ TEST_F(Robust, ProgressOffATerminalIsALineNowAndThen) {
   const Finished slow = run_here("timeout -s INT 12 lidarsim fly farm -o scan --speed 0.01 -j 1");
   EXPECT_THAT(slow.errors, ::testing::MatchesRegex("scanning +[0-9]+ %(, [0-9]+ s left)?\n"));
   EXPECT_EQ(run_here("lidarsim fly farm -o scan --speed 4 -q").errors, "");
-}
-
-// Kills at moments spread over each command's run: afterwards its output is absent, or whole.
-TEST_F(Robust, AKilledCommandLeavesNothingOrTheWhole) {
-  succeed("farmgen generate " + kFarm + " -o farm");
-  succeed("lidarsim fly farm -o scan --speed 4");
-  std::mt19937 moments(17);
-  for (const std::string& command : {"farmgen generate " + kFarm + " -o out",
-                                     std::string("farmgen export farm --gazebo sim -o out"),
-                                     std::string("lidarsim fly farm -o out --speed 4"),
-                                     std::string("estimator run scan -o out")}) {
-    const auto start = std::chrono::steady_clock::now();
-    succeed(command);
-    const double whole_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::string manifest = read_text(folder_.path() / "out/manifest.json");
-    fs::remove_all(folder_.path() / "out");
-    for (int kill = 0; kill < 20; ++kill) {
-      const double after_s = std::uniform_real_distribution(0.0, 1.1 * whole_s)(moments);
-      run_here("timeout -s KILL " + std::to_string(after_s) + " " + command);
-      const fs::path made = folder_.path() / "out/manifest.json";
-      const bool there = fs::exists(folder_.path() / "out");
-      EXPECT_EQ(there ? read_text(made) : manifest, manifest) << command;
-      fs::remove_all(folder_.path() / "out");
-    }
-    succeed(command);
-    fs::remove_all(folder_.path() / "out");
-    EXPECT_EQ(entries(), (std::vector<std::string>{"farm", "scan"})) << "swept: " << command;
-  }
 }
 
 TEST_F(Robust, AKilledSuiteIsResumedToTheSameBytes) {

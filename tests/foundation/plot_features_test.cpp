@@ -53,6 +53,21 @@ std::string foreign(const std::string& ring) {
   return text.replace(text.find("%s"), 2, ring);
 }
 
+// A text is its own first entry to who walks through lists; deep lists end the stack.
+TEST(PlotFeatures, RefusesTextForCoordinatesAndDeepNesting) {
+  const testing::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& ring) {
+    const auto file = folder.write("q.geojson", foreign(ring));
+    return testing::message_of<InputError>([&] { read_plot_features(file, "EPSG:32616"); });
+  };
+  EXPECT_THAT(refusal("\"1e300\""), ::testing::HasSubstr("is no map of plots"));
+  EXPECT_THAT(refusal(std::string(100000, '[') + std::string(100000, ']')),
+              ::testing::HasSubstr("is nested deeper than 100"));
+  // Brackets in texts do not count.
+  EXPECT_THAT(refusal("\"" + std::string(200, '[') + "\\\"\""),
+              ::testing::HasSubstr("is no map of plots"));
+}
+
 TEST(PlotFeatures, ReadsABareRectangle) {
   const testing::TemporaryFolder folder;
   const auto plots =

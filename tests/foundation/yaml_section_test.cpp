@@ -26,6 +26,12 @@ TEST(YamlSection, ASecondDocumentIsRefused) {
   EXPECT_THAT(refusal(""), HasSubstr("f.yaml:1: is not a map"));
 }
 
+// To yaml-cpp these are empty documents without end.
+TEST(YamlSection, BracketsThatBelongToNothingEnd) {
+  EXPECT_THAT(refusal("a: 1\n--- , b\n"), HasSubstr(":2: begins a second YAML document"));
+  EXPECT_THAT(refusal(", a: {b: 2}}\n"), HasSubstr("is not a map of keys to values"));
+}
+
 TEST(YamlSection, TextThatIsNotUtf8IsRefusedWithItsLine) {
   EXPECT_EQ(YamlSection::parse("name: M\xc3\xa4h\n", "f.yaml").text("name"), "M\xc3\xa4h");
   EXPECT_THAT(refusal("a: 1\nname: M\xe4h\n"), HasSubstr("f.yaml:2: is no UTF-8 text"));

@@ -10,6 +10,7 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/nearest_name.h"
 #include "core/plot_features.h"
 #include "estimate/height_properties.h"
@@ -168,7 +169,7 @@ std::vector<EnteredRow> read_entered_table(const fs::path& file, Problems& probl
 std::vector<EnteredRow> read_entered_features(const fs::path& file, Problems& problems) {
   const std::string name = file.filename().string();
   std::vector<EnteredRow> rows;
-  json document = json::parse(read_text(file), nullptr, false);
+  json document = json::parse(read_json_text(file), nullptr, false);
   if (!document.is_object() || !document.contains("features") || !document["features"].is_array()) {
     problems.add(name, "is no GeoJSON FeatureCollection");
     return rows;

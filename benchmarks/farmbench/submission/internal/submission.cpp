@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/methods.h"
 
@@ -28,7 +29,7 @@ void read_statement(const fs::path& file, Submission& submission, Problems& prob
     problems.add(name, "is missing; it says {\"method\": \"my-method\"}");
     return;
   }
-  const json document = json::parse(read_text(file), nullptr, false);
+  const json document = json::parse(read_json_text(file), nullptr, false);
   if (!document.is_object()) {
     problems.add(name, "is no JSON object; it says {\"method\": \"my-method\"}");
     return;
@@ -52,7 +53,7 @@ void read_statement(const fs::path& file, Submission& submission, Problems& prob
 
 void read_task(const fs::path& file, Submission& submission, Problems& problems) {
   if (!fs::exists(file)) return;
-  const json document = json::parse(read_text(file), nullptr, false);
+  const json document = json::parse(read_json_text(file), nullptr, false);
   const bool is_task = document.is_object() && document.contains("fields") &&
                        document["fields"].is_array() &&
                        std::ranges::all_of(document["fields"], [](const json& field) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/json_text.h"
+
+#include "core/error.h"
+
+namespace plotscan {
+
+std::string read_json_text(const std::filesystem::path& path) {
+  constexpr int kDeepest = 100;
+  std::string text = read_text(path);
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\')
+      ++i;  // what it escapes ends nothing
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '[' || text[i] == '{'))
+      ++depth;
+    else if (!quoted && (text[i] == ']' || text[i] == '}'))
+      --depth;
+    if (depth > kDeepest)
+      throw InputError(path, "is nested deeper than " + std::to_string(kDeepest));
+  }
+  return text;
+}
+
+}  // namespace plotscan

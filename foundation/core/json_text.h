@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace plotscan {
+
+// A JSON file's text, not yet parsed. Throws InputError when it cannot be read, and where it is
+// nested deeper than 100: what goes through it calls itself once a level.
+std::string read_json_text(const std::filesystem::path& path);
+
+}  // namespace plotscan

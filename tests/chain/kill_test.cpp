@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every command that writes, killed, on a full disk, and where nothing may be written: its output
+// is absent or whole, and whole when the command is run again. PLOTSCAN_KILLS says how many moments
+// of a run are tried, 100 for a release.
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <string>
+
+#include "programs.h"
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "core/error.h"
+
+namespace plotscan {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using testing::Finished;
+using ::testing::HasSubstr;
+using testing::run;
+using testing::TemporaryFolder;
+
+const std::string kFarm =
+    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
+    " --set terrain.side_m=30 --set 'plots.rows=[{plots: 4}]' --set plants.count=40";
+const std::string kSmoke = std::string("'") + PLOTSCAN_SOURCE_DIR "/benchmarks/suites/smoke.yaml'";
+
+struct Writer {
+  std::string name;
+  std::string command;  // up to its output
+  std::string output;
+};
+
+void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
+
+int kills() {
+  const char* stated = std::getenv("PLOTSCAN_KILLS");
+  return stated == nullptr ? 4 : std::atoi(stated);
+}
+
+class Interrupted : public ::testing::TestWithParam<Writer> {
+ protected:
+  static void SetUpTestSuite() {
+    input_ = fs::temp_directory_path() / ("plotscan-kills-" + std::to_string(getpid()));
+    fs::create_directories(input_);
+    for (const std::string command : {"farmgen generate " + kFarm + " -o farm",
+                                      std::string("lidarsim fly farm -o scan --speed 4"),
+                                      std::string("estimator run scan -o estimate")}) {
+      ASSERT_EQ(run(command, input_).exit_code, 0) << command;
+    }
+  }
+  static void TearDownTestSuite() { fs::remove_all(input_); }
+
+  // `before` is a shell's words before the command; the inputs are in $IN.
+  Finished write(const std::string& before = "") const {
+    return run("IN='" + input_.string() + "' && " + before + " " + GetParam().command + " " +
+                   GetParam().output,
+               folder_.path());
+  }
+
+  // Onto a disk of its own, mounted with these options; stdout is what lies on it afterwards.
+  Finished write_on_disk(const std::string& options) const {
+    folder_.write("write", "mkdir -p disk && mount -t tmpfs -o " + options +
+                               " none disk || exit 9\n" + GetParam().command + " disk/" +
+                               GetParam().output +
+                               " >printed\ncode=$?\nfind disk -mindepth 1\nexit $code\n");
+    return run("IN='" + input_.string() + "' unshare -m sh ./write", folder_.path());
+  }
+
+  // The bytes of all files, by name, hidden ones too.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> bytes;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+      if (entry.is_regular_file())
+        bytes[fs::relative(entry.path(), folder_.path())] = read_text(entry.path());
+    return bytes;
+  }
+
+  void remove() const {
+    for (const auto& entry : fs::directory_iterator(folder_.path())) fs::remove_all(entry.path());
+  }
+
+  static inline fs::path input_;
+  TemporaryFolder folder_;
+};
+
+TEST_P(Interrupted, AKillLeavesNothingOrTheWhole) {
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(write().exit_code, 0);
+  const double whole_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto whole = files();
+  std::mt19937 moments(17);
+  for (int kill = 0; kill < kills(); ++kill) {
+    remove();
+    const double after_s = std::uniform_real_distribution(0.0, whole_s)(moments);
+    write("timeout -s KILL " + std::to_string(after_s));
+    if (fs::exists(folder_.path() / GetParam().output)) {
+      auto left = files();
+      std::erase_if(left, [](const auto& file) { return file.first.starts_with("."); });
+      EXPECT_EQ(left, whole) << "after " << after_s << " s";
+    }
+    if (kill % 4 == 3) {
+      fs::remove_all(folder_.path() / GetParam().output);
+      EXPECT_EQ(write().exit_code, 0);
+      EXPECT_EQ(files(), whole) << "swept, and made again, after " << after_s << " s";
+    }
+  }
+}
+
+// A disk with room for a part of the output, then one that is read only.
+TEST_P(Interrupted, ADiskThatIsFullOrClosedIsSaidAndNothingIsLeft) {
+  if (run("unshare -m mount -t tmpfs none /mnt", folder_.path()).exit_code != 0)
+    GTEST_SKIP() << "only root mounts a disk";
+  ASSERT_EQ(write().exit_code, 0);
+  std::uintmax_t bytes = 0;
+  for (const auto& [name, text] : files()) bytes += text.size();
+  remove();
+  for (const double share : {0.0, 0.3, 0.6, 0.9}) {
+    // In pages; one is the folder's own.
+    const auto pages = static_cast<int>(share * static_cast<double>(bytes) / 4096) + 1;
+    const Finished full = write_on_disk("size=" + std::to_string(4 * pages) + "k");
+    EXPECT_EQ(full.exit_code, 1) << share << full.errors;
+    EXPECT_THAT(full.errors, HasSubstr("no space left on ")) << share;
+    EXPECT_EQ(full.output, "") << share;
+  }
+  const Finished closed = write_on_disk("ro");
+  EXPECT_THAT(closed.exit_code, AnyOf(1, 2)) << closed.errors;
+  EXPECT_THAT(closed.errors, HasSubstr("Read-only file system"));
+  EXPECT_EQ(closed.output, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Writers, Interrupted,
+    ::testing::Values(
+        Writer{"Generate", "farmgen generate " + kFarm + " -q -o", "out"},
+        Writer{"Plant", "farmgen plant maize -q -o", "out.obj"},
+        Writer{"ExportClassic", "farmgen export $IN/farm --gazebo classic --drone -q -o", "out"},
+        Writer{"ExportSim", "farmgen export $IN/farm --gazebo sim -q -o", "out"},
+        Writer{"Fly", "lidarsim fly $IN/farm --speed 4 --format las,pcap,bag,mcap -q -o", "out"},
+        Writer{"ConvertLas", "lidarsim convert $IN/scan -q", "out.las"},
+        Writer{"ConvertBag", "lidarsim convert $IN/scan -q", "out.bag"},
+        Writer{"View", "lidarsim view $IN/scan -q -o", "out.html"},
+        Writer{"Run", "estimator run $IN/scan -q -o", "out"},
+        Writer{"Score", "estimator score $IN/estimate --truth $IN/farm -q -o", "out"},
+        Writer{"Report", "estimator report $IN/estimate -q -o", "out.html"},
+        Writer{"ExportSuite", "farmbench export " + kSmoke + " -q -o", "out"}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+}  // namespace plotscan
