@@ -4,8 +4,10 @@
 #include <string>
 
 #include "export_command.h"
+#include "plan_command.h"
 #include "score_command.h"
 #include "seed.h"
+#include "suite_options.h"
 
 #include "core/data_folder.h"
 #include "core/manifest.h"
@@ -58,31 +60,13 @@ void declare_run(Program& program, farmbench::RunOptions& options) {
   CLI::App& run = program.command("run", "Run a suite: farms, flights, estimates, scores.",
                                   [&program, &options] { run_suite(program, options); },
                                   {.seed = kTableSeed, .threads = true});
-  run.add_option("SUITE", options.suite,
-                 "suite (YAML), or the name of a shipped one, such as paper")
-      ->required();
+  add_suite_options(run, options);
   run.add_option("-o,--output", options.output,
                  "results folder; farms whose results it holds are not run again")
       ->required();
   run.add_option("--jobs", options.jobs,
                  "farms that run at a time (default: 0, one for each thread)")
       ->check(CLI::Range(0, 1024));
-  run.add_option(
-      "--seeds", options.seeds,
-      "number of seeds of each case, from the suite's first one on (default: the suite's)");
-  run.add_option(
-         "--secret-file", options.secret,
-         "file whose bytes the seeds are drawn from, of a blind contest (docs/submissions.md)")
-      ->check(CLI::ExistingFile);
-  run.add_option("--methods", options.methods,
-                 "methods to run, separated by commas (default: the suite's)")
-      ->delimiter(',');
-  run.add_option(
-         "--enter", options.entered,
-         "NAME=COMMAND: a program as a further method (docs/submissions.md); may be repeated")
-      ->allow_extra_args(false);
-  run.add_flag("--keep-clouds", options.keep_clouds,
-               "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the paper)");
   run.add_flag("--force", options.force, "run every farm again");
 }
 
@@ -99,6 +83,7 @@ int main(int argc, char** argv) {
       [&] { say_summary(program, farmbench::report(results, program.common().seed), results); },
       {.seed = kTableSeed});
   report.add_option("RESULTS", results, "results folder of farmbench run")->required();
+  declare_plan(program);
   declare_export(program);
   declare_score(program);
   return program.run(argc, argv);
