@@ -2,6 +2,7 @@
 #include "farmbench/plan.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <unistd.h>
@@ -22,6 +23,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kNamesShown = 10;
+constexpr const char* kWork = ".work-";
 
 fs::path plan_file(const fs::path& output) { return output / "plan.json"; }
 
@@ -126,6 +128,22 @@ std::string shortened(const std::vector<std::string>& names) {
          " more";
 }
 
+// What farms that were killed between their results and their ends have left: nothing else looks
+// for it, as they are not run again.
+void remove_left_work(const fs::path& output, const std::vector<FarmTask>& tasks) {
+  std::set<std::string> finished;
+  for (const FarmTask& task : tasks)
+    if (task.result) finished.insert("." + task.name);
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(output)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t work = name.rfind(kWork);
+    if (work != std::string::npos && finished.contains(name.substr(0, work)))
+      left.push_back(entry.path());
+  }
+  for (const fs::path& folder : left) fs::remove_all(folder);
+}
+
 }  // namespace
 
 PlanSummary plan(const RunOptions& options) {
@@ -158,7 +176,7 @@ PlannedFarm run_planned(const fs::path& output, const std::string& farm,
   // The farm's name is part of the folder's: other farms run beside it, on other machines too,
   // whose processes' numbers say nothing here.
   const TemporaryPath work(options.work.value_or(output) /
-                           ("." + farm + ".work-" + std::to_string(getpid())));
+                           ("." + farm + kWork + std::to_string(getpid())));
   run_task(task, suite, planned, {.folder = work.path(), .threads = options.threads}, progress);
   return {.result = std::move(*task.result)};
 }
@@ -179,6 +197,7 @@ MergeSummary merge(const fs::path& output, const MergeOptions& options) {
   if (summary.missing.size() == tasks.size()) throw InputError(output, missing);
   if (!summary.missing.empty() && !options.finished_only)
     throw InputError(output, missing + "; --finished leaves them out");
+  remove_left_work(output, tasks);
   summary.run = write_results(planned, suite, std::move(tasks));
   return summary;
 }

@@ -56,17 +56,20 @@ TEST_F(Plan, FarmByFarmGivesTheBytesOfARun) {
             "half-1-1,half-1,1,1\nhalf-1-12,half-1,12,0\n");
   EXPECT_THAT(message_of<InputError>([&] { merge(planned.output, {.build = "test"}); }),
               HasSubstr("4 of 4 farms have no result: flat-1, flat-12, half-1-1, half-1-12"));
-  const TemporaryFolder elsewhere;
+  const fs::path elsewhere = folder_.path() / "elsewhere";
+  fs::create_directories(elsewhere);
   for (const char* farm : {"half-1-12", "flat-12", "flat-1", "half-1-1"}) {
     EXPECT_FALSE(
-        run_planned(planned.output, farm, {.threads = 2, .build = "test", .work = elsewhere.path()})
+        run_planned(planned.output, farm, {.threads = 2, .build = "test", .work = elsewhere})
             .resumed);
   }
-  EXPECT_TRUE(fs::is_empty(elsewhere.path()));
+  EXPECT_TRUE(fs::is_empty(elsewhere));
   const auto last = fs::last_write_time(planned.output / "farms/flat-1.json");
   EXPECT_TRUE(run_planned(planned.output, "flat-1", own_).resumed);
   EXPECT_EQ(fs::last_write_time(planned.output / "farms/flat-1.json"), last);
+  fs::create_directories(planned.output / ".flat-12.work-77/scan");  // it was killed at its end
   EXPECT_TRUE(merge(planned.output, {.build = "test"}).missing.empty());
+  EXPECT_FALSE(fs::exists(planned.output / ".flat-12.work-77"));
   for (const char* file : {"table.csv", "results.json", "farms/flat-12.json", "farms/half-1-1.json",
                            "views/flat-1.cbor", "views/half-1-1.cbor"})
     EXPECT_TRUE(read_text(planned.output / file) == read_text(whole.output / file)) << file;
@@ -86,9 +89,11 @@ TEST_F(Plan, WhatIsMissingIsNamedOrLeftOut) {
   EXPECT_THAT(message_of<InputError>([&] { merge(planned.output, {.build = "test"}); }),
               HasSubstr("2 of 4 farms have no result: half-1-1, half-1-12; --finished"));
   EXPECT_FALSE(fs::exists(planned.output / "table.csv"));
+  fs::create_directories(planned.output / ".half-1-1.work-77");  // it may run elsewhere
   const MergeSummary merged = merge(planned.output, {.build = "test", .finished_only = true});
   EXPECT_THAT(merged.missing, ElementsAre("half-1-1", "half-1-12"));
   EXPECT_EQ(merged.run.result.farms.size(), 2U);
+  EXPECT_TRUE(fs::exists(planned.output / ".half-1-1.work-77"));
   EXPECT_EQ(read_manifest(planned.output)["results"]["finished"], false);
 }
 
