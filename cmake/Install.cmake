@@ -29,6 +29,7 @@ endforeach()
 add_custom_target(pages ALL DEPENDS ${made_pages})
 # Paths between the files of the data are relative: it keeps the folders of the sources.
 install(DIRECTORY worlds models DESTINATION ${PLOTSCAN_DATA_DIR} COMPONENT data USE_SOURCE_PERMISSIONS)
+install(DIRECTORY workflow DESTINATION ${PLOTSCAN_DATA_DIR} COMPONENT data USE_SOURCE_PERMISSIONS)
 install(DIRECTORY benchmarks/suites DESTINATION ${PLOTSCAN_DATA_DIR}/benchmarks COMPONENT data)
 install(FILES report/template.html DESTINATION ${PLOTSCAN_DATA_DIR}/report COMPONENT data)
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convert_command.h"
+#include "join_command.h"
 #include "sensors_command.h"
 #include "view_command.h"
 
@@ -24,6 +25,7 @@ struct Arguments {
   std::string scan;
   std::string flight;
   std::string waypoints;
+  std::string part;
   lidar::FlyPlaceOptions options;
 };
 
@@ -58,6 +60,7 @@ void run_fly(const Program& program, Arguments& arguments) {
   options.threads = program.common().threads;
   if (!arguments.flight.empty()) options.flight = arguments.flight;
   if (!arguments.waypoints.empty()) options.waypoints = arguments.waypoints;
+  if (!arguments.part.empty()) options.part = lidar::flight_part(arguments.part);
   const lidar::PlaceScan scanned = lidar::fly_place(
       arguments.place, arguments.scan, arguments.options, program.progress("scanning"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -133,6 +136,9 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                  "cloud.pcd; separated by commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);
+  fly.add_option("--part", arguments.part,
+                 "I/N: scan the I-th of N equally long parts of the flight, which lidarsim join "
+                 "joins (docs/scale.md)");
   fly.add_flag("--force", arguments.options.replace, "replace an existing scan folder");
 }
 
@@ -147,6 +153,7 @@ int main(int argc, char** argv) {
                       {.seed = "seed of range noise, wind and pose errors", .threads = true});
   add_options(fly, arguments);
   declare_convert(program);
+  declare_join(program);
   declare_sensors(program);
   declare_view(program);
   return program.run(argc, argv);

@@ -40,6 +40,9 @@ struct RunSummary {
 // Told of every farm that has been run and how long it took, from one thread at a time.
 using FarmReport = std::function<void(const FarmResult& farm, double seconds)>;
 
+// The command that a results folder's manifest names, whichever of farmbench's wrote it.
+inline constexpr const char* kRunCommand = "farmbench run";
+
 // Runs the suite and writes output/farms/CASE-SEED.json and times/CASE-SEED.json farm by farm, of
 // each case's first farm views/CASE-SEED.cbor, then the reports of write_reports and manifest.json.
 // A farm is not run again when its file is there and was made from the same (made_from). Nothing

@@ -63,7 +63,7 @@ void write_manifest(const fs::path& folder, const Manifest& manifest) {
   document["options"] = manifest.options;
   document["results"] = manifest.results;
   document["hash"] = "xxh128";
-  document["inputs"] = nlohmann::json::array();
+  document["inputs"] = manifest.earlier_inputs;
   for (const fs::path& input : manifest.inputs) {
     document["inputs"].push_back({{"file", input.filename().string()}, {"hash", file_hash(input)}});
   }
@@ -96,7 +96,7 @@ void require_unchanged(const fs::path& folder, const std::string& part) {
   try {
     for (const nlohmann::json& output : manifest.at("outputs")) {
       const std::string file = output.at("file");
-      if (!file.starts_with(part + "/")) continue;
+      if (!part.empty() && !file.starts_with(part + "/")) continue;
       const fs::path path = path_inside(folder, file, folder / "manifest.json");
       if (file_hash(path) != output.at("hash").get<std::string>()) {
         throw InputError(path,

@@ -24,6 +24,8 @@ struct Manifest {
   nlohmann::json options = nlohmann::json::object();
   // Files read, hashed when the manifest is written.
   std::vector<std::filesystem::path> inputs = {};
+  // The member "inputs" of another manifest, of files that were read then; it stands before these.
+  nlohmann::json earlier_inputs = nlohmann::json::array();
   nlohmann::json results =
       nlohmann::json::object();  // counts worth knowing without opening the files
 };
@@ -32,8 +34,8 @@ struct Manifest {
 // inputs' names and hashes, and the hash of every other file in `folder`, hidden ones apart.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 
-// Throws InputError naming the file when one below folder/`part` ("truth") is not as write_manifest
-// hashed it.
+// Throws InputError naming the file when one below folder/`part` ("truth"; "" for all of the
+// folder) is not as write_manifest hashed it.
 void require_unchanged(const std::filesystem::path& folder, const std::string& part);
 
 // Files and links below the folder that its manifest does not list, hidden ones too, relative to

@@ -37,6 +37,8 @@ void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
   record::require_formats(options.formats, sensor);
   if (!parse_utc(options.start_utc))
     throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
+  if (!options.part.whole() && !options.formats.empty())
+    throw InputError("--format is not for a part of a flight; lidarsim join --format writes them");
   if (options.threads < 1 || options.threads > kMaxThreads)
     throw InputError("threads " + std::to_string(options.threads) + " must be in [1, 1024]");
 }
@@ -63,6 +65,7 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
   if (options.flight) manifest.options["flight"] = options.flight->filename().string();
   if (options.waypoints) manifest.options["waypoints"] = options.waypoints->filename().string();
   if (!options.formats.empty()) manifest.options["formats"] = options.formats;
+  if (!options.part.whole()) manifest.options["part"] = {options.part.number, options.part.of};
   manifest.results = {
       {"duration_s", summary.duration_s}, {"shots", summary.shots}, {"points", summary.points}};
   return manifest;
@@ -71,6 +74,15 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
 sensor::SpinJitter spin_jitter(const sensor::Sensor& sensor, const FlyOptions& options) {
   if (options.spin_jitter == "none") return {};
   return {.sd_rad = sensor.spin_jitter_rad, .seed = options.seed};
+}
+
+SimulateOptions simulate_options(const FlyOptions& options) {
+  return {.range_noise_m = options.range_noise_m,
+          .seed = options.seed,
+          .threads = options.threads,
+          .sub_rays = options.sub_rays,
+          .returns = return_mode(options.returns),
+          .part = options.part};
 }
 
 // The scene in the wind of the flight; null where nothing sways.
@@ -127,19 +139,16 @@ FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_f
 
   const auto swaying = swaying_scene(plants, options, flight.truth.end_s());
   scan::PcdWriter cloud(output.path() / "cloud.pcd");
+  const SimulateOptions how = simulate_options(options);
   simulate(
       swaying ? *swaying : scene, sensor,
-      {.fired = fired, .placed = errors.none() ? fired : placed},
-      {.range_noise_m = options.range_noise_m,
-       .seed = options.seed,
-       .threads = options.threads,
-       .sub_rays = options.sub_rays,
-       .returns = return_mode(options.returns)},
+      {.fired = fired, .placed = errors.none() ? fired : placed}, how,
       [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); }, progress);
   cloud.close();
   write_flight(output.path(), flight, sensor);
 
-  const FlySummary summary{.shots = fired.sequences() * fired.lasers(),
+  const SequenceRange scanned = fired_sequences(fired.sequences(), how);
+  const FlySummary summary{.shots = (scanned.end - scanned.begin) * fired.lasers(),
                            .points = cloud.points(),
                            .duration_s = flight.truth.end_s()};
   finish(output.path(), manifest_of(site, sensor, options, summary), options.formats);

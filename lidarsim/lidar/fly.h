@@ -13,6 +13,7 @@
 #include "farm/farm.h"
 #include "flight/pose_errors.h"
 #include "flight/wind.h"
+#include "lidar/flight_part.h"
 #include "lidar/internal/sway.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
@@ -51,6 +52,7 @@ struct FlyOptions {
   flight::PoseErrors pose_errors = {};  // on top of the preset's
   // Of files written beside cloud.pcd, as record::write_formats takes them.
   std::vector<std::string> formats = {};
+  FlightPart part = {};  // of the flight, that is scanned; record::join_scans joins them
   std::uint64_t seed = 1;
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
@@ -59,7 +61,7 @@ struct FlyOptions {
 struct FlySummary {
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
-  double duration_s = 0;  // of the flight
+  double duration_s = 0;  // of the whole flight
 };
 
 // Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv

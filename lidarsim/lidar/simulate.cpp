@@ -40,16 +40,19 @@ struct Batch {
 class Simulator {
  public:
   Simulator(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
-            const SimulateOptions& options)
-      : scene_(scene), sensor_(sensor), shots_(shots), options_(options) {
+            const SimulateOptions& options, std::uint64_t end_sequence)
+      : scene_(scene),
+        sensor_(sensor),
+        shots_(shots),
+        options_(options),
+        end_sequence_(end_sequence) {
     if (options.sub_rays == 1) return;
     check(sensor.beam.has_value(), "the sensor's file states a beam");
     sub_rays_.emplace(*sensor.beam, options.sub_rays);
   }
 
   Batch run(std::uint64_t begin) const {
-    const std::uint64_t end =
-        std::min(begin + batch_sequences(options_.sub_rays), shots_.fired.sequences());
+    const std::uint64_t end = std::min(begin + batch_sequences(options_.sub_rays), end_sequence_);
     std::vector<Ray> axes = fire(shots_.fired, begin, end);
     std::vector<Hit> hits;
     if (sub_rays_) {
@@ -178,10 +181,16 @@ class Simulator {
   const sensor::Sensor& sensor_;
   const Shots& shots_;
   const SimulateOptions& options_;
+  std::uint64_t end_sequence_;  // none from this one on is fired
   std::optional<SubRays> sub_rays_;
 };
 
 }  // namespace
+
+// Parts begin where the whole flight's batches do: a batch's rays are cast together.
+SequenceRange fired_sequences(std::uint64_t sequences, const SimulateOptions& options) {
+  return sequences_of(options.part, sequences, batch_sequences(options.sub_rays));
+}
 
 Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser) {
   const auto k = static_cast<Eigen::Index>(laser);
@@ -194,12 +203,12 @@ Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser) {
 void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
               const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress) {
-  const Simulator simulator(scene, sensor, shots, options);
-  const std::uint64_t sequences = shots.fired.sequences();
-  std::uint64_t next_sequence = 0;
+  const SequenceRange fired = fired_sequences(shots.fired.sequences(), options);
+  const Simulator simulator(scene, sensor, shots, options, fired.end);
+  std::uint64_t next_sequence = fired.begin;
   const auto take = [&](tbb::flow_control& control) {
     const std::uint64_t begin = next_sequence;
-    if (begin >= sequences) control.stop();
+    if (begin >= fired.end) control.stop();
     next_sequence += batch_sequences(options.sub_rays);
     return begin;
   };
@@ -207,7 +216,8 @@ void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& sho
   const auto hand_on = [&](const Batch& batch) {
     sink(batch.points);
     if (progress)
-      progress(static_cast<double>(batch.end_sequence) / static_cast<double>(sequences));
+      progress(static_cast<double>(batch.end_sequence - fired.begin) /
+               static_cast<double>(fired.end - fired.begin));
   };
   // oneTBB keeps to the number of processors unless it is asked for more; asking for less here
   // would bind other work of the process too.

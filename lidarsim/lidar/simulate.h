@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/progress.h"
+#include "lidar/flight_part.h"
 #include "lidar/internal/returns.h"
 #include "lidar/scene.h"
 #include "scan/point.h"
@@ -20,6 +21,7 @@ struct SimulateOptions {
   // surface it meets, however faint, is the shot's only return.
   int sub_rays = 1;
   ReturnMode returns = ReturnMode::strongest;
+  FlightPart part = {};  // whose shots are fired
 };
 
 // The same shots twice: as they truly were fired, which decides what they meet, and as the drone's
@@ -30,12 +32,16 @@ struct Shots {
 };
 
 // Fires every shot of the plan at the scene and hands the returns on. Memory does not grow with the
-// number of shots; the points are the same for any number of threads. Shots that meet nothing, and
-// returns whose measured range is beyond the sensor's limits, leave no point. A shot's points
-// follow each other, the nearest first. Several sub-rays need the sensor's beam.
+// number of shots; the points are the same for any number of threads, and those of all parts, one
+// after the other, the whole flight's. Shots that meet nothing, and returns whose measured range is
+// beyond the sensor's limits, leave no point. A shot's points follow each other, the nearest first.
+// Several sub-rays need the sensor's beam.
 void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& shots,
               const SimulateOptions& options, const scan::PointSink& sink,
               const ProgressReport& progress = {});
+
+// The firing sequences of the options' part of a flight with so many.
+SequenceRange fired_sequences(std::uint64_t sequences, const SimulateOptions& options);
 
 // A shot as the ray tracer takes it.
 Ray ray_of(const sensor::SequenceShots& shots, std::size_t laser);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export_command.h"
+#include "plan_command.h"
 #include "run_command.h"
 #include "score_command.h"
 
@@ -9,6 +10,7 @@ int main(int argc, char** argv) {
   plotscan::Program program("farmbench",
                             "Benchmark plot and crop-height estimators on virtual farms.");
   plotscan::declare_run(program);
+  plotscan::declare_plan(program);
   plotscan::declare_export(program);
   plotscan::declare_score(program);
   return program.run(argc, argv);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "seed.h"
+#include "suite_options.h"
 
 #include "core/data_folder.h"
 #include "core/error.h"
@@ -72,18 +73,6 @@ void declare_running(CLI::App& command, farmbench::RunOptions& options) {
       .add_option("--jobs", options.jobs,
                   "farms that run at a time (default: 0, one for each thread)")
       ->check(CLI::Range(0, 1024));
-  command.add_option(
-      "--seeds", options.seeds,
-      "number of seeds of each case, from the suite's first one on (default: the suite's)");
-  command
-      .add_option("--methods", options.methods,
-                  "methods to run, separated by commas (default: the suite's)")
-      ->delimiter(',');
-  command
-      .add_option("--enter", options.entered,
-                  "NAME=COMMAND: a program as a further method (docs/submissions.md); may be "
-                  "repeated")
-      ->allow_extra_args(false);
   command.add_flag("--force", options.force, "run every farm again");
 }
 
@@ -93,19 +82,8 @@ void declare_suite_run(Program& program) {
   CLI::App& command = program.command("run", "Run a suite: farms, flights, estimates, scores.",
                                       [&program, options] { run_suite(program, *options); },
                                       {.seed = kTableSeed, .threads = true});
-  command
-      .add_option("SUITE", options->suite,
-                  "suite (YAML), or the name of a shipped one, such as paper")
-      ->required();
+  add_suite_options(command, *options);
   declare_running(command, *options);
-  command
-      .add_option("--secret-file", options->secret,
-                  "file whose bytes the seeds are drawn from, of a blind contest "
-                  "(docs/submissions.md)")
-      ->check(CLI::ExistingFile);
-  command.add_flag("--keep-clouds", options->keep_clouds,
-                   "keep each farm and its scan in OUTPUT/clouds (about 250 MB a farm of the "
-                   "paper)");
 }
 
 void declare_sweep(Program& program) {
@@ -119,6 +97,7 @@ void declare_sweep(Program& program) {
                   "suite with axes (YAML, docs/sweep.md), or the name of a shipped one, such as "
                   "flight-soybean")
       ->required();
+  add_choice_options(command, *options);
   declare_running(command, *options);
 }
 

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farmbench/farm_task.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "core/json_text.h"
+#include "core/manifest.h"
+#include "core/output_folder.h"
+#include "farmbench/internal/command_method.h"
+#include "farmbench/internal/farm_view.h"
+#include "farmbench/methods.h"
+#include "farmbench/internal/run_farm.h"
+#include "farmbench/suite_choice.h"
+#include "farmbench/text_file.h"
+
+namespace plotscan::farmbench {
+namespace fs = std::filesystem;
+namespace {
+
+using nlohmann::json;
+
+// Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
+void take_methods(Suite& suite, const std::vector<std::string>& names) {
+  std::vector<std::string> own;
+  for (const std::string& name : names) {
+    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
+      own.push_back(name);
+    else if (std::ranges::count(names, name) > 1)
+      throw InputError("the method \"" + name + "\" is named twice");
+  }
+  require_known_methods(own);
+  suite.methods = names;
+}
+
+fs::path result_file(const RunOptions& options, const FarmTask& task) {
+  return options.output / "farms" / (task.name + ".json");
+}
+
+fs::path times_file(const fs::path& output, const std::string& farm) {
+  return output / "times" / (farm + ".json");
+}
+
+std::optional<fs::path> view_file(const RunOptions& options, const FarmTask& task) {
+  if (!task.viewed) return std::nullopt;
+  return farm_view_file(options.output, task.suite_case.name, task.seed);
+}
+
+fs::path kept_clouds(const RunOptions& options, const FarmTask& task) {
+  return options.output / "clouds" / task.name;
+}
+
+void keep_clouds(const fs::path& folder, const fs::path& kept, std::uint64_t seed) {
+  write_manifest(folder, {.command = kRunCommand, .seed = seed});
+  require_replaceable_folder(kept, kRunCommand);
+  fs::create_directories(kept.parent_path());
+  fs::remove_all(kept);
+  // The place of work may be another disk.
+  std::error_code other_disk;
+  fs::rename(folder, kept, other_disk);
+  if (other_disk) fs::copy(folder, kept, fs::copy_options::recursive);
+}
+
+void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const RunOptions& options,
+            int threads, const ProgressReport& progress) {
+  fs::create_directories(folder);
+  FarmResult result = run_farm({.suite = suite,
+                                .suite_case = task.suite_case,
+                                .seed = task.seed,
+                                .folder = folder,
+                                .threads = threads,
+                                .view = view_file(options, task)},
+                               progress);
+  result.made_from = task.made_from;
+  // The result last: it is what a later run looks for.
+  write_text(times_file(options.output, task.name), times_of(result).dump(1) + "\n");
+  write_text(result_file(options, task), to_json(result).dump(1) + "\n");
+  task.result = std::move(result);
+  if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task.seed);
+  fs::remove_all(folder);
+}
+
+}  // namespace
+
+Suite suite_of(const RunOptions& options) {
+  Suite suite =
+      chosen_suite({.file = options.suite, .seeds = options.seeds, .secret = options.secret});
+  if (!options.methods.empty()) take_methods(suite, options.methods);
+  for (const std::string& entered : options.entered) {
+    suite.commands.push_back(command_method(entered, options.suite));
+    suite.methods.push_back(suite.commands.back().name);
+    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
+      throw InputError("the method \"" + suite.methods.back() + "\" is named twice");
+  }
+  return suite;
+}
+
+std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed) {
+  return suite_case.name + "-" + std::to_string(seed);
+}
+
+FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
+                 const std::string& build) {
+  return {.suite_case = suite_case,
+          .seed = seed,
+          .name = farm_name(suite_case, seed),
+          .made_from = made_from(suite, suite_case, seed, build),
+          .viewed = !suite.sweep && seed == suite.seeds.front()};
+}
+
+std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options) {
+  std::vector<FarmTask> tasks;
+  for (const SuiteCase& suite_case : suite.cases) {
+    for (const std::uint64_t seed : suite.seeds) {
+      tasks.push_back(task_of(suite, suite_case, seed, options.build));
+      if (options.force) continue;
+      tasks.back().result = earlier_result(options, tasks.back());
+    }
+  }
+  return tasks;
+}
+
+std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task) {
+  const fs::path file = result_file(options, task);
+  const auto view = view_file(options, task);
+  if (!fs::exists(file) || (view && !fs::exists(*view))) return std::nullopt;
+  try {
+    FarmResult result = farm_result_from_json(json::parse(read_json_text(file)));
+    read_times(options.output, result);
+    if (result.made_from == task.made_from) return result;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void read_times(const fs::path& output, FarmResult& result) {
+  const fs::path file = times_file(output, result.case_name + "-" + std::to_string(result.seed));
+  if (fs::exists(file)) set_times(result, json::parse(read_json_text(file)));
+}
+
+void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks) {
+  if (!options.keep_clouds) return;
+  for (const FarmTask& task : tasks)
+    if (!task.result) require_replaceable_folder(kept_clouds(options, task), kRunCommand);
+}
+
+void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, const WorkPlace& work,
+              const ProgressReport& progress) {
+  try {
+    run_in(work.folder / task.name, task, suite, options, work.threads, progress);
+  } catch (const InputError& error) {
+    throw InputError(options.suite, "case " + task.suite_case.name + ", seed " +
+                                        std::to_string(task.seed) + ": " + error.what());
+  }
+}
+
+void make_result_folders(const fs::path& output) {
+  for (const char* part : {"farms", "times", "views"}) fs::create_directories(output / part);
+}
+
+}  // namespace plotscan::farmbench

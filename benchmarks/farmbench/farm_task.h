@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/progress.h"
+#include "farmbench/internal/farm_result.h"
+#include "farmbench/run.h"
+#include "farmbench/internal/suite.h"
+
+namespace plotscan::farmbench {
+
+// One farm of a suite and what its result is made from.
+struct FarmTask {
+  const SuiteCase& suite_case;
+  std::uint64_t seed = 1;
+  std::string name;  // "flat-1"
+  nlohmann::json made_from;
+  bool viewed = false;  // the report shows this farm
+  std::optional<FarmResult> result = std::nullopt;
+};
+
+// The suite with the methods that the options put in place of its own, or beside them. Throws
+// InputError as chosen_suite does, and on methods that are unknown or named twice.
+Suite suite_of(const RunOptions& options);
+
+// A farm's name in files, "flat-1".
+std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed);
+
+FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
+                 const std::string& build);
+
+// Every farm of the suite, which outlives them, by case and seed, with the results that are there
+// already unless options.force is set.
+std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options);
+
+// The farm's result where there is one made from the same; a broken file is as good as none.
+std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task);
+
+// Reads the times of output/times into the result, where there are any.
+void read_times(const std::filesystem::path& output, FarmResult& result);
+
+// Throws InputError where what stands in the place of a farm's kept clouds is no earlier run's.
+void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks);
+
+// Where a farm is run.
+struct WorkPlace {
+  std::filesystem::path folder;  // made where it is not there; the farm's own folder lies in it
+  int threads = 1;
+};
+
+// Runs the farm and writes output/times, output/farms and, of a viewed one, output/views; sets
+// task.result. Throws InputError, naming the suite, the case and the seed, as run_farm does.
+void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, const WorkPlace& work,
+              const ProgressReport& progress);
+
+// The folders that run_task writes into.
+void make_result_folders(const std::filesystem::path& output);
+
+// The folder's manifest.json. From its start a run's folder says whose it is, so that no other
+// folder is ever taken for it.
+void write_run_manifest(const RunOptions& options, std::size_t farms, bool finished);
+
+// Writes what is made of the farms that have results: output/results.json, the reports and
+// manifest.json.
+RunSummary write_results(const RunOptions& options, const Suite& suite,
+                         std::vector<FarmTask> tasks);
+
+}  // namespace plotscan::farmbench
