@@ -12,7 +12,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
-#include "farmbench/farm_task.h"
+#include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/run_farm.h"
 #include "farmbench/text_file.h"
 

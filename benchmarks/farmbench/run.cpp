@@ -18,7 +18,7 @@
 #include "core/temporary_path.h"
 #include "farmbench/entries.h"
 #include "farmbench/internal/farm_queue.h"
-#include "farmbench/farm_task.h"
+#include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/reports.h"
 #include "farmbench/text_file.h"

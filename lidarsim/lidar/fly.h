@@ -13,7 +13,7 @@
 #include "farm/farm.h"
 #include "flight/pose_errors.h"
 #include "flight/wind.h"
-#include "lidar/flight_part.h"
+#include "lidar/internal/flight_part.h"
 #include "lidar/internal/sway.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/progress.h"
-#include "lidar/flight_part.h"
+#include "lidar/internal/flight_part.h"
 #include "lidar/internal/returns.h"
 #include "lidar/scene.h"
 #include "scan/point.h"

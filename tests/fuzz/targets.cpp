@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
-#include "estimate/internal/esri_grid.h"
 #include "estimate/estimate.h"
+#include "estimate/internal/esri_grid.h"
 #include "estimate/plot_map.h"
 #include "farmbench/entry/internal/entered_rows.h"
 #include "farmbench/entry/problems.h"

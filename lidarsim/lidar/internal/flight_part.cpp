@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/flight_part.h"
+#include "lidar/internal/flight_part.h"
 
 #include <algorithm>
 #include <charconv>

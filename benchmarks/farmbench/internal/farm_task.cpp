@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farmbench/farm_task.h"
+#include "farmbench/internal/farm_task.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,8 +10,8 @@
 #include "core/output_folder.h"
 #include "farmbench/internal/command_method.h"
 #include "farmbench/internal/farm_view.h"
-#include "farmbench/methods.h"
 #include "farmbench/internal/run_farm.h"
+#include "farmbench/methods.h"
 #include "farmbench/suite_choice.h"
 #include "farmbench/text_file.h"
 

@@ -12,8 +12,8 @@
 
 #include "core/progress.h"
 #include "farmbench/internal/farm_result.h"
-#include "farmbench/run.h"
 #include "farmbench/internal/suite.h"
+#include "farmbench/run.h"
 
 namespace plotscan::farmbench {
 
