@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/format.h"
+#include "core/json_text.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
