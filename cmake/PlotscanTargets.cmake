@@ -22,10 +22,11 @@ function(plotscan_compile_options target)
   endif()
 endfunction()
 
-# plotscan_precompile(TARGET FROM): takes over the headers of FROM.
+# plotscan_precompile(TARGET FROM): takes over the headers of FROM. All are compiled with -fPIC, as some targets have to be.
 function(plotscan_precompile target from)
   if(PLOTSCAN_PRECOMPILES)
     target_precompile_headers(${target} REUSE_FROM ${from})
+    target_compile_options(${target} PRIVATE -fPIC)
   endif()
 endfunction()
 
@@ -37,6 +38,7 @@ function(plotscan_common_headers name)
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
   target_link_libraries(${name} PRIVATE Eigen3::Eigen ${ARG_LIBRARIES})
   plotscan_compile_options(${name})
+  target_compile_options(${name} PRIVATE -fPIC)
   target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
     <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> ${ARG_HEADERS})
 endfunction()
@@ -56,8 +58,7 @@ function(plotscan_library name)
 endfunction()
 
 plotscan_common_headers(common_headers)
-set_target_properties(common_headers PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
-  VISIBILITY_INLINES_HIDDEN ON)
+set_target_properties(common_headers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
 # Files that declare commands: CLI11 costs each of them more than all else, and less when it is compiled at -O1, once for
 # all files of a target. They hand numbers on and compute none.
