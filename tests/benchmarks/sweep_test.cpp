@@ -89,7 +89,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 // The goal holds for a farm whose flights differ in time and error as written here.
 TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
-  SuiteResult result{.suite = "s", .methods = {"lattice"}};
+  SuiteResult result;
+  result.methods = {"lattice"};
   result.sweep = Sweep{.axes = {{"altitude_m", {1, 2, 3, 4}}},
                        .height = "mean",
                        .truth = "height_mean_m",
@@ -99,9 +100,16 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
   const auto add = [&](double flight_s, double rmse_m, double high_m, double recall) {
     const std::string name = std::to_string(result.cases.size());
     result.cases.push_back({name});
-    result.farms.push_back({.case_name = name, .flight_s = flight_s - 1});
-    result.farms.push_back({.case_name = name, .flight_s = flight_s + 1});
-    rows.push_back({.case_name = name, .recall = recall, .rmse_m = rmse_m, .rmse_high_m = high_m});
+    for (const double off_s : {-1, 1}) {
+      FarmResult& farm = result.farms.emplace_back();
+      farm.case_name = name;
+      farm.flight_s = flight_s + off_s;
+    }
+    TableRow& row = rows.emplace_back();
+    row.case_name = name;
+    row.recall = recall;
+    row.rmse_m = rmse_m;
+    row.rmse_high_m = high_m;
   };
   add(40, 0.01, 0.02, 1);
   add(30, 0.02, 0.04, 1);        // perhaps not
