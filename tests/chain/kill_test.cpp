@@ -51,8 +51,8 @@ class Interrupted : public ::testing::TestWithParam<Writer> {
     input_ = fs::temp_directory_path() / ("plotscan-kills-" + std::to_string(getpid()));
     fs::create_directories(input_);
     for (const std::string& command : {"farmgen generate " + kFarm + " -o farm",
-                                      std::string("lidarsim fly farm -o scan --speed 4"),
-                                      std::string("estimator run scan -o estimate")}) {
+                                       std::string("lidarsim fly farm -o scan --speed 4"),
+                                       std::string("estimator run scan -o estimate")}) {
       ASSERT_EQ(run(command, input_).exit_code, 0) << command;
     }
   }
