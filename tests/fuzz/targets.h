@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Target {
   Structure structure = Structure::bytes;
   std::function<void(const std::filesystem::path& file)> read;
 };
+
+// GoogleTest's name for one.
+inline void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 
 const std::vector<Target>& targets();
 
