@@ -24,13 +24,10 @@ namespace fs = std::filesystem;
 using ::testing::AnyOf;
 using testing::Finished;
 using ::testing::HasSubstr;
+using testing::kFourPlots;
+using testing::kSmokeSuite;
 using testing::run;
 using testing::TemporaryFolder;
-
-const std::string kFarm =
-    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
-    " --set terrain.side_m=30 --set 'plots.rows=[{plots: 4}]' --set plants.count=40";
-const std::string kSmoke = std::string("'") + PLOTSCAN_SOURCE_DIR "/benchmarks/suites/smoke.yaml'";
 
 struct Writer {
   std::string name;
@@ -50,7 +47,7 @@ class Interrupted : public ::testing::TestWithParam<Writer> {
   static void SetUpTestSuite() {
     input_ = fs::temp_directory_path() / ("plotscan-kills-" + std::to_string(getpid()));
     fs::create_directories(input_);
-    for (const std::string& command : {"farmgen generate " + kFarm + " -o farm",
+    for (const std::string& command : {"farmgen generate " + kFourPlots + " -o farm",
                                        std::string("lidarsim fly farm -o scan --speed 4"),
                                        std::string("estimator run scan -o estimate")}) {
       ASSERT_EQ(run(command, input_).exit_code, 0) << command;
@@ -140,7 +137,7 @@ TEST_P(Interrupted, ADiskThatIsFullOrClosedIsSaidAndNothingIsLeft) {
 INSTANTIATE_TEST_SUITE_P(
     Writers, Interrupted,
     ::testing::Values(
-        Writer{"Generate", "farmgen generate " + kFarm + " -q -o", "out"},
+        Writer{"Generate", "farmgen generate " + kFourPlots + " -q -o", "out"},
         Writer{"Plant", "farmgen plant maize -q -o", "out.obj"},
         Writer{"ExportClassic", "farmgen export $IN/farm --gazebo classic --drone -q -o", "out"},
         Writer{"ExportSim", "farmgen export $IN/farm --gazebo sim -q -o", "out"},
@@ -151,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         Writer{"Run", "estimator run $IN/scan -q -o", "out"},
         Writer{"Score", "estimator score $IN/estimate --truth $IN/farm -q -o", "out"},
         Writer{"Report", "estimator report $IN/estimate -q -o", "out.html"},
-        Writer{"ExportSuite", "farmbench export " + kSmoke + " -q -o", "out"}),
+        Writer{"ExportSuite", "farmbench export " + kSmokeSuite + " -q -o", "out"}),
     [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

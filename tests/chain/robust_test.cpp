@@ -18,13 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Finished;
 using ::testing::HasSubstr;
+using testing::kFourPlots;
+using testing::kSmokeSuite;
 using testing::run;
 using testing::TemporaryFolder;
-
-const std::string kFarm =
-    std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'" +
-    " --set terrain.side_m=30 --set 'plots.rows=[{plots: 4}]' --set plants.count=40";
-const std::string kSmoke = std::string("'") + PLOTSCAN_SOURCE_DIR "/benchmarks/suites/smoke.yaml'";
 
 class Robust : public ::testing::Test {
  protected:
@@ -47,7 +44,7 @@ class Robust : public ::testing::Test {
 };
 
 TEST_F(Robust, AFullStdoutIsAFailure) {
-  succeed("farmgen generate " + kFarm + " -o farm");
+  succeed("farmgen generate " + kFourPlots + " -o farm");
   for (const std::string command :
        {"farmgen info farm", "farmgen info farm --json", "farmgen --help", "farmgen --version",
         "lidarsim sensors", "estimator --version", "farmbench --help", "plotview --help"}) {
@@ -60,15 +57,15 @@ TEST_F(Robust, AFullStdoutIsAFailure) {
 
 // A limit on the size of files stands for a full disk: both end a write in its midst.
 TEST_F(Robust, AFullDiskIsSaidAndNothingIsLeft) {
-  succeed("farmgen generate " + kFarm + " -o farm");
+  succeed("farmgen generate " + kFourPlots + " -o farm");
   succeed("lidarsim fly farm -o scan --speed 4");
   const auto before = entries();
   for (const std::string& command :
-       {"farmgen generate " + kFarm + " -o out",
+       {"farmgen generate " + kFourPlots + " -o out",
         std::string("farmgen export farm --gazebo sim -o out"),
         std::string("lidarsim fly farm -o out --speed 4"),
         std::string("lidarsim convert scan out.las"), std::string("lidarsim convert scan out.bag"),
-        std::string("estimator run scan -o out"), "farmbench run " + kSmoke + " -o out"}) {
+        std::string("estimator run scan -o out"), "farmbench run " + kSmokeSuite + " -o out"}) {
     const Finished finished = run_here("ulimit -f 8; " + command);
     EXPECT_EQ(finished.exit_code, 1) << command << finished.errors;
     EXPECT_THAT(finished.errors, HasSubstr("no space left on ")) << command;
@@ -88,24 +85,25 @@ TEST_F(Robust, MistypedCommandsAndOptionsAreGuessed) {
 
 TEST_F(Robust, ASeedThatIsTooLargeIsRefused) {
   for (const std::string seed : {"18446744073709551616", "12345678901234567890123", "0x10", "''"}) {
-    const Finished finished = run_here("farmgen check " + kFarm + " --seed " + seed);
+    const Finished finished = run_here("farmgen check " + kFourPlots + " --seed " + seed);
     EXPECT_EQ(finished.exit_code, 2) << seed;
     EXPECT_THAT(finished.errors, HasSubstr("[0, 18446744073709551615]")) << seed;
   }
-  EXPECT_EQ(run_here("farmgen check " + kFarm + " --seed 18446744073709551615").exit_code, 0);
+  EXPECT_EQ(run_here("farmgen check " + kFourPlots + " --seed 18446744073709551615").exit_code, 0);
 }
 
 TEST_F(Robust, EscapesAndForeignBytesInNamesAreShownEscaped) {
   const Finished absent = run_here("farmgen check \"$(printf 'a\\033[31m\\377')\"");
   EXPECT_EQ(absent.errors, "farmgen: a\\x1b[31m\\xff: no such file\n");
   // A name that is no UTF-8 does not end in an exception of JSON.
-  const Finished made = run_here("farmgen generate " + kFarm + " -o \"$(printf 'f\\344')\" --json");
+  const Finished made =
+      run_here("farmgen generate " + kFourPlots + " -o \"$(printf 'f\\344')\" --json");
   EXPECT_EQ(made.exit_code, 0) << made.errors;
   EXPECT_TRUE(nlohmann::json::accept(made.output)) << made.output;
 }
 
 TEST_F(Robust, ProgressOffATerminalIsALineNowAndThen) {
-  succeed("farmgen generate " + kFarm + " -o farm");
+  succeed("farmgen generate " + kFourPlots + " -o farm");
   const Finished slow = run_here("timeout -s INT 12 lidarsim fly farm -o scan --speed 0.01 -j 1");
   EXPECT_THAT(slow.errors, ::testing::MatchesRegex("scanning +[0-9]+ %(, [0-9]+ s left)?\n"));
   EXPECT_EQ(run_here("lidarsim fly farm -o scan --speed 4 -q").errors, "");
@@ -117,21 +115,21 @@ TEST_F(Robust, AKilledSuiteIsResumedToTheSameBytes) {
            read_text(folder_.path() / name / "table.csv");
   };
   const auto start = std::chrono::steady_clock::now();
-  succeed("farmbench run " + kSmoke + " -o whole");
+  succeed("farmbench run " + kSmokeSuite + " -o whole");
   const double whole_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const double share : {0.3, 0.6, 0.8}) {
-    run_here("timeout -s KILL " + std::to_string(share * whole_s) + " farmbench run " + kSmoke +
-             " -o killed");
+    run_here("timeout -s KILL " + std::to_string(share * whole_s) + " farmbench run " +
+             kSmokeSuite + " -o killed");
   }
-  succeed("farmbench run " + kSmoke + " -o killed --jobs 1");
+  succeed("farmbench run " + kSmokeSuite + " -o killed --jobs 1");
   EXPECT_EQ(bytes("killed"), bytes("whole"));
   for (const auto& entry : fs::recursive_directory_iterator(folder_.path() / "killed"))
     EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
 }
 
 TEST_F(Robust, ResultsThatWereEditedAreRefused) {
-  succeed("farmbench run " + kSmoke + " -o results --methods one-number");
+  succeed("farmbench run " + kSmokeSuite + " -o results --methods one-number");
   const fs::path file = folder_.path() / "results/results.json";
   const auto whole = nlohmann::json::parse(read_text(file));
   const auto refused = [&](const nlohmann::json& edited) {
