@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "farmbench/internal/farm_result.h"
-#include "farmbench/internal/suite_result.h"
+#include "farmbench/farm_result.h"
+#include "farmbench/suite_result.h"
 
 // Scores of submissions in a results folder: entries/METHOD.json (docs/submissions.md).
 namespace plotscan::farmbench {

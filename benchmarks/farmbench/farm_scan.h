@@ -7,7 +7,7 @@
 
 #include "core/progress.h"
 #include "farm/farm.h"
-#include "farmbench/internal/suite.h"
+#include "farmbench/suite.h"
 #include "lidar/fly.h"
 #include "score/score.h"
 

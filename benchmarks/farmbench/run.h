@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "farmbench/internal/suite_result.h"
+#include "farmbench/suite_result.h"
 #include "farmbench/table.h"
 
 namespace plotscan::farmbench {

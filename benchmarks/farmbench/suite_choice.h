@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "farmbench/internal/suite.h"
+#include "farmbench/suite.h"
 
 namespace plotscan::farmbench {
 

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cloud/internal/point_key.h"
+#include "cloud/point_key.h"
 #include <Eigen/Core>
 
 namespace plotscan::cloud {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "ground/internal/grid.h"
+#include "ground/grid.h"
 
 namespace plotscan::ground {
 

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "heights/internal/kriging.h"
+#include "heights/kriging.h"
 
 namespace plotscan::heights {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "heights/calibration.h"
-#include "heights/internal/kriging.h"
+#include "heights/kriging.h"
 
 namespace plotscan::heights {
 

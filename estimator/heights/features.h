@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
-#include "heights/internal/height_profile.h"
+#include "heights/height_profile.h"
 
 namespace plotscan::heights {
 

@@ -8,7 +8,7 @@
 
 #include "core/plot_box.h"
 #include "ground/surface.h"
-#include "heights/internal/plot_ground.h"
+#include "heights/plot_ground.h"
 
 namespace plotscan::heights {
 

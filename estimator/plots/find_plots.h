@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "plots/internal/hints.h"
+#include "plots/hints.h"
 #include "plots/plot_field.h"
 
 namespace plotscan::plots {

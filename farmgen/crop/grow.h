@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "crop/internal/cultivar.h"
-#include "crop/internal/plant_builder.h"
+#include "crop/cultivar.h"
+#include "crop/plant_builder.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::crop {

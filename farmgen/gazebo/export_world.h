@@ -6,8 +6,8 @@
 
 #include "core/manifest.h"
 #include "core/progress.h"
-#include "gazebo/internal/export_options.h"
-#include "gazebo/internal/plant_models.h"
+#include "gazebo/export_options.h"
+#include "gazebo/plant_models.h"
 
 namespace plotscan::gazebo {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gazebo/internal/labels.h"
+#include "gazebo/labels.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::gazebo {

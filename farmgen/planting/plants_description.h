@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "planting/internal/trial_design.h"
 #include "planting/model_description.h"
 #include "planting/plots_description.h"
+#include "planting/trial_design.h"
 
 namespace plotscan::planting {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/internal/triangle_grid.h"
+#include "terrain/triangle_grid.h"
 #include <Eigen/Core>
 
 namespace plotscan::terrain {

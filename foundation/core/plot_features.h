@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/coordinate_units.h"
-#include "core/internal/plot_id.h"
 #include "core/plot_box.h"
+#include "core/plot_id.h"
 
 namespace plotscan {
 

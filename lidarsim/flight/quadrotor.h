@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "flight/internal/rest_to_rest.h"
+#include "flight/rest_to_rest.h"
 
 namespace plotscan::flight {
 

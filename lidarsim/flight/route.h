@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "flight/internal/rest_to_rest.h"
 #include "flight/quadrotor.h"
+#include "flight/rest_to_rest.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::flight {

@@ -13,10 +13,10 @@
 #include "farm/farm.h"
 #include "flight/pose_errors.h"
 #include "flight/wind.h"
-#include "lidar/internal/flight_part.h"
-#include "lidar/internal/sway.h"
+#include "lidar/flight_part.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
+#include "lidar/sway.h"
 
 namespace plotscan::lidar {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lidar/internal/beam.h"
-#include "lidar/internal/returns.h"
+#include "lidar/returns.h"
 
 namespace plotscan::lidar {
 namespace {

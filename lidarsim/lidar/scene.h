@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "lidar/internal/optics.h"
-#include "lidar/internal/scene_content.h"
+#include "lidar/optics.h"
+#include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "core/progress.h"
-#include "lidar/internal/flight_part.h"
-#include "lidar/internal/returns.h"
+#include "lidar/flight_part.h"
+#include "lidar/returns.h"
 #include "lidar/scene.h"
 #include "scan/point.h"
 #include "sensor/sensor.h"

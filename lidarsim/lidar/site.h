@@ -8,7 +8,7 @@
 #include "core/geodesy.h"
 #include "core/plot_box.h"
 #include "farm/farm.h"
-#include "lidar/internal/scene_content.h"
+#include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/cloud_files.h"
-#include "scan/internal/cloud_system.h"
+#include "scan/cloud_system.h"
 
 namespace plotscan::scan {
 

@@ -10,9 +10,9 @@
 
 #include <Eigen/Core>
 
-#include "scan/internal/point_record.h"
-#include "scan/internal/record_file.h"
 #include "scan/point.h"
+#include "scan/point_record.h"
+#include "scan/record_file.h"
 
 namespace plotscan::scan {
 

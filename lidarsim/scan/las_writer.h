@@ -12,8 +12,8 @@
 #include <Eigen/Core>
 
 #include "core/utc_time.h"
-#include "scan/internal/record_file.h"
 #include "scan/point.h"
+#include "scan/record_file.h"
 
 namespace plotscan::scan {
 

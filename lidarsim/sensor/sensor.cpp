@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/yaml_section.h"
-#include "sensor/internal/risley.h"
 #include "sensor/internal/sensor_files.h"
+#include "sensor/risley.h"
 
 namespace plotscan::sensor {
 namespace {

@@ -43,7 +43,7 @@ struct PacketFormat {
 };
 
 // A wedge prism that turns about the x axis, one of a Risley scanner's two
-// (sensor/internal/risley.h).
+// (sensor/risley.h).
 struct Wedge {
   double slant_rad = 0;  // between its flat and its slanted side
   double refractive_index = 1;

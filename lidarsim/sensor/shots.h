@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "scan/trajectory.h"
-#include "sensor/internal/per_laser.h"
-#include "sensor/internal/risley.h"
+#include "sensor/per_laser.h"
+#include "sensor/risley.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::sensor {

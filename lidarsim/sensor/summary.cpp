@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "core/text.h"
-#include "sensor/internal/risley.h"
+#include "sensor/risley.h"
 
 namespace plotscan::sensor {
 namespace {

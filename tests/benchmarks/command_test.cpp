@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "farmbench/command_method.h"
 #include "farmbench/entry/command_line.h"
-#include "farmbench/internal/command_method.h"
 #include "farmbench/methods.h"
 #include "farmbench/run.h"
 #include "scan/cloud_writer.h"

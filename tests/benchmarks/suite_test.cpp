@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farmbench/internal/suite.h"
+#include "farmbench/suite.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -9,9 +9,9 @@
 
 #include "core/error.h"
 #include "core/text_file.h"
-#include "farmbench/internal/suite.h"
 #include "farmbench/internal/sweep_table.h"
 #include "farmbench/run.h"
+#include "farmbench/suite.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/internal/plot_id.h"
+#include "core/plot_id.h"
 
 #include <limits>
 

@@ -12,7 +12,7 @@
 #include "estimate/plot_map.h"
 #include "farmbench/entry/internal/entered_rows.h"
 #include "farmbench/entry/problems.h"
-#include "farmbench/internal/suite.h"
+#include "farmbench/suite.h"
 #include "flight/waypoint_file.h"
 #include "gazebo/read_world.h"
 #include "mesh/mesh_import.h"

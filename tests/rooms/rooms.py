@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads which folder includes headers of which, and fails where folders go round in a circle, where a file includes a
 header that is in no folder, or where docs/architecture.md does not name a folder that has headers. A room's headers that
-others include lie in the room; those for itself in its subfolder internal/.
+others include, and what these include of the room, lie in the room; those for itself in its subfolder internal/.
 
 usage: rooms.py SOURCE_FOLDER
 """
@@ -32,22 +32,25 @@ def folder_of(source, header):
 
 
 def misplaced(source):
-    """What others include of a room's internal/, and what of a room nobody else includes."""
-    wanted, made = set(), []
-    for _, path in sources(source):
+    """What others, or a room's open headers, include of its internal/, and open headers that neither includes."""
+    wanted, open_rooms, made = set(), set(), []
+    for root, path in sources(source):
         room = room_of(path.relative_to(source))
+        is_open = path.suffix == ".h" and path.parent.name != INTERNAL
         for header in INCLUDE.findall(path.read_text()):
-            if folder_of(source, header) in (None, room):
+            other = folder_of(source, header)
+            if other is None or (other == room and not is_open):
                 continue
             wanted.add(header)
+            if other != room:
+                open_rooms.add(other)
             if Path(header).parent.name == INTERNAL:
-                made.append(f"{path}: includes {header}, which is internal to another room")
-    open_rooms = {folder_of(source, header) for header in wanted}
+                made.append(f"{path}: includes {header}, which is internal to {other}")
     for root, path in sources(source):
         header = path.relative_to(source / root)
         is_open = path.suffix == ".h" and root != "library" and header.parent.name not in ("", INTERNAL)
         if is_open and header.as_posix() not in wanted and room_of(path.relative_to(source)) in open_rooms:
-            made.append(f"{path}: no other room includes it: it belongs into {INTERNAL}/")
+            made.append(f"{path}: no other room and no open header includes it: it belongs into {INTERNAL}/")
     return made
 
 

@@ -8,7 +8,7 @@
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
-#include "farmbench/internal/command_method.h"
+#include "farmbench/command_method.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/internal/run_farm.h"
 #include "farmbench/methods.h"

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/progress.h"
-#include "farmbench/internal/farm_result.h"
-#include "farmbench/internal/suite.h"
+#include "farmbench/farm_result.h"
 #include "farmbench/run.h"
+#include "farmbench/suite.h"
 
 namespace plotscan::farmbench {
 

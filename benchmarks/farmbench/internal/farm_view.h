@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "estimate/estimate.h"
-#include "farmbench/internal/farm_result.h"
-#include "farmbench/internal/suite.h"
+#include "farmbench/farm_result.h"
+#include "farmbench/suite.h"
 #include "score/score.h"
 
 // What a suite's page shows of one farm of each case.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "farmbench/internal/suite_result.h"
 #include "farmbench/methods.h"
+#include "farmbench/suite_result.h"
 
 namespace plotscan::farmbench {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "farmbench/internal/suite_result.h"
+#include "farmbench/suite_result.h"
 
 namespace plotscan::farmbench {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/yaml_section.h"
-#include "farmbench/internal/suite.h"
+#include "farmbench/suite.h"
 
 // Internal to .cpp files, as YamlSection is.
 namespace plotscan::farmbench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "farmbench/internal/suite_result.h"
+#include "farmbench/suite_result.h"
 #include "farmbench/table.h"
 
 namespace plotscan::farmbench {

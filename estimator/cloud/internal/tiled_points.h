@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cloud/internal/point_key.h"
+#include "cloud/point_key.h"
 #include <Eigen/Core>
 
 namespace plotscan::cloud {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ground/columns.h"
-#include "ground/internal/grid.h"
+#include "ground/grid.h"
 
 namespace plotscan::ground {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ground/columns.h"
-#include "ground/internal/grid.h"
+#include "ground/grid.h"
 #include "ground/internal/solver.h"
 
 namespace plotscan::ground {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "ground/internal/grid.h"
+#include "ground/grid.h"
 #include "ground/internal/mixture.h"
 #include "ground/surface.h"
 

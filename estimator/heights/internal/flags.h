@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "heights/internal/plot_ground.h"
 #include "heights/measure_heights.h"
+#include "heights/plot_ground.h"
 
 namespace plotscan::heights {
 

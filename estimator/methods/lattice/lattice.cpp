@@ -12,8 +12,8 @@
 #include "cloud/points_in_boxes.h"
 #include "cloud/surroundings.h"
 #include "methods/lattice/internal/field_report.h"
-#include "methods/lattice/internal/work_estimate.h"
 #include "methods/lattice/settings.h"
+#include "methods/lattice/work_estimate.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 

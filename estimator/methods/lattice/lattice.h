@@ -8,7 +8,7 @@
 
 #include "cloud/cloud_map.h"
 #include "cloud/field_cloud.h"
-#include "methods/lattice/internal/work_estimate.h"
+#include "methods/lattice/work_estimate.h"
 
 #include "core/plot_box.h"
 #include "core/progress.h"

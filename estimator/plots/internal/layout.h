@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "plots/hints.h"
 #include "plots/internal/axis_fit.h"
-#include "plots/internal/hints.h"
 
 namespace plotscan::plots {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "crop/internal/plant_builder.h"
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

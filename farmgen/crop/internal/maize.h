@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "crop/internal/cultivar.h"
-#include "crop/internal/plant_builder.h"
+#include "crop/cultivar.h"
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

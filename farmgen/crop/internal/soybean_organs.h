@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "core/random.h"
-#include "crop/internal/cultivar.h"
-#include "crop/internal/plant_builder.h"
+#include "crop/cultivar.h"
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

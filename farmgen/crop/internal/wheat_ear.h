@@ -5,7 +5,7 @@
 
 #include "core/random.h"
 #include "crop/internal/axis.h"
-#include "crop/internal/plant_builder.h"
+#include "crop/plant_builder.h"
 
 namespace plotscan::crop {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gazebo/internal/elements.h"
-#include "gazebo/internal/export_options.h"
-#include "gazebo/internal/plant_models.h"
+#include "gazebo/elements.h"
+#include "gazebo/export_options.h"
+#include "gazebo/plant_models.h"
 
 namespace plotscan::gazebo {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "gazebo/internal/export_options.h"
+#include "gazebo/export_options.h"
 
 namespace plotscan::gazebo {
 

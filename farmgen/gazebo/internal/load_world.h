@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "gazebo/internal/includes.h"
-#include "gazebo/internal/labels.h"
 #include "gazebo/internal/resources.h"
+#include "gazebo/labels.h"
 
 // Private to the library.
 namespace plotscan::gazebo {

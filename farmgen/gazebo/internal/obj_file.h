@@ -12,7 +12,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gazebo/internal/surfaces.h"
+#include "gazebo/surfaces.h"
 
 namespace plotscan::gazebo {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "farm/farm.h"
-#include "gazebo/internal/export_options.h"
-#include "gazebo/internal/plant_models.h"
+#include "gazebo/export_options.h"
+#include "gazebo/plant_models.h"
 
 namespace plotscan::gazebo {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "farm/farm.h"
-#include "gazebo/internal/export_options.h"
-#include "gazebo/internal/groups.h"
-#include "gazebo/internal/plant_models.h"
+#include "gazebo/export_options.h"
+#include "gazebo/groups.h"
+#include "gazebo/plant_models.h"
 
 namespace plotscan::gazebo {
 

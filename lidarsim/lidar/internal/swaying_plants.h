@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "lidar/embree.h"
-#include "lidar/internal/scene_content.h"
-#include "lidar/internal/sway.h"
+#include "lidar/scene_content.h"
+#include "lidar/sway.h"
 
 namespace plotscan::lidar {
 

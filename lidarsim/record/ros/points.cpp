@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "record/ros/file.h"
 #include "record/ros/internal/cloud.h"
-#include "record/ros/internal/file.h"
 #include "scan/point_reader.h"
 
 namespace plotscan::record {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/utc_time.h"
-#include "record/ros/internal/transforms.h"
+#include "record/ros/transforms.h"
 #include "scan/cloud_reader.h"
 #include "scan/point.h"
 #include "scan/trajectory.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "record/recording/flight_record.h"
-#include "record/velodyne/internal/packet.h"
+#include "record/velodyne/packet.h"
 #include "scan/point.h"
 #include "sensor/shots.h"
 

@@ -15,7 +15,7 @@
 
 #include "core/coordinate_units.h"
 #include "core/utc_time.h"
-#include "scan/internal/cloud_system.h"
+#include "scan/cloud_system.h"
 
 namespace plotscan::scan {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heights/internal/height_profile.h"
+#include "heights/height_profile.h"
 
 #include "canopies.h"
 #include <gtest/gtest.h>

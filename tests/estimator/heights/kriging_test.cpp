@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heights/internal/kriging.h"
+#include "heights/kriging.h"
 
 #include <cmath>
 

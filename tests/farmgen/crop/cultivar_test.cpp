@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/internal/cultivar.h"
+#include "crop/cultivar.h"
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/internal/plant_builder.h"
+#include "crop/plant_builder.h"
 
 #include <cmath>
 #include <numbers>

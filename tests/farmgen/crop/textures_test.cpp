@@ -9,7 +9,7 @@
 #include <png.h>
 
 #include "core/error.h"
-#include "crop/internal/plant_builder.h"
+#include "crop/plant_builder.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
 

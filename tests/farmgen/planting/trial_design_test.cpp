@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/trial_design.h"
+#include "planting/trial_design.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "flight/internal/rest_to_rest.h"
+#include "flight/rest_to_rest.h"
 
 #include <cmath>
 

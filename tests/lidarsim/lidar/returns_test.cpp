@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/internal/returns.h"
+#include "lidar/returns.h"
 
 #include <cmath>
 #include <limits>

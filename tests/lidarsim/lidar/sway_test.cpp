@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/internal/sway.h"
+#include "lidar/sway.h"
 
 #include <cmath>
 #include <numbers>

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "lidar/internal/bent_stem.h"
-#include "lidar/internal/sway.h"
 #include "lidar/scene.h"
+#include "lidar/sway.h"
 
 namespace plotscan::lidar {
 namespace {

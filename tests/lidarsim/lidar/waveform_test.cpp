@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/internal/waveform.h"
+#include "lidar/waveform.h"
 
 #include <algorithm>
 #include <cmath>

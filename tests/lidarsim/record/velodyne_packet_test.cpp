@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "record/velodyne/internal/packet.h"
+#include "record/velodyne/packet.h"
 
 namespace plotscan::record {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sensor/internal/risley.h"
+#include "sensor/risley.h"
 
 #include <cmath>
 #include <numbers>

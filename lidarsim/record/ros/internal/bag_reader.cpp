@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <map>
 
+#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
-#include "record/ros/internal/file.h"
 #include "record/ros/internal/unpack.h"
 
 namespace plotscan::record::ros {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <map>
 
+#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
-#include "record/ros/internal/file.h"
 
 namespace plotscan::record::ros {
 namespace {

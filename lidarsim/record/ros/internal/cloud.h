@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "record/ros/internal/messages.h"
+#include "record/ros/messages.h"
 #include "scan/point.h"
 
 namespace plotscan::record {

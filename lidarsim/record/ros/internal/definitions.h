@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "record/ros/internal/codec.h"
+#include "record/ros/codec.h"
 
 namespace plotscan::record::ros {
 

@@ -4,8 +4,8 @@
 
 #include <zlib.h>
 
+#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
-#include "record/ros/internal/file.h"
 #include "record/ros/internal/mcap_format.h"
 #include "record/ros/internal/unpack.h"
 

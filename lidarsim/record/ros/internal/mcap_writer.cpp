@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "core/text.h"
+#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
-#include "record/ros/internal/file.h"
 #include "record/ros/internal/mcap_format.h"
 
 namespace plotscan::record::ros {

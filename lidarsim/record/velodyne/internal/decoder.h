@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "record/velodyne/internal/packet.h"
+#include "record/velodyne/packet.h"
 #include "scan/point.h"
 #include "scan/trajectory.h"
 #include "sensor/sensor.h"

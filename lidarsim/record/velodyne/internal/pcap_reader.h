@@ -7,7 +7,7 @@
 
 #include "core/utc_time.h"
 #include "record/velodyne/internal/decoder.h"
-#include "record/velodyne/internal/packet.h"
+#include "record/velodyne/packet.h"
 #include "scan/point.h"
 #include "sensor/sensor.h"
 

@@ -3,7 +3,7 @@
 
 #include "record/recording/flight_record.h"
 #include "record/velodyne/internal/nmea.h"
-#include "record/velodyne/internal/packet.h"
+#include "record/velodyne/packet.h"
 
 namespace plotscan::record {
 

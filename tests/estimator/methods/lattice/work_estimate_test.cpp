@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/lattice/internal/work_estimate.h"
+#include "methods/lattice/work_estimate.h"
 
 #include <gtest/gtest.h>
 

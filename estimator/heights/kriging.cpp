@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heights/kriging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plotscan::heights {
+namespace {
+
+// Prior variance of the values' common level: wide against what values vary by.
+constexpr double kLevelVariance = 10;
+
+double square(double value) { return value * value; }
+
+}  // namespace
+
+Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places) {
+  Eigen::MatrixXd result = places * places.transpose();
+  const Eigen::VectorXd squares = result.diagonal();
+  for (Eigen::Index j = 0; j < result.cols(); ++j) {
+    const Eigen::ArrayXd distances =
+        (squares.array() + squares(j) - 2 * result.col(j).array()).max(0);
+    result.col(j) = (-0.5 * distances).exp();
+  }
+  return result;
+}
+
+Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear) {
+  return (likenesses_of(places) + square(linear) * places * places.transpose()).array() +
+         kLevelVariance;
+}
+
+double relative_noise(double top_m) {
+  constexpr double kHalfway_m = 0.5;
+  return std::hypot(1, kHalfway_m / top_m);
+}
+
+Kriging::Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vector<double> noise,
+                 const Covariance& covariance)
+    : places_(std::move(places)),
+      values_(values),
+      noise_(std::move(noise)),
+      covariance_(covariance),
+      center_(values.colwise().mean()) {
+  Eigen::MatrixXd matrix = covariances_of(places_, covariance_.linear);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    matrix(i, i) += noise_variance(noise_[static_cast<std::size_t>(i)]);
+  factor_.compute(matrix);
+  const Eigen::MatrixXd centred = values_.rowwise() - center_;
+  weights_ = factor_.solve(centred);
+  scales_ = (centred.cwiseProduct(weights_).colwise().sum() / static_cast<double>(centred.rows()))
+                .cwiseSqrt();
+}
+
+double Kriging::noise_variance(double noise) const { return square(noise * covariance_.noise); }
+
+Eigen::VectorXd Kriging::covariances(const Eigen::VectorXd& place) const {
+  const Eigen::VectorXd distances = (places_.rowwise() - place.transpose()).rowwise().squaredNorm();
+  return ((-0.5 * distances.array()).exp() +
+          square(covariance_.linear) * (places_ * place).array() + kLevelVariance)
+      .matrix();
+}
+
+double Kriging::unlike(const Eigen::VectorXd& place) const {
+  const Eigen::VectorXd known = factor_.matrixL().solve(covariances(place));
+  const double own = 1 + square(covariance_.linear) * place.squaredNorm() + kLevelVariance;
+  return std::sqrt(std::max(0.0, own - known.squaredNorm()));
+}
+
+Eigen::VectorXd Kriging::values_at(const Eigen::VectorXd& place) const {
+  return center_.transpose() + weights_.transpose() * covariances(place);
+}
+
+Prediction Kriging::at(const Eigen::VectorXd& place, double noise) const {
+  Prediction prediction{.values = values_at(place), .sds = {}, .unlike = unlike(place)};
+  prediction.sds = scales_ * std::sqrt(square(prediction.unlike) + noise_variance(noise));
+  return prediction;
+}
+
+std::vector<std::size_t> Kriging::nearest(const Eigen::VectorXd& place, std::size_t count) const {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (Eigen::Index i = 0; i < places_.rows(); ++i)
+    order.emplace_back((places_.row(i).transpose() - place).squaredNorm(),
+                       static_cast<std::size_t>(i));
+  std::ranges::sort(order);
+  std::vector<std::size_t> nearest;
+  for (std::size_t k = 0; k < std::min(order.size(), count); ++k)
+    nearest.push_back(order[k].second);
+  return nearest;
+}
+
+}  // namespace plotscan::heights

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+#include "core/yaml_section.h"
+#include "crop/cultivar.h"
+
+namespace plotscan::crop {
+namespace {
+
+constexpr double kHuge = 1e9;
+constexpr Range kAnyNumber{-kHuge, kHuge};
+constexpr std::size_t kMostStages = 100;
+
+// Reads a crop's file, or a user's over it: then what the file leaves out stays as it is.
+class CultivarFile {
+ public:
+  CultivarFile(const YamlSection& file, const Cultivar* base)
+      : file_(file), complete_(base == nullptr), cultivar_(base == nullptr ? Cultivar{} : *base) {}
+
+  Cultivar read() {
+    const std::string crop = file_.text("crop");
+    if (!complete_ && crop != cultivar_.crop) {
+      file_.fail("crop", "is " + crop + ", but the plant is a " + cultivar_.crop);
+    }
+    cultivar_.crop = crop;
+    cultivar_.species = text(file_, "species", cultivar_.species);
+    if (given("sources")) sources_ = file_.section("sources").keys();
+    if (given("plot")) read_plot(file_.section("plot"));
+    if (given("colours")) read_colours(file_.section("colours"));
+    if (file_.has("reflectance")) read_reflectance(file_.section("reflectance"));
+    if (given("parameters")) read_parameters(file_.section("parameters"));
+    if (given("stages")) {
+      for (const YamlSection& stage : file_.list("stages", kMostStages)) read_stage(stage);
+    }
+    cultivar_.default_stage = text(file_, "default_stage", cultivar_.default_stage);
+    stage_named(cultivar_.default_stage, file_, "default_stage");
+    file_.refuse_unread();
+    return std::move(cultivar_);
+  }
+
+ private:
+  bool given(const std::string& key) const { return complete_ || file_.has(key); }
+
+  std::string text(const YamlSection& section, const std::string& key,
+                   const std::string& kept) const {
+    return section.text(key, complete_ ? std::nullopt : std::optional(kept));
+  }
+
+  Range range(const YamlSection& section, const std::string& key, const Range& within,
+              const Range& kept) const {
+    if (!complete_ && !section.has(key)) return kept;
+    const auto [low, high] = section.pair(key, within);
+    if (low > high) section.fail(key, "has its larger end first");
+    return {low, high};
+  }
+
+  // A source is one of the file's `sources`, or text that begins with one and a comma.
+  std::string source(const YamlSection& section, const std::string& kept) const {
+    const std::string named = text(section, "source", kept);
+    const std::string key = named.substr(0, named.find(','));
+    if (complete_ && std::find(sources_.begin(), sources_.end(), key) == sources_.end()) {
+      section.fail("source", "\"" + key + "\" is not one of the file's sources, which are " +
+                                 joined(sources_, ", "));
+    }
+    return named;
+  }
+
+  void read_plot(const YamlSection& plot) {
+    const auto number = [&](const char* key, double kept) {
+      return plot.number(key, {1e-3, 1e4}, complete_ ? std::nullopt : std::optional(kept));
+    };
+    cultivar_.plants_per_m2 = number("plants_per_m2", cultivar_.plants_per_m2);
+    cultivar_.row_spacing_m = number("row_spacing_m", cultivar_.row_spacing_m);
+    cultivar_.plot_source = source(plot, cultivar_.plot_source);
+  }
+
+  void read_colours(const YamlSection& colours) {
+    for (const std::string& name : colours.keys()) {
+      if (!complete_ && !cultivar_.colours.contains(name)) {
+        colours.fail(name, "is not a material of " + cultivar_.crop);
+      }
+      const std::vector<double> rgb = colours.numbers(name, 3, {0, 1});
+      cultivar_.colours[name] = Eigen::Vector3d(rgb[0], rgb[1], rgb[2]).cast<float>();
+    }
+  }
+
+  void read_reflectance(const YamlSection& reflectance) {
+    for (const std::string& name : reflectance.keys()) {
+      if (!cultivar_.colours.contains(name)) {
+        reflectance.fail(name, "is not a material of " + cultivar_.crop);
+      }
+      cultivar_.reflectance[name] = static_cast<float>(reflectance.number(name, {0, 1}));
+    }
+  }
+
+  void read_parameters(const YamlSection& parameters) {
+    std::vector<std::string> known;
+    for (const Parameter& each : cultivar_.parameters) known.push_back(each.name);
+    parameters.allow_only(complete_ ? parameters.keys() : known);
+    for (const std::string& name : parameters.keys()) {
+      if (complete_)
+        cultivar_.parameters.push_back({.name = name,
+                                        .value = 0,
+                                        .by_stage = false,
+                                        .range = kAnyNumber,
+                                        .unit = "",
+                                        .meaning = "",
+                                        .source = ""});
+      const auto parameter = std::find_if(cultivar_.parameters.begin(), cultivar_.parameters.end(),
+                                          [&](const Parameter& each) { return each.name == name; });
+      read_parameter(parameters.section(name), *parameter);
+    }
+  }
+
+  void read_parameter(const YamlSection& section, Parameter& parameter) const {
+    parameter.range = range(section, "range", parameter.range, parameter.range);
+    const std::string unit = text(section, "unit", parameter.unit);
+    if (!complete_ && unit != parameter.unit) {
+      section.fail("unit", "is " + parameter.unit + ", not " + unit);
+    }
+    parameter.unit = unit;
+    parameter.meaning = text(section, "meaning", parameter.meaning);
+    parameter.source = source(section, parameter.source);
+    if (complete_) parameter.by_stage = !section.has("value");
+    if (!section.has("value")) return;
+    if (parameter.by_stage) {
+      section.fail("value", "is given by each stage: set it under stages");
+    }
+    parameter.value = value(section, "value", parameter);
+  }
+
+  static double value(const YamlSection& section, const std::string& key,
+                      const Parameter& parameter) {
+    const double number = section.number(key, parameter.range);
+    if (parameter.whole() && number != std::floor(number)) {
+      section.fail(key, "is to be " + parameter.allowed());
+    }
+    return number;
+  }
+
+  Stage& stage_named(const std::string& name, const YamlSection& section, const char* key) {
+    const auto stage = std::find_if(cultivar_.stages.begin(), cultivar_.stages.end(),
+                                    [&](const Stage& each) { return each.name == name; });
+    if (stage == cultivar_.stages.end()) {
+      section.fail(key, "\"" + name + "\" is not a stage of " + cultivar_.crop);
+    }
+    return *stage;
+  }
+
+  void read_stage(const YamlSection& section) {
+    const std::string name = section.text("name");
+    if (complete_)
+      cultivar_.stages.push_back(Stage{.name = name, .meaning = "", .values = {}, .source = ""});
+    Stage& stage = stage_named(name, section, "name");
+    stage.meaning = text(section, "meaning", stage.meaning);
+    stage.height_m = range(section, "height_m", {0, 10}, stage.height_m);
+    stage.leaf_area_index = range(section, "leaf_area_index", {0, 20}, stage.leaf_area_index);
+    stage.leaf_inclination_deg =
+        range(section, "leaf_inclination_deg", {0, 90}, stage.leaf_inclination_deg);
+    stage.source = source(section, stage.source);
+    if (complete_ || section.has("values")) read_values(section.section("values"), stage);
+  }
+
+  void read_values(const YamlSection& values, Stage& stage) const {
+    std::vector<std::string> known;
+    for (const Parameter& parameter : cultivar_.parameters) {
+      if (parameter.by_stage) known.push_back(parameter.name);
+    }
+    values.allow_only(known);
+    for (const Parameter& parameter : cultivar_.parameters) {
+      if (!parameter.by_stage || !(complete_ || values.has(parameter.name))) continue;
+      stage.values[parameter.name] = value(values, parameter.name, parameter);
+    }
+  }
+
+  const YamlSection& file_;
+  bool complete_;
+  Cultivar cultivar_;
+  std::vector<std::string> sources_;
+};
+
+}  // namespace
+
+Cultivar parse_cultivar(const std::string& text, const std::filesystem::path& file) {
+  const YamlSection section = YamlSection::parse(text, file);
+  return CultivarFile(section, nullptr).read();
+}
+
+Cultivar override_cultivar(const Cultivar& cultivar, const std::filesystem::path& file) {
+  const YamlSection section = YamlSection::load(file, {});
+  return CultivarFile(section, &cultivar).read();
+}
+
+}  // namespace plotscan::crop

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "farm/farm.h"
+#include "gazebo/export_options.h"
+#include "gazebo/labels.h"
+
+namespace plotscan::gazebo {
+
+// Plants whose surfaces are merged: one link.
+struct PlantGroup {
+  std::string link;         // its name in the model
+  std::string mesh_prefix;  // of its mesh files in the model's folder: "" or "plot_12_"
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the link, world frame; no rotation
+  double heading_rad = 0;                            // along which a box around it lies
+  std::vector<const farm::Plant*> plants;            // in the order of the farm
+};
+
+// A static model of plants of one class.
+struct PlantGroups {
+  std::string name;
+  SurfaceClass label = SurfaceClass::crop;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // world frame; no rotation
+  std::vector<PlantGroup> links;
+};
+
+// translation(position) * rotation * scale
+Eigen::Affine3d world_from_plant(const farm::Plant& plant);
+
+// The models of merge `plot` or `row` with the names of naming.h, by plot or row, crop before
+// weeds; then the plants outside plots, by tiles of kTile_m where they are more than kTilePlants.
+std::vector<PlantGroups> plant_groups(const farm::Farm& farm, Merge merge);
+
+inline constexpr double kTile_m = 10;
+inline constexpr std::size_t kTilePlants = 500;
+
+}  // namespace plotscan::gazebo

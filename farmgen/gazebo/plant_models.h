@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.h"
+#include "farm/farm.h"
+#include "gazebo/elements.h"
+#include "gazebo/export_options.h"
+#include "gazebo/groups.h"
+#include "gazebo/surfaces.h"
+
+namespace plotscan::gazebo {
+
+// What a world consists of.
+struct EntityCounts {
+  std::uint64_t models = 0;
+  std::uint64_t links = 0;
+  std::uint64_t visuals = 0;
+  std::uint64_t collisions = 0;
+  std::uint64_t triangles = 0;  // of all visuals
+
+  EntityCounts& operator+=(const EntityCounts& other);
+};
+
+// What a world that is made of single plants has to know of a plant's mesh.
+struct SinglePlant {
+  std::string uri;
+  std::uint64_t triangles = 0;
+  Eigen::AlignedBox3d bounds = {};  // of the mesh as it is
+};
+
+// Writes one model a plant mesh, models/NAME: one plant, with the images of its materials.
+std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const farm::Farm& farm,
+                                             const PlantSurfaces& surfaces);
+
+// Writes one model a group: its meshes, one a material and link, and its description.
+EntityCounts write_merged_plants(const ModelFolder& models, const farm::Farm& farm,
+                                 const std::vector<PlantGroups>& groups,
+                                 const PlantSurfaces& surfaces, const ExportOptions& options,
+                                 const ProgressReport& progress);
+
+// The terrain: visual and collision with its mesh.
+EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& farm);
+
+}  // namespace plotscan::gazebo

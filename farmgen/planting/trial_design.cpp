@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "planting/trial_design.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace plotscan::planting {
+namespace {
+
+// Every order as likely as another (Fisher and Yates).
+void shuffle(std::vector<std::size_t>& values, RandomStream random) {
+  for (std::size_t left = values.size(); left > 1; --left) {
+    std::swap(values[left - 1], values[random.below(left)]);
+  }
+}
+
+// Blocks of one plot a cultivar, each of plots that follow each other in the order given.
+void number_blocks(const std::vector<farm::Plot*>& plots, std::size_t cultivars) {
+  if (plots.size() % cultivars != 0) {
+    throw InputError("makes no whole blocks: " + std::to_string(plots.size()) +
+                     " plots are not a multiple of " + std::to_string(cultivars) +
+                     " cultivars; random and cycle need no blocks");
+  }
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    plots[i]->block = static_cast<int>(i / cultivars) + 1;
+  }
+}
+
+// Blocks of whole rows or columns, `line` being the plot's.
+void number_blocks_by_lines(std::vector<farm::Plot*> plots, int farm::Plot::*line,
+                            const char* lines, std::size_t cultivars) {
+  std::stable_sort(plots.begin(), plots.end(),
+                   [&](const farm::Plot* a, const farm::Plot* b) { return a->*line < b->*line; });
+  number_blocks(plots, cultivars);
+  for (std::size_t i = cultivars; i < plots.size(); i += cultivars) {
+    const farm::Plot& before = *plots[i - 1];
+    if (before.*line != plots[i]->*line) continue;
+    throw InputError("makes no blocks of whole " + std::string(lines) + ": " +
+                     std::to_string(cultivars) + " cultivars end within " +
+                     std::string(lines, std::char_traits<char>::length(lines) - 1) + " " +
+                     std::to_string(before.*line));
+  }
+}
+
+void make_blocks(BlockBy by, std::size_t cultivars, std::vector<farm::Plot>& plots) {
+  std::vector<farm::Plot*> all;
+  for (farm::Plot& plot : plots) all.push_back(&plot);
+  if (by == BlockBy::plots) return number_blocks(all, cultivars);
+  if (by == BlockBy::rows) return number_blocks_by_lines(all, &farm::Plot::row, "rows", cultivars);
+  number_blocks_by_lines(all, &farm::Plot::column, "columns", cultivars);
+}
+
+// The cultivars of each block in an order of the block's own.
+std::vector<std::size_t> randomised_blocks(const std::vector<farm::Plot>& plots,
+                                           std::size_t cultivars, std::uint64_t seed) {
+  std::vector<std::vector<std::size_t>> orders(plots.size() / cultivars);
+  for (std::size_t block = 0; block < orders.size(); ++block) {
+    orders[block].resize(cultivars);
+    std::iota(orders[block].begin(), orders[block].end(), 0);
+    shuffle(orders[block], {seed, random_purpose("trial/block"), block + 1});
+  }
+  std::vector<std::size_t> assigned;
+  for (const farm::Plot& plot : plots) {
+    std::vector<std::size_t>& order = orders[static_cast<std::size_t>(plot.block - 1)];
+    assigned.push_back(order.back());
+    order.pop_back();
+  }
+  return assigned;
+}
+
+std::vector<std::size_t> listed(const TrialDescription& trial, std::size_t plots) {
+  if (trial.list.size() == plots) return trial.list;
+  throw InputError("list names the cultivars of " + std::to_string(trial.list.size()) +
+                   " plots; the grid has " + std::to_string(plots));
+}
+
+std::vector<std::size_t> drawn(const TrialDescription& trial, std::size_t cultivars,
+                               std::uint64_t seed, std::vector<farm::Plot>& plots) {
+  if (trial.design == TrialDesign::list) return listed(trial, plots.size());
+  if (trial.design == TrialDesign::rcbd) {
+    make_blocks(trial.block_by, cultivars, plots);
+    return randomised_blocks(plots, cultivars, seed);
+  }
+  std::vector<std::size_t> assigned(plots.size());
+  for (std::size_t i = 0; i < assigned.size(); ++i) assigned[i] = i % cultivars;
+  if (trial.design == TrialDesign::random) {
+    shuffle(assigned, {seed, random_purpose("trial/random"), 0});
+  }
+  return assigned;
+}
+
+}  // namespace
+
+std::vector<std::size_t> assign_cultivars(const TrialDescription& trial,
+                                          const std::vector<std::string>& accessions,
+                                          std::uint64_t seed, std::vector<farm::Plot>& plots) {
+  std::vector<std::size_t> assigned = drawn(trial, accessions.size(), seed, plots);
+  std::vector<int> replicates(accessions.size(), 0);
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    plots[i].accession = accessions[assigned[i]];
+    const int replicate = ++replicates[assigned[i]];
+    plots[i].rep = trial.design == TrialDesign::rcbd ? plots[i].block : replicate;
+  }
+  return assigned;
+}
+
+}  // namespace plotscan::planting

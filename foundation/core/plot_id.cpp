@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/plot_id.h"
+
+#include <cmath>
+
+#include "core/csv.h"
+
+namespace plotscan {
+
+std::optional<PlotId> PlotId::from(const nlohmann::json& value) {
+  if (value.is_string()) {
+    const auto& text = value.get_ref<const std::string&>();
+    const bool blank = text.find_first_not_of(" \t\r\n") == std::string::npos;
+    return blank ? std::nullopt : std::optional(PlotId(text));
+  }
+  if (!value.is_number()) return std::nullopt;
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) return std::nullopt;
+  PlotId id(value.is_number_float() ? format_number(value.get<double>()) : value.dump());
+  id.is_number_ = true;
+  return id;
+}
+
+nlohmann::json PlotId::json() const {
+  return is_number_ ? nlohmann::json::parse(text_) : nlohmann::json(text_);
+}
+
+}  // namespace plotscan

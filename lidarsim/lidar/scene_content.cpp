@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lidar/scene_content.h"
+
+#include <string>
+
+#include "core/error.h"
+#include "mesh/reflectance.h"
+
+namespace plotscan::lidar {
+namespace {
+
+mesh::Mesh shape_of(const terrain::Terrain& terrain) {
+  mesh::Mesh shape{.vertices = {}, .triangles = terrain.triangles()};
+  for (const Eigen::Vector3d& vertex : terrain.vertices())
+    shape.vertices.emplace_back(vertex.cast<float>());
+  return shape;
+}
+
+void require_model(const farm::Farm& farm, const farm::Plant& plant) {
+  if (plant.model < farm.models.size()) return;
+  throw InputError("plant " + std::to_string(plant.id) + " names model " +
+                   std::to_string(plant.model) + "; the farm has " +
+                   std::to_string(farm.models.size()));
+}
+
+float reflectance_of(scan::PointClass label) {
+  return label == scan::PointClass::ground ? mesh::kSoilReflectance : mesh::kLeafReflectance;
+}
+
+// The mesh without what a laser does not see of it.
+mesh::Mesh unseen_left_out(const mesh::Mesh& mesh) {
+  mesh::Mesh kept{.vertices = mesh.vertices,
+                  .triangles = mesh.triangles,
+                  .materials = mesh.materials,
+                  .triangle_material = mesh.triangle_material};
+  bool masked = false;
+  for (mesh::Material& material : kept.materials) {
+    material.texture.reset();
+    masked = masked || material.mask != nullptr;
+  }
+  if (masked) kept.texture_coordinates = mesh.texture_coordinates;
+  return kept;
+}
+
+Surface surface_of(const farm::Plant& plant) {
+  const bool weed = plant.kind == farm::PlantKind::weed;
+  return {.label = weed ? scan::PointClass::weed : scan::PointClass::crop,
+          .plot = plant.plot,
+          .plant = plant.id,
+          .reflectance = mesh::kLeafReflectance};
+}
+
+}  // namespace
+
+SceneContent scene_content(const farm::Farm& farm) {
+  SceneContent content;
+  for (const farm::PlantModel& model : farm.models)
+    content.meshes.push_back(unseen_left_out(model.mesh));
+  content.placed.reserve(farm.plants.size() + 1);
+  for (const farm::Plant& plant : farm.plants) {
+    require_model(farm, plant);
+    const Eigen::Affine3d world_from_model =
+        Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
+    content.placed.push_back({.mesh = plant.model,
+                              .world_from_mesh = world_from_model,
+                              .surface = surface_of(plant),
+                              .rooted = true});
+  }
+  content.placed.push_back(
+      {.mesh = static_cast<std::uint32_t>(content.meshes.size()),
+       .surface = {.label = scan::PointClass::ground,
+                   .reflectance = static_cast<float>(
+                       farm.soil_reflectance.value_or(mesh::kSoilReflectance))}});
+  content.meshes.push_back(shape_of(farm.terrain));
+  return content;
+}
+
+SceneContent scene_content(const gazebo::StaticWorld& world) {
+  SceneContent content;
+  for (const mesh::Mesh& mesh : world.meshes) content.meshes.push_back(unseen_left_out(mesh));
+  content.placed.reserve(world.surfaces.size());
+  for (const gazebo::PlacedSurface& surface : world.surfaces) {
+    // The numbers of both classes are the same (farm/surface_class.h).
+    const auto label = static_cast<scan::PointClass>(surface.kind);
+    content.placed.push_back({.mesh = surface.mesh,
+                              .world_from_mesh = surface.world_from_mesh,
+                              .surface = {.label = label,
+                                          .plot = surface.plot,
+                                          .plant = surface.plant,
+                                          .reflectance = reflectance_of(label)}});
+  }
+  return content;
+}
+
+}  // namespace plotscan::lidar

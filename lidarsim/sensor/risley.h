@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "sensor/per_laser.h"
+#include "sensor/sensor.h"
+
+namespace plotscan::sensor {
+
+// Where a laser that points along x is sent by two wedge prisms that turn about x, refracted by
+// Snell's law at each surface: after Brazeal, Wilkinson and Hochmair, "A Rigorous Observation Model
+// for the Risley Prism-Based Livox Mid-40 Lidar Sensor", Sensors 21 (2021) 4722, equations 3 to 10.
+// The prisms' flat sides face away from each other and are square to x, their slanted sides face
+// each other. The sum of two thin prisms' deflections would be 4 % short at the rim of the Mid-40's
+// field of view.
+class Risley {
+ public:
+  // Shot k of a sequence is fired fires_s[k] after the sequence's start.
+  Risley(const std::array<Wedge, 2>& wedges, const PerLaser& fires_s);
+
+  // Unit vectors, lidar frame, of `count` shots of the sequence that starts at time_s.
+  VectorPerLaser directions(double time_s, Eigen::Index begin, Eigen::Index count) const;
+
+ private:
+  struct Turning {
+    double turns_hz = 0;
+    double phase_rad = 0;
+    PerLaser cos_advance;  // of how far the prism turns until shot k
+    PerLaser sin_advance;
+  };
+  static std::array<PerLaser, 2> thick_side(const Turning& wedge, double time_s, Eigen::Index begin,
+                                            Eigen::Index count);
+
+  std::array<Turning, 2> turning_;
+  // After the first prism the beam is (along_, bend_ * thick side), whatever its angle.
+  double along_ = 0;
+  double bend_ = 0;
+  double cos_slant_ = 0;  // of the second prism
+  double sin_slant_ = 0;
+  double index_ = 0;
+};
+
+// The greatest angle between the beam and the x axis, and the least, radians; NaN where a prism
+// reflects the beam back into itself.
+std::array<double, 2> deflections_rad(const std::array<Wedge, 2>& wedges);
+
+}  // namespace plotscan::sensor
