@@ -151,5 +151,23 @@ TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   EXPECT_EQ(lines_of(read_text(folder.path() / "b/sweep.csv")), csv);
 }
 
+// From 119 m the ground is out of the sensor's range.
+TEST(Sweep, GoesOnAfterAFlightThatSeesNothing) {
+  const TemporaryFolder folder;
+  const fs::path suite =
+      folder.write("s.yaml", with("[6, 9.5, 119]\n  sensor: [vlp16, puck_hires]", "[119, 6]"));
+  const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
+  const std::vector<TableRow> rows = sweep_rows(summary.result, summary.table);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].found, 0U);
+  EXPECT_EQ(rows[0].missed, 4U);
+  EXPECT_EQ(rows[1].found, 4U);
+  const std::string table = read_text(folder.path() / "a/sweep.md");
+  EXPECT_THAT(table, HasSubstr("the shortest flight that does has altitude_m 6;"));
+  EXPECT_THAT(table, HasSubstr("| 119 | - | - | 0 of 4 | 0 | none | 0.00 |"));
+  EXPECT_THAT(table, HasSubstr("lattice true-boxes, 119: 1 of 1 farm, no flight: scan/cloud.pcd: "
+                               "the cloud is empty"));
+}
+
 }  // namespace
 }  // namespace plotscan::farmbench

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include "cloud/cloud_map.h"
 #include "description/load_description.h"
@@ -112,6 +113,34 @@ FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
           .methods = {}};
 }
 
+struct FieldScan {
+  ScannedFarm scanned;
+  cloud::CloudMap map;
+};
+
+FieldScan scan_field(const FarmPlace& place, const farm::Farm& farm, const cloud::Area& area,
+                     const ProgressReport& progress) {
+  ScannedFarm scanned =
+      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
+  cloud::CloudMap map = cloud::read_map(scanned.cloud, area);
+  return {std::move(scanned), std::move(map)};
+}
+
+// A flight of a sweep that cannot be flown, or saw nothing, is an answer too: no method finds a
+// plot. What was wrong is said without the folder of work, which no two runs share.
+FarmResult not_flown(const FarmRun& run, const std::vector<score::TruePlot>& plots,
+                     std::string why) {
+  const std::string work = run.folder.string() + "/";
+  for (std::size_t at = 0; (at = why.find(work, at)) != std::string::npos;)
+    why.erase(at, work.size());
+  FarmResult result = result_of(run, {});
+  for (const std::string& name : run.suite.methods)
+    result.methods.push_back({.method = name,
+                              .failure = "no flight: " + why,
+                              .score = score::score_field(plots, {.method = name})});
+  return result;
+}
+
 }  // namespace
 
 json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
@@ -142,13 +171,17 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const auto& [suite, suite_case, seed, folder, threads, view] = run;
   const FarmPlace place{suite_case, seed, folder, threads};
   const farm::Farm farm = make_farm(place);
-  const ScannedFarm scanned =
-      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
   std::vector<score::TruePlot> truth = standing_plots(place);
   const cloud::Area shown = field_area(truth, kShown_m);
   std::vector<score::TruePlot> plots = scored(truth);
-  const cloud::CloudMap map =
-      cloud::read_map(scanned.cloud, field_area(plots, suite.crop_margin_m));
+  std::optional<FieldScan> scan;
+  try {
+    scan = scan_field(place, farm, field_area(plots, suite.crop_margin_m), progress);
+  } catch (const InputError& error) {
+    if (!suite.sweep) throw;
+    return not_flown(run, plots, error.what());
+  }
+  const auto& [scanned, map] = *scan;
   if (suite_case.without_plots) {
     truth.clear();
     plots.clear();

@@ -8,6 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "farmbench/format.h"
+#include "farmbench/internal/failures.h"
 #include "farmbench/internal/method_rows.h"
 
 namespace plotscan::farmbench {
@@ -91,11 +92,12 @@ double surely_at_most(const TableRow& row) {
 Cells told(const SuiteResult& result, const TableRow& row) {
   const FlightCost cost = flight_costs(result)[place_of(result, row.case_name)];
   Cells cells = values_of(result, row);
-  cells.insert(cells.end(),
-               {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                number("%+.2f", 100 * row.bias_m), formatted("%zu of %zu", row.found, row.plots),
-                std::to_string(row.extra), number("%.0f", cost.flight_s),
-                number("%.2f", 1e-6 * cost.points)});
+  cells.insert(
+      cells.end(),
+      {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+       number("%+.2f", 100 * row.bias_m), formatted("%zu of %zu", row.found, row.plots),
+       std::to_string(row.extra), cost.points == 0 ? "none" : number("%.0f", cost.flight_s),
+       number("%.2f", 1e-6 * cost.points)});
   return cells;
 }
 
@@ -184,6 +186,9 @@ std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow
   const Cells heads = told_heads(result);
   text += markdown_line(heads) + markdown_line(Cells(heads.size(), "---"));
   for (const TableRow& row : rows) text += markdown_line(told(result, row));
+  const std::vector<std::string> failures = failure_lines(result);
+  if (!failures.empty()) text += "\nGave up:\n\n";
+  for (const std::string& failure : failures) text += "- " + failure + "\n";
   return text;
 }
 
@@ -204,6 +209,9 @@ std::vector<std::string> sweep_lines(const SuiteResult& result,
   }
   if (const std::string said = answer(result, rows); !said.empty())
     lines.insert(lines.end(), {"", said});
+  const std::vector<std::string> failures = failure_lines(result);
+  if (!failures.empty()) lines.insert(lines.end(), {"", "Gave up:"});
+  lines.insert(lines.end(), failures.begin(), failures.end());
   return lines;
 }
 
