@@ -2,26 +2,30 @@
 #include "boundary/settings.h"
 
 #include <cmath>
+#include <string_view>
 
 namespace plotscan::boundary {
 namespace {
 
-template <class Kind>
-const Kind& as(const std::string& name, const SettingValue& given, const std::string& kind) {
-  if (const Kind* held = std::get_if<Kind>(&given)) return *held;
-  throw InputError(name + " is " + kind);
+InputError wrong_kind(const std::string& name, std::string_view kind) {
+  return InputError(name + " is " + std::string(kind));
 }
 
-int whole(const std::string& name, double number, const std::string& kind) {
-  if (number != std::round(number) || std::abs(number) > 1e6)
-    throw InputError(name + " is " + kind);
+template <class Kind>
+const Kind& as(const std::string& name, const SettingValue& given, std::string_view kind) {
+  if (const Kind* held = std::get_if<Kind>(&given)) return *held;
+  throw wrong_kind(name, kind);
+}
+
+int whole(const std::string& name, double number, std::string_view kind) {
+  if (number != std::round(number) || std::abs(number) > 1e6) throw wrong_kind(name, kind);
   return static_cast<int>(number);
 }
 
 const std::vector<double>& several(const std::string& name, const SettingValue& given,
-                                   std::size_t count, const std::string& kind) {
+                                   std::size_t count, std::string_view kind) {
   const auto& numbers = as<std::vector<double>>(name, given, kind);
-  if (numbers.size() != count) throw InputError(name + " is " + kind);
+  if (numbers.size() != count) throw wrong_kind(name, kind);
   return numbers;
 }
 
@@ -45,7 +49,7 @@ void take(const std::string& name, const SettingValue& given, double& value) {
   value = as<double>(name, given, "a number");
 }
 void take(const std::string& name, const SettingValue& given, int& value) {
-  constexpr const char* kKind = "a whole number";
+  constexpr std::string_view kKind = "a whole number";
   value = whole(name, as<double>(name, given, kKind), kKind);
 }
 void take(const std::string& name, const SettingValue& given, bool& value) {
@@ -55,7 +59,7 @@ void take(const std::string& name, const SettingValue& given, std::string& value
   value = as<std::string>(name, given, "a text");
 }
 void take(const std::string& name, const SettingValue& given, std::vector<int>& values) {
-  constexpr const char* kKind = "whole numbers";
+  constexpr std::string_view kKind = "whole numbers";
   values.clear();
   for (const double number : as<std::vector<double>>(name, given, kKind))
     values.push_back(whole(name, number, kKind));
