@@ -21,6 +21,7 @@ make_bare_root() {
 # and whatever is left running end with their namespace.
 in_bare_root() {
   unshare --mount --pid --fork --kill-child bash -euc '
+    mount --bind "$0" "$0" # a root of its own can be mounted on
     mount -t proc proc "$0/proc"
     mount --rbind /dev "$0/dev"
     eval "$1"

@@ -44,8 +44,8 @@ void read_suite(const fs::path& file) {
   farmbench::load_suite(file);
 }
 
-// A pcap does not know where its sensor was.
-void read_pcap(const fs::path& file) {
+// A pcap does not know where its sensor was. (Not read without libpcap.)
+[[maybe_unused]] void read_pcap(const fs::path& file) {
   const fs::path flight = file.parent_path() / "flight.tum";
   std::ofstream(flight) << "0 0 0 5 0 0 0 1\n10 5 0 5 0 0 0 1\n";
   record::FlightOptions options;
@@ -91,11 +91,15 @@ const std::vector<Target>& targets() {
       {"ply", ".ply", Structure::bytes, read_cloud},
       {"las", ".las", Structure::bytes, read_cloud},
       {"text", ".xyz", Structure::bytes, read_cloud},
+#ifdef PLOTSCAN_HAVE_PCAP
       {"pcap", ".pcap", Structure::bytes, read_pcap},
+#endif
       {"bag", ".bag", Structure::bytes, read_cloud},
       {"mcap", ".mcap", Structure::bytes, read_cloud},
       {"trajectory", ".csv", Structure::bytes, [](const fs::path& f) { scan::read_trajectory(f); }},
+#ifdef PLOTSCAN_HAVE_SDFORMAT
       {"world", ".sdf", Structure::xml, [](const fs::path& f) { gazebo::read_world(f); }},
+#endif
       {"collada", ".dae", Structure::xml, read_mesh},
       {"gltf", ".gltf", Structure::json, read_mesh},
       {"obj", ".obj", Structure::bytes, read_mesh},
