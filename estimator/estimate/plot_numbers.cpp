@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -69,11 +70,11 @@ void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimat
   const int found_rows = most(plots, &PlotEstimate::row);
   const int found_columns = most(plots, &PlotEstimate::column);
   if (rows == found_rows && columns == found_columns) return;
-  throw InputError(
-      formatted("the named plots have %d rows and %d columns, and plots in %d rows and %d columns "
-                "were found; give their boxes (--boxes), or the part of the field that is named "
-                "(--crop-box)",
-                rows, columns, found_rows, found_columns));
+  throw InputError(fmt::format(
+      "the named plots have {} rows and {} columns, and plots in {} rows and {} columns "
+      "were found; give their boxes (--boxes), or the part of the field that is named "
+      "(--crop-box)",
+      rows, columns, found_rows, found_columns));
 }
 
 }  // namespace
@@ -107,8 +108,8 @@ void name_plots(const NumberingOptions& options, const NamedPlaces& places, Esti
     const auto named = missing.find({plot.row, plot.column});
     if (named == missing.end()) {
       throw InputError(
-          formatted("a plot was found in row %d, column %d, and no plot is named there", plot.row,
-                    plot.column));
+          fmt::format("a plot was found in row {}, column {}, and no plot is named there", plot.row,
+                      plot.column));
     }
     plot.id = named->second.id;
     plot.attributes = std::move(named->second.attributes);

@@ -8,7 +8,6 @@
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
-#include "core/text.h"
 #include "estimate/ground_grids.h"
 #include "fieldpage/shown.h"
 #include "report/page.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/core.h>
 #include <tbb/task_arena.h>
 
-#include "core/text.h"
 #include "plots/internal/canopy_raster.h"
 #include "plots/internal/field_signs.h"
 #include "plots/internal/heading.h"
@@ -104,7 +104,7 @@ std::string text_of(const Layout& layout) {
     std::swap(length_m, width_m);
     std::swap(rows, columns);
   }
-  return formatted("%zu rows of %zu plots of %.2f x %.2f m", rows, columns, width_m, length_m);
+  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
 }
 
 // What the canopy shows more clearly than the layout that was told; "" where nothing.

@@ -6,14 +6,15 @@
 #include <numbers>
 #include <string>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 
 namespace plotscan::planting {
 namespace {
 
-std::string metres(double value) { return formatted("%.2f m", value); }
+std::string metres(double value) { return fmt::format("{:.2f} m", value); }
 
 Eigen::AlignedBox2d bounds_of(const terrain::Terrain& terrain) {
   Eigen::AlignedBox2d box;

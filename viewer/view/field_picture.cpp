@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 #include "scan/cloud_reader.h"
 #include "view/internal/axes.h"
 #include "view/internal/box_labels.h"
@@ -59,7 +60,7 @@ std::size_t flagged(const estimate::Estimate& estimate) {
 
 std::string title_of(const estimate::Estimate& estimate) {
   if (estimate.plots.empty()) return "no plots found";
-  return formatted("%zu plots, %zu flagged", estimate.plots.size(), flagged(estimate));
+  return fmt::format("{} plots, {} flagged", estimate.plots.size(), flagged(estimate));
 }
 
 // Where the map and its surroundings lie on the page.

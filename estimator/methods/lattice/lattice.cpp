@@ -14,13 +14,13 @@
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
+#include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/stage.h"
-#include "core/text.h"
 #include "estimate/given_plots.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
@@ -98,8 +98,8 @@ plots::Hints hints_of(const Options& options) {
 }
 
 std::string too_few(const std::string& for_what) {
-  return formatted("too few points to show %s: about %.0f a square metre are needed",
-                   for_what.c_str(), cloud::kPlotsFound_m2);
+  return fmt::format("too few points to show {}: about {:.0f} a square metre are needed", for_what,
+                     cloud::kPlotsFound_m2);
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
@@ -113,8 +113,9 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
   if (noise_m > kMostNoise_m) {
-    diagnostics["nothing"] = formatted(
-        "heights scatter by %.1f m about the lowest: no ground that plots could stand on", noise_m);
+    diagnostics["nothing"] = fmt::format(
+        "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on",
+        noise_m);
     return {};
   }
   Stage stage("plots");

@@ -7,10 +7,10 @@
 
 #include "planting/plot_layout.h"
 #include <Eigen/Geometry>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 #include "farm/heights.h"
 
 namespace plotscan::planting {
@@ -55,9 +55,10 @@ std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& 
   const double weeds = description.per_m2 * field.area_m2();
   if (weeds > kMostWeeds) {
     throw InputError(
-        source, formatted("weeds.per_m2 makes %.0f weeds on %.0f m2; at most %.0f are allowed, "
-                          "%.3g a square metre, or more with a smaller weeds.margin_m",
-                          weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
+        source,
+        fmt::format("weeds.per_m2 makes {:.0f} weeds on {:.0f} m2; at most {:.0f} are allowed, "
+                    "{:.3g} a square metre, or more with a smaller weeds.margin_m",
+                    weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
   }
   return static_cast<std::uint64_t>(std::llround(weeds));
 }
