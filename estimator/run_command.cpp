@@ -94,7 +94,7 @@ void run_estimate(const Program& program, const RunArguments& arguments) {
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},
                   {"heights", summary},
-                  {"diagnostics", estimate.diagnostics},
+                  {"diagnostics", to_json(estimate.diagnostics)},
                   {"seconds", seconds}});
   methods::require_measured(estimate);
 }

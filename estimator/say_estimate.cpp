@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "say_estimate.h"
 
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "cloud/field_density.h"
-#include "cloud/point_account.h"
 #include <fmt/core.h>
 
 #include "core/geodesy.h"
@@ -16,42 +14,12 @@
 namespace plotscan {
 namespace {
 
-void say_votes(const Program& program, const nlohmann::json& diagnostics) {
-  const auto& plot = diagnostics["plot"];
-  const auto& votes = diagnostics["votes"];
-  program.say(fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.1f} deg",
-                          plot["width_m"].get<double>(), plot["length_m"].get<double>(),
-                          plot["heading_deg"].get<double>()));
-  program.say(fmt::format("votes      of {} clusters: width {}, length {}, heading {}",
-                          votes["clusters"].get<std::size_t>(), votes["width"].get<std::size_t>(),
-                          votes["length"].get<std::size_t>(), votes["heading"].get<std::size_t>()));
-  const auto& grid = diagnostics["grid"];
-  std::string pitch;
-  if (grid.contains("column_step_m"))
-    pitch += fmt::format(", {:.2f} m along the width", grid["column_step_m"].get<double>());
-  if (grid.contains("row_step_m"))
-    pitch += fmt::format(", {:.2f} m along the length", grid["row_step_m"].get<double>());
-  program.say(fmt::format("grid       {} clusters agree to {:.2f} m rms{}",
-                          grid["agreeing_clusters"].get<std::size_t>(), grid["rms_m"].get<double>(),
-                          pitch));
-}
-
-void say_field(const Program& program, const nlohmann::json& diagnostics) {
-  if (diagnostics.contains("nothing")) return;
-  const auto& field = diagnostics["field"];
-  const auto number = [&](const char* name) { return field.value(name, std::nan("")); };
-  program.say(fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.2f} deg", number("width_m"),
-                          number("length_m"), number("heading_deg")));
-  program.say(
-      fmt::format("lattice    {:.0f} rows, {:.0f} columns", number("rows"), number("columns")));
-}
-
-void say_crop(const Program& program, const nlohmann::json& crops) {
+void say_crop(const Program& program, const std::map<std::string, double>& crops) {
   std::vector<std::string> likely;
-  for (const auto& [crop, probability] : crops.items()) {
+  for (const auto& [crop, probability] : crops) {
     constexpr double kLeast = 0.005;
-    if (probability.get<double>() >= kLeast)
-      likely.push_back(fmt::format("{} {:.0f} %", crop, 100 * probability.get<double>()));
+    if (probability >= kLeast)
+      likely.push_back(fmt::format("{} {:.0f} %", crop, 100 * probability));
   }
   program.say("crop       " + joined(likely, ", "));
 }
@@ -66,11 +34,12 @@ std::string described(const std::string& crs) {
 }
 
 void say_given(const Program& program, const estimate::Estimate& estimate) {
-  if (!estimate.diagnostics.contains("boxes")) return;
+  const auto& given = estimate.diagnostics.boxes;
+  if (!given) return;
   program.say(fmt::format("boxes      {} plots given, {} {} to {}", estimate.plots.size(),
                           estimate.id_property, estimate.plots.front().id.text(),
                           estimate.plots.back().id.text()));
-  if (estimate.diagnostics["boxes"]["from_degrees"].get<bool>()) {
+  if (given->from_degrees) {
     program.say("           longitude and latitude of the map converted to " +
                 described(estimate.crs));
   }
@@ -78,43 +47,40 @@ void say_given(const Program& program, const estimate::Estimate& estimate) {
 
 // Whose names were given by row and column, and found no plot.
 void say_named(const Program& program, const estimate::Estimate& estimate) {
-  if (!estimate.diagnostics.contains("names")) return;
-  const auto& names = estimate.diagnostics["names"];
-  const auto& not_found = names["not_found"];
+  const auto& names = estimate.diagnostics.names;
+  if (!names) return;
   program.say(fmt::format("names      {} of {} named plots found, {} {} to {}",
-                          estimate.plots.size(), names["plots"].get<std::size_t>(),
-                          estimate.id_property, estimate.plots.front().id.text(),
-                          estimate.plots.back().id.text()));
-  if (not_found.empty()) return;
+                          estimate.plots.size(), names->plots, estimate.id_property,
+                          estimate.plots.front().id.text(), estimate.plots.back().id.text()));
+  if (names->not_found.empty()) return;
   std::vector<std::string> ids;
-  for (const auto& id : not_found) ids.push_back(id.get<std::string>());
+  for (const PlotId& id : names->not_found) ids.push_back(id.text());
   program.say("           not found: " + joined(ids, ", "));
 }
 
-void say_how(const Program& program, const nlohmann::json& diagnostics, double unit_m) {
-  for (const auto& note : diagnostics.value("notes", nlohmann::json::array()))
-    program.say("note       " + note.get<std::string>());
-  program.say("points     " + cloud::point_account(diagnostics));
-  const auto& area = diagnostics["area_m"];
-  const auto side = [&](int i) { return area[i].get<double>() / unit_m; };
+void say_ground(const Program& program, const estimate::GroundFacts& ground) {
+  const double unknown = 100 * ground.unknown_share;
+  program.say(
+      fmt::format("ground     seen in {:.0f} % of {:.1f} m cells{}, noise {:.1f} cm",
+                  100 * ground.seen_share, ground.cell_m,
+                  unknown >= 0.5 ? fmt::format(", unknown in {:.0f} % of the grid", unknown) : "",
+                  100 * ground.noise_m));
+}
+
+void say_how(const Program& program, const estimate::Diagnostics& diagnostics, double unit_m) {
+  for (const std::string& note : diagnostics.notes.value()) program.say("note       " + note);
+  const estimate::PointAccount& points = diagnostics.points.value();
+  program.say("points     " + text_of(points));
+  const auto side = [&](int i) { return points.area_m[i] / unit_m; };
   program.say(fmt::format("field      x {:.1f} to {:.1f}, y {:.1f} to {:.1f} ({})", side(0),
                           side(2), side(1), side(3), unit_name(unit_m)));
-  if (diagnostics.contains("density_per_m2")) {
-    program.say("density    " + cloud::density_text(diagnostics["density_per_m2"].get<double>()) +
+  if (diagnostics.density_per_m2) {
+    program.say("density    " + cloud::density_text(*diagnostics.density_per_m2) +
                 " points/m2 (median)");
   }
-  if (diagnostics.contains("ground")) {
-    const auto& ground = diagnostics["ground"];
-    const double unknown = 100 * ground.value("unknown_share", 0.0);
-    program.say(
-        fmt::format("ground     seen in {:.0f} % of {:.1f} m cells{}, noise {:.1f} cm",
-                    100 * ground["seen_share"].get<double>(), ground["cell_m"].get<double>(),
-                    unknown >= 0.5 ? fmt::format(", unknown in {:.0f} % of the grid", unknown) : "",
-                    100 * ground["noise_m"].get<double>()));
-  }
-  if (diagnostics.contains("votes")) say_votes(program, diagnostics);
-  if (diagnostics.contains("field")) say_field(program, diagnostics);
-  if (diagnostics.contains("crops")) say_crop(program, diagnostics["crops"]);
+  if (diagnostics.ground) say_ground(program, *diagnostics.ground);
+  for (const std::string& line : diagnostics.lines) program.say(line);
+  if (!diagnostics.crops.empty()) say_crop(program, diagnostics.crops);
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {

@@ -11,8 +11,6 @@
 namespace plotscan::estimate {
 namespace {
 
-using nlohmann::json;
-
 // A plot's place along one of the grid's axes: its row, or its column.
 using Place = int PlotEstimate::*;
 
@@ -119,10 +117,9 @@ void name_plots(const NumberingOptions& options, const NamedPlaces& places, Esti
     return std::pair(a.row, a.column) < std::pair(b.row, b.column);
   });
   estimate.id_property = places.id_property;
-  json ids = json::array();
-  for (const auto& [place, plot] : missing) ids.push_back(plot.id.json());
-  estimate.diagnostics["names"] = {
-      {"plots", places.plots.size()}, {"id", places.id_property}, {"not_found", ids}};
+  GivenNames given{.plots = places.plots.size(), .id_property = places.id_property};
+  for (const auto& [place, plot] : missing) given.not_found.push_back(plot.id);
+  estimate.diagnostics.names = given;
 }
 
 }  // namespace plotscan::estimate

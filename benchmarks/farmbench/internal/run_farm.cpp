@@ -60,7 +60,7 @@ MethodRun run_method(const Method& method, const Field& field,
   try {
     run.estimate = method.estimate(field);
     run.estimate.method = method.name;
-    run.result.diagnostics = run.estimate.diagnostics;
+    run.result.diagnostics = to_json(run.estimate.diagnostics);
   } catch (const InputError& error) {
     run.result.failure = error.what();
   }
