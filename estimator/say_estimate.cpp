@@ -58,6 +58,13 @@ void say_named(const Program& program, const estimate::Estimate& estimate) {
   program.say("           not found: " + joined(ids, ", "));
 }
 
+void say_points(const Program& program, const estimate::PointAccount& points, double unit_m) {
+  program.say("points     " + text_of(points));
+  const auto side = [&](int i) { return points.area_m[i] / unit_m; };
+  program.say(fmt::format("field      x {:.1f} to {:.1f}, y {:.1f} to {:.1f} ({})", side(0),
+                          side(2), side(1), side(3), unit_name(unit_m)));
+}
+
 void say_ground(const Program& program, const estimate::GroundFacts& ground) {
   const double unknown = 100 * ground.unknown_share;
   program.say(
@@ -68,12 +75,9 @@ void say_ground(const Program& program, const estimate::GroundFacts& ground) {
 }
 
 void say_how(const Program& program, const estimate::Diagnostics& diagnostics, double unit_m) {
-  for (const std::string& note : diagnostics.notes.value()) program.say("note       " + note);
-  const estimate::PointAccount& points = diagnostics.points.value();
-  program.say("points     " + text_of(points));
-  const auto side = [&](int i) { return points.area_m[i] / unit_m; };
-  program.say(fmt::format("field      x {:.1f} to {:.1f}, y {:.1f} to {:.1f} ({})", side(0),
-                          side(2), side(1), side(3), unit_name(unit_m)));
+  for (const std::string& note : diagnostics.notes.value_or(std::vector<std::string>{}))
+    program.say("note       " + note);
+  if (diagnostics.points) say_points(program, *diagnostics.points, unit_m);
   if (diagnostics.density_per_m2) {
     program.say("density    " + cloud::density_text(*diagnostics.density_per_m2) +
                 " points/m2 (median)");
