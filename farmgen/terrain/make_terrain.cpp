@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "mesh/mesh_import.h"
 
 namespace plotscan::terrain {
@@ -92,10 +93,7 @@ Eigen::AlignedBox2d detail_box(const TerrainDescription& description,
     const Eigen::Vector2d half(description.detail_m->at(0) / 2, description.detail_m->at(1) / 2);
     return {-half, half};
   }
-  Eigen::AlignedBox2d box;
-  for (const PlotBox& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.corners()) box.extend(corner);
-  }
+  Eigen::AlignedBox2d box = extent_of(plots);
   if (box.isEmpty()) box = bounds;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin_m);
   return {box.min() - margin, box.max() + margin};
