@@ -6,6 +6,7 @@
 
 #include "cloud_options.h"
 #include "inspect/cloud_report.h"
+#include <fmt/core.h>
 
 #include "core/text.h"
 
@@ -15,18 +16,18 @@ namespace {
 void say_points(const Program& program, const scan::CloudFacts& facts) {
   std::string left_out;
   if (facts.not_finite > 0)
-    left_out += formatted(", %zu more have no finite place", facts.not_finite);
-  if (facts.marked > 0) left_out += formatted(", %zu marked as withheld or noise", facts.marked);
+    left_out += fmt::format(", {} more have no finite place", facts.not_finite);
+  if (facts.marked > 0) left_out += fmt::format(", {} marked as withheld or noise", facts.marked);
   program.say("format     " + facts.format);
-  program.say(formatted("points     %zu%s", facts.points, left_out.c_str()));
+  program.say(fmt::format("points     {}{}", facts.points, left_out));
 }
 
 void say_extent(const Program& program, const scan::CloudFacts& facts) {
   const int digits = facts.system.zone ? 6 : 2;
   for (int axis = 0; axis < 3; ++axis) {
-    program.say(formatted("%-10s %c %.*f to %.*f", axis == 0 ? "extent" : "", "xyz"[axis],
-                          axis < 2 ? digits : 2, facts.bounds.min()[axis], axis < 2 ? digits : 2,
-                          facts.bounds.max()[axis]));
+    program.say(fmt::format("{:10} {} {:.{}f} to {:.{}f}", axis == 0 ? "extent" : "", "xyz"[axis],
+                            facts.bounds.min()[axis], axis < 2 ? digits : 2,
+                            facts.bounds.max()[axis], axis < 2 ? digits : 2));
   }
 }
 
@@ -42,12 +43,11 @@ void say_system(const Program& program, const scan::CloudSystem& system, bool to
 
 void say_density(const Program& program, const cloud::FieldDensity& density) {
   const cloud::Area& field = density.field;
-  program.say(formatted("field      %.0f x %.0f m around, %.2f ha scanned densely",
-                        field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
-  program.say(
-      formatted("density    %s points/m2 (median), %s in the thinnest 5 %%, in squares of %d m",
-                cloud::density_text(density.median).c_str(),
-                cloud::density_text(density.least5).c_str(), density.square_m));
+  program.say(fmt::format("field      {:.0f} x {:.0f} m around, {:.2f} ha scanned densely",
+                          field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
+  program.say(fmt::format(
+      "density    {} points/m2 (median), {} in the thinnest 5 %, in squares of {} m",
+      cloud::density_text(density.median), cloud::density_text(density.least5), density.square_m));
 }
 
 // "1 62.5 %, 2 37.5 %"
@@ -56,9 +56,9 @@ std::string shares(const scan::CountByNumber& counts, std::uint64_t points, bool
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const std::string name = named ? inspect::class_name(i) : "";
-    text += formatted("%s%zu%s%s%s %.1f %%", text.empty() ? "" : ", ", i, name.empty() ? "" : " (",
-                      name.c_str(), name.empty() ? "" : ")",
-                      100 * static_cast<double>(counts[i]) / static_cast<double>(points));
+    text += fmt::format("{}{}{}{}{} {:.1f} %", text.empty() ? "" : ", ", i,
+                        name.empty() ? "" : " (", name, name.empty() ? "" : ")",
+                        100 * static_cast<double>(counts[i]) / static_cast<double>(points));
   }
   return text;
 }
@@ -70,7 +70,8 @@ void say_fields(const Program& program, const scan::CloudFacts& facts) {
   if (facts.utc) {
     program.say("time       " + format_utc((*facts.utc)[0]) + " to " + format_utc((*facts.utc)[1]));
   } else if (facts.time_s) {
-    program.say(formatted("time       %.3f to %.3f s", (*facts.time_s)[0], (*facts.time_s)[1]));
+    program.say(
+        fmt::format("time       {:.3f} to {:.3f} s", (*facts.time_s)[0], (*facts.time_s)[1]));
   }
 }
 
@@ -78,7 +79,7 @@ void say_verdict(const Program& program, const inspect::CloudReport& report) {
   const char* verdict = !report.obstacles.empty() ? "no"
                         : report.doubts.empty()   ? "yes"
                                                   : "perhaps";
-  program.say(formatted("plots      %s, as far as density and classes tell", verdict));
+  program.say(fmt::format("plots      {}, as far as density and classes tell", verdict));
   for (const std::string& why : report.obstacles) program.say("           " + why);
   for (const std::string& why : report.doubts) program.say("           " + why);
 }
@@ -87,7 +88,7 @@ void run_info(const Program& program, const CloudArguments& arguments) {
   CloudFiles cloud = cloud_of(arguments);
   cloud.files = cloud_files_of(cloud.files);
   const inspect::CloudReport report = inspect::inspect_cloud(cloud);
-  if (cloud.files.size() > 1) program.say(formatted("files      %zu", cloud.files.size()));
+  if (cloud.files.size() > 1) program.say(fmt::format("files      {}", cloud.files.size()));
   say_points(program, report.facts);
   say_extent(program, report.facts);
   say_system(program, report.facts.system, cloud.units.has_value());

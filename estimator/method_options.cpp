@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/method_setting.h"
@@ -94,8 +96,8 @@ void take(const GivenSettings& given, const std::vector<MethodSetting<Options>>&
   for (const auto& [flag, text] : given) {
     const MethodSetting<Options>* setting = with_flag(settings, flag);
     if (setting == nullptr) {
-      throw InputError(formatted("%s belongs to --method %s, and the method is %s", flag.c_str(),
-                                 owners_of(flag).c_str(), method.c_str()));
+      throw InputError(fmt::format("{} belongs to --method {}, and the method is {}", flag,
+                                   owners_of(flag), method));
     }
     assign(*setting, flag, text, options);
   }

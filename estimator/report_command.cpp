@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloud_options.h"
+#include <fmt/core.h>
 
-#include "core/text.h"
 #include "fieldpage/field_page.h"
 
 namespace plotscan {
@@ -30,10 +30,10 @@ void make_page(const Program& program, ReportArguments& arguments) {
                   {"points_read", summary.read},
                   {"points_shown", summary.shown},
                   {"bytes", bytes}});
-  program.say(formatted("%s: %zu plots, %.2f of %.2f million points, %.1f MB", options.html.c_str(),
-                        summary.plots, 1e-6 * static_cast<double>(summary.shown),
-                        1e-6 * static_cast<double>(summary.read),
-                        1e-6 * static_cast<double>(bytes)));
+  program.say(
+      fmt::format("{}: {} plots, {:.2f} of {:.2f} million points, {:.1f} MB", options.html.string(),
+                  summary.plots, 1e-6 * static_cast<double>(summary.shown),
+                  1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes)));
   if (!options.cloud) program.say("With --cloud it shows the points, too.");
   program.say("Open it in a browser; it needs no network.");
 }

@@ -11,9 +11,9 @@
 #include "method_options.h"
 #include "methods/run.h"
 #include "say_estimate.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
-#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -54,8 +54,8 @@ estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
 void say_ahead(const Program& program, const methods::lattice::WorkEstimate& work) {
   constexpr double kQuick_s = 2;
   if (work.seconds < kQuick_s) return;
-  program.announce(
-      formatted("ahead      about %.2g s and %.2g GB of memory", work.seconds, work.gigabytes));
+  program.announce(fmt::format("ahead      about {:.2g} s and {:.2g} GB of memory", work.seconds,
+                               work.gigabytes));
 }
 
 // The options as the arguments say.
@@ -88,13 +88,13 @@ void run_estimate(const Program& program, const RunArguments& arguments) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const nlohmann::json summary = methods::height_summary(estimate);
   say_estimate(program, estimate, summary);
-  program.say(formatted("%zu plots in %.1f s, written to %s", estimate.plots.size(), seconds,
-                        options.output.c_str()));
+  program.say(fmt::format("{} plots in {:.1f} s, written to {}", estimate.plots.size(), seconds,
+                          options.output.string()));
   if (options.csv) program.say("           and " + options.csv->string());
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},
                   {"heights", summary},
-                  {"diagnostics", estimate.diagnostics},
+                  {"diagnostics", to_json(estimate.diagnostics)},
                   {"seconds", seconds}});
   methods::require_measured(estimate);
 }

@@ -8,30 +8,32 @@
 #include <string>
 #include <vector>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "score/run.h"
 
 namespace plotscan {
 namespace {
 
 void say_boxes(const Program& program, const score::BoxScore& boxes) {
-  program.say(formatted("plots    %zu of %zu found, %zu missed, %zu extra", boxes.found,
-                        boxes.plots, boxes.missed, boxes.extra));
+  program.say(fmt::format("plots    {} of {} found, {} missed, {} extra", boxes.found, boxes.plots,
+                          boxes.missed, boxes.extra));
   if (boxes.found == 0) return;
-  program.say(formatted(
-      "boxes    IoU mean %.3f, median %.3f, least %.3f; centre %.3f m rms, heading %.2f deg rms",
-      boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
-      boxes.heading_rmse_rad * 180 / std::numbers::pi));
+  program.say(
+      fmt::format("boxes    IoU mean {:.3f}, median {:.3f}, least {:.3f}; centre {:.3f} m rms, "
+                  "heading {:.2f} deg rms",
+                  boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
+                  boxes.heading_rmse_rad * 180 / std::numbers::pi));
 }
 
 void say_errors(const Program& program, const std::vector<score::HeightScore>& heights) {
-  program.say(formatted("%-12s %-15s %5s %7s %7s %7s %7s %7s %8s %5s", "height", "truth", "plots",
-                        "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
+  program.say(fmt::format("{:12} {:15} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>5}", "height",
+                          "truth", "plots", "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
   for (const score::HeightScore& height : heights) {
-    program.say(formatted("%-12s %-15s %5zu %7zu %7.2f %+7.2f %7.2f %7.2f %8.2f %5.2f",
-                          height.height.c_str(), height.truth.c_str(), height.plots, height.without,
-                          100 * height.rmse_m, 100 * height.bias_m, 100 * height.mae_m,
-                          100 * height.standard_error_m, height.r2, height.correlation2));
+    program.say(fmt::format(
+        "{:12} {:15} {:5} {:7} {:7.2f} {:+7.2f} {:7.2f} {:7.2f} {:8.2f} {:5.2f}", height.height,
+        height.truth, height.plots, height.without, 100 * height.rmse_m, 100 * height.bias_m,
+        100 * height.mae_m, 100 * height.standard_error_m, height.r2, height.correlation2));
   }
   program.say(
       "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
@@ -43,14 +45,14 @@ void say_trust(const Program& program, const std::vector<score::HeightScore>& he
   std::vector<std::string> lines;
   for (const score::HeightScore& height : heights) {
     if (std::isnan(height.coverage95)) continue;
-    lines.push_back(formatted("%-12s %-15s %7.1f %% %9zu %16zu (%.2f %%)", height.height.c_str(),
-                              height.truth.c_str(), 100 * height.coverage95, height.flagged,
-                              height.large_unflagged, 100 * height.large_unflagged_share));
+    lines.push_back(fmt::format("{:12} {:15} {:7.1f} % {:9} {:16} ({:.2f} %)", height.height,
+                                height.truth, 100 * height.coverage95, height.flagged,
+                                height.large_unflagged, 100 * height.large_unflagged_share));
   }
   if (lines.empty()) return;
   program.say("");
-  program.say(formatted("%-12s %-15s %9s %9s %16s", "height", "truth", "in 95 %", "flagged",
-                        "over 5 cm, none"));
+  program.say(fmt::format("{:12} {:15} {:>9} {:>9} {:>16}", "height", "truth", "in 95 %", "flagged",
+                          "over 5 cm, none"));
   for (const std::string& line : lines) program.say(line);
   program.say(
       "in 95 %: truths inside the estimate's own intervals; over 5 cm, none: plots in error by "

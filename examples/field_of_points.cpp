@@ -15,7 +15,7 @@ int main() {
     points.push_back(point);
   try {
     const plotscan::FieldEstimate field = plotscan::estimate_field(plotscan::PointsView(points));
-    if (field.plots.empty()) std::printf("no plots: %s\n", field.nothing.c_str());
+    if (field.plots.empty()) std::printf("no plots: %s\n", field.why_no_plots.c_str());
     for (const plotscan::Plot& plot : field.plots) {
       const plotscan::Height& height = plot.heights.at("max");
       std::printf("plot %s at (%.2f, %.2f): %.3f m, 95 %% in [%.3f, %.3f]\n", plot.id.c_str(),

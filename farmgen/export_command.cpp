@@ -8,8 +8,8 @@
 #include <string>
 
 #include "farmfolder/read_farm.h"
+#include <fmt/core.h>
 
-#include "core/text.h"
 #include "gazebo/export_world.h"
 
 namespace {
@@ -81,15 +81,12 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                   {"triangles", counts.triangles},
                   {"bytes", summary.bytes},
                   {"seconds", elapsed.count()}});
-  program.say(formatted(
-      "%s: %llu plants merged by %s, %.1f MB, %llu triangles, %llu models, %llu "
-      "links, %llu visuals, %llu collisions, in %.2f s",
-      arguments.output.c_str(), static_cast<unsigned long long>(summary.plants),
-      arguments.merge.c_str(), static_cast<double>(summary.bytes) * 1e-6,
-      static_cast<unsigned long long>(counts.triangles),
-      static_cast<unsigned long long>(counts.models), static_cast<unsigned long long>(counts.links),
-      static_cast<unsigned long long>(counts.visuals),
-      static_cast<unsigned long long>(counts.collisions), elapsed.count()));
+  program.say(
+      fmt::format("{}: {} plants merged by {}, {:.1f} MB, {} triangles, {} models, {} "
+                  "links, {} visuals, {} collisions, in {:.2f} s",
+                  arguments.output, summary.plants, arguments.merge,
+                  static_cast<double>(summary.bytes) * 1e-6, counts.triangles, counts.models,
+                  counts.links, counts.visuals, counts.collisions, elapsed.count()));
   program.say("README.md in it tells how it is opened");
 }
 

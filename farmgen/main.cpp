@@ -10,11 +10,11 @@
 #include "farmfolder/read_farm.h"
 #include "plant_command.h"
 #include "planting/generate.h"
+#include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/program.h"
-#include "core/text.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
 #include "lidar/make_farm.h"
@@ -90,39 +90,38 @@ void say_cultivars(const Program& program, const std::vector<farm::CultivarSumma
               "  plots  lodged   plants  missing  weeds  mean m   max m  per m2   LAI");
   for (const farm::CultivarSummary& cultivar : cultivars) {
     program.say(padded(cultivar.name) +
-                formatted("  %5zu  %6zu  %7zu  %7zu  %5zu  %6.3f  %6.3f  %6.1f  %4.2f",
-                          cultivar.plots, cultivar.lodged_plots, cultivar.plants,
-                          cultivar.missing_plants, cultivar.weeds, cultivar.height_mean_m,
-                          cultivar.height_max_m, cultivar.plants_per_m2, cultivar.leaf_area_index));
+                fmt::format("  {:5}  {:6}  {:7}  {:7}  {:5}  {:6.3f}  {:6.3f}  {:6.1f}  {:4.2f}",
+                            cultivar.plots, cultivar.lodged_plots, cultivar.plants,
+                            cultivar.missing_plants, cultivar.weeds, cultivar.height_mean_m,
+                            cultivar.height_max_m, cultivar.plants_per_m2,
+                            cultivar.leaf_area_index));
   }
 }
 
 void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
   const auto say_spread = [&](const char* label, const farm::Spread& spread) {
-    program.say(formatted("%-15s %.3f / %.3f / %.3f m (min / mean / max)", label, spread.min,
-                          spread.mean, spread.max));
+    program.say(fmt::format("{:15} {:.3f} / {:.3f} / {:.3f} m (min / mean / max)", label,
+                            spread.min, spread.mean, spread.max));
   };
-  program.say(formatted("farm            %s, seed %llu", made.name.c_str(),
-                        static_cast<unsigned long long>(made.seed)));
+  program.say(fmt::format("farm            {}, seed {}", made.name, made.seed));
   if (made.anchor) {
-    program.say(formatted("anchor          latitude %.8f, longitude %.8f deg, %.2f m above WGS84",
-                          made.anchor->latitude_deg, made.anchor->longitude_deg,
-                          made.anchor->altitude_m));
+    program.say(fmt::format(
+        "anchor          latitude {:.8f}, longitude {:.8f} deg, {:.2f} m above WGS84",
+        made.anchor->latitude_deg, made.anchor->longitude_deg, made.anchor->altitude_m));
   }
-  program.say(formatted("terrain         %.1f x %.1f m, z %.2f to %.2f m, %zu triangles",
-                        summary.terrain_size_m.x(), summary.terrain_size_m.y(),
-                        summary.terrain_z_m.x(), summary.terrain_z_m.y(),
-                        summary.terrain_triangles));
-  program.say(formatted("plots           %zu in a field of %.1f x %.1f m", summary.plots,
-                        summary.field_size_m.x(), summary.field_size_m.y()));
-  program.say(formatted("plants          %zu of %zu models, %llu triangles when placed",
-                        summary.plants, summary.models,
-                        static_cast<unsigned long long>(summary.plant_triangles)));
+  program.say(fmt::format("terrain         {:.1f} x {:.1f} m, z {:.2f} to {:.2f} m, {} triangles",
+                          summary.terrain_size_m.x(), summary.terrain_size_m.y(),
+                          summary.terrain_z_m.x(), summary.terrain_z_m.y(),
+                          summary.terrain_triangles));
+  program.say(fmt::format("plots           {} in a field of {:.1f} x {:.1f} m", summary.plots,
+                          summary.field_size_m.x(), summary.field_size_m.y()));
+  program.say(fmt::format("plants          {} of {} models, {} triangles when placed",
+                          summary.plants, summary.models, summary.plant_triangles));
   say_spread("plant heights", summary.plant_height_m);
   say_spread("plot maxima", summary.plot_height_max_m);
-  if (summary.weeds > 0) program.say(formatted("weeds           %zu", summary.weeds));
-  program.say(formatted("leaf area index %.2f (area of the crop's leaves over the plots' area)",
-                        summary.leaf_area_index));
+  if (summary.weeds > 0) program.say(fmt::format("weeds           {}", summary.weeds));
+  program.say(fmt::format("leaf area index {:.2f} (area of the crop's leaves over the plots' area)",
+                          summary.leaf_area_index));
   if (!summary.cultivars.empty()) say_cultivars(program, summary.cultivars);
 }
 
@@ -156,10 +155,10 @@ void run_generate(const Program& program, const Arguments& arguments) {
   document["folder"] = arguments.output;
   document["seconds"] = elapsed.count();
   program.result(document);
-  program.say(formatted("%s: %zu plots, %zu plants on %.1f x %.1f m, seed %llu, in %.2f s",
-                        arguments.output.c_str(), summary.plots, summary.plants,
-                        summary.terrain_size_m.x(), summary.terrain_size_m.y(),
-                        static_cast<unsigned long long>(made.seed), elapsed.count()));
+  program.say(fmt::format("{}: {} plots, {} plants on {:.1f} x {:.1f} m, seed {}, in {:.2f} s",
+                          arguments.output, summary.plots, summary.plants,
+                          summary.terrain_size_m.x(), summary.terrain_size_m.y(), made.seed,
+                          elapsed.count()));
   say_notes(program, made);
 }
 

@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
@@ -79,21 +81,20 @@ void run_plant(const Program& program, const PlantArguments& arguments) {
                   {"area_m2", mesh::ScaledArea(mesh).at()},
                   {"vertices", mesh.vertices.size()},
                   {"triangles", mesh.triangles.size()}});
-  program.say(formatted("%s: %s at %s, height %.3f m, leaf area %.4f m2, %zu triangles",
-                        arguments.output.c_str(), options.crop.c_str(), facts.stage.name.c_str(),
-                        height_m, leaf_area_m2, mesh.triangles.size()));
-  program.say(
-      formatted("a plot of %g plants per m2 at %s: height %g to %g m, leaf area index %g to %g",
-                facts.plants_per_m2, facts.stage.name.c_str(), facts.stage.height_m.low,
-                facts.stage.height_m.high, facts.stage.leaf_area_index.low,
-                facts.stage.leaf_area_index.high));
+  program.say(fmt::format("{}: {} at {}, height {:.3f} m, leaf area {:.4f} m2, {} triangles",
+                          arguments.output, options.crop, facts.stage.name, height_m, leaf_area_m2,
+                          mesh.triangles.size()));
+  program.say(fmt::format(
+      "a plot of {:g} plants per m2 at {}: height {:g} to {:g} m, leaf area index {:g} to {:g}",
+      facts.plants_per_m2, facts.stage.name, facts.stage.height_m.low, facts.stage.height_m.high,
+      facts.stage.leaf_area_index.low, facts.stage.leaf_area_index.high));
 }
 
 std::string stages_help(const crop::Cultivar& cultivar) {
   std::string text;
   for (const crop::Stage& stage : cultivar.stages) {
     const char* const mark = stage.name == cultivar.default_stage ? " (default)" : "";
-    text += formatted("  %-9s %s%s\n", stage.name.c_str(), stage.meaning.c_str(), mark);
+    text += fmt::format("  {:9} {}{}\n", stage.name, stage.meaning, mark);
   }
   return text;
 }
@@ -102,9 +103,8 @@ std::string keys_help(const crop::Cultivar& cultivar) {
   std::string text;
   for (const crop::Parameter& parameter : cultivar.parameters) {
     const std::string value = parameter.by_stage ? "by stage" : format_number(parameter.value);
-    text += formatted("  %-22s %-8s %-6s %-14s %s\n", parameter.name.c_str(), value.c_str(),
-                      parameter.unit.c_str(), parameter.range.text().c_str(),
-                      parameter.meaning.c_str());
+    text += fmt::format("  {:22} {:8} {:6} {:14} {}\n", parameter.name, value, parameter.unit,
+                        parameter.range.text(), parameter.meaning);
   }
   return text;
 }

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "record/convert.h"
 
 namespace plotscan {
@@ -40,9 +41,9 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
                   {"bytes", bytes},
                   {"seconds", elapsed.count()}});
   const bool poses = summary.poses > 0;
-  program.say(formatted("%s: %llu %s, %.1f MB", arguments.out.c_str(),
-                        static_cast<unsigned long long>(poses ? summary.poses : summary.points),
-                        poses ? "poses" : "points", 1e-6 * static_cast<double>(bytes)));
+  program.say(fmt::format("{}: {} {}, {:.1f} MB", arguments.out,
+                          poses ? summary.poses : summary.points, poses ? "poses" : "points",
+                          1e-6 * static_cast<double>(bytes)));
 }
 
 void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "record/join_scans.h"
 
 namespace plotscan {
@@ -25,10 +26,9 @@ void run_join(const Program& program, const JoinArguments& arguments) {
                   {"parts", summary.parts},
                   {"shots", summary.shots},
                   {"points", summary.points}});
-  program.say(formatted("%s: %zu parts, %.2f million shots, %.2f million points",
-                        arguments.scan.c_str(), summary.parts,
-                        1e-6 * static_cast<double>(summary.shots),
-                        1e-6 * static_cast<double>(summary.points)));
+  program.say(fmt::format("{}: {} parts, {:.2f} million shots, {:.2f} million points",
+                          arguments.scan, summary.parts, 1e-6 * static_cast<double>(summary.shots),
+                          1e-6 * static_cast<double>(summary.points)));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "join_command.h"
 #include "sensors_command.h"
 #include "view_command.h"
+#include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "core/program.h"
@@ -44,12 +45,13 @@ void report(const Program& program, const Arguments& arguments, const lidar::Pla
                   {"notes", notes},
                   {"seconds", elapsed_s}});
   for (const std::string& note : notes) program.say("note: " + note);
-  program.say(formatted("%s: a flight of %.1f s, %.2f million shots, %.2f million points",
-                        arguments.scan.c_str(), summary.duration_s,
-                        1e-6 * static_cast<double>(summary.shots),
-                        1e-6 * static_cast<double>(summary.points)));
-  program.say(formatted("cloud.pcd %.1f MB, simulated in %.2f s (%.1f million shots a second)",
-                        1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
+  program.say(fmt::format("{}: a flight of {:.1f} s, {:.2f} million shots, {:.2f} million points",
+                          arguments.scan, summary.duration_s,
+                          1e-6 * static_cast<double>(summary.shots),
+                          1e-6 * static_cast<double>(summary.points)));
+  program.say(
+      fmt::format("cloud.pcd {:.1f} MB, simulated in {:.2f} s ({:.1f} million shots a second)",
+                  1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
 void run_fly(const Program& program, Arguments& arguments) {
@@ -96,7 +98,7 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
   return fly.add_option_function<std::vector<double>>(setting.flag, read, setting.help)
       ->delimiter(',')
       ->expected(3)
-      ->default_str(formatted("%g,%g,%g", usual.x(), usual.y(), usual.z()));
+      ->default_str(fmt::format("{:g},{:g},{:g}", usual.x(), usual.y(), usual.z()));
 }
 
 void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight,

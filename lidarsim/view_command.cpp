@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "scanpage/scan_page.h"
 
 namespace plotscan {
@@ -24,10 +25,10 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
                   {"plots", summary.plots},
                   {"bytes", bytes},
                   {"seconds", elapsed.count()}});
-  program.say(formatted("%s: %.2f of %.2f million points, %.1f MB, made in %.1f s",
-                        options.html.c_str(), 1e-6 * static_cast<double>(summary.shown),
-                        1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes),
-                        elapsed.count()));
+  program.say(fmt::format("{}: {:.2f} of {:.2f} million points, {:.1f} MB, made in {:.1f} s",
+                          options.html.string(), 1e-6 * static_cast<double>(summary.shown),
+                          1e-6 * static_cast<double>(summary.read),
+                          1e-6 * static_cast<double>(bytes), elapsed.count()));
   program.say("Open it in a browser; it needs no network.");
 }
 

@@ -63,7 +63,7 @@ void bind_results(py::module_& module) {
   py::class_<FieldEstimate>(module, "FieldEstimate")
       .def_readonly("method", &FieldEstimate::method)
       .def_readonly("plots", &FieldEstimate::plots)
-      .def_readonly("nothing", &FieldEstimate::nothing)
+      .def_readonly("why_no_plots", &FieldEstimate::why_no_plots)
       .def_readonly("ground", &FieldEstimate::ground)
       .def_readonly("crs", &FieldEstimate::crs)
       .def_property_readonly("geojson",

@@ -8,6 +8,7 @@
 #include "description/load_description.h"
 #include "planting/generate.h"
 
+#include "core/extent.h"
 #include "core/random.h"
 #include "core/statistics.h"
 #include "core/temporary_path.h"
@@ -32,17 +33,10 @@ ground::Surface true_surface(const farm::Farm& farm, double noise_m) {
   constexpr double kMargin_m = 2;
   constexpr float kStandardError_m = 0.003F;
   ground::Surface surface{.cell_m = 0.1};
-  Eigen::Vector2d low = farm.plots.front().box.center;
-  Eigen::Vector2d high = low;
-  for (const farm::Plot& plot : farm.plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-  }
-  surface.origin = low.array() - kMargin_m;
+  const Eigen::AlignedBox2d extent = extent_of(farm.plots, &farm::Plot::box);
+  surface.origin = extent.min().array() - kMargin_m;
   const Eigen::Vector2i size =
-      ((high - low).array() / surface.cell_m + 2 * kMargin_m / surface.cell_m).cast<int>() + 1;
+      (extent.sizes().array() / surface.cell_m + 2 * kMargin_m / surface.cell_m).cast<int>() + 1;
   surface.columns = size.x();
   surface.rows = size.y();
   for (int row = 0; row < surface.rows; ++row) {

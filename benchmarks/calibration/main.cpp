@@ -8,11 +8,11 @@
 
 #include "calibration/field_sample.h"
 #include "calibration/fit.h"
+#include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
 #include "core/error.h"
 #include "core/program.h"
-#include "core/text.h"
 #include "core/text_file.h"
 
 namespace {
@@ -54,11 +54,7 @@ void run_sample(const Program& program, const SampleArguments& arguments) {
 
 // Numbers to 5 digits, which is more than they mean.
 nlohmann::json rounded(nlohmann::json document) {
-  if (document.is_number_float()) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.5g", document.get<double>());
-    return std::stod(text.data());
-  }
+  if (document.is_number_float()) return std::stod(fmt::format("{:.5g}", document.get<double>()));
   if (document.is_structured())
     for (auto& entry : document) entry = rounded(entry);
   return document;
@@ -101,8 +97,8 @@ void print_left_out(const Program& program, const heights::Calibration& fitted,
   const std::vector<LeftOut> libraries = leave_out(fitted, Group::library);
   const std::vector<LeftOut> limits = leave_out(perfect, Group::library);
   const auto figures = [](const char* what, const calibration::Errors& errors) {
-    return formatted("  %s %5.2f (%+5.2f) cm, %5.1f %%", what, 100 * errors.rmse_m,
-                     100 * errors.bias_m, 100 * errors.inside);
+    return fmt::format("  {} {:5.2f} ({:+5.2f}) cm, {:5.1f} %", what, 100 * errors.rmse_m,
+                       100 * errors.bias_m, 100 * errors.inside);
   };
   for (std::size_t i = 0; i < libraries.size(); ++i) {
     const LeftOut& row = libraries[i];
@@ -110,10 +106,10 @@ void print_left_out(const Program& program, const heights::Calibration& fitted,
       return other.name == row.name && other.height == row.height;
     });
     const double limit_m = limit == limits.end() ? NAN : limit->given.rmse_m;
-    program.say(formatted("%-20s %-11s %4zu", row.name.c_str(), row.height.c_str(), row.farms) +
+    program.say(fmt::format("{:20} {:11} {:4}", row.name, row.height, row.farms) +
                 figures("farm out", farms[i].told) + figures("crop given", farms[i].given) +
                 figures("library out", row.told) + figures("crop given", row.given) +
-                formatted("  perfect rays %5.2f cm", 100 * limit_m));
+                fmt::format("  perfect rays {:5.2f} cm", 100 * limit_m));
   }
 }
 

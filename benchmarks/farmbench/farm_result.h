@@ -17,7 +17,7 @@ struct MethodResult {
   double seconds = 0;         // from the map in memory to the heights; 0: not known
   double peak_memory_mb = 0;  // of a program of others; 0: not known
   std::string failure;  // why the method gave up, "" when it did not; every plot is missed then
-  nlohmann::json diagnostics = nlohmann::json::object();  // Estimate::diagnostics
+  nlohmann::json diagnostics = nlohmann::json::object();  // estimate::to_json of the estimate's
   score::FieldScore score;
 };
 

@@ -5,28 +5,29 @@
 #include <numbers>
 #include <string>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "farmbench/table.h"
 
 namespace plotscan::farmbench {
 
 // A number in the format; "-" for NaN.
-inline std::string number(const char* format, double value) {
-  return std::isnan(value) ? "-" : formatted(format, value);
+inline std::string number(fmt::format_string<double&> format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
 // A length as centimetres with two decimals; "-" for NaN.
-inline std::string centimetres(double metres) { return number("%.2f", 100 * metres); }
+inline std::string centimetres(double metres) { return number("{:.2f}", 100 * metres); }
 
 // A share as a percentage with one decimal; "-" for NaN.
-inline std::string percent(double share) { return number("%.1f %%", 100 * share); }
+inline std::string percent(double share) { return number("{:.1f} %", 100 * share); }
 
 inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 // How many errors of more than 5 cm come without a flag: "3 (0.33 %)".
 inline std::string unflagged(const TableRow& row) {
   return std::to_string(row.large_unflagged) + " (" +
-         number("%.2f %%", 100 * row.large_unflagged_share) + ")";
+         number("{:.2f} %", 100 * row.large_unflagged_share) + ")";
 }
 
 // "4.81 [4.40, 5.30]", without the interval where it is NaN.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "farmbench/format.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"
@@ -20,10 +22,11 @@ std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::s
   for (const std::string& cell :
        {std::to_string(rank), row.method,
         with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m), published,
-        number("%+.2f", 100 * row.bias_m), centimetres(row.mae_m), number("%.3f", row.r2),
-        centimetres(row.within.within_m), number("%.2f", row.within.r2),
-        number("%.2f", row.within.rho), formatted("%zu of %zu", row.found, row.plots),
-        std::to_string(row.extra), number("%.3f", row.iou_median), number("%.2f", row.seconds)}) {
+        number("{:+.2f}", 100 * row.bias_m), centimetres(row.mae_m), number("{:.3f}", row.r2),
+        centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
+        number("{:.2f}", row.within.rho), fmt::format("{} of {}", row.found, row.plots),
+        std::to_string(row.extra), number("{:.3f}", row.iou_median),
+        number("{:.2f}", row.seconds)}) {
     line += "| " + cell + " ";
   }
   return line + "|";
@@ -48,7 +51,7 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
       if (row == rows.end()) continue;
       text += " " + centimetres(row->rmse_m);
       if (info.name != *result.baseline)
-        text += " (" + number("%+.2f", 100 * row->rmse_change_m) + ")";
+        text += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
       text += " |";
     }
     text += "\n";
@@ -68,11 +71,12 @@ std::string plots_found(const std::vector<TableRow>& rows) {
       "IoU mean | IoU least | centre, cm rms | heading, deg rms |\n| --- | --- | --- | --- | --- | "
       "--- | --- | --- | --- | --- | --- | --- |\n";
   for (const TableRow& row : rows) {
-    text += markdown_row(
-        {row.method, row.case_name, std::to_string(row.plots), std::to_string(row.found),
-         std::to_string(row.missed), std::to_string(row.extra), number("%.4f", row.recall),
-         number("%.4f", row.precision), number("%.3f", row.iou_mean), number("%.3f", row.iou_min),
-         centimetres(row.center_rmse_m), number("%.3f", degrees(row.heading_rmse_rad))});
+    text += markdown_row({row.method, row.case_name, std::to_string(row.plots),
+                          std::to_string(row.found), std::to_string(row.missed),
+                          std::to_string(row.extra), number("{:.4f}", row.recall),
+                          number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
+                          number("{:.3f}", row.iou_min), centimetres(row.center_rmse_m),
+                          number("{:.3f}", degrees(row.heading_rmse_rad))});
   }
   return text;
 }
@@ -87,9 +91,9 @@ std::string own_truths(const std::vector<TableRow>& rows) {
   for (const TableRow& row : rows) {
     text += markdown_row({row.method, row.truth, row.case_name,
                           with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                          number("%+.2f", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
-                          centimetres(row.within.within_m), number("%.2f", row.within.r2),
-                          number("%.2f", row.within.rho), percent(row.coverage95),
+                          number("{:+.2f}", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
+                          centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
+                          number("{:.2f}", row.within.rho), percent(row.coverage95),
                           std::to_string(row.flagged), unflagged(row)});
   }
   return text;
@@ -135,25 +139,24 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
 }
 
 std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  return formatted("%-32s %-14s  %-21s %7s %6s", first_of_method ? row.method.c_str() : "",
-                   row.case_name.c_str(),
-                   with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
-                   number("%+.2f", 100 * row.bias_m).c_str(), published_cm(result, row).c_str());
+  return fmt::format("{:32} {:14}  {:21} {:>7} {:>6}", first_of_method ? row.method : "",
+                     row.case_name, with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                     number("{:+.2f}", 100 * row.bias_m), published_cm(result, row));
 }
 
 std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
   std::vector<std::string> lines = {
       "Plots found. IoU, centre (cm rms) and heading (degrees rms) over those found",
-      formatted("%-21s %-14s %9s %5s %7s %9s %6s %7s %8s", "method", "case", "found  ", "extra",
-                "recall", "precision", "IoU", "centre", "heading")};
+      fmt::format("{:21} {:14} {:>9} {:>5} {:>7} {:>9} {:>6} {:>7} {:>8}", "method", "case",
+                  "found  ", "extra", "recall", "precision", "IoU", "centre", "heading")};
   std::string method;
   for (const TableRow& row : rows) {
-    lines.push_back(formatted(
-        "%-21s %-14s %4zu/%-4zu %5zu %7s %9s %6s %7s %8s",
-        row.method != method ? row.method.c_str() : "", row.case_name.c_str(), row.found, row.plots,
-        row.extra, number("%.4f", row.recall).c_str(), number("%.4f", row.precision).c_str(),
-        number("%.3f", row.iou_mean).c_str(), centimetres(row.center_rmse_m).c_str(),
-        number("%.3f", degrees(row.heading_rmse_rad)).c_str()));
+    lines.push_back(fmt::format("{:21} {:14} {:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}",
+                                row.method != method ? row.method : "", row.case_name, row.found,
+                                row.plots, row.extra, number("{:.4f}", row.recall),
+                                number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
+                                centimetres(row.center_rmse_m),
+                                number("{:.3f}", degrees(row.heading_rmse_rad))));
     method = row.method;
   }
   return lines;
@@ -165,15 +168,15 @@ std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
   std::vector<std::string> lines = {
       "",
       "Against the truth each height is named after: the farms' own biases, and the rest (cm rms)",
-      formatted("%-32s %-14s %7s %11s %11s %9s %10s", "method", "case", "RMSE", "bias a farm",
-                "within farm", "R2 within", "rho within")};
+      fmt::format("{:32} {:14} {:>7} {:>11} {:>11} {:>9} {:>10}", "method", "case", "RMSE",
+                  "bias a farm", "within farm", "R2 within", "rho within")};
   std::string method;
   for (const TableRow& row : rows) {
-    lines.push_back(formatted(
-        "%-32s %-14s %7s %11s %11s %9s %10s", row.method != method ? row.method.c_str() : "",
-        row.case_name.c_str(), centimetres(row.rmse_m).c_str(),
-        centimetres(row.within.farm_bias_m).c_str(), centimetres(row.within.within_m).c_str(),
-        number("%.2f", row.within.r2).c_str(), number("%.2f", row.within.rho).c_str()));
+    lines.push_back(fmt::format("{:32} {:14} {:>7} {:>11} {:>11} {:>9} {:>10}",
+                                row.method != method ? row.method : "", row.case_name,
+                                centimetres(row.rmse_m), centimetres(row.within.farm_bias_m),
+                                centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
+                                number("{:.2f}", row.within.rho)));
     method = row.method;
   }
   return lines;
@@ -187,14 +190,13 @@ std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
     if (std::isnan(row.coverage95)) continue;
     if (lines.empty()) {
       lines = {"", "Against the truth each height is named after: truths in its 95 % intervals",
-               formatted("%-21s %-14s  %-20s %7s %7s %8s %14s", "method", "case", "RMSE", "bias",
-                         "in 95 %", "flagged", "over 5 cm, not")};
+               fmt::format("{:21} {:14}  {:20} {:>7} {:>7} {:>8} {:>14}", "method", "case", "RMSE",
+                           "bias", "in 95 %", "flagged", "over 5 cm, not")};
     }
-    lines.push_back(formatted(
-        "%-21s %-14s  %-20s %7s %7s %8zu %14s", row.method != method ? row.method.c_str() : "",
-        row.case_name.c_str(), with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m).c_str(),
-        number("%+.2f", 100 * row.bias_m).c_str(), percent(row.coverage95).c_str(), row.flagged,
-        unflagged(row).c_str()));
+    lines.push_back(fmt::format(
+        "{:21} {:14}  {:20} {:>7} {:>7} {:8} {:>14}", row.method != method ? row.method : "",
+        row.case_name, with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+        number("{:+.2f}", 100 * row.bias_m), percent(row.coverage95), row.flagged, unflagged(row)));
     method = row.method;
   }
   return lines;
@@ -252,7 +254,7 @@ std::string published_cm(const SuiteResult& result, const TableRow& row) {
     return "";
   const auto info = std::ranges::find(result.cases, row.case_name, &CaseInfo::name);
   if (info == result.cases.end() || !info->published_rmse_cm) return "";
-  return formatted("%.1f", *info->published_rmse_cm);
+  return fmt::format("{:.1f}", *info->published_rmse_cm);
 }
 
 std::vector<std::string> summary_lines(const SuiteResult& result,
@@ -264,7 +266,7 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
     lines.push_back("Truth " + truth +
                     ". RMSE [95 % interval] and bias in cm over the plots found");
     lines.push_back(
-        formatted("%-32s %-14s  %-21s %7s %6s", "method", "case", "RMSE", "bias", "publ."));
+        fmt::format("{:32} {:14}  {:21} {:>7} {:>6}", "method", "case", "RMSE", "bias", "publ."));
     std::string method;
     for (const TableRow& row : rows_by_method(table, truth)) {
       lines.push_back(summary_line(result, row, row.method != method));

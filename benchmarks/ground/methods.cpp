@@ -13,6 +13,7 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
+#include "core/extent.h"
 #include "ground/surface.h"
 
 namespace plotscan::ground_error {
@@ -104,14 +105,9 @@ pcl::PointCloud<pcl::PointXYZ>::Ptr lowest_points(Points points, const Eigen::Ar
 
 std::vector<PlotGround> morphological(Points points, const Boxes& boxes) {
   constexpr double kAround_m = 2, kThin_m = 0.1;
-  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::max());
-  Eigen::Array2d high = -low;
-  for (const PlotBox& box : boxes) {
-    for (const Eigen::Vector2d& corner : box.corners()) {
-      low = low.min(corner.array() - kAround_m);
-      high = high.max(corner.array() + kAround_m);
-    }
-  }
+  const Eigen::AlignedBox2d extent = extent_of(boxes);
+  const Eigen::Array2d low = extent.min().array() - kAround_m;
+  const Eigen::Array2d high = extent.max().array() + kAround_m;
   const auto cloud = lowest_points(points, low, high, kThin_m);
   pcl::ProgressiveMorphologicalFilter<pcl::PointXYZ> filter;
   filter.setInputCloud(cloud);

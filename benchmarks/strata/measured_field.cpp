@@ -17,7 +17,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   const auto start = std::chrono::steady_clock::now();
   try {
     estimate = methods::lattice::estimate_plots(field.cloud, {.threads = threads});
-    measured.points = estimate.diagnostics.at("points_read");
+    measured.points = estimate.diagnostics.points.value().read;
   } catch (const InputError& error) {
     measured.failure = error.what();
   }

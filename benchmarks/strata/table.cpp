@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "score/score_files.h"
 
 namespace plotscan::strata {
@@ -12,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-std::string number(const char* format, double value) {
-  return std::isnan(value) ? "-" : formatted(format, value);
+std::string number(fmt::format_string<double&> format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(format, value);
 }
 
 // RMSE, bias (the worst farm's) in centimetres, r2 within farms.
@@ -21,51 +22,51 @@ std::string height_cell(const StratumTally& tally, const char* height) {
   const auto found = tally.heights.find(height);
   if (found == tally.heights.end()) return "-";
   const HeightTally& one = found->second;
-  return number("%.1f", 100 * one.score.rmse_m) + " " + number("%+.1f", 100 * one.score.bias_m) +
-         " (" + number("%+.1f", 100 * one.within.worst_bias_m) + ") " +
-         number("%.2f", one.within.r2);
+  return number("{:.1f}", 100 * one.score.rmse_m) + " " +
+         number("{:+.1f}", 100 * one.score.bias_m) + " (" +
+         number("{:+.1f}", 100 * one.within.worst_bias_m) + ") " + number("{:.2f}", one.within.r2);
 }
 
 std::string stratum_line(const StratumTally& tally) {
-  std::string line = formatted(
-      "%-10s %5zu %5zu %6s %6s %5s %5s", tally.stratum.c_str(), tally.farms, tally.boxes.plots,
-      number("%.4f", tally.boxes.recall).c_str(), number("%.4f", tally.boxes.precision).c_str(),
-      number("%.3f", tally.boxes.iou_mean).c_str(),
-      number("%.1f", 100 * tally.boxes.center_rmse_m).c_str());
+  std::string line = fmt::format(
+      "{:10} {:5} {:5} {:>6} {:>6} {:>5} {:>5}", tally.stratum, tally.farms, tally.boxes.plots,
+      number("{:.4f}", tally.boxes.recall), number("{:.4f}", tally.boxes.precision),
+      number("{:.3f}", tally.boxes.iou_mean), number("{:.1f}", 100 * tally.boxes.center_rmse_m));
   for (const char* height : kShownHeights)
-    line += formatted("  %-21s", height_cell(tally, height).c_str());
+    line += fmt::format("  {:21}", height_cell(tally, height));
   const std::string unflagged =
-      number("%.1f", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
-  return line + formatted("  %-15s %6s %6s", unflagged.c_str(),
-                          number("%.1f", 100 * tally.coverage95).c_str(),
-                          number("%.2f", tally.seconds_per_million_points).c_str());
+      number("{:.1f}", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
+  return line + fmt::format("  {:15} {:>6} {:>6}", unflagged,
+                            number("{:.1f}", 100 * tally.coverage95),
+                            number("{:.2f}", tally.seconds_per_million_points));
 }
 
 std::vector<std::string> farm_lines(std::span<const MeasuredField> farms) {
-  std::string heading = formatted("%-10s %5s %5s %6s %6s %5s %5s", "stratum", "farms", "plots",
-                                  "recall", "prec.", "IoU", "centre");
-  for (const char* height : kShownHeights) heading += formatted("  %-21s", height);
+  std::string heading = fmt::format("{:10} {:>5} {:>5} {:>6} {:>6} {:>5} {:>5}", "stratum", "farms",
+                                    "plots", "recall", "prec.", "IoU", "centre");
+  for (const char* height : kShownHeights) heading += fmt::format("  {:21}", height);
   std::vector<std::string> lines = {
       "Centre and heights in cm; of a height: RMSE bias (the worst farm's) r2 within farms. Over "
       "5: "
       "% of the plots with an error over 5 cm",
       "and no flag, of the worst of all heights; in 95: % of truths in the 95 % intervals of all "
       "heights; s/M: seconds per million points",
-      heading + formatted("  %-15s %6s %6s", "over 5", "in 95", "s/M")};
+      heading + fmt::format("  {:15} {:>6} {:>6}", "over 5", "in 95", "s/M")};
   for (const StratumTally& one : tally_strata(farms)) lines.push_back(stratum_line(one));
   return lines;
 }
 
 std::vector<std::string> empty_lines(std::span<const MeasuredField> fields) {
-  std::vector<std::string> lines = {"", formatted("%-10s %6s %15s %14s %6s", "no plots", "fields",
-                                                  "plots invented", "fields with", "s/M")};
+  std::vector<std::string> lines = {
+      "", fmt::format("{:10} {:>6} {:>15} {:>14} {:>6}", "no plots", "fields", "plots invented",
+                      "fields with", "s/M")};
   for (const StratumTally& one : tally_strata(fields)) {
     const auto some = std::ranges::count_if(fields, [&](const MeasuredField& field) {
       return field.stratum == one.stratum && !field.score.extra.empty();
     });
-    lines.push_back(formatted("%-10s %6zu %15zu %14td %6s", one.stratum.c_str(), one.farms,
-                              one.boxes.extra, some,
-                              number("%.2f", one.seconds_per_million_points).c_str()));
+    lines.push_back(fmt::format("{:10} {:6} {:15} {:14} {:>6}", one.stratum, one.farms,
+                                one.boxes.extra, some,
+                                number("{:.2f}", one.seconds_per_million_points)));
   }
   return lines;
 }
@@ -140,21 +141,21 @@ std::vector<std::string> table_lines(const Measurement& measurement) {
   }
   const double auc = confidence_auc(all_fields(measurement));
   lines.push_back("");
-  lines.push_back("AUC of confidence, false against true plots: " + number("%.3f", auc));
+  lines.push_back("AUC of confidence, false against true plots: " + number("{:.3f}", auc));
   return lines;
 }
 
 std::string field_line(const MeasuredField& field) {
   const score::BoxScore boxes = score::score_boxes({&field.score, 1});
-  std::string line = formatted("%s-%d: %zu plots, %zu found, %zu extra", field.stratum.c_str(),
-                               field.index, boxes.plots, boxes.found, boxes.extra);
-  if (boxes.found > 0) line += ", IoU " + number("%.3f", boxes.iou_mean);
+  std::string line = fmt::format("{}-{}: {} plots, {} found, {} extra", field.stratum, field.index,
+                                 boxes.plots, boxes.found, boxes.extra);
+  if (boxes.found > 0) line += ", IoU " + number("{:.3f}", boxes.iou_mean);
   for (const char* height : kShownHeights) {
     const std::string truth = score::named_truth(height);
     const score::HeightPairs pairs = score::height_pairs(field.score, height, truth);
     if (pairs.truths_m.empty()) continue;
-    line +=
-        formatted(", %s %+.1f cm", height, 100 * score::score_height(height, truth, pairs).bias_m);
+    line += fmt::format(", {} {:+.1f} cm", height,
+                        100 * score::score_height(height, truth, pairs).bias_m);
   }
   if (!field.failure.empty()) line += "; gave up: " + field.failure;
   return line;

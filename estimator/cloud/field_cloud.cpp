@@ -46,7 +46,7 @@ TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int thread
 }
 
 // "; they lie in -25,-22,25,26", of the tiles' outer edges; "" without any.
-std::string extent_of(std::span<const TileCount> tiles) {
+std::string extent_text(std::span<const TileCount> tiles) {
   if (tiles.empty()) return "";
   Tile low = tiles.front().tile;
   Tile high = low;
@@ -76,7 +76,7 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   FieldCloud field;
   std::optional<FieldHull> hull;
   std::vector<TileCount> tile_counts = store.tile_counts();
-  const std::string extent = extent_of(tile_counts);
+  const std::string extent = extent_text(tile_counts);
   if (!options.area && tile_counts.empty())
     throw InputError(name, "its points lie beyond any place on Earth");
   if (!options.area) hull = find_field(tile_counts);

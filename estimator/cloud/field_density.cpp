@@ -7,9 +7,9 @@
 #include <map>
 
 #include "cloud/internal/field_hull.h"
+#include <fmt/core.h>
 
 #include "core/statistics.h"
-#include "core/text.h"
 
 namespace plotscan::cloud {
 namespace {
@@ -130,7 +130,7 @@ FieldDensity field_density(std::span<const TileCount> counts) {
 }
 
 std::string density_text(double per_m2) {
-  return formatted(per_m2 < 100 ? "%.3g" : "%.0f", per_m2);
+  return per_m2 < 100 ? fmt::format("{:.3g}", per_m2) : fmt::format("{:.0f}", per_m2);
 }
 
 }  // namespace plotscan::cloud

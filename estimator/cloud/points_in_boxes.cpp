@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/extent.h"
+
 namespace plotscan::cloud {
 namespace {
 
@@ -14,15 +16,14 @@ namespace {
 class BoxRaster {
  public:
   explicit BoxRaster(const std::vector<PlotBox>& boxes) {
-    Bounds extent;
-    for (const PlotBox& box : boxes) extent = extent.joined(bounds_of(box));
-    low_ = extent.low;
-    const Eigen::Array2d size = (extent.high - extent.low).max(0);
+    const Eigen::AlignedBox2d extent = extent_of(boxes);
+    low_ = extent.min();
+    const Eigen::Array2d size = extent.sizes().array().max(0);
     cell_m_ = std::max(kCell_m, std::sqrt(size.prod() / kMostCells));
     columns_ = static_cast<long>(size.x() / cell_m_) + 1;
     rows_ = static_cast<long>(size.y() / cell_m_) + 1;
     boxes_by_cell_.resize(columns_ * rows_);
-    for (std::size_t i = 0; i < boxes.size(); ++i) list(bounds_of(boxes[i]), i);
+    for (std::size_t i = 0; i < boxes.size(); ++i) list(extent_of(std::span(&boxes[i], 1)), i);
   }
 
   // Indices of the boxes near the position.
@@ -35,22 +36,10 @@ class BoxRaster {
  private:
   static constexpr double kCell_m = 0.5;
   static constexpr double kMostCells = 1e6;
-  struct Bounds {
-    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::max());
-    Eigen::Array2d high = Eigen::Array2d::Constant(std::numeric_limits<double>::lowest());
-    Bounds joined(const Bounds& other) const { return {low.min(other.low), high.max(other.high)}; }
-  };
 
-  static Bounds bounds_of(const PlotBox& box) {
-    Bounds bounds;
-    for (const Eigen::Vector2d& corner : box.corners()) {
-      bounds = bounds.joined({corner.array(), corner.array()});
-    }
-    return bounds;
-  }
-  void list(const Bounds& bounds, std::size_t box) {
-    const Eigen::Array2d first = ((bounds.low - low_) / cell_m_).floor();
-    const Eigen::Array2d last = ((bounds.high - low_) / cell_m_).floor();
+  void list(const Eigen::AlignedBox2d& bounds, std::size_t box) {
+    const Eigen::Array2d first = ((bounds.min().array() - low_) / cell_m_).floor();
+    const Eigen::Array2d last = ((bounds.max().array() - low_) / cell_m_).floor();
     for (long y = static_cast<long>(first.y()); y <= static_cast<long>(last.y()); ++y) {
       for (long x = static_cast<long>(first.x()); x <= static_cast<long>(last.x()); ++x) {
         boxes_by_cell_[y * columns_ + x].push_back(static_cast<std::uint32_t>(box));

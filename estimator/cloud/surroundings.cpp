@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud/surroundings.h"
 
-#include <algorithm>
-#include <limits>
+#include "core/extent.h"
 
 namespace plotscan::cloud {
 
-Area surroundings(const std::vector<PlotBox>& boxes, double extend_m) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Area area{kFar, kFar, -kFar, -kFar};
-  for (PlotBox box : boxes) {
-    box.length_m += 2 * extend_m;
-    for (const Eigen::Vector2d& corner : box.corners()) {
-      area = {std::min(area[0], corner.x()), std::min(area[1], corner.y()),
-              std::max(area[2], corner.x()), std::max(area[3], corner.y())};
-    }
-  }
-  return area;
+Area surroundings(std::vector<PlotBox> boxes, double extend_m) {
+  for (PlotBox& box : boxes) box.length_m += 2 * extend_m;
+  const Eigen::AlignedBox2d extent = extent_of(boxes);
+  return {extent.min().x(), extent.min().y(), extent.max().x(), extent.max().y()};
 }
 
 }  // namespace plotscan::cloud

@@ -10,6 +10,6 @@
 namespace plotscan::cloud {
 
 // The rectangle that holds the boxes when both ends of each are lengthened by extend_m.
-Area surroundings(const std::vector<PlotBox>& boxes, double extend_m);
+Area surroundings(std::vector<PlotBox> boxes, double extend_m);
 
 }  // namespace plotscan::cloud

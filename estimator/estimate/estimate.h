@@ -13,6 +13,7 @@
 #include "core/coordinate_units.h"
 #include "core/plot_box.h"
 #include "core/plot_features.h"
+#include "estimate/diagnostics.h"
 #include "ground/surface.h"
 
 namespace plotscan::estimate {
@@ -56,8 +57,8 @@ struct Estimate {
   std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
   // Of the cloud's file, where they are not metres: the files below have them, all else is metres.
   std::optional<CoordinateUnits> units = {};
-  nlohmann::json diagnostics = nlohmann::json::object();  // what the method learnt on its way
-  std::optional<ground::Surface> ground = std::nullopt;   // in the cloud's frame
+  Diagnostics diagnostics = {};                          // what the method learnt on its way
+  std::optional<ground::Surface> ground = std::nullopt;  // in the cloud's frame
   // What the plots were made of, where a method first boxes clusters of points: dhami2020's boxes
   // before the vote.
   std::vector<PlotBox> clusters = {};

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "estimate/internal/esri_grid.h"
 
 namespace plotscan::estimate {
@@ -40,7 +41,7 @@ void write_grid(const fs::path& path, const ground::Surface& surface, double uni
 }
 
 // To a tenth of a millimetre, in feet finer.
-std::string rounded(float metres, double unit_m) { return formatted("%.4f", metres / unit_m); }
+std::string rounded(float metres, double unit_m) { return fmt::format("{:.4f}", metres / unit_m); }
 
 // A grid in metres, but for its values.
 EsriGrid read_grid(const fs::path& path, double unit_m) {

@@ -148,8 +148,8 @@ void take_names(const PlotMap& map, Estimate& estimate) {
     estimate.plots[i].column = named.column;
     estimate.plots[i].attributes = given_attributes(map.plots[i]);
   }
-  estimate.diagnostics["boxes"] = {
-      {"plots", map.plots.size()}, {"id", map.id_property}, {"from_degrees", map.from_degrees}};
+  estimate.diagnostics.boxes = {
+      .plots = map.plots.size(), .id_property = map.id_property, .from_degrees = map.from_degrees};
 }
 
 }  // namespace plotscan::estimate

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace {
-
-using nlohmann::json;
 
 // A plot's place along one of the grid's axes: its row, or its column.
 using Place = int PlotEstimate::*;
@@ -69,11 +68,11 @@ void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimat
   const int found_rows = most(plots, &PlotEstimate::row);
   const int found_columns = most(plots, &PlotEstimate::column);
   if (rows == found_rows && columns == found_columns) return;
-  throw InputError(
-      formatted("the named plots have %d rows and %d columns, and plots in %d rows and %d columns "
-                "were found; give their boxes (--boxes), or the part of the field that is named "
-                "(--crop-box)",
-                rows, columns, found_rows, found_columns));
+  throw InputError(fmt::format(
+      "the named plots have {} rows and {} columns, and plots in {} rows and {} columns "
+      "were found; give their boxes (--boxes), or the part of the field that is named "
+      "(--crop-box)",
+      rows, columns, found_rows, found_columns));
 }
 
 }  // namespace
@@ -107,8 +106,8 @@ void name_plots(const NumberingOptions& options, const NamedPlaces& places, Esti
     const auto named = missing.find({plot.row, plot.column});
     if (named == missing.end()) {
       throw InputError(
-          formatted("a plot was found in row %d, column %d, and no plot is named there", plot.row,
-                    plot.column));
+          fmt::format("a plot was found in row {}, column {}, and no plot is named there", plot.row,
+                      plot.column));
     }
     plot.id = named->second.id;
     plot.attributes = std::move(named->second.attributes);
@@ -118,10 +117,9 @@ void name_plots(const NumberingOptions& options, const NamedPlaces& places, Esti
     return std::pair(a.row, a.column) < std::pair(b.row, b.column);
   });
   estimate.id_property = places.id_property;
-  json ids = json::array();
-  for (const auto& [place, plot] : missing) ids.push_back(plot.id.json());
-  estimate.diagnostics["names"] = {
-      {"plots", places.plots.size()}, {"id", places.id_property}, {"not_found", ids}};
+  GivenNames given{.plots = places.plots.size(), .id_property = places.id_property};
+  for (const auto& [place, plot] : missing) given.not_found.push_back(plot.id);
+  estimate.diagnostics.names = given;
 }
 
 }  // namespace plotscan::estimate

@@ -33,7 +33,7 @@ struct NumberingOptions {
 void number_plots(const NumberingOptions& options, Estimate& estimate);
 
 // Counts rows and columns alike, and gives every plot the id and attributes of its place.
-// diagnostics["names"] says which of the places have no plot. Throws InputError where the named
+// diagnostics.names says which of the places have no plot. Throws InputError where the named
 // field has not as many rows and columns as the one that was found, and where a plot lies in a
 // place without a name.
 void name_plots(const NumberingOptions& options, const NamedPlaces& places, Estimate& estimate);

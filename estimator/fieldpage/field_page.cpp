@@ -8,7 +8,6 @@
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
-#include "core/text.h"
 #include "estimate/ground_grids.h"
 #include "fieldpage/shown.h"
 #include "report/page.h"
@@ -26,9 +25,11 @@ estimate::Estimate read(const fs::path& path) {
   estimate::Estimate estimate = estimate::read_estimate(path);
   if (fs::exists(path / "ground.asc"))
     estimate.ground = estimate::read_ground(path, estimate.units.value_or(CoordinateUnits{}));
-  const nlohmann::json::json_pointer diagnostics("/results/diagnostics");
-  if (fs::exists(path / "manifest.json"))
-    estimate.diagnostics = read_manifest(path).value(diagnostics, nlohmann::json::object());
+  const nlohmann::json::json_pointer why_no_plots("/results/diagnostics/nothing");
+  if (fs::exists(path / "manifest.json")) {
+    const nlohmann::json why = read_manifest(path).value(why_no_plots, nlohmann::json());
+    if (why.is_string()) estimate.diagnostics.why_no_plots = why;
+  }
   return estimate;
 }
 
@@ -54,12 +55,6 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
                           "has another hash).");
 }
 
-void show_nothing(report::ShownField& field, const estimate::Estimate& estimate) {
-  const auto nothing = estimate.diagnostics.find("nothing");
-  if (nothing != estimate.diagnostics.end() && nothing->is_string())
-    field.notes.push_back(nothing->get<std::string>());
-}
-
 }  // namespace
 
 PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress) {
@@ -71,7 +66,8 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   report::ShownField field{.name = name_of(options.estimate)};
   if (!estimate.method.empty()) field.facts.push_back({"method", estimate.method});
   field.facts.push_back({"plots", std::to_string(estimate.plots.size())});
-  show_nothing(field, estimate);
+  if (!estimate.diagnostics.why_no_plots.empty())
+    field.notes.push_back(estimate.diagnostics.why_no_plots);
   show_estimate(field, estimate);
   show_working(field, estimate);
   if (options.truth) {

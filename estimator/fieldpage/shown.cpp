@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "core/extent.h"
 #include "record/positions.h"
 #include "report/shown_grid.h"
 
@@ -37,11 +38,9 @@ report::ShownGrid grid_around(const report::ShownField& field) {
   constexpr double kFinest_m = 0.5;
   constexpr double kMostNodes = 1e6;
   constexpr double kAround_m = 3;
-  Eigen::AlignedBox2d bounds;
-  for (const report::ShownPlot& plot : field.plots)
-    for (const Eigen::Vector2d& corner : plot.box.corners()) bounds.extend(corner);
-  for (const report::ShownBox& plot : field.true_boxes)
-    for (const Eigen::Vector2d& corner : plot.box.corners()) bounds.extend(corner);
+  const Eigen::AlignedBox2d bounds =
+      extent_of(field.plots, &report::ShownPlot::box)
+          .merged(extent_of(field.true_boxes, &report::ShownBox::box));
   const Eigen::Vector2d size = bounds.sizes().array() + 2 * kAround_m;
   const double cell_m =
       std::max({kFinest_m, std::sqrt(size.prod() / kMostNodes), size.maxCoeff() / kMostNodes});

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/error.h"
+#include "core/statistics.h"
 
 namespace plotscan::ground {
 namespace {
@@ -226,9 +227,7 @@ void keep_low(std::span<const Return> returns, float reach_m, std::vector<Return
   if (returns.empty()) return;
   std::vector<float> z;
   for (const Return& r : returns) z.push_back(r.z_m);
-  const auto low = z.begin() + static_cast<long>(z.size() / 100);
-  std::nth_element(z.begin(), low, z.end());
-  const float highest = *low + reach_m;
+  const float highest = selected<float>(z, z.size() / 100) + reach_m;
   for (const Return& r : returns) {
     if (r.z_m <= highest) kept.push_back(r);
   }

@@ -5,8 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 #include "core/utc_time.h"
 #include "record/positions.h"
 
@@ -22,8 +23,8 @@ constexpr std::size_t kGroundClass = 2;
 void judge_density(CloudReport& report) {
   const double density = report.density.median;
   const auto too_few = [&](const char* how) {
-    return formatted("%s points/m2 %s too few: plots are found from about %.0f on",
-                     cloud::density_text(density).c_str(), how, cloud::kPlotsFound_m2);
+    return fmt::format("{} points/m2 {} too few: plots are found from about {:.0f} on",
+                       cloud::density_text(density), how, cloud::kPlotsFound_m2);
   };
   if (density <= cloud::kPlotsLost_m2) {
     report.obstacles.push_back(too_few("are"));

@@ -149,7 +149,7 @@ void take_system(const scan::CloudSystem& system, const RunOptions& options,
   estimate.crs = system.crs;
   if (!system.zone && (options.cloud.units || system.units != CoordinateUnits{}))
     estimate.units = system.units;
-  estimate.diagnostics["notes"] = system.notes;
+  estimate.diagnostics.notes = system.notes;
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
   estimate::write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},
-                      {"diagnostics", estimate.diagnostics}};
+                      {"diagnostics", to_json(estimate.diagnostics)}};
   write_manifest(folder.path(), manifest);
   if (table) estimate::write_traits(table->path(), estimate);
   folder.commit();
@@ -211,7 +211,7 @@ namespace {
 
 // What helps where there are no plots, by what was seen.
 std::string next_step(const estimate::Estimate& estimate) {
-  const double density_m2 = estimate.diagnostics.value("density_per_m2", cloud::kPlotsFound_m2);
+  const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
   std::vector<std::string> steps;
   if (density_m2 >= cloud::kLeastSearched_m2) {
     steps = {"say where plots are with --boxes", "cut the cloud to them with --crop-box"};
@@ -230,17 +230,16 @@ void require_measured(const estimate::Estimate& estimate) {
   const bool measured = std::ranges::any_of(
       estimate.plots, [](const estimate::PlotEstimate& plot) { return !plot.heights_m.empty(); });
   if (measured) return;
-  const json& diagnostics = estimate.diagnostics;
-  std::string found;
-  if (diagnostics.contains("density_per_m2"))
-    found = " (" + cloud::density_text(diagnostics["density_per_m2"].get<double>()) + " points/m2)";
+  const auto density_m2 = estimate.diagnostics.density_per_m2;
+  const std::string found =
+      density_m2 ? " (" + cloud::density_text(*density_m2) + " points/m2)" : "";
   if (!estimate.plots.empty()) {
     throw NothingToMeasure("no plot has enough points for a height" + found +
                            "; check that the boxes and the cloud are of one field, and fly lower "
                            "where points are few");
   }
-  throw NothingToMeasure("no plots: " + diagnostics.value("nothing", "none were found") + found +
-                         "; " + next_step(estimate));
+  throw NothingToMeasure("no plots: " + estimate.diagnostics.why_no_plots + found + "; " +
+                         next_step(estimate));
 }
 
 json height_summary(const estimate::Estimate& estimate) {

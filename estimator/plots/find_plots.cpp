@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/core.h>
 #include <tbb/task_arena.h>
 
-#include "core/text.h"
 #include "plots/internal/canopy_raster.h"
 #include "plots/internal/field_signs.h"
 #include "plots/internal/heading.h"
@@ -26,7 +26,7 @@ constexpr double kStep_m = 1e-3;         // from no leaves to leaves
 
 constexpr int kRounds = 2;  // of size and centres in turn
 
-PlotField nothing(std::string why) { return {.nothing = std::move(why)}; }
+PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
 
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
@@ -104,7 +104,7 @@ std::string text_of(const Layout& layout) {
     std::swap(length_m, width_m);
     std::swap(rows, columns);
   }
-  return formatted("%zu rows of %zu plots of %.2f x %.2f m", rows, columns, width_m, length_m);
+  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
 }
 
 // What the canopy shows more clearly than the layout that was told; "" where nothing.
@@ -137,20 +137,20 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   });
   if (layout.rows.empty()) {
     const std::string shown = rival.empty() ? "" : "; the canopy shows " + rival;
-    return {nothing((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
-                                         : "no plots of one size lie in rows here") +
-                    shown)};
+    return {no_plots((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
+                                          : "no plots of one size lie in rows here") +
+                     shown)};
   }
 
   layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout, hints);
-  if (lattice.places.empty()) return {nothing("no plots of one size lie in rows here")};
+  if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
   refine(lattice, layout, hints);
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
   lattice.view.raster = &cover;
   const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
-  Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : nothing(because)};
+  Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : no_plots(because)};
   if (because.empty()) look.evidence = layout.evidence;
   look.field.signs = signs;
   look.field.rival = rival;
@@ -164,7 +164,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const FieldCanopy field(points, noise_m, threads);
   const CanopyRaster coarse =
       rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
-  Look best{nothing("no canopy stands out from the ground here")};
+  Look best{no_plots("no canopy stands out from the ground here")};
   bool first = true;
   for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
     Look look = look_along(axes, field, noise_m, hints, threads);

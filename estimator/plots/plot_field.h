@@ -46,7 +46,7 @@ struct FieldFit {
 // A field's plots, or why it has none.
 struct PlotField {
   std::vector<FoundPlot> plots = {};
-  std::string nothing = {};  // why there are no plots here; "" when there are
+  std::string why_none = {};  // why there are no plots here; "" when there are
   // The layout that the canopy shows more clearly than the one that was told; "" where none.
   std::string rival = {};
   std::optional<FieldFit> fit = std::nullopt;

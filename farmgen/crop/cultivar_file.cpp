@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/yaml_section.h"
 #include "crop/cultivar.h"
 

@@ -7,8 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "terrain/extent.h"
 #include <Eigen/Geometry>
 
+#include "core/extent.h"
 #include "mesh/measure.h"
 
 namespace plotscan::farm {
@@ -23,19 +25,17 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 void summarise_terrain(const terrain::Terrain& terrain, FarmSummary& summary) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : terrain.vertices()) box.extend(vertex);
+  const Eigen::AlignedBox3d box = terrain::extent_of(terrain);
   summary.terrain_size_m = box.sizes().head<2>();
   summary.terrain_z_m = {box.min().z(), box.max().z()};
   summary.terrain_triangles = terrain.triangles().size();
 }
 
 double summarise_plots(const std::vector<Plot>& plots, FarmSummary& summary) {
-  Eigen::AlignedBox2d field;
+  const Eigen::AlignedBox2d field = extent_of(plots, &Plot::box);
   double area_m2 = 0;
   std::vector<double> heights;
   for (const Plot& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) field.extend(corner);
     area_m2 += plot.box.area_m2();
     if (plot.plant_count > 0) heights.push_back(plot.heights.max);
   }

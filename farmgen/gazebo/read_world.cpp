@@ -3,9 +3,10 @@
 
 #include <stdexcept>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/isolated.h"
-#include "core/text.h"
 #include "gazebo/internal/geometry.h"
 #include "gazebo/internal/includes.h"
 #include "gazebo/internal/load_world.h"
@@ -25,7 +26,7 @@ void require_near(const Eigen::AlignedBox3d& box, const Eigen::Affine3d& world_f
     const Eigen::Vector3d place =
         world_from_mesh * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
     if (!(place.cwiseAbs().maxCoeff() <= kFarthest_m)) {
-      throw InputError(file, what + " reaches further than " + formatted("%.0f", kFarthest_m) +
+      throw InputError(file, what + " reaches further than " + fmt::format("{:.0f}", kFarthest_m) +
                                  " m from the origin");
     }
   }

@@ -6,22 +6,16 @@
 #include <numbers>
 #include <string>
 
+#include "terrain/extent.h"
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 
 namespace plotscan::planting {
 namespace {
 
-std::string metres(double value) { return formatted("%.2f m", value); }
-
-Eigen::AlignedBox2d bounds_of(const terrain::Terrain& terrain) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector3d& vertex : terrain.vertices()) {
-    box.extend(Eigen::Vector2d(vertex.head<2>()));
-  }
-  return box;
-}
+std::string metres(double value) { return fmt::format("{:.2f} m", value); }
 
 // How far the point lies outside the terrain's bounding rectangle, along the worse axis.
 double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
@@ -32,7 +26,7 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
                                    const terrain::Terrain& terrain,
                                    const std::filesystem::path& source, const farm::Plot& plot,
                                    const Eigen::Vector2d& corner) {
-  const Eigen::AlignedBox2d box = bounds_of(terrain);
+  const Eigen::AlignedBox2d box = terrain::outline_of(terrain);
   double needed_half_side = 0;
   for (const farm::Plot& each : plots) {
     for (const Eigen::Vector2d& point : each.box.corners()) {

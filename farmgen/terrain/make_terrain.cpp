@@ -12,9 +12,10 @@
 #include "terrain/internal/random_terrain.h"
 #include "terrain/internal/refine.h"
 #include "terrain/internal/xyz_file.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
-#include "core/text.h"
+#include "core/extent.h"
 #include "mesh/mesh_import.h"
 
 namespace plotscan::terrain {
@@ -92,10 +93,7 @@ Eigen::AlignedBox2d detail_box(const TerrainDescription& description,
     const Eigen::Vector2d half(description.detail_m->at(0) / 2, description.detail_m->at(1) / 2);
     return {-half, half};
   }
-  Eigen::AlignedBox2d box;
-  for (const PlotBox& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.corners()) box.extend(corner);
-  }
+  Eigen::AlignedBox2d box = extent_of(plots);
   if (box.isEmpty()) box = bounds;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin_m);
   return {box.min() - margin, box.max() + margin};
@@ -127,9 +125,9 @@ double chosen_step_m(const TerrainDescription& description, double needed_m) {
   if (!description.step_m) return needed_m;
   if (*description.step_m <= kCoarsest * needed_m) return *description.step_m;
   throw InputError(
-      formatted("terrain.step_m %g is too coarse for the terrain's finest relief: at "
-                "most %.3g m would show it, %.3g m shows it well",
-                *description.step_m, kCoarsest * needed_m, needed_m));
+      fmt::format("terrain.step_m {:g} is too coarse for the terrain's finest relief: at "
+                  "most {:.3g} m would show it, {:.3g} m shows it well",
+                  *description.step_m, kCoarsest * needed_m, needed_m));
 }
 
 // A lattice covers the patch with rows along the furrows, so that of one askew to a long strip only
@@ -140,9 +138,10 @@ void require_small_lattice(const Patch& patch) {
   const double places = static_cast<double>(lattice.rows) * static_cast<double>(lattice.columns);
   if (places <= kMostPlaces) return;
   const Eigen::Vector2d size = patch.box.sizes();
-  throw InputError(formatted(
-      "terrain: rows along the furrows that cover %.1f m x %.1f m askew have %.3g places %.3g m "
-      "apart; at most %.3g are allowed: furrows along that rectangle, a shorter terrain.detail_m "
+  throw InputError(fmt::format(
+      "terrain: rows along the furrows that cover {:.1f} m x {:.1f} m askew have {:.3g} places "
+      "{:.3g} m "
+      "apart; at most {:.3g} are allowed: furrows along that rectangle, a shorter terrain.detail_m "
       "or a greater terrain.step_m would fit",
       size.x(), size.y(), places, patch.layout.column_step_m, kMostPlaces));
 }
@@ -156,9 +155,10 @@ void require_countable(const Terrain& base, const std::vector<Patch>& patches) {
   }
   const Patch& finest = patches.back();
   const Eigen::Vector2d size = finest.box.sizes();
-  throw InputError(formatted(
-      "terrain: vertices %.3g m apart over %.1f m x %.1f m are about %.3g; at most %.3g are "
-      "allowed: terrain.step_m from %.2g on would fit where the relief allows it, or a smaller "
+  throw InputError(fmt::format(
+      "terrain: vertices {:.3g} m apart over {:.1f} m x {:.1f} m are about {:.3g}; at most {:.3g} "
+      "are "
+      "allowed: terrain.step_m from {:.2g} on would fit where the relief allows it, or a smaller "
       "terrain.detail_m, or longer waves",
       finest.layout.column_step_m, size.x(), size.y(), count, most,
       1.05 * finest.layout.column_step_m * std::sqrt(count / most)));

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -21,7 +22,6 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/text.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PLOTSCAN_SANITIZED 1
@@ -182,7 +182,7 @@ std::string run_isolated(const std::string& what, const IsolationLimits& limits,
       throw InputError(received);
     case Outcome::no_memory:
       throw InputError(what + ": its reader needs more than " +
-                       formatted("%.1f", static_cast<double>(limits.memory_bytes) / 1e9) +
+                       fmt::format("{:.1f}", static_cast<double>(limits.memory_bytes) / 1e9) +
                        " GB of memory");
     default:
       throw InputError(what + ": its reader failed: " + received);

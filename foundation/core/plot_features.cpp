@@ -6,13 +6,14 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/geodesy.h"
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
-#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -118,9 +119,9 @@ PlotBox rectangle_of(const json& ring, const Projection& metres, const std::stri
   const double allowed_m = rectangle_tolerance_m(fit->box);
   if (fit->off_m > allowed_m) {
     throw InputError(which +
-                     formatted(" is not a rectangle: it is up to %.2f m off the nearest one, "
-                               "and %.2f m are allowed",
-                               fit->off_m, allowed_m));
+                     fmt::format(" is not a rectangle: it is up to {:.2f} m off the nearest one, "
+                                 "and {:.2f} m are allowed",
+                                 fit->off_m, allowed_m));
   }
   return fit->box;
 }

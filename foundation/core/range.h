@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/text.h"
+#include <fmt/core.h>
 
 namespace plotscan {
 
@@ -14,7 +14,7 @@ struct Range {
 
   bool contains(double value) const { return value >= low && value <= high; }  // false for NaN
   // "[0, 100000]"
-  std::string text() const { return formatted("[%.10g, %.10g]", low, high); }
+  std::string text() const { return fmt::format("[{:.10g}, {:.10g}]", low, high); }
 };
 
 }  // namespace plotscan

@@ -15,8 +15,7 @@ double quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double position = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::ptrdiff_t>(std::floor(position));
-  std::nth_element(values.begin(), values.begin() + below, values.end());
-  const double low = values[below];
+  const double low = selected<double>(values, static_cast<std::size_t>(below));
   const double fraction = position - static_cast<double>(below);
   if (fraction == 0) return low;
   const double high = *std::min_element(values.begin() + below + 1, values.end());

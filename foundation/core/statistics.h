@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace plotscan {
@@ -8,6 +11,15 @@ namespace plotscan {
 // The share-quantile (0..1) of the values, linear between order statistics (Hyndman and Fan's type
 // 7, NumPy's and R's default). NaN when there are none.
 double quantile(std::vector<double> values, double share);
+
+// The value that `place` others come before in ascending order, below values.size(): the least at
+// 0, the upper median at half. Changes the order.
+template <class Value>
+Value selected(std::span<Value> values, std::size_t place) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 // NaN when there are none.
 double mean(const std::vector<double>& values);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <regex>
 
-#include "core/text.h"
+#include <fmt/core.h>
 
 namespace plotscan {
 namespace {
@@ -48,13 +48,13 @@ std::string format_utc(UtcTime time) {
   const sys_days day = floor<days>(time);
   const year_month_day date(day);
   const hh_mm_ss clock(time - day);
-  std::string text =
-      formatted("%04d-%02u-%02uT%02d:%02d:%02d", static_cast<int>(date.year()),
-                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()));
+  std::string text = fmt::format(
+      "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
+      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+      static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
+      static_cast<int>(clock.seconds().count()));
   if (clock.subseconds().count() != 0) {
-    text += formatted(".%06d", static_cast<int>(clock.subseconds().count()));
+    text += fmt::format(".{:06}", static_cast<int>(clock.subseconds().count()));
     text.erase(text.find_last_not_of('0') + 1);
   }
   return text + "Z";

@@ -59,12 +59,12 @@ GroundGrid outer(const ground::Surface& surface) {
 FieldEstimate outer(const estimate::Estimate& estimate) {
   FieldEstimate made{.method = estimate.method};
   for (const estimate::PlotEstimate& plot : estimate.plots) made.plots.push_back(outer(plot));
-  if (made.plots.empty()) made.nothing = estimate.diagnostics.value("nothing", "none were found");
+  made.why_no_plots = estimate.diagnostics.why_no_plots;
   if (estimate.ground) made.ground = outer(*estimate.ground);
   made.crs = estimate.crs;
   made.geojson =
       plot_collection(features_of(estimate), estimate.crs, estimate.units).dump(1) + "\n";
-  made.diagnostics = estimate.diagnostics.dump();
+  made.diagnostics = to_json(estimate.diagnostics).dump();
   return made;
 }
 

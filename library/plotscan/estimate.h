@@ -48,7 +48,7 @@ struct GroundGrid {
 struct FieldEstimate {
   std::string method;
   std::vector<Plot> plots = {};
-  std::string nothing = {};               // why there are no plots; "" where there are some
+  std::string why_no_plots = {};          // why there are no plots; "" where there are some
   std::optional<GroundGrid> ground = {};  // where the method models it
   std::string crs = {};                   // of the cloud, "EPSG:<code>"; "" where unknown
   std::string geojson = {};               // plots.geojson as the program writes it

@@ -8,6 +8,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/extent.h"
 
 namespace plotscan::flight {
 namespace {
@@ -31,12 +32,8 @@ struct Field {
 };
 
 Field field_with_heading(const std::vector<PlotBox>& areas, double heading_rad) {
-  Field field{.world_from_field = Eigen::Rotation2Dd(heading_rad), .bounds = {}};
-  for (const PlotBox& area : areas) {
-    for (const Eigen::Vector2d& corner : area.corners())
-      field.bounds.extend(field.world_from_field.inverse() * corner);
-  }
-  return field;
+  const Eigen::Rotation2Dd world_from_field(heading_rad);
+  return {world_from_field, extent_of(areas, std::identity{}, world_from_field.inverse())};
 }
 
 double heading_of_strips(const std::vector<PlotBox>& areas, const StripOptions& options) {

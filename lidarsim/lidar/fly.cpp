@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
-#include "core/text.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
 #include "lidar/fly_settings.h"

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "scan/internal/cloud_layout.h"
 
 namespace plotscan::scan {
@@ -52,10 +53,10 @@ void project(const std::filesystem::path& cloud, const CloudLayout& layout, cons
   }
   system.units.horizontal_m = 1;
   system.zone = utm_zone(geodetic(first));
-  system.crs = formatted("EPSG:%d", (system.zone->north ? 32600 : 32700) + system.zone->number);
+  system.crs = fmt::format("EPSG:{}", (system.zone->north ? 32600 : 32700) + system.zone->number);
   system.notes.push_back(
-      formatted("degrees are projected to WGS 84 / UTM zone %d%c, in metres; results are in it",
-                system.zone->number, system.zone->north ? 'N' : 'S'));
+      fmt::format("degrees are projected to WGS 84 / UTM zone {}{}, in metres; results are in it",
+                  system.zone->number, system.zone->north ? 'N' : 'S'));
 }
 
 // The user's system is one that is known, and counts in what the user says.

@@ -4,8 +4,9 @@
 #include <charconv>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/coordinate_units.h"
-#include "core/text.h"
 #include "scan/internal/wkt.h"
 
 namespace plotscan::scan {
@@ -35,7 +36,8 @@ std::string local_crs_wkt() {
 }
 
 std::string utm_crs_wkt(const UtmZone& zone) {
-  const std::string name = formatted("WGS 84 / UTM zone %d%c", zone.number, zone.north ? 'N' : 'S');
+  const std::string name =
+      fmt::format("WGS 84 / UTM zone {}{}", zone.number, zone.north ? 'N' : 'S');
   const int epsg = (zone.north ? 32600 : 32700) + zone.number;
   return R"(COMPD_CS[")" + name + R"( + ellipsoidal height",PROJCS[")" + name +
          R"(",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,)"
@@ -43,11 +45,11 @@ std::string utm_crs_wkt(const UtmZone& zone) {
          R"(AUTHORITY["EPSG","8901"]],UNIT["degree",0.0174532925199433,)"
          R"(AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4326"]],)"
          R"(PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],)" +
-         formatted(R"(PARAMETER["central_meridian",%d],)", zone.central_meridian_deg()) +
+         fmt::format(R"(PARAMETER["central_meridian",{}],)", zone.central_meridian_deg()) +
          R"(PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],)" +
-         formatted(R"(PARAMETER["false_northing",%d],)", zone.north ? 0 : 10000000) +
+         fmt::format(R"(PARAMETER["false_northing",{}],)", zone.north ? 0 : 10000000) +
          R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],)" +
-         formatted(R"(AXIS["Northing",NORTH],AUTHORITY["EPSG","%d"]],)", epsg) +
+         fmt::format(R"(AXIS["Northing",NORTH],AUTHORITY["EPSG","{}"]],)", epsg) +
          R"(VERT_CS["WGS 84 ellipsoidal height",VERT_DATUM["Ellipsoid",2002],)"
          R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Up",UP]]])";
 }

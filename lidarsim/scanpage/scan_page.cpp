@@ -4,10 +4,11 @@
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
-#include "core/text.h"
 #include "record/scan_folder.h"
 #include "report/page.h"
 #include "report/shown_field.h"
@@ -59,7 +60,7 @@ std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownClou
   const record::FlightRecord flight = record::read_flight_record(scan);
   facts.push_back({"sensor", flight.sensor.name});
   facts.push_back(
-      {"flight", formatted("%.1f s", flight.reported.end_s() - flight.reported.start_s())});
+      {"flight", fmt::format("{:.1f} s", flight.reported.end_s() - flight.reported.start_s())});
   return facts;
 }
 

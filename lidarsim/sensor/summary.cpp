@@ -4,28 +4,30 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
-#include "core/text.h"
 #include "sensor/risley.h"
 
 namespace plotscan::sensor {
 namespace {
 
 std::string field_of_view(const SensorSummary& summary) {
-  if (summary.cone_deg > 0) return formatted("cone of %.1f deg", summary.cone_deg);
-  return formatted("360 x %.4g..%.4g deg", summary.least_elevation_deg, summary.most_elevation_deg);
+  if (summary.cone_deg > 0) return fmt::format("cone of {:.1f} deg", summary.cone_deg);
+  return fmt::format("360 x {:.4g}..{:.4g} deg", summary.least_elevation_deg,
+                     summary.most_elevation_deg);
 }
 
 std::string spin(const SensorSummary& summary) {
   if (summary.max_spin_hz == 0) return "none";
-  return formatted("%.4g (%.4g..%.4g) Hz", summary.default_spin_hz, summary.min_spin_hz,
-                   summary.max_spin_hz);
+  return fmt::format("{:.4g} ({:.4g}..{:.4g}) Hz", summary.default_spin_hz, summary.min_spin_hz,
+                     summary.max_spin_hz);
 }
 
 std::string line(const std::array<std::string, 7>& cells) {
   const auto& [name, channels, view, shots, range, spin, title] = cells;
-  return formatted("%-12s %8s  %-20s %9s  %-12s  %-15s  %s", name.c_str(), channels.c_str(),
-                   view.c_str(), shots.c_str(), range.c_str(), spin.c_str(), title.c_str());
+  return fmt::format("{:12} {:>8}  {:20} {:>9}  {:12}  {:15}  {}", name, channels, view, shots,
+                     range, spin, title);
 }
 
 }  // namespace
@@ -56,8 +58,8 @@ std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summari
       line({"NAME", "CHANNELS", "FIELD OF VIEW", "SHOTS/S", "RANGE", "SPIN", "TITLE"})};
   for (const SensorSummary& summary : summaries) {
     lines.push_back(line({summary.name, std::to_string(summary.channels), field_of_view(summary),
-                          formatted("%.0f", summary.shots_per_s),
-                          formatted("%.4g..%.4g m", summary.min_range_m, summary.max_range_m),
+                          fmt::format("{:.0f}", summary.shots_per_s),
+                          fmt::format("{:.4g}..{:.4g} m", summary.min_range_m, summary.max_range_m),
                           spin(summary), summary.title}));
   }
   return lines;

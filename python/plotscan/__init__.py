@@ -220,7 +220,7 @@ def estimate_field(
     boxes: given plots: heights only, none is searched.
     settings: by the keys of `estimate_settings()`: rows=3, crop="maize", calibrated=False. None is not set.
 
-    A field without plots has an estimate without plots; `nothing` says why. Raises BadInput on settings that
+    A field without plots has an estimate without plots; `why_no_plots` says why. Raises BadInput on settings that
     there are not or out of their range, on an array that would have to be copied, and when no point lies in
     the area; NothingMeasured when the points show no ground.
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/statistics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +19,15 @@ TEST(Quantile, IsNumpysDefault) {
   EXPECT_DOUBLE_EQ(quantile(values, 0.9), 4.6);
   EXPECT_DOUBLE_EQ(quantile(values, 1), 5);
   EXPECT_TRUE(std::isnan(quantile({}, 0.5)));
+}
+
+TEST(Selected, IsTheValueAtThePlaceOfTheSorted) {
+  const std::vector<float> sorted{-2, 0, 0, 1, 5, 7};
+  for (std::size_t place = 0; place < sorted.size(); ++place) {
+    std::vector<float> values{5, 0, 7, -2, 1, 0};
+    EXPECT_EQ(selected<float>(values, place), sorted[place]) << place;
+    EXPECT_TRUE(std::ranges::is_permutation(values, sorted));
+  }
 }
 
 TEST(Mean, OfNothingIsNotANumber) {

@@ -127,7 +127,7 @@ TEST_F(EstimateField, SaysWhyThereAreNoPlots) {
   for (int i = 0; i < 90'000; ++i) bare.push_back({0.1 * (i % 300), 0.1 * (i / 300), 0});
   const FieldEstimate field = estimate_field(PointsView(bare));
   EXPECT_TRUE(field.plots.empty());
-  EXPECT_FALSE(field.nothing.empty());
+  EXPECT_FALSE(field.why_no_plots.empty());
   EXPECT_EQ(field.ground->z_m.at(field.ground->z_m.size() / 2), 0);
 }
 

@@ -70,7 +70,7 @@ class Estimate(ExampleScan):
         x, y = numpy.meshgrid(numpy.arange(0, 30, 0.1), numpy.arange(0, 30, 0.1))
         bare = plotscan.estimate_field(numpy.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]))
         self.assertEqual(bare.plots, [])
-        self.assertNotEqual(bare.nothing, "")
+        self.assertNotEqual(bare.why_no_plots, "")
 
     def test_bad_arrays_are_refused(self):
         columns = numpy.zeros((100, 3))

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "temporary_folder.h"
+#include <fmt/core.h>
 
-#include "core/text.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::view {
@@ -35,7 +35,7 @@ inline std::filesystem::path write_field(const testing::TemporaryFolder& folder,
   int count = 0;
   for (double x = low.x(); x <= high.x(); x += step_m) {
     for (double y = low.y(); y <= high.y(); y += step_m, ++count)
-      points += formatted("%.4f %.4f %.4f\n", x, y, z({x, y}));
+      points += fmt::format("{:.4f} {:.4f} {:.4f}\n", x, y, z({x, y}));
   }
   return folder.write("cloud.ply", "ply\nformat ascii 1.0\nelement vertex " +
                                        std::to_string(count) +

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
+#include "core/extent.h"
 #include "scan/cloud_reader.h"
 #include "view/internal/axes.h"
 #include "view/internal/box_labels.h"
@@ -39,10 +41,7 @@ void validate(const estimate::Estimate& estimate, const FieldPictureOptions& opt
 }
 
 Eigen::AlignedBox2d shown_part(const estimate::Estimate& estimate, double margin_m) {
-  Eigen::AlignedBox2d part;
-  for (const estimate::PlotEstimate& plot : estimate.plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) part.extend(corner);
-  }
+  const Eigen::AlignedBox2d part = extent_of(estimate.plots, &estimate::PlotEstimate::box);
   if (part.isEmpty()) {
     const ground::Surface& ground = *estimate.ground;
     const Eigen::Vector2d nodes(ground.columns - 1, ground.rows - 1);
@@ -59,7 +58,7 @@ std::size_t flagged(const estimate::Estimate& estimate) {
 
 std::string title_of(const estimate::Estimate& estimate) {
   if (estimate.plots.empty()) return "no plots found";
-  return formatted("%zu plots, %zu flagged", estimate.plots.size(), flagged(estimate));
+  return fmt::format("{} plots, {} flagged", estimate.plots.size(), flagged(estimate));
 }
 
 // Where the map and its surroundings lie on the page.

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/statistics.h"
@@ -82,17 +84,18 @@ Eigen::AlignedBox2d shown_part(const Scene& scene, double beyond_m) {
 
 std::string title_of(const estimate::PlotEstimate& plot) {
   const std::string place = plot.row > 0 && plot.column > 0
-                                ? formatted(" (row %d, column %d)", plot.row, plot.column)
+                                ? fmt::format(" (row {}, column {})", plot.row, plot.column)
                                 : "";
   return "Plot " + plot.id.text() + place;
 }
 
 std::string subtitle_of(const estimate::PlotEstimate& plot, double exaggeration) {
   std::string text =
-      formatted("%.2f \u00d7 %.2f m, length %.1f\u00b0 from east; z drawn ", plot.box.length_m,
-                plot.box.width_m, plot.box.heading_rad / kDegrees);
-  text += exaggeration == 1 ? "to the same scale" : formatted("%.3g times as large", exaggeration);
-  if (plot.confidence) text += formatted("; confidence %.2f", *plot.confidence);
+      fmt::format("{:.2f} \u00d7 {:.2f} m, length {:.1f}\u00b0 from east; z drawn ",
+                  plot.box.length_m, plot.box.width_m, plot.box.heading_rad / kDegrees);
+  text +=
+      exaggeration == 1 ? "to the same scale" : fmt::format("{:.3g} times as large", exaggeration);
+  if (plot.confidence) text += fmt::format("; confidence {:.2f}", *plot.confidence);
   return text;
 }
 

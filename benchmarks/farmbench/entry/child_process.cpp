@@ -12,12 +12,11 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include "core/text.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -84,11 +83,11 @@ bool ends_before(pid_t process, Clock::time_point end, std::uint64_t& peak) {
 
 std::string failure_of(int status, bool in_time, const std::string& program,
                        const ProcessLimits& limits) {
-  if (!in_time) return formatted("took more than %g s and was stopped", limits.seconds);
+  if (!in_time) return fmt::format("took more than {:g} s and was stopped", limits.seconds);
   if (WIFSIGNALED(status))
     return std::string("was ended by a signal (") + strsignal(WTERMSIG(status)) +
-           formatted("); it may use %.1f GB of memory",
-                     static_cast<double>(limits.memory_bytes) / 1e9);
+           fmt::format("); it may use {:.1f} GB of memory",
+                       static_cast<double>(limits.memory_bytes) / 1e9);
   const int code = WEXITSTATUS(status);
   if (code == kNotStarted) return "ended with exit code 127: is there a program " + program + "?";
   return code == 0 ? "" : "ended with exit code " + std::to_string(code);

@@ -6,8 +6,9 @@
 #include <map>
 #include <set>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 #include "core/trial_layout.h"
 #include "estimate/height_properties.h"
 #include "farmbench/entry/internal/entered_rows.h"
@@ -146,7 +147,7 @@ std::vector<EnteredRow> read_rows(const fs::path& file, Problems& problems) {
   std::vector<EnteredRow> rows =
       is_json ? read_entered_features(file, problems) : read_entered_table(file, problems);
   if (rows.size() > kMostPlots) {
-    problems.add(name, formatted("has %zu plots; %d are the most", rows.size(), kMostPlots));
+    problems.add(name, fmt::format("has {} plots; {} are the most", rows.size(), kMostPlots));
     rows.clear();
   }
   return rows;
@@ -172,7 +173,7 @@ EnteredPlots read_entered_plots(const fs::path& file, Problems& problems) {
   }
   if (boxes > 0 && boxes < rows.size())
     problems.add(file.filename().string(),
-                 formatted("%zu of its %zu plots have boxes; all do, or none", boxes, rows.size()));
+                 fmt::format("{} of its {} plots have boxes; all do, or none", boxes, rows.size()));
   entered.boxes_stated = rows.empty() || boxes > 0;
   require_different_ids(entered, problems);
   return entered;

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "core/angle.h"
@@ -12,7 +13,6 @@
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
-#include "core/text.h"
 #include "farmbench/export/internal/labelled_scans.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/text_file.h"
@@ -57,7 +57,7 @@ std::vector<Sequence> sequences_of(const Suite& suite) {
                                        " surveys a part of a field; data sets have whole ones");
     for (std::size_t i = 0; i < suite.seeds.size(); ++i)
       sequences.push_back(
-          {suite_case, suite.seeds[i], formatted("%02zu", sequences.size()), split_of(i)});
+          {suite_case, suite.seeds[i], fmt::format("{:02}", sequences.size()), split_of(i)});
   }
   return sequences;
 }

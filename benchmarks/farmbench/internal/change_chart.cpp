@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "farmbench/format.h"
 #include "farmbench/internal/svg.h"
 
@@ -41,15 +43,15 @@ std::string mark(const TableRow& row, const ChangeRange& range, double zero_x, d
   const auto place = [&](double value_m) {
     return zero_x + std::clamp(100 * value_m, range.low, range.high) * px_per_cm;
   };
-  const std::string style = formatted("stroke=\"%s\" stroke-width=\"2\"", colour);
+  const std::string style = fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour);
   std::string text;
   if (!std::isnan(row.rmse_change_low_m))
     text += line(place(row.rmse_change_low_m), y, place(row.rmse_change_high_m), y, style.c_str());
   if (100 * row.rmse_change_m > range.high)
     text += label(place(row.rmse_change_m) + 6, y + 4, "start", centimetres(row.rmse_change_m));
   return text +
-         formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.2\" fill=\"%s\">",
-                   place(row.rmse_change_m), y, colour) +
+         fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"{}\">",
+                     place(row.rmse_change_m), y, colour) +
          "<title>" +
          escaped(row.method + ", " + row.case_name + ": " +
                  with_interval(row.rmse_change_m, row.rmse_change_low_m, row.rmse_change_high_m) +
@@ -75,7 +77,7 @@ std::string change_chart(const SuiteResult& result, const std::vector<TableRow>&
   for (const double tick : ticks(range.low, range.high)) {
     const double x = zero_x + tick * px_per_cm;
     content += line(x, frame.top, x, frame.bottom(), "stroke=\"#ddd\"") +
-               label(x, frame.bottom() + 16, "middle", formatted("%g", tick));
+               label(x, frame.bottom() + 16, "middle", fmt::format("{:g}", tick));
   }
   content += line(zero_x, frame.top, zero_x, frame.bottom(), "stroke=\"#222\"");
   double top = frame.top;

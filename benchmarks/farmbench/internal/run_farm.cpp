@@ -13,6 +13,7 @@
 #include "planting/generate.h"
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/manifest.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/internal/farm_view.h"
@@ -32,18 +33,9 @@ constexpr double kShown_m = 4;  // around the plots, on pages
 
 // What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
 cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Eigen::Array2d low(kFar, kFar);
-  Eigen::Array2d high(-kFar, -kFar);
-  for (const score::TruePlot& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) {
-      low = low.min(corner.array());
-      high = high.max(corner.array());
-    }
-  }
-  low -= margin_m;
-  high += margin_m;
-  return {low.x(), low.y(), high.x(), high.y()};
+  const Eigen::AlignedBox2d extent = extent_of(plots, &score::TruePlot::box);
+  return {extent.min().x() - margin_m, extent.min().y() - margin_m, extent.max().x() + margin_m,
+          extent.max().y() + margin_m};
 }
 
 // What a method says of a field, and how it went.
@@ -61,7 +53,7 @@ MethodRun run_method(const Method& method, const Field& field,
   try {
     run.estimate = method.estimate(field);
     run.estimate.method = method.name;
-    run.result.diagnostics = run.estimate.diagnostics;
+    run.result.diagnostics = to_json(run.estimate.diagnostics);
   } catch (const InputError& error) {
     run.result.failure = error.what();
   }

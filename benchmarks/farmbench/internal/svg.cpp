@@ -8,7 +8,8 @@
 #include <optional>
 #include <set>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "farmbench/internal/method_rows.h"
 #include "score/height_score.h"
 
@@ -56,18 +57,18 @@ std::string escaped(const std::string& text) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* style) {
-  return formatted("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>", x1, y1, x2, y2,
-                   style);
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>", x1, y1,
+                     x2, y2, style);
 }
 
 std::string label(double x, double y, const char* anchor, const std::string& text) {
-  return formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", x, y, anchor) +
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">", x, y, anchor) +
          escaped(text) + "</text>";
 }
 
 std::string svg(double width, double height, const std::string& content) {
-  return formatted("<svg viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" ", width, height,
-                   width, height) +
+  return fmt::format("<svg viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" ",
+                     width, height, width, height) +
          "xmlns=\"http://www.w3.org/2000/svg\" font-family=\"system-ui, sans-serif\" "
          "font-size=\"12\" fill=\"#222\" style=\"background:#fff\">" +
          content + "</svg>\n";
@@ -90,8 +91,8 @@ std::string legend(const Palette& palette, const std::vector<std::string>& rows,
                    double y) {
   std::string text;
   for (const std::string& row : rows) {
-    text += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"11\" height=\"11\" fill=\"%s\"/>", x,
-                      y - 10, palette.colour(row)) +
+    text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"11\" height=\"11\" fill=\"{}\"/>",
+                        x, y - 10, palette.colour(row)) +
             label(x + 17, y, "start", row);
     y += kLegendLine;
   }

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/failures.h"
 #include "farmbench/internal/method_rows.h"
@@ -67,20 +70,20 @@ std::string answer(const SuiteResult& result, const std::vector<TableRow>& rows)
   if (!result.sweep->goal) return "";
   const SweepGoal& goal = *result.sweep->goal;
   const std::string asked =
-      formatted("RMSE of at most %s cm (upper end of its 95 %% interval), %s %% of the plots found",
-                format_number(100 * goal.rmse_m).c_str(), format_number(100 * goal.found).c_str());
+      fmt::format("RMSE of at most {} cm (upper end of its 95 % interval), {} % of the plots found",
+                  format_number(100 * goal.rmse_m), format_number(100 * goal.found));
   const auto needed = flight_needed(result, rows);
   if (!needed) return asked + ": none of these flights.";
   const TableRow& row = rows[*needed];
-  return asked + formatted(": the shortest flight that does has %s; %.0f s over %zu plots.",
-                           named_values(result, row).c_str(),
-                           flight_costs(result)[place_of(result, row.case_name)].flight_s,
-                           row.farms == 0 ? 0 : row.plots / row.farms);
+  return asked + fmt::format(": the shortest flight that does has {}; {:.0f} s over {} plots.",
+                             named_values(result, row),
+                             flight_costs(result)[place_of(result, row.case_name)].flight_s,
+                             row.farms == 0 ? 0 : row.plots / row.farms);
 }
 
 std::string about(const SuiteResult& result) {
-  return formatted("RMSE and bias in cm of %s over the plots found, against %s",
-                   asked_row(result).c_str(), result.sweep->truth.c_str());
+  return fmt::format("RMSE and bias in cm of {} over the plots found, against {}",
+                     asked_row(result), result.sweep->truth);
 }
 
 // The upper end of the RMSE's interval; of a single farm, which has none, the RMSE.
@@ -95,9 +98,9 @@ Cells told(const SuiteResult& result, const TableRow& row) {
   cells.insert(
       cells.end(),
       {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-       number("%+.2f", 100 * row.bias_m), formatted("%zu of %zu", row.found, row.plots),
-       std::to_string(row.extra), cost.points == 0 ? "none" : number("%.0f", cost.flight_s),
-       number("%.2f", 1e-6 * cost.points)});
+       number("{:+.2f}", 100 * row.bias_m), fmt::format("{} of {}", row.found, row.plots),
+       std::to_string(row.extra), cost.points == 0 ? "none" : number("{:.0f}", cost.flight_s),
+       number("{:.2f}", 1e-6 * cost.points)});
   return cells;
 }
 

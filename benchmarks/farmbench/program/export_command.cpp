@@ -3,8 +3,9 @@
 
 #include <memory>
 
+#include <fmt/core.h>
+
 #include "core/data_folder.h"
-#include "core/text.h"
 #include "farmbench/export/dataset.h"
 #include "farmbench/export/export_suite.h"
 
@@ -19,9 +20,9 @@ void run_export(const Program& program, farmbench::ExportOptions options) {
   program.result({{"output", options.output.string()},
                   {"fields", summary.fields},
                   {"points", summary.points}});
-  program.say(formatted("%s: %zu fields, %.1f million points; TASK.md says what is asked",
-                        options.output.c_str(), summary.fields,
-                        1e-6 * static_cast<double>(summary.points)));
+  program.say(fmt::format("{}: {} fields, {:.1f} million points; TASK.md says what is asked",
+                          options.output.string(), summary.fields,
+                          1e-6 * static_cast<double>(summary.points)));
 }
 
 // The command line that writes the same data set.
@@ -46,9 +47,9 @@ void run_dataset(const Program& program, const farmbench::ExportOptions& options
                   {"farms", summary.farms},
                   {"scans", summary.scans},
                   {"points", summary.points}});
-  program.say(formatted("%s: %zu farms, %zu scans, %.1f million points; README.md is its card",
-                        options.output.c_str(), summary.farms, summary.scans,
-                        1e-6 * static_cast<double>(summary.points)));
+  program.say(fmt::format("{}: {} farms, {} scans, {:.1f} million points; README.md is its card",
+                          options.output.string(), summary.farms, summary.scans,
+                          1e-6 * static_cast<double>(summary.points)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "seed.h"
 #include "suite_options.h"
+#include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "core/manifest.h"
@@ -26,8 +27,8 @@ void run_plan(const Program& program, farmbench::RunOptions options) {
   program.result({{"output", options.output.string()},
                   {"farms", planned.farms},
                   {"changed", planned.changed}});
-  program.say(formatted("%s: %zu farms%s", options.output.c_str(), planned.farms,
-                        planned.changed > 0 ? "" : ", planned before"));
+  program.say(fmt::format("{}: {} farms{}", options.output.string(), planned.farms,
+                          planned.changed > 0 ? "" : ", planned before"));
   program.say(
       "farmbench farm runs one of tasks.csv, farmbench merge makes the table of all; "
       "workflow/Snakefile does both (docs/scale.md)");
@@ -57,9 +58,9 @@ void run_farm(const Program& program, FarmArguments& arguments) {
                   {"resumed", farm.resumed},
                   {"shots", farm.result.shots},
                   {"points", farm.result.points}});
-  program.say(formatted("%s: %.2f million points, %zu methods%s", arguments.farm.c_str(),
-                        1e-6 * static_cast<double>(farm.result.points), farm.result.methods.size(),
-                        farm.resumed ? "; run before" : ""));
+  program.say(fmt::format("{}: {:.2f} million points, {} methods{}", arguments.farm,
+                          1e-6 * static_cast<double>(farm.result.points),
+                          farm.result.methods.size(), farm.resumed ? "; run before" : ""));
 }
 
 void declare_farm(Program& program) {

@@ -8,11 +8,11 @@
 
 #include "seed.h"
 #include "suite_options.h"
+#include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/manifest.h"
-#include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
@@ -42,16 +42,16 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
   options.build = file_hash("/proc/self/exe");
   if (options.jobs == 0) options.jobs = options.threads;
   const auto start = std::chrono::steady_clock::now();
-  const farmbench::RunSummary summary = farmbench::run(
-      options, program.progress(options.suite.stem().string()),
-      [&](const farmbench::FarmResult& farm, double farm_seconds) {
-        program.log(formatted("case %s, seed %llu: %.1f s", farm.case_name.c_str(),
-                              static_cast<unsigned long long>(farm.seed), farm_seconds));
-      });
+  const farmbench::RunSummary summary =
+      farmbench::run(options, program.progress(options.suite.stem().string()),
+                     [&](const farmbench::FarmResult& farm, double farm_seconds) {
+                       program.log(fmt::format("case {}, seed {}: {:.1f} s", farm.case_name,
+                                               farm.seed, farm_seconds));
+                     });
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  program.say(formatted("%zu farms, %zu of them run before, %.0f s", summary.result.farms.size(),
-                        summary.resumed, seconds));
+  program.say(fmt::format("{} farms, {} of them run before, {:.0f} s", summary.result.farms.size(),
+                          summary.resumed, seconds));
   program.say("");
   say_summary(program, summary, options.output.string());
 }

@@ -13,6 +13,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/statistics.h"
+
 namespace plotscan::cloud {
 namespace {
 
@@ -167,8 +169,7 @@ std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air, c
 double quartile(const Profile& alone, std::ptrdiff_t first) {
   std::array<std::uint32_t, kOutwards> outwards{};
   std::copy_n(alone.begin() + first, kOutwards, outwards.begin());
-  std::ranges::nth_element(outwards, outwards.begin() + kOutwards / 4);
-  return outwards[kOutwards / 4];
+  return selected<std::uint32_t>(outwards, kOutwards / 4);
 }
 
 // Whether strays, so many expected, may be most of what is alone.

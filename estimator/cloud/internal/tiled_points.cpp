@@ -4,17 +4,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/statistics.h"
+
 namespace plotscan::cloud {
 namespace {
 
 constexpr int kLevelReach = 2;  // tiles to each side
 constexpr std::size_t kLevelSample = 64;
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 }  // namespace
 
@@ -37,13 +33,13 @@ std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, 
       std::vector<float> z;
       for (std::size_t i = cloud.begin[tile]; i < cloud.begin[tile + 1]; i += step)
         z.push_back(cloud.points[i].z());
-      own[tile] = median(z);
+      own[tile] = selected<float>(z, z.size() / 2);
     });
     tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t tile) {
       std::vector<float> levels;
       rows.visit_around(tile, kLevelReach,
                         [&](std::size_t other) { levels.push_back(own[other]); });
-      result[tile] = median(levels);
+      result[tile] = selected<float>(levels, levels.size() / 2);
     });
   });
   return result;

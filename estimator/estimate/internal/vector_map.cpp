@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gdal.h>
 #include <ogrsf_frmts.h>
 
@@ -116,7 +117,7 @@ json geometry_of(const OGRGeometry* geometry) {
 std::string date_of(const OGRFeature& feature, int field) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, zone = 0;
   feature.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone);
-  return formatted("%04d-%02d-%02d", year, month, day);
+  return fmt::format("{:04}-{:02}-{:02}", year, month, day);
 }
 
 std::string text_of(const OGRFeature& feature, int field) {

@@ -8,6 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/statistics.h"
+
 namespace plotscan::ground {
 namespace {
 
@@ -105,9 +107,8 @@ double bare_noise_m(const Columns& columns) {
     }
   }
   if (spreads.size() < kLeastBlocks) return kUsual_m;
-  const auto at = spreads.begin() + static_cast<long>(kPercentile * spreads.size());
-  std::nth_element(spreads.begin(), at, spreads.end());
-  return std::max(kLeastNoise_m, *at);
+  const auto place = static_cast<std::size_t>(kPercentile * spreads.size());
+  return std::max(kLeastNoise_m, selected<double>(spreads, place));
 }
 
 }  // namespace plotscan::ground

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/statistics.h"
 #include "ground/internal/solver.h"
 
 namespace plotscan::ground {
@@ -28,8 +29,7 @@ struct OneLayer {
 float lowest_hundredth(std::vector<float>& z) {
   const std::size_t low = z.size() / 100;
   if (low == 0) return *std::ranges::min_element(z);
-  std::nth_element(z.begin(), z.begin() + static_cast<long>(low), z.end());
-  return z[low];
+  return selected<float>(z, low);
 }
 
 // The mean of what is no further from the middle than the reach; the middle where nothing is.
@@ -121,8 +121,7 @@ void drop_strays(const Grid& grid, float noise, Layer& layer) {
       }
       const std::size_t i = grid.index(column, row);
       if (count < 3) continue;
-      std::nth_element(around.begin(), around.begin() + 2, around.begin() + count);
-      if (layer.z_m[i] < around[2] - deepest) {
+      if (layer.z_m[i] < selected(std::span(around.data(), count), 2) - deepest) {
         kept.z_m[i] = kNone;
         kept.weight[i] = 0;
       }
@@ -144,8 +143,7 @@ Field median_around(const Grid& grid, const Field& z) {
         }
       }
       if (count == 0) continue;
-      std::nth_element(around.begin(), around.begin() + count / 2, around.begin() + count);
-      medians[grid.index(column, row)] = around[count / 2];
+      medians[grid.index(column, row)] = selected(std::span(around.data(), count), count / 2);
     }
   });
   return medians;

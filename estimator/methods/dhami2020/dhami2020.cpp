@@ -16,6 +16,7 @@
 #include "methods/dhami2020/internal/voting.h"
 #include "methods/dhami2020/settings.h"
 #include "methods/dhami2020/voxel_filter.h"
+#include <fmt/core.h>
 
 #include "core/angle.h"
 #include "core/csv.h"
@@ -82,7 +83,8 @@ std::vector<PlotBox> cluster_boxes(const Points& canopy, const Clustering& clust
 }
 
 // The plot's heading, width and length, each voted by the clusters' boxes.
-PlotBox voted_box(const std::vector<PlotBox>& boxes, const Options& options, json& diagnostics) {
+PlotBox voted_box(const std::vector<PlotBox>& boxes, const Options& options,
+                  estimate::Diagnostics& diagnostics) {
   std::vector<double> headings, widths, lengths;
   for (const PlotBox& box : boxes) {
     headings.push_back(box.heading_rad);
@@ -92,13 +94,17 @@ PlotBox voted_box(const std::vector<PlotBox>& boxes, const Options& options, jso
   const Vote heading = vote_heading(headings, options.orientation_bin_rad);
   const Vote width = vote(widths, options.width_bin_m);
   const Vote length = vote(lengths, options.length_bin_m);
-  diagnostics["votes"] = {{"clusters", boxes.size()},
-                          {"heading", heading.votes},
-                          {"width", width.votes},
-                          {"length", length.votes}};
-  diagnostics["plot"] = {{"heading_deg", heading.value / kDegrees},
-                         {"width_m", width.value},
-                         {"length_m", length.value}};
+  diagnostics.of_method["votes"] = {{"clusters", boxes.size()},
+                                    {"heading", heading.votes},
+                                    {"width", width.votes},
+                                    {"length", length.votes}};
+  diagnostics.of_method["plot"] = {{"heading_deg", heading.value / kDegrees},
+                                   {"width_m", width.value},
+                                   {"length_m", length.value}};
+  diagnostics.lines = {fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.1f} deg", width.value,
+                                   length.value, heading.value / kDegrees),
+                       fmt::format("votes      of {} clusters: width {}, length {}, heading {}",
+                                   boxes.size(), width.votes, length.votes, heading.votes)};
   return {.width_m = width.value, .length_m = length.value, .heading_rad = heading.value};
 }
 
@@ -109,10 +115,20 @@ json to_json(const Lattice& lattice) {
   return document;
 }
 
+std::string line_of(const Lattice& lattice) {
+  std::string pitch;
+  if (lattice.many_columns)
+    pitch += fmt::format(", {:.2f} m along the width", lattice.steps.col(1).norm());
+  if (lattice.many_rows)
+    pitch += fmt::format(", {:.2f} m along the length", lattice.steps.col(0).norm());
+  return fmt::format("grid       {} clusters agree to {:.2f} m rms{}", lattice.agreeing,
+                     lattice.rms_m, pitch);
+}
+
 // Section IV-B: the clusters and plots of the map in its own frame.
 void find_plots(const cloud::CloudMap& map, const Points& voxels, const Options& options,
                 estimate::Estimate& estimate) {
-  json& diagnostics = estimate.diagnostics;
+  json& said = estimate.diagnostics.of_method;
   const cloud::Area area = options.crop_box.value_or(map.area());
   const GroundLevel level =
       options.level ? fit_ground_level(voxels) : GroundLevel{.offset_m = -map.origin().z()};
@@ -121,19 +137,17 @@ void find_plots(const cloud::CloudMap& map, const Points& voxels, const Options&
       options.learn_box ? inside(canopy, *options.learn_box, map.origin()) : canopy;
   const Clustering clustering = cluster(learnt, voxels.size(), options);
   const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
-  const PlotBox plot = voted_box(boxes, options, diagnostics);
+  const PlotBox plot = voted_box(boxes, options, estimate.diagnostics);
   std::vector<Eigen::Vector2d> centers;
   centers.reserve(boxes.size());
   for (const PlotBox& box : boxes) centers.push_back(box.center);
   std::optional<Lattice> lattice = fit_lattice(centers, plot);
-  diagnostics["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
-                                 {"slope_x", level.slope.x()},
-                                 {"slope_y", level.slope.y()}};
-  diagnostics["canopy_voxels"] = canopy.size();
-  diagnostics["canopy_share"] =
-      static_cast<double>(canopy.size()) / static_cast<double>(voxels.size());
-  diagnostics["k_means"] = {{"inertia_m2", clustering.inertia_m2},
-                            {"iterations", clustering.iterations}};
+  said["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
+                          {"slope_x", level.slope.x()},
+                          {"slope_y", level.slope.y()}};
+  said["canopy_voxels"] = canopy.size();
+  said["canopy_share"] = static_cast<double>(canopy.size()) / static_cast<double>(voxels.size());
+  said["k_means"] = {{"inertia_m2", clustering.inertia_m2}, {"iterations", clustering.iterations}};
   if (!lattice)
     throw NothingToMeasure(
         "the clusters form no grid of plots; check the crop box and the number of plots");
@@ -146,7 +160,8 @@ void find_plots(const cloud::CloudMap& map, const Points& voxels, const Options&
     }
     lattice = carried_over(*lattice, plot, canopy);
   }
-  diagnostics["grid"] = to_json(*lattice);
+  said["grid"] = to_json(*lattice);
+  estimate.diagnostics.lines.push_back(line_of(*lattice));
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;
   estimate.clusters = boxes;
   estimate.plots = fill_lattice(*lattice, plot, canopy, centers, options.voxel_m, most);
@@ -196,11 +211,12 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
   require_sound(options);
   estimate::Estimate estimate{.method = "dhami2020"};
   const Points voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
-  estimate.diagnostics = {{"points_read", map.points_read()},
-                          {"points_in_area", map.points().size()},
-                          {"outside", map.points_read() - map.points().size()},
-                          {"area_m", map.area()},
-                          {"voxels", voxels.size()}};
+  estimate.diagnostics.points = {
+      .read = map.points_read(),
+      .in_area = map.points().size(),
+      .unused = {{estimate::Unused::outside, map.points_read() - map.points().size()}},
+      .area_m = map.area()};
+  estimate.diagnostics.of_method["voxels"] = voxels.size();
   if (progress) progress(0.6);
   if (options.boxes.empty())
     find_plots(map, voxels, options, estimate);  // IV-B

@@ -8,19 +8,18 @@
 #include <utility>
 
 #include "cloud/field_density.h"
-#include "cloud/point_account.h"
 #include "cloud/points_in_boxes.h"
 #include "cloud/surroundings.h"
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
+#include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/stage.h"
-#include "core/text.h"
 #include "estimate/given_plots.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
@@ -30,7 +29,6 @@ namespace plotscan::methods::lattice {
 namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
-using nlohmann::json;
 
 constexpr int kMostThreads = 1024;
 constexpr double kGroundAround_m = 4;  // read around given boxes, to see the ground beside them
@@ -98,34 +96,35 @@ plots::Hints hints_of(const Options& options) {
 }
 
 std::string too_few(const std::string& for_what) {
-  return formatted("too few points to show %s: about %.0f a square metre are needed",
-                   for_what.c_str(), cloud::kPlotsFound_m2);
+  return fmt::format("too few points to show {}: about {:.0f} a square metre are needed", for_what,
+                     cloud::kPlotsFound_m2);
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              double noise_m, const Options& options,
-                                             json& diagnostics) {
+                                             estimate::Diagnostics& diagnostics) {
   if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
-    diagnostics["nothing"] = too_few("plots");
+    diagnostics.why_no_plots = too_few("plots");
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
   if (noise_m > kMostNoise_m) {
-    diagnostics["nothing"] = formatted(
-        "heights scatter by %.1f m about the lowest: no ground that plots could stand on", noise_m);
+    diagnostics.why_no_plots = fmt::format(
+        "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on",
+        noise_m);
     return {};
   }
   Stage stage("plots");
   const plots::PlotField field =
       plots::find_plots(heights, noise_m, hints_of(options), options.threads);
   stage.found(std::to_string(field.plots.size()) + " plots");
-  diagnostics["field"] = json_of(field);
-  if (!field.nothing.empty())
-    diagnostics["nothing"] = cloud.density_m2 < cloud::kPlotsFound_m2
-                                 ? too_few("plots") + " (" + field.nothing + ")"
-                                 : field.nothing;
+  diagnostics.of_method["field"] = json_of(field);
+  diagnostics.lines = lines_of(field);
+  diagnostics.why_no_plots = field.why_none;
+  if (!field.why_none.empty() && cloud.density_m2 < cloud::kPlotsFound_m2)
+    diagnostics.why_no_plots = too_few("plots") + " (" + field.why_none + ")";
   std::vector<estimate::PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
@@ -150,7 +149,8 @@ void take(const heights::PlotHeights& measured, estimate::PlotEstimate& plot) {
 }
 
 void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
-             const ground::Surface& surface, const Options& options, json& diagnostics) {
+             const ground::Surface& surface, const Options& options,
+             estimate::Diagnostics& diagnostics) {
   const Stage stage("plots' heights");
   std::vector<PlotBox> boxes;
   boxes.reserve(plots.size());
@@ -162,44 +162,51 @@ void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
       clouds, surface,
       {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
   for (std::size_t i = 0; i < plots.size(); ++i) take(measured.plots[i], plots[i]);
-  if (!measured.crops.empty()) diagnostics["crops"] = measured.crops;
+  diagnostics.crops = measured.crops;
 }
 
-json describe(const cloud::FieldCloud& cloud) {
+estimate::PointAccount account_of(const cloud::FieldCloud& cloud, std::size_t with_ground) {
+  using estimate::Unused;
   const cloud::FieldCounts& counts = cloud.counts;
-  return {{"points_read", counts.read},        {"points_in_area", counts.kept},
-          {"not_finite", counts.not_finite},   {"marked", counts.marked},
-          {"left_out", counts.left_out},       {"outside", counts.outside},
-          {"repeated", counts.repeated},       {"thinned", counts.thinned},
-          {"outliers", counts.outliers},       {"area_m", cloud.area},
-          {"density_per_m2", cloud.density_m2}};
+  return {.read = counts.read,
+          .in_area = counts.kept,
+          .unused = {{Unused::not_finite, counts.not_finite},
+                     {Unused::marked, counts.marked},
+                     {Unused::left_out, counts.left_out},
+                     {Unused::outside, counts.outside},
+                     {Unused::repeated, counts.repeated},
+                     {Unused::thinned, counts.thinned},
+                     {Unused::outliers, counts.outliers},
+                     {Unused::without_ground, counts.kept - with_ground}},
+          .area_m = cloud.area};
 }
 
 // Of a cloud none of whose points has ground beneath it.
-std::string no_ground_because(const cloud::FieldCloud& cloud, const json& diagnostics) {
+std::string no_ground_because(const cloud::FieldCloud& cloud,
+                              const estimate::PointAccount& points) {
   const cloud::Area& area = cloud.area;
   const double kept_m2 =
       static_cast<double>(cloud.counts.kept) / ((area[2] - area[0]) * (area[3] - area[1]));
-  const std::string seen = " (" + cloud::point_account(diagnostics) + "; " +
-                           cloud::density_text(cloud.density_m2) + " points/m2); ";
+  const std::string seen =
+      " (" + text_of(points) + "; " + cloud::density_text(cloud.density_m2) + " points/m2); ";
   if (std::min(kept_m2, cloud.density_m2) < cloud::kLeastSearched_m2)
     return too_few("ground and plots") + seen + "fly lower or slower for more points";
   return "the cloud shows no ground" + seen + "cut it to the field with --crop-box";
 }
 
-json describe(const ground::Surface& surface) {
+estimate::GroundFacts facts_of(const ground::Surface& surface) {
   std::size_t within = 0;
   std::size_t seen = 0;
   for (std::size_t node = 0; node < surface.z_m.size(); ++node) {
     within += std::isfinite(surface.z_m[node]);
     seen += std::isfinite(surface.z_m[node]) && surface.seen[node];
   }
-  return {
-      {"cell_m", surface.cell_m},
-      {"nodes", within},
-      {"unknown_share", 1 - static_cast<double>(within) / static_cast<double>(surface.z_m.size())},
-      {"seen_share", within > 0 ? static_cast<double>(seen) / static_cast<double>(within) : 0},
-      {"noise_m", surface.noise_m}};
+  const auto known = static_cast<double>(within);
+  return {.cell_m = surface.cell_m,
+          .nodes = within,
+          .seen_share = within > 0 ? static_cast<double>(seen) / known : 0,
+          .unknown_share = 1 - known / static_cast<double>(surface.z_m.size()),
+          .noise_m = surface.noise_m};
 }
 
 ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
@@ -227,14 +234,15 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
                                   const ProgressReport& progress) {
   require_sound(options);
   estimate::Estimate estimate{.method = "lattice"};
-  estimate.diagnostics = describe(cloud);
+  estimate.diagnostics.density_per_m2 = cloud.density_m2;
   tell_work(cloud, options);
   const ground::Surface surface = ground_of(cloud, options, progress);
   const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
-  estimate.diagnostics["without_ground"] = cloud.counts.kept - heights.size();
-  if (heights.empty()) throw NothingToMeasure(no_ground_because(cloud, estimate.diagnostics));
+  estimate.diagnostics.points = account_of(cloud, heights.size());
+  if (heights.empty())
+    throw NothingToMeasure(no_ground_because(cloud, *estimate.diagnostics.points));
   report(progress, kAbove);
-  estimate.diagnostics["ground"] = describe(surface);
+  estimate.diagnostics.ground = facts_of(surface);
   estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
   report(progress, kPlots);
   measure(estimate.plots, heights, surface, options, estimate.diagnostics);

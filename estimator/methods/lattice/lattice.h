@@ -41,7 +41,7 @@ void require_sound(const Options& options);
 // Finds the plots of a field and measures each one's heights "mean", "max", "p50", "p90", "p95" and
 // "p99" of its plants, and "canopy_p95" and "canopy_p99" of its canopy, with standard errors, 95 %
 // intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
-// without a lattice of plots has an estimate without plots; diagnostics["nothing"] says why.
+// without a lattice of plots has an estimate without plots; diagnostics.why_no_plots says why.
 // Throws InputError on options out of range and on a cloud without ground.
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress = {});

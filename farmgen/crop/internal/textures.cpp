@@ -7,9 +7,10 @@
 #include <numbers>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 #include "crop/internal/png.h"
 
 namespace plotscan::crop {
@@ -191,8 +192,8 @@ Palette palette_about(const Eigen::Vector3f& colour) {
 std::string hex_of(const Eigen::Vector3f& colour) {
   std::string text;
   for (const float share : colour)
-    text +=
-        formatted("%02x", static_cast<unsigned>(std::lround(255 * std::clamp(share, 0.0F, 1.0F))));
+    text += fmt::format("{:02x}",
+                        static_cast<unsigned>(std::lround(255 * std::clamp(share, 0.0F, 1.0F))));
   return text;
 }
 

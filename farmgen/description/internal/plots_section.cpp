@@ -6,9 +6,9 @@
 
 #include "planting/plot_layout.h"
 #include <Eigen/Geometry>
+#include <fmt/core.h>
 
 #include "core/angle.h"
-#include "core/text.h"
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
@@ -103,7 +103,7 @@ void require_apart(const YamlSection& section, const planting::PlotGridDescripti
     if (step + kRounding >= size) return;
     section.fail(
         grid.pitch ? "pitch" : "skew_deg",
-        formatted("makes neighbours overlap: %.3f m apart and %.3f m %s", step, size, what));
+        fmt::format("makes neighbours overlap: {:.3f} m apart and {:.3f} m {}", step, size, what));
   };
   overlap(column_step * cosine, grid.width_m, "wide");
   overlap(row_step, grid.length_m, "long");
@@ -114,8 +114,8 @@ void require_apart(const YamlSection& section, const planting::PlotGridDescripti
   if (cosine > 1 - kRounding) return;
   if (const auto pair = planting::overlapping_plots(planting::grid_plots(grid))) {
     section.fail(grid.pitch ? "pitch" : "skew_deg",
-                 formatted("makes plots %u and %u overlap, which are in different rows",
-                           pair->first, pair->second));
+                 fmt::format("makes plots {} and {} overlap, which are in different rows",
+                             pair->first, pair->second));
   }
 }
 

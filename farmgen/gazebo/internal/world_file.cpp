@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sdfxml/elements.h"
+#include "terrain/extent.h"
 
 #include "gazebo/internal/drone.h"
 #include "gazebo/internal/naming.h"
@@ -46,8 +47,7 @@ class WorldFile {
 
  private:
   Eigen::Vector3d middle() const {
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& vertex : farm_.terrain.vertices()) box.extend(vertex);
+    const Eigen::AlignedBox3d box = terrain::extent_of(farm_.terrain);
     Eigen::Vector3d place = box.center();
     place.z() = farm_.terrain.height(place.x(), place.y()).value_or(box.max().z());
     return place;

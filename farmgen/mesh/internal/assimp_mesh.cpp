@@ -18,9 +18,9 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
-#include "core/text.h"
 #include "mesh/internal/import_materials.h"
 #include "mesh/internal/mesh_files.h"
 
@@ -134,7 +134,7 @@ Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned
   }
   if (!corner.head<3>().allFinite()) throw InputError(path, "a vertex is not finite");
   if (corner.head<3>().cwiseAbs().maxCoeff() > kFarthest_m) {
-    throw InputError(path, "a vertex lies further than " + formatted("%.0f", kFarthest_m) +
+    throw InputError(path, "a vertex lies further than " + fmt::format("{:.0f}", kFarthest_m) +
                                " m from the origin");
   }
   if (!corner.allFinite()) throw InputError(path, "a texture coordinate is not finite");

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "crop/grow.h"
@@ -70,10 +72,10 @@ farm::PlantModel make_model(const ModelDescription& description,
   model.height_m = mesh::mesh_height(model.mesh);
   if (model.height_m > kTallest_m) {
     throw InputError(description.grown ? source : description.mesh,
-                     "model " + model.name + formatted(" is %.4g m tall", model.height_m) +
-                         formatted("; a plant has up to %.0f m (unit_m says what the file's "
-                                   "numbers are)",
-                                   kTallest_m));
+                     "model " + model.name + fmt::format(" is {:.4g} m tall", model.height_m) +
+                         fmt::format("; a plant has up to {:.0f} m (unit_m says what the file's "
+                                     "numbers are)",
+                                     kTallest_m));
   }
   if (model.height_m > 0) return model;
   if (description.grown) throw InputError(source, "model " + model.name + ": has no height");

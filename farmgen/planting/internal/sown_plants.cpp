@@ -7,10 +7,10 @@
 #include <string>
 
 #include "planting/plot_layout.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/random.h"
-#include "core/text.h"
 #include "farm/heights.h"
 
 namespace plotscan::planting {
@@ -163,8 +163,8 @@ class PlotPlants {
     throw InputError(
         source_,
         "plants.height_m: a plant of " + cultivar_.name +
-            formatted(" is to be %.3f m high, but its model ", height_m) + model.name +
-            formatted(" is %.3f m high; its scale has to be in [0.01, 100]", model.height_m));
+            fmt::format(" is to be {:.3f} m high, but its model ", height_m) + model.name +
+            fmt::format(" is {:.3f} m high; its scale has to be in [0.01, 100]", model.height_m));
   }
 
   // What tilts an upright plant of a lodged plot.

@@ -6,11 +6,13 @@
 #include <string>
 
 #include "planting/plot_layout.h"
+#include "terrain/extent.h"
 #include <Eigen/Geometry>
+#include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/random.h"
-#include "core/text.h"
 #include "farm/heights.h"
 
 namespace plotscan::planting {
@@ -32,22 +34,11 @@ struct Field {
 // The rectangle about all plots with its margin; without plots the one about the terrain.
 Field field_of(const std::vector<farm::Plot>& plots, const terrain::Terrain& terrain,
                double margin_m) {
-  Field field;
-  if (plots.empty()) {
-    for (const Eigen::Vector3d& vertex : terrain.vertices()) {
-      field.box.extend(Eigen::Vector2d(vertex.head<2>()));
-    }
-    return field;
-  }
-  field.world_from_field = Eigen::Rotation2Dd(plots.front().box.heading_rad);
-  for (const farm::Plot& plot : plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) {
-      field.box.extend(field.world_from_field.inverse() * corner);
-    }
-  }
+  if (plots.empty()) return {.box = terrain::outline_of(terrain)};
+  const Eigen::Rotation2Dd world_from_field(plots.front().box.heading_rad);
+  const Eigen::AlignedBox2d box = extent_of(plots, &farm::Plot::box, world_from_field.inverse());
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
-  return {field.world_from_field,
-          Eigen::AlignedBox2d(field.box.min() - margin, field.box.max() + margin)};
+  return {world_from_field, Eigen::AlignedBox2d(box.min() - margin, box.max() + margin)};
 }
 
 std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& field,
@@ -55,9 +46,10 @@ std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& 
   const double weeds = description.per_m2 * field.area_m2();
   if (weeds > kMostWeeds) {
     throw InputError(
-        source, formatted("weeds.per_m2 makes %.0f weeds on %.0f m2; at most %.0f are allowed, "
-                          "%.3g a square metre, or more with a smaller weeds.margin_m",
-                          weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
+        source,
+        fmt::format("weeds.per_m2 makes {:.0f} weeds on {:.0f} m2; at most {:.0f} are allowed, "
+                    "{:.3g} a square metre, or more with a smaller weeds.margin_m",
+                    weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
   }
   return static_cast<std::uint64_t>(std::llround(weeds));
 }

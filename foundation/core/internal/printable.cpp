@@ -3,8 +3,9 @@
 
 #include <cstdint>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -41,7 +42,7 @@ std::string printable(std::string_view text) {
     if (length > 0 && !is_control(character)) {
       shown += character;
     } else {
-      for (const char byte : character) shown += formatted("\\x%02x", byte & 0xff);
+      for (const char byte : character) shown += fmt::format("\\x{:02x}", byte & 0xff);
     }
     text.remove_prefix(character.size());
   }

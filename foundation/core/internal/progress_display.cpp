@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <fmt/core.h>
 #include <unistd.h>
-
-#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -40,8 +39,8 @@ void ProgressDisplay::draw(double share, std::optional<double> left_s) {
     const auto filled = static_cast<std::size_t>(kBarWidth * std::clamp(share, 0.0, 1.0));
     line += " [" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "]";
   }
-  line += formatted(" %3.0f %%", 100 * share);
-  if (left_s) line += formatted(", %.0f s left", *left_s);
+  line += fmt::format(" {:3.0f} %", 100 * share);
+  if (left_s) line += fmt::format(", {:.0f} s left", *left_s);
   std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line.c_str());
   std::fflush(stderr);
   drawn_ = true;

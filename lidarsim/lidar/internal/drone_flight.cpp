@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "flight/follow.h"
 #include "flight/quadrotor.h"
 #include "flight/route.h"
@@ -45,7 +46,7 @@ double wind_on_drone(const flight::Quadrotor& quadrotor, const FlyOptions& optio
   throw InputError("--wind " + format_number(options.wind.mean_m_s) + ": at " +
                    format_number(speed_m_s) + " m/s, with gusts of " +
                    format_number(options.wind.turbulence) + " of the wind, the drone holds " +
-                   formatted("%.2f m/s", std::floor(100 * most) / 100) +
+                   fmt::format("{:.2f} m/s", std::floor(100 * most) / 100) +
                    " at most; fly slower, or let it act on plants alone (--wind-acts-on plants)");
 }
 

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/geodesy.h"
-#include "core/text.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
@@ -288,8 +289,8 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
   layout.body = header.compressed ? CloudBody::laz : CloudBody::binary;
   layout.is_las = true;
   layout.point_format = header.format;
-  layout.format = formatted("%s 1.%d, point format %d", header.compressed ? "LAZ" : "LAS",
-                            header.minor, header.format);
+  layout.format = fmt::format("{} 1.{}, point format {}", header.compressed ? "LAZ" : "LAS",
+                              header.minor, header.format);
   layout.points = header.points;
   layout.record_size = header.record_size;
   layout.body_offset = header.points_at;

@@ -123,7 +123,7 @@ TEST(PlotNames, AreThoseOfTheirPlaces) {
   EXPECT_EQ(map_of(estimate), "A1 B1\nA2 A3 0101\n") << "B2 has no plot";
   EXPECT_EQ(estimate.id_property, "plot_id");
   EXPECT_EQ(estimate.plots[0].attributes["cultivar"], "Rock, early");
-  EXPECT_EQ(estimate.diagnostics["names"]["not_found"], nlohmann::json::array({"B2"}));
+  EXPECT_EQ(estimate.diagnostics.names.value().not_found, std::vector{PlotId("B2")});
 }
 
 TEST(PlotNames, AreRefusedWhereTheyDoNotFitTheField) {

@@ -183,7 +183,7 @@ TEST(VectorMap, DegreesAreConverted) {
     add(layer, feature, polygon_of(lonlat));
   }
   const Estimate estimate = methods::run(options);
-  EXPECT_EQ(estimate.diagnostics["boxes"]["from_degrees"], true);
+  EXPECT_TRUE(estimate.diagnostics.boxes.value().from_degrees);
   ASSERT_EQ(estimate.plots.size(), 1u);
   EXPECT_LT((estimate.plots[0].box.center - kFarm.box(1, 2).center - kUtm).norm(), 1e-3);
 }

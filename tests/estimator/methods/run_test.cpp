@@ -62,8 +62,8 @@ estimate::Estimate estimate_of(const std::vector<Eigen::Vector3d>& points) {
 TEST(Run, SaysOfASparseCloudThatItCannotShowPlots) {
   const estimate::Estimate estimate = estimate_of(scattered(1000, 500, 0.05));
   EXPECT_TRUE(estimate.plots.empty());
-  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("65 a square metre"));
-  EXPECT_GT(estimate.diagnostics["ground"]["cell_m"], 5);
+  EXPECT_THAT(estimate.diagnostics.why_no_plots, HasSubstr("65 a square metre"));
+  EXPECT_GT(estimate.diagnostics.ground.value().cell_m, 5);
 }
 
 // 5,000 times one point, and a point a hectare: none carries a ground, and no crop box helps.
@@ -79,7 +79,7 @@ TEST(Run, SaysOfPointsThatAreTooFewForAGroundWhatIsNeeded) {
 
 TEST(Run, SaysOfACloudWithoutGroundThatItHasNone) {
   const estimate::Estimate estimate = estimate_of(scattered(300000, 20, 3));
-  EXPECT_THAT(estimate.diagnostics["nothing"].get<std::string>(), HasSubstr("no ground"));
+  EXPECT_THAT(estimate.diagnostics.why_no_plots, HasSubstr("no ground"));
 }
 
 TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
@@ -96,7 +96,7 @@ TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
 
 TEST(Run, KnowsWhenNothingWasMeasured) {
   estimate::Estimate estimate{.method = "lattice",
-                              .diagnostics = {{"density_per_m2", 1.5}, {"nothing", "a reason"}}};
+                              .diagnostics = {.density_per_m2 = 1.5, .why_no_plots = "a reason"}};
   const auto message = [&] {
     return message_of<NothingToMeasure>([&] { require_measured(estimate); });
   };
@@ -105,9 +105,9 @@ TEST(Run, KnowsWhenNothingWasMeasured) {
   estimate.crs = "EPSG:32617";
   EXPECT_THAT(message(), Not(HasSubstr("--units")));
   EXPECT_THAT(message(), Not(HasSubstr("--boxes")));
-  estimate.diagnostics["density_per_m2"] = 40;
+  estimate.diagnostics.density_per_m2 = 40;
   EXPECT_THAT(message(), AllOf(HasSubstr("--boxes"), HasSubstr("fly lower")));
-  estimate.diagnostics["density_per_m2"] = 1.5e3;
+  estimate.diagnostics.density_per_m2 = 1.5e3;
   EXPECT_THAT(message(), AllOf(HasSubstr("--boxes"), Not(HasSubstr("fly lower"))));
   estimate.plots = {{.id = 1, .box = {}}, {.id = 2, .box = {}}};
   EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1500 points/m2)"));

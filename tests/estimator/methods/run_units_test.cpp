@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using plotscan::testing::TemporaryFolder;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::kFarm;
 using testing::small_run;
@@ -78,7 +79,8 @@ TEST(Run, FeetBecomeMetresAndGoBack) {
   EXPECT_LT(
       (first_corner(feet.output) * kFoot - moved.head<2>() - first_corner(metres.output)).norm(),
       0.1);
-  EXPECT_THAT(found.diagnostics["notes"].dump(), HasSubstr("US survey feet are read as metres"));
+  EXPECT_THAT(found.diagnostics.notes.value(),
+              Contains(HasSubstr("US survey feet are read as metres")));
   const estimate::Estimate read = estimate::read_estimate(feet.output);
   ASSERT_TRUE(read.units);
   EXPECT_LT((read.plots[3].box.center - found.plots[3].box.center).norm(), 1e-6);
@@ -139,7 +141,7 @@ TEST(Run, DegreesAreProjectedToUtm) {
   EXPECT_EQ(estimate.crs, "EPSG:32631");
   EXPECT_NEAR(first_corner(options.output).x(), 500000, 50);
   EXPECT_NEAR(first_corner(options.output).y(), 5316300, 500);
-  EXPECT_THAT(estimate.diagnostics["notes"].dump(), HasSubstr("zone 31N"));
+  EXPECT_THAT(estimate.diagnostics.notes.value(), Contains(HasSubstr("zone 31N")));
 
   // Its plots in degrees are a map as any breeder's; so are those in the zone's metres.
   for (const char* const name : {"plots.wgs84.geojson", "plots.geojson"}) {
@@ -150,7 +152,7 @@ TEST(Run, DegreesAreProjectedToUtm) {
     again.dhami2020.plots = 0;
     again.boxes = folder.write("map.geojson", as_breeders_map(written).dump());
     const estimate::Estimate given = run(again);
-    EXPECT_EQ(given.diagnostics["boxes"]["from_degrees"],
+    EXPECT_EQ(given.diagnostics.boxes.value().from_degrees,
               name == std::string("plots.wgs84.geojson"));
     ASSERT_EQ(given.plots.size(), 8u);
     for (std::size_t i = 0; i < given.plots.size(); ++i)

@@ -34,7 +34,7 @@ PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_
 }
 
 std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
-  return field_of(standing, step_x_m, step_y_m).nothing;
+  return field_of(standing, step_x_m, step_y_m).why_none;
 }
 
 bool in_box(double x, double y, double width_m, double length_m) {

@@ -111,7 +111,7 @@ std::vector<Eigen::Vector3f> points_over(const std::vector<PlotBox>& boxes,
 void expect_found(const Trial& trial, const Sown& sown = everywhere, double least_iou = 0.9) {
   const std::vector<PlotBox> truths = trial.boxes();
   const PlotField field = find_plots(points_over(truths, sown), 0.02, {}, 2);
-  EXPECT_EQ(field.nothing, "");
+  EXPECT_EQ(field.why_none, "");
   ASSERT_EQ(field.plots.size(), truths.size());
   for (const PlotBox& truth : truths) {
     double best = 0;
@@ -190,8 +190,8 @@ TEST(FindPlots, TakesTheNumbersThatAreKnown) {
   EXPECT_EQ(found({.plots = 36}).plots.size(), 36U);
   EXPECT_EQ(found({.plots = 18}).plots.size(), 18U);
   EXPECT_EQ(found({.rows = 3}).rival, "");
-  EXPECT_THAT(found({.rows = 5}).nothing, HasSubstr("the canopy shows 3 rows of 6 plots"));
-  EXPECT_NE(found({.plots = 7}).nothing, "");
+  EXPECT_THAT(found({.rows = 5}).why_none, HasSubstr("the canopy shows 3 rows of 6 plots"));
+  EXPECT_NE(found({.plots = 7}).why_none, "");
 }
 
 // What contradicts the canopy is taken all the same, and said.
@@ -211,7 +211,7 @@ TEST(FindPlots, LeavesOutTheMissingOneOfTheNumberThatIsKnown) {
 TEST(FindPlots, SaysThatBareGroundHasNone) {
   const PlotField field = find_plots(points_over({}), 0.02, {}, 2);
   EXPECT_TRUE(field.plots.empty());
-  EXPECT_NE(field.nothing, "");
+  EXPECT_NE(field.why_none, "");
 }
 
 TEST(FindPlots, FindsOneToThreePlots) {
@@ -219,7 +219,7 @@ TEST(FindPlots, FindsOneToThreePlots) {
     std::vector<PlotBox> few = Trial{}.boxes();
     few.resize(count);
     const PlotField field = find_plots(points_over(few), 0.02, {}, 2);
-    ASSERT_EQ(field.plots.size(), count) << field.nothing;
+    ASSERT_EQ(field.plots.size(), count) << field.why_none;
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_GT(intersection_over_union(few[i], field.plots[i].box), 0.9);
   }
@@ -236,7 +236,7 @@ TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
                        .length_m = random.uniform(0.4, 0.9),
                        .heading_rad = random.uniform(0, 3)});
     }
-    EXPECT_NE(find_plots(points_over(boxes), 0.02, {}, 2).nothing, "") << bushes;
+    EXPECT_NE(find_plots(points_over(boxes), 0.02, {}, 2).why_none, "") << bushes;
   }
 }
 
@@ -247,7 +247,7 @@ TEST(FindPlots, FindsPlotsInFewReturns) {
   std::vector<Eigen::Vector3f> few;
   for (std::size_t i = 0; i < all.size(); i += 12) few.push_back(all[i]);
   const PlotField field = find_plots(few, 0.02, {}, 2);
-  EXPECT_EQ(field.nothing, "");
+  EXPECT_EQ(field.why_none, "");
   EXPECT_EQ(field.plots.size(), boxes.size());
 }
 
@@ -260,13 +260,13 @@ TEST(FindPlots, FindsPlotsBesideALargeRoof) {
                         static_cast<float>(random.uniform(-7, 7)),
                         static_cast<float>(4 + 0.02 * random.normal()));
   }
-  EXPECT_NE(find_plots(points, 0.02, {}, 2).nothing, "");
+  EXPECT_NE(find_plots(points, 0.02, {}, 2).why_none, "");
   const std::vector<PlotBox> boxes = Trial{}.boxes();
   std::ranges::copy(points_over(boxes), std::back_inserter(points));
   EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
 }
 
-TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).nothing, ""); }
+TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).why_none, ""); }
 
 TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
   const std::vector<Eigen::Vector3f> points = points_over(Trial{}.boxes());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/extent.h"
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
@@ -21,6 +22,7 @@
 #include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "core/extent.h"
 #include "core/statistics.h"
 #include "scan/cloud_reader.h"
 #include "view/internal/surfaces.h"
@@ -119,14 +121,8 @@ vtkSmartPointer<vtkPolyData> behind_plane(vtkPolyData* surface, const Field& fie
 }  // namespace
 
 Field field_of(const farm::Farm& farm, double margin_m) {
-  Eigen::AlignedBox2d extent;
-  for (const farm::Plot& plot : farm.plots) {
-    for (const Eigen::Vector2d& corner : plot.box.corners()) extent.extend(corner);
-  }
-  if (farm.plots.empty()) {
-    for (const Eigen::Vector3d& vertex : farm.terrain.vertices())
-      extent.extend(Eigen::Vector2d(vertex.head<2>()));
-  }
+  const Eigen::AlignedBox2d extent = farm.plots.empty() ? terrain::outline_of(farm.terrain)
+                                                        : extent_of(farm.plots, &farm::Plot::box);
   Eigen::AlignedBox1d heights;
   for (const farm::Plant& plant : farm.plants) {
     heights.extend(Eigen::Matrix<double, 1, 1>(plant.position.z()));

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "view/internal/scale.h"
 
 namespace plotscan::view {
@@ -20,7 +21,7 @@ double origin_of(double low_m, double high_m) {
 }
 
 std::string with_unit(const std::string& title, double origin_m) {
-  return title + (origin_m == 0 ? " (m)" : formatted(" (m, from %.0f)", origin_m));
+  return title + (origin_m == 0 ? " (m)" : fmt::format(" (m, from {:.0f})", origin_m));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/text.h"
 
@@ -69,9 +71,9 @@ struct Label {
 Label label_of(const HeightLine& height, double text_px) {
   std::string name = height.name;
   std::ranges::replace(name, '_', ' ');
-  return {.height = name + formatted(" %.3f m", height.height_m),
+  return {.height = name + fmt::format(" {:.3f} m", height.height_m),
           .interval = height.has_interval
-                          ? formatted("95 %%: %.3f to %.3f m", height.low_m, height.high_m)
+                          ? fmt::format("95 %: {:.3f} to {:.3f} m", height.low_m, height.high_m)
                           : "",
           .large = {.size_px = text_px, .bold = true},
           .small = {.size_px = 0.85 * text_px}};

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text.h"
+#include <fmt/core.h>
 
 namespace plotscan::view {
 
@@ -20,7 +20,7 @@ std::string Ticks::text(double value, double origin) const {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   const double shown = value - origin;
   const bool zero = std::abs(shown) < step / 2;
-  return formatted("%.*f", decimals, zero ? 0.0 : shown);
+  return fmt::format("{:.{}f}", zero ? 0.0 : shown, decimals);
 }
 
 Ticks ticks_between(double low, double high, double least_step) {

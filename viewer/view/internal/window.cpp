@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/internal/window.h"
 
+#include <fmt/core.h>
 #include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -14,7 +15,7 @@ namespace plotscan::view {
 
 void require_range(double value, const Range& range, const std::string& what) {
   if (!range.contains(value)) {
-    throw InputError(what + " " + formatted("%.10g", value) + " is not in " + range.text());
+    throw InputError(what + " " + fmt::format("{:.10g}", value) + " is not in " + range.text());
   }
 }
 

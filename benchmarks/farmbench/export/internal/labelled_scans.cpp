@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
-#include "core/text.h"
 #include "core/text_file.h"
 #include "record/open_source.h"
 #include "record/scan_folder.h"
@@ -82,7 +83,7 @@ class ScanWriter {
 
   void finish() {
     if (points_.empty()) return;
-    const std::string name = formatted("%06zu", counts_.scans++);
+    const std::string name = fmt::format("{:06}", counts_.scans++);
     write_values(sequence_ / "velodyne" / (name + ".bin"), points_);
     write_values(sequence_ / "labels" / (name + ".label"), labels_);
     write_values(sequence_ / "plants" / (name + ".plant"), plants_);

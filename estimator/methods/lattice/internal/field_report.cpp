@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/core.h>
+
 namespace plotscan::methods::lattice {
 namespace {
 
@@ -48,6 +50,14 @@ json json_of(const plots::PlotField& field) {
   json report = field.fit ? json_of(*field.fit) : json::object();
   if (field.signs) report["signs"] = json_of(*field.signs);
   return report;
+}
+
+std::vector<std::string> lines_of(const plots::PlotField& field) {
+  if (!field.why_none.empty() || !field.fit) return {};
+  const TrialLayout& layout = field.fit->layout;
+  return {fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.2f} deg", layout.width_m,
+                      layout.length_m, layout.heading_rad() * kDegreesOfRadian),
+          fmt::format("lattice    {} rows, {} columns", layout.rows(), layout.columns())};
 }
 
 }  // namespace plotscan::methods::lattice

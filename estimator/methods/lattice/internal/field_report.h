@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "plots/plot_field.h"
@@ -10,5 +13,7 @@ namespace plotscan::methods::lattice {
 // What a manifest says of a field: its layout and the signs that its plots are some
 // (docs/estimate-format.md).
 nlohmann::json json_of(const plots::PlotField& field);
+// The same for people; none where there are no plots.
+std::vector<std::string> lines_of(const plots::PlotField& field);
 
 }  // namespace plotscan::methods::lattice

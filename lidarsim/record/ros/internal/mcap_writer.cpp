@@ -2,7 +2,8 @@
 #include <map>
 #include <optional>
 
-#include "core/text.h"
+#include <fmt/core.h>
+
 #include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
@@ -32,8 +33,8 @@ std::string header_content() {
 // for these where there is a metadata record "rosbag2" that tells no version.
 std::string qos_profiles(bool latched) {
   const std::string forever = "    sec: 9223372036\n    nsec: 854775807\n";
-  return formatted("- history: 1\n  depth: 10\n  reliability: 1\n  durability: %d\n",
-                   latched ? 1 : 2) +
+  return fmt::format("- history: 1\n  depth: 10\n  reliability: 1\n  durability: {}\n",
+                     latched ? 1 : 2) +
          "  deadline:\n" + forever + "  lifespan:\n" + forever + "  liveliness: 1\n" +
          "  liveliness_lease_duration:\n" + forever + "  avoid_ros_namespace_conventions: false";
 }

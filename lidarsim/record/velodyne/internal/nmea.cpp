@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/text.h"
+#include <fmt/core.h>
 
 namespace plotscan::record {
 namespace {
@@ -20,9 +20,9 @@ constexpr double kMinuteSteps = 1e7;  // digits after the minutes' point
 std::string angle_text(double angle_deg, int degree_digits, char positive, char negative) {
   const auto steps = std::llround(std::abs(angle_deg) * 60 * kMinuteSteps);
   const auto degree_steps = static_cast<long long>(60 * kMinuteSteps);
-  return formatted("%0*lld%010.7f,%c", degree_digits, steps / degree_steps,
-                   static_cast<double>(steps % degree_steps) / kMinuteSteps,
-                   angle_deg < 0 ? negative : positive);
+  return fmt::format("{:0{}}{:010.7f},{}", steps / degree_steps, degree_digits,
+                     static_cast<double>(steps % degree_steps) / kMinuteSteps,
+                     angle_deg < 0 ? negative : positive);
 }
 
 std::string position_text(const GpsFix& fix) {
@@ -31,7 +31,7 @@ std::string position_text(const GpsFix& fix) {
   if (track_deg >= 360) track_deg -= 360;
   return angle_text(fix.position->latitude_deg, 2, 'N', 'S') + "," +
          angle_text(fix.position->longitude_deg, 3, 'E', 'W') +
-         formatted(",%05.1f,%05.1f", fix.speed_m_s / kKnot_m_s, track_deg);
+         fmt::format(",{:05.1f},{:05.1f}", fix.speed_m_s / kKnot_m_s, track_deg);
 }
 
 std::vector<std::string_view> fields_of(std::string_view text) {
@@ -85,14 +85,14 @@ std::string gprmc(const GpsFix& fix) {
   const sys_days day = floor<days>(fix.time);
   const year_month_day date(day);
   const hh_mm_ss clock(floor<seconds>(fix.time - day));
-  const auto two_digits = [](auto value) { return formatted("%02d", static_cast<int>(value)); };
+  const auto two_digits = [](auto value) { return fmt::format("{:02}", static_cast<int>(value)); };
   const std::string text =
       "GPRMC," + two_digits(clock.hours().count()) + two_digits(clock.minutes().count()) +
       two_digits(clock.seconds().count()) + (fix.position ? ",A," : ",V,") + position_text(fix) +
       "," + two_digits(static_cast<unsigned>(date.day())) +
       two_digits(static_cast<unsigned>(date.month())) +
       two_digits(static_cast<int>(date.year()) % 100) + ",,," + (fix.position ? "A" : "N");
-  return "$" + text + formatted("*%02X", nmea_checksum(text));
+  return "$" + text + fmt::format("*{:02X}", nmea_checksum(text));
 }
 
 std::optional<GpsFix> parse_rmc(const std::string& sentence) {
@@ -101,7 +101,7 @@ std::optional<GpsFix> parse_rmc(const std::string& sentence) {
       star == std::string::npos)
     return std::nullopt;
   const std::string_view text = std::string_view(sentence).substr(1, star - 1);
-  if (sentence.substr(star + 1) != formatted("%02X", nmea_checksum(text))) return std::nullopt;
+  if (sentence.substr(star + 1) != fmt::format("{:02X}", nmea_checksum(text))) return std::nullopt;
   const auto fields = fields_of(text);
   if (fields.size() < 10) return std::nullopt;
   const auto time = time_of(fields[1], fields[9]);

@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <memory>
 
+#include <fmt/core.h>
 #include <pcap/pcap.h>
 
 #include "core/csv.h"
 #include "core/error.h"
-#include "core/text.h"
 #include "record/velodyne/internal/ethernet.h"
 
 namespace plotscan::record {
@@ -52,8 +52,9 @@ class DatagramFile {
       if (result != 1) fail(pcap_geterr(pcap_.get()));
       ++frames_;
       if (header->caplen < header->len) {
-        fail(formatted("only %u of its %u bytes were recorded; record whole packets (tcpdump -s 0)",
-                       header->caplen, header->len));
+        fail(fmt::format(
+            "only {} of its {} bytes were recorded; record whole packets (tcpdump -s 0)",
+            header->caplen, header->len));
       }
       const auto datagram = udp_datagram(kind_, {frame, header->caplen});
       if (datagram) return CapturedDatagram{.captured = time_of(*header), .udp = *datagram};
@@ -65,8 +66,7 @@ class DatagramFile {
   std::uint64_t foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(path_,
-                     formatted("packet %llu: ", static_cast<unsigned long long>(frames_)) + what);
+    throw InputError(path_, fmt::format("packet {}: ", frames_) + what);
   }
 
  private:
@@ -167,14 +167,14 @@ class Reader {
 
   void take(const DataPacket& packet, UtcTime captured) {
     if (packet.product != sensor_.packets->product) {
-      file_.fail(formatted("product 0x%02X is not the 0x%02X of sensor %s; give --sensor",
-                           packet.product, sensor_.packets->product, sensor_.name.c_str()));
+      file_.fail(fmt::format("product 0x{:02X} is not the 0x{:02X} of sensor {}; give --sensor",
+                             packet.product, sensor_.packets->product, sensor_.name));
     }
     if (packet.past_hour_us >= kHour_us) file_.fail("its time is beyond the hour");
     const std::int64_t elapsed_us = clock_.elapsed_us(packet.past_hour_us, captured);
     if (elapsed_us < latest_us_ - kOvertaken_us) {
-      file_.fail(formatted("its time goes back by %.6f s",
-                           1e-6 * static_cast<double>(latest_us_ - elapsed_us)));
+      file_.fail(fmt::format("its time goes back by {:.6f} s",
+                             1e-6 * static_cast<double>(latest_us_ - elapsed_us)));
     }
     if (elapsed_us < latest_us_) {
       ++summary_.other_packets;
@@ -220,7 +220,7 @@ sensor::Sensor sensor_of_product(std::uint8_t product, const std::filesystem::pa
     if (sensor.packets && sensor.packets->product == product) return sensor;
   }
   throw InputError(
-      file, formatted("was recorded by product 0x%02X, which no shipped sensor is", product));
+      file, fmt::format("was recorded by product 0x{:02X}, which no shipped sensor is", product));
 }
 
 PcapSummary read_pcap(const std::filesystem::path& file, const sensor::Sensor& sensor,
