@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <fmt/core.h>
@@ -38,6 +39,22 @@ bool have_same_bytes(const fs::path& a, const fs::path& b) {
   return fs::is_regular_file(b) && file_hash(a) == file_hash(b);
 }
 
+// Moves files of these names to another folder. Where one cannot be moved, those that came anew go.
+void place(std::span<const fs::path> names, const fs::path& from, const fs::path& to) {
+  std::vector<fs::path> anew;
+  for (const fs::path& name : names) {
+    std::error_code error;
+    const bool was_there = fs::exists(to / name, error);
+    fs::rename(from / name, to / name, error);
+    if (error) {
+      std::error_code ignored;
+      for (const fs::path& file : anew) fs::remove(file, ignored);
+      throw WriteError(to / name, error.value());
+    }
+    if (!was_there) anew.push_back(to / name);
+  }
+}
+
 // The mesh, its materials and their pictures, written beside their places and renamed when they are
 // whole, the mesh last: where it is, all is. What a run that was killed left of the same is no
 // other's.
@@ -56,9 +73,7 @@ void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
     if (!replace && !have_same_bytes(file.path(), place)) require_free(place);
   }
   std::ranges::partition(names, [&](const fs::path& name) { return name != output.filename(); });
-  for (const fs::path& name : names) {
-    fs::rename(partial.path() / name, output.parent_path() / name);
-  }
+  place(names, partial.path(), output.parent_path());
 }
 
 void run_plant(const Program& program, const PlantArguments& arguments) {

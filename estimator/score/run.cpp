@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/run.h"
 
-#include <fstream>
-
 #include "core/error.h"
 #include "core/format.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/text_file.h"
 #include "estimate/estimate.h"
 #include "score/score_files.h"
 
@@ -23,10 +22,9 @@ fs::path file_in(const fs::path& path, const fs::path& inside) {
 void write_scores(const Scores& scores, const RunOptions& options) {
   OutputFolder folder(*options.output, options.replace, "estimator score",
                       {{options.estimate, options.truth}});
-  const fs::path file = folder.path() / "scores.json";
-  std::ofstream out(file);
-  out << to_json(scores).dump(1) << '\n';
-  if (!out.flush()) throw WriteError(file);
+  TextFile out(folder.path() / "scores.json");
+  out << to_json(scores).dump(1) << "\n";
+  out.close();
   write_plot_table(folder.path() / "plots.csv", scores.field);
   write_manifest(folder.path(), {.command = "estimator score",
                                  .options = {{"min_iou", options.score.min_iou}},

@@ -10,6 +10,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "core/internal/disk_error.h"
+
 namespace plotscan {
 
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
@@ -38,8 +40,7 @@ int obstacle(const std::filesystem::path& file) {
 }
 
 std::string write_message(const std::filesystem::path& file, int error) {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  if (full) return "no space left on " + file.string();
+  if (is_full(error)) return "no space left on " + file.string();
   return file.string() + ": cannot be written" +
          (error != 0 ? ": " + std::generic_category().message(error) : "");
 }

@@ -16,6 +16,10 @@ OutputFile::OutputFile(const fs::path& final_path, bool replace)
     throw InputError(final_path, "cannot be created: there is no such folder");
 }
 
-void OutputFile::commit() { fs::rename(path(), final_); }
+void OutputFile::commit() {
+  std::error_code error;
+  fs::rename(path(), final_, error);
+  if (error) throw WriteError(final_, error.value());
+}
 
 }  // namespace plotscan

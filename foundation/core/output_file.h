@@ -17,6 +17,7 @@ class OutputFile {
 
   // Where to write until commit(); it has the final name's extension.
   const std::filesystem::path& path() const { return temporary_.path(); }
+  // Throws WriteError when it cannot be renamed.
   void commit();
 
  private:

@@ -2,11 +2,13 @@
 #include "core/output_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 
 #include <fcntl.h>
 
 #include "core/error.h"
+#include "core/internal/disk_error.h"
 #include "core/manifest.h"
 #include "core/text.h"
 
@@ -98,6 +100,7 @@ OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::
   std::error_code error;
   fs::remove_all(path(), error);
   fs::create_directories(path(), error);
+  if (is_of_disk(error.value())) throw WriteError(final_path, error.value());
   if (error) throw InputError(final_path, "cannot be created: " + error.message());
 }
 
@@ -106,8 +109,12 @@ void OutputFolder::commit() {
   // Where the file system can, old and new change places in one step: there is no moment without a
   // whole folder, and what goes with this object is the old one.
   if (renameat2(AT_FDCWD, path().c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0) return;
-  fs::remove_all(final_);
-  fs::rename(path(), final_);
+  // There is no old one, or the file system cannot. Any other failure leaves the old one be.
+  if (errno != ENOENT && errno != EINVAL && errno != ENOSYS) throw WriteError(final_, errno);
+  std::error_code error;
+  fs::remove_all(final_, error);
+  if (!error) fs::rename(path(), final_, error);
+  if (error) throw WriteError(final_, error.value());
 }
 
 }  // namespace plotscan

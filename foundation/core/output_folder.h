@@ -20,13 +20,14 @@ class OutputFolder {
   // command
   //   wrote it (its manifest.json says so), and it holds no file that the manifest does not list;
   // - when it is one of the inputs, lies in one, or has one below it;
-  // - when its parent cannot be written.
+  // - when its parent cannot be written; WriteError where the disk is full, read only or broken.
   OutputFolder(const std::filesystem::path& final_path, bool replace, const std::string& command,
                std::span<const std::filesystem::path> inputs = {});
 
   // Where to write until commit().
   const std::filesystem::path& path() const { return temporary_.path(); }
-  // Throws InputError when files of others came into the folder meanwhile.
+  // Throws InputError when files of others came into the folder meanwhile, and WriteError when it
+  // cannot be renamed.
   void commit();
 
  private:

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/internal/disk_error.h"
 #include "core/internal/interrupt.h"
 #include "core/internal/printable.h"
 #include "core/internal/program_completion.h"
@@ -60,11 +61,6 @@ std::uint64_t seed_of(const std::string& text) {
   if (!text.empty() && error == std::errc() && end == text.data() + text.size()) return seed;
   throw CLI::ValidationError("--seed",
                              "\"" + text + "\" is not a whole number in [0, 18446744073709551615]");
-}
-
-bool is_full(const std::error_code& error) {
-  return error == std::errc::no_space_on_device || error == std::errc::file_too_large ||
-         error.value() == EDQUOT;
 }
 
 // The names that a program or command knows: commands, or options of the long kind.
@@ -141,6 +137,9 @@ void Program::add_common_options(CLI::App& command, const Uses& uses) {
 int Program::run(int argc, char** argv) {
   // Else a file size limit would kill the process in place of telling it.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Else a reader that leaves would kill it, unfinished work and all. Not ignored but caught:
+  // programs that this one starts get the default again.
+  std::signal(SIGPIPE, [](int /*signal*/) {});
   remove_unfinished_work_on_interrupt();
   for (const auto& [command, uses] : std::exchange(commands_, {}))
     add_common_options(*command, uses);
@@ -166,10 +165,10 @@ int Program::caught_run(int argc, char** argv) {
     say_error(name_, error.what());
     return kExitBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
-    const bool full = is_full(error.code());
-    say_error(name_, full ? WriteError(error.path1(), error.code().value()).what()
-                          : error.path1().string() + ": " + error.code().message());
-    return full ? kExitFailure : kExitBadInput;
+    const int reason = error.code().value();
+    say_error(name_, is_full(reason) ? WriteError(error.path1(), reason).what()
+                                     : error.path1().string() + ": " + error.code().message());
+    return is_of_disk(reason) ? kExitFailure : kExitBadInput;
   } catch (const std::bad_alloc&) {
     say_error(name_, "there is not enough memory for this input");
     return kExitFailure;

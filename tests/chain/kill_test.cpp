@@ -6,16 +6,11 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <random>
 #include <string>
 
-#include "programs.h"
-#include "temporary_folder.h"
+#include "writers.h"
 #include <gmock/gmock.h>
-#include <unistd.h>
-
-#include "core/error.h"
 
 namespace plotscan {
 namespace {
@@ -24,44 +19,15 @@ namespace fs = std::filesystem;
 using ::testing::AnyOf;
 using testing::Finished;
 using ::testing::HasSubstr;
-using testing::kFourPlots;
-using testing::kSmokeSuite;
 using testing::run;
-using testing::TemporaryFolder;
-
-struct Writer {
-  std::string name;
-  std::string command;  // up to its output
-  std::string output;
-};
-
-void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
 
 int kills() {
   const char* stated = std::getenv("PLOTSCAN_KILLS");
   return stated == nullptr ? 4 : std::atoi(stated);
 }
 
-class Interrupted : public ::testing::TestWithParam<Writer> {
+class Interrupted : public testing::Writing {
  protected:
-  static void SetUpTestSuite() {
-    input_ = fs::temp_directory_path() / ("plotscan-kills-" + std::to_string(getpid()));
-    fs::create_directories(input_);
-    for (const std::string& command : {"farmgen generate " + kFourPlots + " -o farm",
-                                       std::string("lidarsim fly farm -o scan --speed 4"),
-                                       std::string("estimator run scan -o estimate")}) {
-      ASSERT_EQ(run(command, input_).exit_code, 0) << command;
-    }
-  }
-  static void TearDownTestSuite() { fs::remove_all(input_); }
-
-  // `before` is a shell's words before the command; the inputs are in $IN.
-  Finished write(const std::string& before = "") const {
-    return run("IN='" + input_.string() + "' && " + before + " " + GetParam().command + " " +
-                   GetParam().output,
-               folder_.path());
-  }
-
   // Onto a disk of its own, mounted with these options; stdout is what lies on it afterwards.
   Finished write_on_disk(const std::string& options) const {
     folder_.write("write", "mkdir -p disk && mount -t tmpfs -o " + options +
@@ -70,22 +36,6 @@ class Interrupted : public ::testing::TestWithParam<Writer> {
                                " >printed\ncode=$?\nfind disk -mindepth 1\nexit $code\n");
     return run("IN='" + input_.string() + "' unshare -m sh ./write", folder_.path());
   }
-
-  // The bytes of all files, by name, hidden ones too.
-  std::map<std::string, std::string> files() const {
-    std::map<std::string, std::string> bytes;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
-      if (entry.is_regular_file())
-        bytes[fs::relative(entry.path(), folder_.path())] = read_text(entry.path());
-    return bytes;
-  }
-
-  void remove() const {
-    for (const auto& entry : fs::directory_iterator(folder_.path())) fs::remove_all(entry.path());
-  }
-
-  static inline fs::path input_;
-  TemporaryFolder folder_;
 };
 
 TEST_P(Interrupted, AKillLeavesNothingOrTheWhole) {
@@ -134,22 +84,8 @@ TEST_P(Interrupted, ADiskThatIsFullOrClosedIsSaidAndNothingIsLeft) {
   EXPECT_EQ(closed.output, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Writers, Interrupted,
-    ::testing::Values(
-        Writer{"Generate", "farmgen generate " + kFourPlots + " -q -o", "out"},
-        Writer{"Plant", "farmgen plant maize -q -o", "out.obj"},
-        Writer{"ExportClassic", "farmgen export $IN/farm --gazebo classic --drone -q -o", "out"},
-        Writer{"ExportSim", "farmgen export $IN/farm --gazebo sim -q -o", "out"},
-        Writer{"Fly", "lidarsim fly $IN/farm --speed 4 --format las,pcap,bag,mcap -q -o", "out"},
-        Writer{"ConvertLas", "lidarsim convert $IN/scan -q", "out.las"},
-        Writer{"ConvertBag", "lidarsim convert $IN/scan -q", "out.bag"},
-        Writer{"View", "lidarsim view $IN/scan -q -o", "out.html"},
-        Writer{"Run", "estimator run $IN/scan -q -o", "out"},
-        Writer{"Score", "estimator score $IN/estimate --truth $IN/farm -q -o", "out"},
-        Writer{"Report", "estimator report $IN/estimate -q -o", "out.html"},
-        Writer{"ExportSuite", "farmbench export " + kSmokeSuite + " -q -o", "out"}),
-    [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Writers, Interrupted, testing::writers(),
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace plotscan
