@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "sanitized.h"
 #include "writers.h"
 #include <gmock/gmock.h>
 
@@ -34,9 +35,9 @@ int faults() {
 
 class Faulted : public Writing {
  protected:
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  void SetUp() override { GTEST_SKIP() << "a sanitizer has to be loaded first"; }
-#endif
+  void SetUp() override {
+    if (testing::kSanitized) GTEST_SKIP() << "a sanitizer has to be loaded first";
+  }
 
   Finished write_with_fault(long at, int error, const std::string& after = "") const {
     return write("FAULT_FOLDER='" + folder_.path().string() + "' FAULT_COUNT='" + count_file() +
