@@ -16,13 +16,15 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot, or of a drill row's leaves
-constexpr double kMostSpacing_m = 1.05;                 // of drill rows
-constexpr double kLeastGap_m = 0.15;                    // between plots
-constexpr double kMostIrregular = 0.34;                 // of the steps from plot to plot,
-constexpr double kAlleys = 1;                           // but one at least
-constexpr double kSizeStep = 1.05;                      // from one size that is tried to the next
-constexpr std::size_t kRefined = 4;    // best shapes of which others like them are tried
-constexpr std::size_t kRowsTried = 3;  // in each of which all shapes are tried
+// Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
+// tenth.
+constexpr double kMostSpacing_m = 1.12;
+constexpr double kLeastGap_m = 0.15;     // between plots
+constexpr double kMostIrregular = 0.34;  // of the steps from plot to plot,
+constexpr double kAlleys = 1;            // but one at least
+constexpr double kSizeStep = 1.05;       // from one size that is tried to the next
+constexpr std::size_t kRefined = 4;      // best shapes of which others like them are tried
+constexpr std::size_t kRowsTried = 3;    // in each of which all shapes are tried
 
 int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));

@@ -19,12 +19,13 @@ using testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Plots of 1.5 x 4 m on a lattice turned by 33 degrees, with the given gaps.
+// Plots 4 m long on a lattice turned by 33 degrees, with the given gaps.
 struct Trial {
   int rows = 3, columns = 6;
   double gap_m = 0.4, row_gap_m = 0.8, heading_rad = 33 * kDegree;
   std::vector<double> offsets_m = {0, 0, 0};
   int missing = -1;  // number of the plot that is not there, row by row
+  double width_m = 1.5;
 
   std::vector<PlotBox> boxes() const {
     std::vector<PlotBox> list;
@@ -34,9 +35,9 @@ struct Trial {
         if (row * columns + column == missing) continue;
         const double along = (row - 1) * (4 + row_gap_m);
         const double across =
-            (column - 2.5) * (1.5 + gap_m) + offsets_m[static_cast<std::size_t>(row)];
+            (column - 2.5) * (width_m + gap_m) + offsets_m[static_cast<std::size_t>(row)];
         list.push_back({.center = axes.length_axis() * along + axes.width_axis() * across,
-                        .width_m = 1.5,
+                        .width_m = width_m,
                         .length_m = 4,
                         .heading_rad = heading_rad});
       }
@@ -53,6 +54,11 @@ bool everywhere(const PlotBox&, const Eigen::Vector2d&) { return true; }
 // Two rows of plants 0.75 m apart, their leaves 0.36 m wide, half a row's spacing from the edges.
 bool in_two_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
   return std::abs(std::abs(from_center.y()) - 0.375) < 0.18;
+}
+
+// Two rows 1 m apart, as maize's; their leaves lean 3.5 cm to where there is light.
+bool in_two_wide_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
+  return std::abs(std::abs(from_center.y()) - 0.535) < 0.18;
 }
 
 // Five rows that show as two pairs with a row between them.
@@ -138,6 +144,9 @@ TEST(FindPlots, KeepsAPlaceThatNoRowFills) {
 }
 
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
+TEST(FindPlots, PutsTheWidestDrillRowsTogether) {
+  expect_found({.columns = 4, .gap_m = 0.9, .width_m = 2}, in_two_wide_rows);
+}
 TEST(FindPlots, PutsPairsOfDrillRowsWithARowBetweenThemTogether) {
   expect_found({.gap_m = 0.36}, in_five_drill_rows, 0.85);
 }
