@@ -11,7 +11,7 @@
 namespace plotscan::plots {
 namespace {
 
-// All chosen on farms of every crop.
+// All chosen.
 constexpr double kEdgeReach_m = 0.3;       // about an edge, of what the box is fitted to
 constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through half the depth,
 constexpr int kRounds = 4;                 // which is sought so often,
