@@ -31,7 +31,7 @@ PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
   constexpr double kBeyond_m = 0.3, kLeastShare = 0.25;
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
   const int beyond = static_cast<int>(std::lround(kBeyond_m / lattice.view.cell_m()));
   const auto share = [&](int ra, int rb, int ca, int cb) {
     return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
@@ -42,12 +42,13 @@ bool is_cut_off(const Lattice& lattice, const Place& place) {
 }
 
 FieldFit fit_of(const Lattice& lattice) {
-  const bool by_c = lattice.c_size_m > lattice.r_size_m;
+  const bool by_c = lattice.c.size_m > lattice.r.size_m;
+  const Side &length = by_c ? lattice.c : lattice.r, &width = by_c ? lattice.r : lattice.c;
   return {.layout = layout_of(lattice),
           .columns_aligned = lattice.aligned,
-          .rms_along_length_m = by_c ? lattice.c_rms_m : lattice.r_rms_m,
-          .rms_along_width_m = by_c ? lattice.r_rms_m : lattice.c_rms_m,
-          .leaf_spread_m = std::max(lattice.r_blur_m, lattice.c_blur_m),
+          .rms_along_length_m = length.rms_m,
+          .rms_along_width_m = width.rms_m,
+          .leaf_spread_m = std::max(lattice.r.blur_m, lattice.c.blur_m),
           .side_contrast = lattice.contrast};
 }
 
@@ -58,11 +59,10 @@ Frame frame_of(const FieldAxes& axes) {
 
 // Sizes that the user gave are the sizes; the length is the longer one.
 void take_given_sides(Lattice& lattice, const Hints& hints) {
-  const bool along_r = lattice.r_size_m >= lattice.c_size_m;
-  double& length_m = along_r ? lattice.r_size_m : lattice.c_size_m;
-  double& width_m = along_r ? lattice.c_size_m : lattice.r_size_m;
-  length_m = hints.length_m.value_or(length_m);
-  width_m = hints.width_m.value_or(width_m);
+  const bool along_r = lattice.r.size_m >= lattice.c.size_m;
+  Side &length = along_r ? lattice.r : lattice.c, &width = along_r ? lattice.c : lattice.r;
+  length.size_m = hints.length_m.value_or(length.size_m);
+  width.size_m = hints.width_m.value_or(width.size_m);
 }
 
 // Sizes and places in turn.
@@ -73,8 +73,8 @@ void refine(Lattice& lattice, const Layout& layout, const Hints& hints) {
   }
   fit_edges(lattice);
   // Leaves say little of the sown width of few drill rows: rows times spacing does.
-  if (layout.r_drilled) lattice.r_size_m = lattice.r_band_m;
-  if (layout.c_drilled) lattice.c_size_m = lattice.c_band_m;
+  if (layout.r_drilled) lattice.r.size_m = lattice.r.band_m;
+  if (layout.c_drilled) lattice.c.size_m = lattice.c.band_m;
   take_given_sides(lattice, hints);
 }
 

@@ -8,29 +8,36 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kBlock_m =
-    0.5;  // across the line: as wide as plants, so that blocks differ by chance
-constexpr double kTrend_m = 0.75;  // on either side: a block's own trend, which is no noise
-constexpr double kLeaf_m = 0.3;    // cells so near see the same leaves
-constexpr double kLeastError =
-    0.02;  // of the profile's greatest mean: no model is better than that
+// All chosen.
+constexpr double kBlock_m = 0.5;      // across the line: as wide as plants, that differ by chance
+constexpr double kTrend_m = 0.75;     // on either side: a block's own trend, which is no noise
+constexpr double kLeastError = 0.02;  // of the profile's greatest mean: no model is better
+
+// Mean over what the cells within reach hold, each a sum of counts[i] values.
+std::vector<double> smoothed(const std::vector<double>& values, const std::vector<double>& counts,
+                             int reach) {
+  const int cells = static_cast<int>(values.size());
+  std::vector<double> sum(values.size() + 1), count(sum), smooth(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum[i + 1] = sum[i] + values[i];
+    count[i + 1] = count[i] + counts[i];
+  }
+  for (int i = 0; i < cells; ++i) {
+    const auto low = static_cast<std::size_t>(std::max(0, i - reach));
+    const auto high = static_cast<std::size_t>(std::min(cells, i + reach + 1));
+    smooth[static_cast<std::size_t>(i)] =
+        (sum[high] - sum[low]) / std::max(1.0, count[high] - count[low]);
+  }
+  return smooth;
+}
 
 // A block's canopy along the line less the profile and its own trend.
 std::vector<double> noise_of(const std::vector<double>& block, const std::vector<double>& seen,
                              const std::vector<double>& mean, int trend) {
-  const int cells = static_cast<int>(block.size());
-  std::vector<double> sum(block.size() + 1), count(sum), noise(block.size());
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    sum[i + 1] = sum[i] + (seen[i] > 0 ? block[i] - mean[i] : 0);
-    count[i + 1] = count[i] + (seen[i] > 0 ? 1 : 0);
-  }
-  for (int i = 0; i < cells; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto low = static_cast<std::size_t>(std::max(0, i - trend));
-    const auto high = static_cast<std::size_t>(std::min(cells, i + trend + 1));
-    if (seen[at] == 0) continue;
-    noise[at] = block[at] - mean[at] - (sum[high] - sum[low]) / (count[high] - count[low]);
-  }
+  std::vector<double> noise(block.size());
+  for (std::size_t i = 0; i < block.size(); ++i) noise[i] = seen[i] > 0 ? block[i] - mean[i] : 0;
+  const std::vector<double> own = smoothed(noise, seen, trend);
+  for (std::size_t i = 0; i < block.size(); ++i) noise[i] -= seen[i] > 0 ? own[i] : 0;
   return noise;
 }
 
@@ -51,24 +58,6 @@ double likeness(const std::vector<std::vector<double>>& noises, int near) {
   return single > 0 ? std::max(1.0, together / single) : 1;
 }
 
-// Mean over the cells within reach.
-std::vector<double> smoothed(const std::vector<double>& values, const std::vector<double>& counts,
-                             int reach) {
-  const int cells = static_cast<int>(values.size());
-  std::vector<double> sum(values.size() + 1), count(sum), smooth(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum[i + 1] = sum[i] + values[i];
-    count[i + 1] = count[i] + counts[i];
-  }
-  for (int i = 0; i < cells; ++i) {
-    const auto low = static_cast<std::size_t>(std::max(0, i - reach));
-    const auto high = static_cast<std::size_t>(std::min(cells, i + reach + 1));
-    smooth[static_cast<std::size_t>(i)] =
-        (sum[high] - sum[low]) / std::max(1.0, count[high] - count[low]);
-  }
-  return smooth;
-}
-
 // Canopy along the line in strips as wide as plants.
 struct Blocks {
   std::vector<std::vector<double>> canopy, seen;  // by strip, then by cell
@@ -76,13 +65,13 @@ struct Blocks {
 
   explicit Blocks(std::size_t cells) : sum(cells), count(cells) {}
 
-  void add(const RowView& view, int low, int high) {
+  void add(const RowView& view, const Band& strip) {
     std::vector<double> block(sum.size()), sees(sum.size());
     for (std::size_t i = 0; i < sum.size(); ++i) {
       const int r = static_cast<int>(i);
-      if (view.seen_cells(r, r + 1, low, high) == 0) continue;
+      if (view.seen_cells(r, r + 1, strip.begin, strip.end) == 0) continue;
       sees[i] = 1;
-      block[i] = view.cover(r, r + 1, low, high);
+      block[i] = view.cover(r, r + 1, strip.begin, strip.end);
       sum[i] += block[i];
       count[i] += 1;
     }
@@ -93,12 +82,9 @@ struct Blocks {
 
 Blocks blocks_of(const RowView& view, std::span<const Band> across, int width) {
   Blocks blocks(static_cast<std::size_t>(view.r_cells()));
-  for (const Band& band : across) {
-    const int parts = std::max(1, band.size() / width);
-    for (int part = 0; part < parts; ++part)
-      blocks.add(view, band.begin + band.size() * part / parts,
-                 band.begin + band.size() * (part + 1) / parts);
-  }
+  for (const Band& band : across)
+    for (const Band& part : equal_parts(band, std::max(1, band.size() / width)))
+      blocks.add(view, part);
   return blocks;
 }
 

@@ -21,15 +21,14 @@ struct Neighbour {
 
 // The nearest places before and after along the axis, where they overlap aside of it.
 std::vector<Neighbour> neighbours_of(const Lattice& lattice, const std::vector<double>& depths,
-                                     std::size_t of, bool along_r) {
+                                     std::size_t of) {
   const Place& self = lattice.places[of];
-  const double side_m = along_r ? lattice.c_size_m : lattice.r_size_m;
-  const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
+  const double side_m = lattice.c.size_m, size_m = lattice.r.size_m;
   std::vector<Neighbour> near;
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     const Place& other = lattice.places[i];
-    const double aside_m = std::abs(along_r ? other.c_m - self.c_m : other.r_m - self.r_m);
-    const double along_m = along_r ? other.r_m - self.r_m : other.c_m - self.c_m;
+    const double aside_m = std::abs(other.c_m - self.c_m);
+    const double along_m = other.r_m - self.r_m;
     if (i == of || aside_m >= side_m || std::abs(along_m) > 1.8 * size_m + 1) continue;
     if (std::abs(along_m) < 0.5 * size_m) continue;
     // It covers only a part of this plot's side where rows are offset.
@@ -99,19 +98,18 @@ std::optional<double> shift_of(const OwnCover& own, double size_m) {
 
 }  // namespace
 
-std::vector<std::optional<double>> measured_shifts(const Lattice& lattice, bool along_r) {
-  const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
-  const double blur_m = along_r ? lattice.r_blur_m : lattice.c_blur_m;
-  const BlurredBox box(size_m, blur_m);
+std::vector<std::optional<double>> measured_shifts(const Lattice& lattice) {
+  const double size_m = lattice.r.size_m;
+  const BlurredBox box(size_m, lattice.r.blur_m);
   std::vector<DepthProfile> profiles;
   std::vector<double> depths;
   for (const Place& place : lattice.places) {
-    profiles.push_back(profile_of(lattice, place, along_r, size_m / 2 + kBeyond_m));
+    profiles.push_back(profile_of(lattice, place, size_m / 2 + kBeyond_m));
     depths.push_back(plateau_depth(profiles.back(), size_m));
   }
   std::vector<OwnCover> covers;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
-    covers.push_back(own_cover(profiles[i], neighbours_of(lattice, depths, i, along_r), box));
+    covers.push_back(own_cover(profiles[i], neighbours_of(lattice, depths, i), box));
   }
   const double steep_m = steepest_size(covers, size_m);
   std::vector<std::optional<double>> shifts;

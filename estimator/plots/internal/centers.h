@@ -10,9 +10,9 @@
 
 namespace plotscan::plots {
 
-// By how much every place's canopy is off its centre along r or c, metres: its depth fitted by a
-// blurred box of the lattice's size, what its neighbours add taken away first. Nothing where the
-// fit runs away.
-std::vector<std::optional<double>> measured_shifts(const Lattice& lattice, bool along_r);
+// By how much every place's canopy is off its centre along r, metres: where both edges of a box are
+// steepest together in its cover, what its neighbours add taken away first. Nothing where that lies
+// at the end of what is tried.
+std::vector<std::optional<double>> measured_shifts(const Lattice& lattice);
 
 }  // namespace plotscan::plots

@@ -9,29 +9,24 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kMostCover = 0.98;  // deeper is not measured
+constexpr double kMiddle = 0.8;      // of the other side: the rest is blurred by its own edges
 
 double depth_of(double cover) { return -std::log(1 - std::min(kMostCover, cover)); }
 
 // Cells across the plot's other side.
-struct Strip {
-  int low, high;
-};
-Strip strip_of(const Lattice& lattice, const Place& place, bool along_r) {
-  const double half_m = 0.4 * (along_r ? lattice.c_size_m : lattice.r_size_m);
-  const double center_m = along_r ? place.c_m : place.r_m;
+Band strip_of(const Lattice& lattice, const Place& place) {
+  const double half_m = 0.5 * kMiddle * lattice.c.size_m;
   const double cell_m = lattice.view.cell_m();
-  return {static_cast<int>(std::lround((center_m - half_m) / cell_m)),
-          static_cast<int>(std::lround((center_m + half_m) / cell_m))};
+  return {static_cast<int>(std::lround((place.c_m - half_m) / cell_m)),
+          static_cast<int>(std::lround((place.c_m + half_m) / cell_m))};
 }
 
-double cover_at(const Lattice& lattice, bool along_r, int cell, const Strip& strip) {
-  return along_r ? lattice.view.cover(cell, cell + 1, strip.low, strip.high)
-                 : lattice.view.cover(strip.low, strip.high, cell, cell + 1);
+double cover_at(const Lattice& lattice, int cell, const Band& strip) {
+  return lattice.view.cover(cell, cell + 1, strip.begin, strip.end);
 }
 
-bool seen_at(const Lattice& lattice, bool along_r, int cell, const Strip& strip) {
-  return (along_r ? lattice.view.seen_cells(cell, cell + 1, strip.low, strip.high)
-                  : lattice.view.seen_cells(strip.low, strip.high, cell, cell + 1)) > 0;
+bool seen_at(const Lattice& lattice, int cell, const Band& strip) {
+  return lattice.view.seen_cells(cell, cell + 1, strip.begin, strip.end) > 0;
 }
 
 // Normal distribution function at multiples of 1/100 within 4.
@@ -50,32 +45,31 @@ const std::array<double, 2 * kTableSteps + 2>& normal_table() {
 
 }  // namespace
 
-DepthProfile profile_of(const Lattice& lattice, const Place& place, bool along_r, double reach_m) {
+DepthProfile profile_of(const Lattice& lattice, const Place& place, double reach_m) {
   const double cell_m = lattice.view.cell_m();
-  const double center_m = along_r ? place.r_m : place.c_m;
-  const Strip strip = strip_of(lattice, place, along_r);
+  const Band strip = strip_of(lattice, place);
   DepthProfile profile;
-  const int last = static_cast<int>(std::floor((center_m + reach_m) / cell_m));
-  for (int cell = static_cast<int>(std::floor((center_m - reach_m) / cell_m)); cell <= last;
+  const int last = static_cast<int>(std::floor((place.r_m + reach_m) / cell_m));
+  for (int cell = static_cast<int>(std::floor((place.r_m - reach_m) / cell_m)); cell <= last;
        ++cell) {
-    if (!seen_at(lattice, along_r, cell, strip)) continue;
-    profile.x_m.push_back((cell + 0.5) * cell_m - center_m);
-    profile.depth.push_back(depth_of(cover_at(lattice, along_r, cell, strip)));
+    if (!seen_at(lattice, cell, strip)) continue;
+    profile.x_m.push_back((cell + 0.5) * cell_m - place.r_m);
+    profile.depth.push_back(depth_of(cover_at(lattice, cell, strip)));
   }
   return profile;
 }
 
-DepthProfile pooled_profile(const Lattice& lattice, bool along_r, double reach_m) {
+DepthProfile pooled_profile(const Lattice& lattice, double reach_m) {
   const double cell_m = lattice.view.cell_m();
   const int bins = static_cast<int>(reach_m / cell_m);
   std::vector<double> cover(static_cast<std::size_t>(2 * bins + 1)), count(cover);
   for (const Place& place : lattice.places) {
-    const double center = (along_r ? place.r_m : place.c_m) / cell_m;
-    const Strip strip = strip_of(lattice, place, along_r);
+    const double center = place.r_m / cell_m;
+    const Band strip = strip_of(lattice, place);
     for (int bin = -bins; bin <= bins; ++bin) {
       const int cell = static_cast<int>(std::lround(center + bin - 0.5));  // its middle is at + 1/2
-      if (!seen_at(lattice, along_r, cell, strip)) continue;
-      cover[static_cast<std::size_t>(bin + bins)] += cover_at(lattice, along_r, cell, strip);
+      if (!seen_at(lattice, cell, strip)) continue;
+      cover[static_cast<std::size_t>(bin + bins)] += cover_at(lattice, cell, strip);
       count[static_cast<std::size_t>(bin + bins)] += 1;
     }
   }

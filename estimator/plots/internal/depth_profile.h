@@ -15,10 +15,10 @@ struct DepthProfile {
   std::vector<double> x_m, depth;
 };
 
-// Along r or c, over the middle four fifths of the plot's other side, as far as reach_m.
-DepthProfile profile_of(const Lattice& lattice, const Place& place, bool along_r, double reach_m);
+// Along r, over the middle four fifths of the plot's other side, as far as reach_m.
+DepthProfile profile_of(const Lattice& lattice, const Place& place, double reach_m);
 // The same from the mean cover of all plots.
-DepthProfile pooled_profile(const Lattice& lattice, bool along_r, double reach_m);
+DepthProfile pooled_profile(const Lattice& lattice, double reach_m);
 
 // Depth of the middle of the plot, within size_m.
 double plateau_depth(const DepthProfile& profile, double size_m);

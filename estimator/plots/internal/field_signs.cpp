@@ -40,10 +40,6 @@ constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furnitur
 // Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01.
 constexpr double kLeastConfidence = 0.05;
 
-CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
-  return cells_about(lattice, place.r_m, place.c_m, around_m);
-}
-
 double canopy_in(const RowView& view, const CellBox& box) {
   return view.cover(box.r0, box.r1, box.c0, box.c1) *
          view.seen_cells(box.r0, box.r1, box.c0, box.c1);
@@ -57,8 +53,8 @@ struct Patch {
 
 Patch pooled(const Lattice& lattice, double around_m) {
   const double cell_m = lattice.view.cell_m();
-  Patch patch{.r_cells = static_cast<int>((lattice.r_size_m + 2 * around_m) / cell_m),
-              .c_cells = static_cast<int>((lattice.c_size_m + 2 * around_m) / cell_m)};
+  Patch patch{.r_cells = static_cast<int>((lattice.r.size_m + 2 * around_m) / cell_m),
+              .c_cells = static_cast<int>((lattice.c.size_m + 2 * around_m) / cell_m)};
   patch.canopy.assign(
       static_cast<std::size_t>(patch.r_cells) * static_cast<std::size_t>(patch.c_cells), 0);
   patch.seen = patch.canopy;
@@ -110,8 +106,8 @@ double squareness_of(const Lattice& lattice) {
   const auto half_gap = [](double pitch_m, double size_m) {
     return pitch_m > 0 ? std::max(0.0, (pitch_m - size_m) / 2) : kAround_m;
   };
-  const double around_m = std::clamp(std::min(half_gap(lattice.r_pitch_m, lattice.r_size_m),
-                                              half_gap(lattice.c_pitch_m, lattice.c_size_m)),
+  const double around_m = std::clamp(std::min(half_gap(lattice.r.pitch_m, lattice.r.size_m),
+                                              half_gap(lattice.c.pitch_m, lattice.c.size_m)),
                                      kLeastAround_m, kAround_m);
   const Patch patch = pooled(lattice, around_m);
   const double of_ellipse =
@@ -125,8 +121,8 @@ double least_gap_m(const Lattice& lattice) {
   const auto gap = [](double pitch_m, double size_m) {
     return pitch_m > 0 ? pitch_m - size_m : std::numeric_limits<double>::infinity();
   };
-  return std::min(gap(lattice.r_pitch_m, lattice.r_size_m),
-                  gap(lattice.c_pitch_m, lattice.c_size_m));
+  return std::min(gap(lattice.r.pitch_m, lattice.r.size_m),
+                  gap(lattice.c.pitch_m, lattice.c.size_m));
 }
 
 double filled_share(const Lattice& lattice) {
@@ -146,18 +142,15 @@ class Pieces {
  public:
   explicit Pieces(const Lattice& lattice)
       : lattice_(lattice),
-        r_parts_(parts_of(lattice.r_size_m)),
-        c_parts_(parts_of(lattice.c_size_m)) {}
+        r_parts_(parts_of(lattice.r.size_m)),
+        c_parts_(parts_of(lattice.c.size_m)) {}
 
   std::vector<double> of(const Place& place) const {
     const CellBox box = cells_about(lattice_, place, 0);
     std::vector<double> canopy;
-    for (int i = 0; i < r_parts_; ++i)
-      for (int k = 0; k < c_parts_; ++k)
-        canopy.push_back(lattice_.view.cover(box.r0 + (box.r1 - box.r0) * i / r_parts_,
-                                             box.r0 + (box.r1 - box.r0) * (i + 1) / r_parts_,
-                                             box.c0 + (box.c1 - box.c0) * k / c_parts_,
-                                             box.c0 + (box.c1 - box.c0) * (k + 1) / c_parts_));
+    for (const Band& r : equal_parts({box.r0, box.r1}, r_parts_))
+      for (const Band& c : equal_parts({box.c0, box.c1}, c_parts_))
+        canopy.push_back(lattice_.view.cover(r.begin, r.end, c.begin, c.end));
     return canopy;
   }
 
@@ -179,15 +172,12 @@ class Pieces {
   int r_parts_, c_parts_;
 };
 
-double spread_over_mean(std::span<const double> canopy) {
-  double sum = 0, squares = 0;
-  for (const double value : canopy) {
-    sum += value;
-    squares += value * value;
-  }
-  const double mean = sum / static_cast<double>(canopy.size());
-  return std::sqrt(std::max(0.0, squares / static_cast<double>(canopy.size()) - mean * mean)) /
-         std::max(1e-9, mean);
+double spread_over_mean(const std::vector<double>& canopy) {
+  const double middle = mean(canopy);
+  double squares = 0;
+  for (const double value : canopy) squares += value * value;
+  const double variance = squares / static_cast<double>(canopy.size()) - middle * middle;
+  return std::sqrt(std::max(0.0, variance)) / std::max(1e-9, middle);
 }
 
 // Median over the plots.
@@ -210,7 +200,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
                     double evidence) {
   const RowView& view = lattice.view;
   const Pieces pieces(lattice);
-  const double sides = std::hypot(lattice.r_size_m, lattice.c_size_m);
+  const double sides = std::hypot(lattice.r.size_m, lattice.c.size_m);
   FieldSigns signs{.plots = lattice.places.size(),
                    .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
@@ -218,8 +208,8 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
                    .roughness = roughness(lattice, field.points(), noise_m),
                    .unevenness = unevenness_of(lattice, pieces),
                    .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
-                   .aspect = std::max(lattice.r_size_m, lattice.c_size_m) /
-                             std::min(lattice.r_size_m, lattice.c_size_m),
+                   .aspect = std::max(lattice.r.size_m, lattice.c.size_m) /
+                             std::min(lattice.r.size_m, lattice.c.size_m),
                    .least_gap_m = least_gap_m(lattice),
                    .evidence = evidence / static_cast<double>(lattice.places.size())};
   for (const Place& place : lattice.places)

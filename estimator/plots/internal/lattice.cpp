@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -21,14 +22,14 @@ constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
 
 double inner_cover(const Lattice& lattice, const Place& place) {
-  const double margin_m = 0.1 * std::min(lattice.r_size_m, lattice.c_size_m);
-  const CellBox box = cells_about(lattice, place.r_m, place.c_m, -margin_m);
+  const double margin_m = 0.1 * std::min(lattice.r.size_m, lattice.c.size_m);
+  const CellBox box = cells_about(lattice, place, -margin_m);
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
 // Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place.r_m, place.c_m, 0);
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
   const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
   const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
@@ -69,8 +70,8 @@ void place_plots(const Layout& layout, Lattice& lattice) {
     }
   }
   lattice.rows = static_cast<int>(layout.rows.size());
-  lattice.r_pitch_m = usual_step(row_steps);
-  lattice.c_pitch_m = usual_step(steps);
+  lattice.r.pitch_m = usual_step(row_steps);
+  lattice.c.pitch_m = usual_step(steps);
 }
 
 // Every place has the nearest of the columns that run through all rows.
@@ -99,7 +100,7 @@ void number_each_row(double pitch_m, Lattice& lattice) {
 
 void number(const Layout& layout, Lattice& lattice) {
   place_plots(layout, lattice);
-  const double pitch_m = lattice.c_pitch_m > 0 ? lattice.c_pitch_m : lattice.c_size_m * 1.2;
+  const double pitch_m = lattice.c.pitch_m > 0 ? lattice.c.pitch_m : lattice.c.size_m * 1.2;
   std::vector<double> positions;
   for (const Place& place : lattice.places) positions.push_back(place.c_m);
   const std::vector<double> columns =
@@ -124,7 +125,7 @@ class MorePlaces {
   void between_plots() {
     for (std::size_t i = 1; i < present_.size(); ++i) {
       const double gap_m = present_[i].c_m - present_[i - 1].c_m;
-      const int steps = static_cast<int>(std::lround(gap_m / lattice_.c_pitch_m));
+      const int steps = static_cast<int>(std::lround(gap_m / lattice_.c.pitch_m));
       for (int k = 1; k < steps; ++k)
         add(present_[i - 1].c_m + gap_m * k / steps, present_[i - 1].column + k);
     }
@@ -134,15 +135,15 @@ class MorePlaces {
   }
   void beyond_ends() {
     if (present_.empty()) return;
-    add(present_.front().c_m - lattice_.c_pitch_m, present_.front().column - 1);
-    add(present_.back().c_m + lattice_.c_pitch_m, present_.back().column + 1);
+    add(present_.front().c_m - lattice_.c.pitch_m, present_.front().column - 1);
+    add(present_.back().c_m + lattice_.c.pitch_m, present_.back().column + 1);
   }
   const std::vector<Place>& added() const { return added_; }
 
  private:
   void add(double c_m, int column) {
     const auto near = [&](const Place& place) {
-      return std::abs(place.c_m - c_m) < lattice_.c_size_m;
+      return std::abs(place.c_m - c_m) < lattice_.c.size_m;
     };
     if (present_.empty() || std::ranges::any_of(present_, near) ||
         std::ranges::any_of(added_, near))
@@ -161,7 +162,7 @@ class MorePlaces {
 // Places between a row's plots, in columns that other rows have and, unless their number was told,
 // beyond its ends.
 void add_places(Lattice& lattice, bool beyond_ends) {
-  if (lattice.c_pitch_m <= 0) return;
+  if (lattice.c.pitch_m <= 0) return;
   std::vector<Place> added;
   for (int row = 0; row < lattice.rows; ++row) {
     MorePlaces more(lattice, row);
@@ -234,20 +235,21 @@ void renumber(Lattice& lattice) {
 
 }  // namespace
 
-CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m) {
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m) {
   const auto at = [&](double m) {
     return static_cast<int>(std::lround(m / lattice.view.cell_m()));
   };
-  const double r_half = lattice.r_size_m / 2 + around_m, c_half = lattice.c_size_m / 2 + around_m;
-  return {at(r_m - r_half), at(r_m + r_half), at(c_m - c_half), at(c_m + c_half)};
+  const double r_half = lattice.r.size_m / 2 + around_m, c_half = lattice.c.size_m / 2 + around_m;
+  return {at(place.r_m - r_half), at(place.r_m + r_half), at(place.c_m - c_half),
+          at(place.c_m + c_half)};
 }
 
 Lattice fit_lattice(const Layout& layout, const Hints& hints) {
+  const double r_m = layout.r_shape.size * layout.view.cell_m();
+  const double c_m = layout.c_shape.size * layout.view.cell_m();
   Lattice lattice{.view = layout.view,
-                  .r_size_m = layout.r_shape.size * layout.view.cell_m(),
-                  .c_size_m = layout.c_shape.size * layout.view.cell_m(),
-                  .r_band_m = layout.r_shape.size * layout.view.cell_m(),
-                  .c_band_m = layout.c_shape.size * layout.view.cell_m()};
+                  .r = {.size_m = r_m, .band_m = r_m},
+                  .c = {.size_m = c_m, .band_m = c_m}};
   number(layout, lattice);
   straighten(lattice);
   add_places(lattice, !hints.rows && !hints.columns);
@@ -259,25 +261,36 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   return lattice;
 }
 
-TrialLayout layout_of(const Lattice& lattice) {
+Lattice Lattice::turned() const {
+  Lattice other = *this;
+  other.view = view.turned();
+  std::swap(other.r, other.c);
+  std::swap(other.rows, other.columns);
+  std::swap(other.r_per_c, other.c_per_r);
+  for (Place& place : other.places) {
+    std::swap(place.row, place.column);
+    std::swap(place.r_m, place.c_m);
+  }
+  return other;
+}
+
+TrialLayout layout_of(const Lattice& any) {
+  const Lattice lattice = any.c.size_m > any.r.size_m ? any.turned() : any;  // length along r
   const RowView& view = lattice.view;
-  const Eigen::Vector2d along_r = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized();
-  const Eigen::Vector2d along_c = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized();
-  const bool by_c = lattice.c_size_m > lattice.r_size_m;  // the plots' length lies along c
   TrialLayout layout{.origin = view.to_world(0, 0),
-                     .row_axis = by_c ? along_r : along_c,
-                     .column_axis = by_c ? along_c : along_r,
-                     .width_m = std::min(lattice.r_size_m, lattice.c_size_m),
-                     .length_m = std::max(lattice.r_size_m, lattice.c_size_m),
-                     .column_pitch_m = by_c ? lattice.r_pitch_m : lattice.c_pitch_m,
-                     .row_pitch_m = by_c ? lattice.c_pitch_m : lattice.r_pitch_m};
+                     .row_axis = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized(),
+                     .column_axis = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized(),
+                     .width_m = lattice.c.size_m,
+                     .length_m = lattice.r.size_m,
+                     .column_pitch_m = lattice.c.pitch_m,
+                     .row_pitch_m = lattice.r.pitch_m};
   Eigen::Matrix2d axes;
   axes << layout.row_axis, layout.column_axis;
   const Eigen::Matrix2d layout_from_world = axes.inverse();
   for (const Place& place : lattice.places) {
     layout.places.push_back(
-        {.row = (by_c ? place.column : place.row) + 1,
-         .column = (by_c ? place.row : place.column) + 1,
+        {.row = place.row + 1,
+         .column = place.column + 1,
          .position_m = layout_from_world * (view.to_world(place.r_m, place.c_m) - layout.origin)});
   }
   return layout;

@@ -20,19 +20,27 @@ struct Place {
   bool full = false;        // holds a plot
 };
 
+// What the plots have in common along one of the view's axes, metres.
+struct Side {
+  double size_m = 0;    // of a plot
+  double band_m = 0;    // of the layout's bands
+  double blur_m = 0.1;  // sigma of the leaves' spread over the edges
+  double pitch_m = 0;   // 0 where there is one row or one column only
+  double rms_m = 0;     // plots' centres about the lattice
+};
+
 struct Lattice {
   RowView view;
-  double r_size_m = 0, c_size_m = 0;      // of a plot
-  double r_band_m = 0, c_band_m = 0;      // of the layout's bands
-  double r_blur_m = 0.1, c_blur_m = 0.1;  // sigma of the leaves' spread over the edges
-  double r_pitch_m = 0, c_pitch_m = 0;    // 0 where there is one row or one column only
+  Side r, c;
   int rows = 0, columns = 0;
   bool aligned = true;  // columns run through all rows; else every row has its own offset
   double r_per_c = 0;   // how far a row's plots move along r for every metre along c
   double c_per_r = 0;   // how far a column's plots move along c for every metre along r
-  double r_rms_m = 0, c_rms_m = 0;  // plots' centres about the lattice
-  double contrast = 0;              // median of the plots' sides
+  double contrast = 0;  // median of the plots' sides
   std::vector<Place> places = {};
+
+  // The same with r and c exchanged, for what is measured along either axis alike.
+  Lattice turned() const;
 };
 
 // Cells [r0, r1) x [c0, c1) of the lattice's raster.
@@ -40,8 +48,8 @@ struct CellBox {
   int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
 };
 
-// Those of a plot about (r_m, c_m), and so much around it.
-CellBox cells_about(const Lattice& lattice, double r_m, double c_m, double around_m);
+// Those of a place's plot, and so much around it.
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m);
 
 // The lattice through a layout's plots: places between them and beyond their ends are tested for
 // canopy, and so are the layout's plots. Where their number was told, the places with the most

@@ -7,9 +7,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeafClump_m = 0.3;  // cells of a square of that side see the same leaves
-constexpr double kMostGap_m = 1.5;    // that leaves may close
-constexpr double kPiece_m = 1;        // in which a canopy is even
+constexpr double kMostGap_m = 1.5;  // that leaves may close
+constexpr double kPiece_m = 1;      // in which a canopy is even
 
 struct Sums {
   double cells = 0, canopy = 0, squares = 0;
@@ -40,7 +39,7 @@ Sums sums_over(const RowView& view, const Band& r, const Band& c) {
 
 // Squares of leaves that anything is seen of.
 double seen_clumps(const RowView& view) {
-  const int side = std::max(1, static_cast<int>(std::lround(kLeafClump_m / view.cell_m())));
+  const int side = std::max(1, static_cast<int>(std::lround(kLeaf_m / view.cell_m())));
   double seen = 0;
   for (int r = 0; r < view.r_cells(); r += side)
     for (int c = 0; c < view.c_cells(); c += side)
@@ -50,12 +49,8 @@ double seen_clumps(const RowView& view) {
 
 // Equal parts of a band, about as long as a piece.
 std::vector<Band> pieces_of(const Band& band, double cell_m) {
-  const int parts = std::max(1, static_cast<int>(std::lround(band.size() * cell_m / kPiece_m)));
-  std::vector<Band> pieces;
-  for (int i = 0; i < parts; ++i)
-    pieces.push_back(
-        {band.begin + band.size() * i / parts, band.begin + band.size() * (i + 1) / parts});
-  return pieces;
+  return equal_parts(band,
+                     std::max(1, static_cast<int>(std::lround(band.size() * cell_m / kPiece_m))));
 }
 
 double number_of_lines(const Layout& layout) {

@@ -11,36 +11,48 @@
 namespace plotscan::plots {
 namespace {
 
+// All chosen.
+constexpr double kEdgeReach_m = 0.3;       // about an edge, of what the box is fitted to
+constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through half the depth,
+constexpr int kRounds = 4;                 // which is sought so often,
+constexpr double kMostHalfDepth_m = 0.15;  // and is taken if it lies so near the box's edge
+constexpr double kMostOfBand_m = 0.3;      // from the size of the layout's bands
+
 struct EdgeFit {
   double size_m = 0;
   double blur_m = 0;  // sigma of the leaves' spread over the edge
 };
 
 // Share of the plots that have a neighbour one pitch further.
-double neighbour_share(const Lattice& lattice, bool along_r) {
+double neighbour_share(const Lattice& lattice) {
+  const double pitch_m = lattice.r.pitch_m;
   double with = 0;
   for (const Place& place : lattice.places) {
     with += std::ranges::any_of(lattice.places, [&](const Place& other) {
-      const double step = along_r ? other.r_m - place.r_m : other.c_m - place.c_m;
-      const double aside = along_r ? other.c_m - place.c_m : other.r_m - place.r_m;
-      const double pitch = along_r ? lattice.r_pitch_m : lattice.c_pitch_m;
-      return std::abs(step - pitch) < 0.2 * pitch &&
-             std::abs(aside) < 0.5 * (along_r ? lattice.c_size_m : lattice.r_size_m);
+      return std::abs(other.r_m - place.r_m - pitch_m) < 0.2 * pitch_m &&
+             std::abs(other.c_m - place.c_m) < 0.5 * lattice.c.size_m;
     });
   }
   return with / std::max<double>(1, static_cast<double>(lattice.places.size()));
 }
 
+// Of a plot, along r.
+struct Neighbours {
+  double pitch_m = 0, share = 0;
+
+  double canopy(const BlurredBox& box, double x_m) const {
+    return pitch_m > 0 ? box(x_m - pitch_m) + box(x_m + pitch_m) : 0;
+  }
+};
+
 // Squares about depth * box + level in the edges' reach, the level at least 0.
-double squares_of(const DepthProfile& profile, double depth, const BlurredBox& shape, double pitch,
-                  double share, double edge_m) {
+double squares_of(const DepthProfile& profile, double depth, const BlurredBox& box,
+                  const Neighbours& near, double edge_m) {
   double n = 0, rest = 0, squares = 0;
   for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
     const double x = profile.x_m[i];
-    if (std::abs(std::abs(x) - edge_m) > 0.3) continue;
-    double box = shape(x);
-    if (pitch > 0) box += share * (shape(x - pitch) + shape(x + pitch));
-    const double left = profile.depth[i] - depth * box;
+    if (std::abs(std::abs(x) - edge_m) > kEdgeReach_m) continue;
+    const double left = profile.depth[i] - depth * (box(x) + near.share * near.canopy(box, x));
     n += 1;
     rest += left;
     squares += left * left;
@@ -51,20 +63,16 @@ double squares_of(const DepthProfile& profile, double depth, const BlurredBox& s
 
 // Where the depth falls through half of the plateau's, of both sides together, from the line
 // through the samples about it; the neighbours' share in it is taken away first.
-double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit, double pitch,
-                       double share) {
-  constexpr double kAbout_m = 0.1;
+double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit,
+                       const Neighbours& near) {
   double size = fit.size_m;
-  for (int round = 0; round < 4; ++round) {
-    const BlurredBox shape(size, fit.blur_m);
+  for (int round = 0; round < kRounds; ++round) {
+    const BlurredBox box(size, fit.blur_m);
     double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
     for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
-      const double signed_x = profile.x_m[i], x = std::abs(signed_x) - size / 2;
-      if (std::abs(x) > kAbout_m) continue;
-      double y = profile.depth[i];
-      if (pitch > 0) {
-        y -= depth * share * (shape(signed_x - pitch) + shape(signed_x + pitch));
-      }
+      const double x = std::abs(profile.x_m[i]) - size / 2;
+      if (std::abs(x) > kHalfDepthReach_m) continue;
+      const double y = profile.depth[i] - depth * near.share * near.canopy(box, profile.x_m[i]);
       n += 1;
       x_sum += x;
       y_sum += y;
@@ -73,48 +81,45 @@ double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit&
     }
     const double slope = (n * xy - x_sum * y_sum) / (n * xx - x_sum * x_sum);
     if (!(slope < 0)) return fit.size_m;
-    const double crossing = (depth / 2 - (y_sum - slope * x_sum) / n) / slope;
-    size += 2 * std::clamp(crossing, -0.1, 0.1);
+    const double crossing_m = (depth / 2 - (y_sum - slope * x_sum) / n) / slope;
+    size += 2 * std::clamp(crossing_m, -kHalfDepthReach_m, kHalfDepthReach_m);
   }
   return size;
 }
 
-EdgeFit fit_edges_along(const Lattice& lattice, bool along_r) {
-  const double size_m = along_r ? lattice.r_size_m : lattice.c_size_m;
-  const double pitch_m = along_r ? lattice.r_pitch_m : lattice.c_pitch_m;
+// Along r.
+EdgeFit fit_edges_along(const Lattice& lattice) {
+  const double size_m = lattice.r.size_m, pitch_m = lattice.r.pitch_m, band_m = lattice.r.band_m;
   const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;
   const DepthProfile profile =
-      pooled_profile(lattice, along_r, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
-  const double share = pitch_m > 0 ? neighbour_share(lattice, along_r) : 0;
+      pooled_profile(lattice, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
+  const Neighbours near{pitch_m, pitch_m > 0 ? neighbour_share(lattice) : 0};
   const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
   double best_squares = std::numeric_limits<double>::infinity();
   for (double size = size_m - 0.35; size <= size_m + 0.35; size += 0.01) {
     if (size < 0.2) continue;
     for (double blur = 0.03; blur <= 0.25; blur += 0.02) {
-      const double squares =
-          squares_of(profile, depth, BlurredBox(size, blur), pitch_m, share, size_m / 2);
+      const double squares = squares_of(profile, depth, BlurredBox(size, blur), near, size_m / 2);
       if (squares >= best_squares) continue;
       best_squares = squares;
       best = {.size_m = size, .blur_m = blur};
     }
   }
-  const double half_m = half_depth_size(profile, depth, best, pitch_m, share);
-  if (std::abs(half_m - best.size_m) < 0.15) best.size_m = half_m;
+  const double half_m = half_depth_size(profile, depth, best, near);
+  if (std::abs(half_m - best.size_m) < kMostHalfDepth_m) best.size_m = half_m;
+  best.size_m = std::clamp(best.size_m, band_m - kMostOfBand_m, band_m + kMostOfBand_m);
   return best;
 }
 
 }  // namespace
 
 void fit_edges(Lattice& lattice) {
-  constexpr double kMost_m = 0.3;  // from the size of the bands
-  EdgeFit r = fit_edges_along(lattice, true), c = fit_edges_along(lattice, false);
-  r.size_m = std::clamp(r.size_m, lattice.r_band_m - kMost_m, lattice.r_band_m + kMost_m);
-  c.size_m = std::clamp(c.size_m, lattice.c_band_m - kMost_m, lattice.c_band_m + kMost_m);
-  lattice.r_size_m = r.size_m;
-  lattice.r_blur_m = r.blur_m;
-  lattice.c_size_m = c.size_m;
-  lattice.c_blur_m = c.blur_m;
+  const EdgeFit r = fit_edges_along(lattice), c = fit_edges_along(lattice.turned());
+  lattice.r.size_m = r.size_m;
+  lattice.r.blur_m = r.blur_m;
+  lattice.c.size_m = c.size_m;
+  lattice.c.blur_m = c.blur_m;
 }
 
 }  // namespace plotscan::plots

@@ -27,10 +27,10 @@ class PlaceOfCell {
   explicit PlaceOfCell(const Lattice& lattice)
       : raster_(*lattice.view.raster), ab_from_world_(raster_.frame().ab_from_world()) {
     number_.assign(cells(raster_.a_cells()) * cells(raster_.b_cells()), kNone);
-    const double inset_m = -kMargin * std::min(lattice.r_size_m, lattice.c_size_m);
+    const double inset_m = -kMargin * std::min(lattice.r.size_m, lattice.c.size_m);
     for (std::size_t i = 0; i < lattice.places.size(); ++i) {
       const Place& place = lattice.places[i];
-      const CellBox box = cells_about(lattice, place.r_m, place.c_m, inset_m);
+      const CellBox box = cells_about(lattice, place, inset_m);
       for (int r = box.r0; r < box.r1; ++r) {
         for (int c = box.c0; c < box.c1; ++c) {
           const int a = lattice.view.swapped ? c : r, b = lattice.view.swapped ? r : c;

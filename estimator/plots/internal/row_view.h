@@ -3,6 +3,8 @@
 
 // Private to the library: a canopy raster as rows of plots see it.
 
+#include <vector>
+
 #include "plots/internal/canopy_raster.h"
 
 namespace plotscan::plots {
@@ -15,6 +17,18 @@ struct Band {
   int size() const { return end - begin; }
   double middle() const { return 0.5 * (begin + end); }
 };
+
+// One after the other; their sizes differ by a cell at most.
+inline std::vector<Band> equal_parts(const Band& band, int count) {
+  std::vector<Band> parts;
+  for (int i = 0; i < count; ++i)
+    parts.push_back(
+        {band.begin + band.size() * i / count, band.begin + band.size() * (i + 1) / count});
+  return parts;
+}
+
+// Cells so near see the same leaves. Chosen.
+inline constexpr double kLeaf_m = 0.3;
 
 // A raster seen with its rows of plots across: `r` counts cells from row to row, `c` along a row.
 struct RowView {

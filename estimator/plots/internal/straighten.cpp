@@ -135,7 +135,7 @@ struct Centers {
 };
 
 Centers measured_centers(const Lattice& lattice) {
-  const auto r_shifts = measured_shifts(lattice, true), c_shifts = measured_shifts(lattice, false);
+  const auto r_shifts = measured_shifts(lattice), c_shifts = measured_shifts(lattice.turned());
   std::vector<int> rows, columns;
   std::vector<double> r, c;
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
@@ -260,13 +260,13 @@ void straighten(Lattice& lattice) {
       directions_of(centers, rows, skew, lattice.view.r_axis().dot(lattice.view.c_axis()));
   lattice.r_per_c = directions.r_per_c;
   lattice.c_per_r = directions.c_per_r;
-  lattice.r_rms_m = rows.rms_m;
-  lattice.c_rms_m = columns.rms_m;
+  lattice.r.rms_m = rows.rms_m;
+  lattice.c.rms_m = columns.rms_m;
 
   std::vector<double> r_at_0 = centers.r;
   for (std::size_t i = 0; i < r_at_0.size(); ++i) r_at_0[i] -= lattice.r_per_c * centers.c[i];
   const std::vector<double> row_at =
-      with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r_rms_m);
+      with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r.rms_m);
   if (directions.columns_straight)
     columns.row_offset = offsets_on_line(centers, columns, lattice.c_per_r);
   const std::vector<double> row_middle = centers.row.means(centers.r);

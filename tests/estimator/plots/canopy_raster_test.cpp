@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/canopy_raster.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace plotscan::plots {
+namespace {
+
+// 7 x 9 cells with 0 to 3 returns, each with 0 to 200 steps of cover; cells without are unseen.
+struct Cells {
+  std::vector<std::uint64_t> sums;
+  std::vector<double> cover, seen;
+
+  Cells() {
+    for (std::uint64_t i = 0; i < 63; ++i) {
+      RandomStream random(1, random_purpose("test/raster"), i);
+      const auto count = static_cast<std::uint64_t>(random.uniform(0, 4));
+      const auto steps = static_cast<std::uint64_t>(random.uniform(0, 200));
+      sums.push_back(count + (count * steps << 32));
+      cover.push_back(static_cast<double>(steps) / 200);
+      seen.push_back(count > 0 ? 1 : 0);
+    }
+  }
+};
+
+TEST(CanopyRaster, SumsAreWhatAddingCellByCellGives) {
+  const Cells cells;
+  const CanopyRaster raster({}, 0.1, 7, 9, cells.sums);
+  for (int a0 = -1; a0 < 7; ++a0) {
+    for (int b0 = -1; b0 < 9; ++b0) {
+      const int a1 = a0 + 3, b1 = b0 + 4;
+      double seen = 0, cover = 0;
+      for (int a = std::max(0, a0); a < std::min(7, a1); ++a) {
+        for (int b = std::max(0, b0); b < std::min(9, b1); ++b) {
+          const auto at = static_cast<std::size_t>(9 * a + b);
+          seen += cells.seen[at];
+          cover += cells.seen[at] * cells.cover[at];
+        }
+      }
+      EXPECT_EQ(raster.seen_cells(a0, a1, b0, b1), seen);
+      EXPECT_NEAR(raster.cover(a0, a1, b0, b1), seen > 0 ? cover / seen : 0, 1e-12);
+    }
+  }
+}
+
+Frame oblique() {
+  return {.a_axis = {std::cos(0.3), std::sin(0.3)}, .b_axis = {std::cos(1.7), std::sin(1.7)}};
+}
+
+TEST(Frame, LeadsToTheWorldAndBack) {
+  Frame frame = oblique();
+  frame.origin = {4, -7};
+  const Eigen::Vector2d world = frame.to_world({2, 3});
+  EXPECT_NEAR(world.x(), 4 + 2 * std::cos(0.3) + 3 * std::cos(1.7), 1e-12);
+  EXPECT_NEAR(world.y(), -7 + 2 * std::sin(0.3) + 3 * std::sin(1.7), 1e-12);
+  EXPECT_LT((frame.ab_from_world() * (world - frame.origin) - Eigen::Vector2d(2, 3)).norm(), 1e-12);
+}
+
+// Every cell holds the mean share of the points that lie in its parallelogram.
+TEST(Rasterise, PutsEveryPointInItsCell) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    RandomStream random(2, random_purpose("test/raster"), i);
+    points.emplace_back(static_cast<float>(random.uniform(10, 14)),
+                        static_cast<float>(random.uniform(-3, 1)),
+                        static_cast<float>(random.uniform(0, 1)));
+  }
+  const FieldCanopy field(points, 0.02, 2);
+  const CanopyScale scale{0.2, 0.7};
+  const CanopyRaster raster = rasterise(field, oblique(), 0.4, {&scale, 1}, 2).front();
+  const Frame& frame = raster.frame();
+  for (int a = 0; a < raster.a_cells(); ++a) {
+    for (int b = 0; b < raster.b_cells(); ++b) {
+      double count = 0, share = 0;
+      for (const Eigen::Vector3f& point : points) {
+        // By Cramer's rule, not by the frame's inverse.
+        const Eigen::Vector2d from = point.head<2>().cast<double>() - frame.origin;
+        const double angle = std::sin(1.7 - 0.3);
+        const double at_a = (from.x() * std::sin(1.7) - from.y() * std::cos(1.7)) / angle / 0.4;
+        const double at_b = (from.y() * std::cos(0.3) - from.x() * std::sin(0.3)) / angle / 0.4;
+        if (std::floor(at_a + 1e-9) != a || std::floor(at_b + 1e-9) != b) continue;
+        ++count;
+        share += std::clamp((point.z() - 0.2) / 0.5, 0.0, 1.0);
+      }
+      EXPECT_EQ(raster.seen_cells(a, a + 1, b, b + 1), count > 0 ? 1 : 0);
+      EXPECT_NEAR(raster.cover(a, a + 1, b, b + 1), share / std::max(1.0, count), 0.01);
+    }
+  }
+}
+
+TEST(Rasterise, OfNoPointsHasNoCells) {
+  const CanopyScale scale{0.2, 0.7};
+  EXPECT_EQ(rasterise(FieldCanopy({}, 0.02, 1), {}, 0.1, {&scale, 1}, 1).front().a_cells(), 0);
+}
+
+}  // namespace
+}  // namespace plotscan::plots

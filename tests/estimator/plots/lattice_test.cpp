@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/lattice.h"
+
+#include <set>
+
+#include "known_trial.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace plotscan::plots {
+namespace {
+
+// The bands that the trial's plots are, but for those in the `unseen` rows and columns.
+Layout bands_of(const TrialLayout& trial, const CanopyRaster& raster,
+                const std::set<std::pair<int, int>>& unseen = {}) {
+  Layout layout{.view = {.raster = &raster}, .r_shape = {.size = 60}, .c_shape = {.size = 30}};
+  layout.rows.resize(static_cast<std::size_t>(trial.rows()));
+  for (const TrialPlace& place : trial.places) {
+    const Eigen::Vector2d center = trial.box(place).center;
+    const int r = static_cast<int>(std::lround((center.x() - 1.5) / 0.05));
+    const int c = static_cast<int>(std::lround((center.y() - 0.75) / 0.05));
+    Row& row = layout.rows[static_cast<std::size_t>(place.row - 1)];
+    row.band = {r, r + 60};
+    if (!unseen.contains({place.row, place.column})) row.plots.push_back({c, c + 30});
+  }
+  return layout;
+}
+
+void expect_places(const TrialLayout& found, const TrialLayout& truth) {
+  ASSERT_EQ(found.places.size(), truth.places.size());
+  for (std::size_t i = 0; i < truth.places.size(); ++i) {
+    EXPECT_EQ(found.places[i].row, truth.places[i].row);
+    EXPECT_EQ(found.places[i].column, truth.places[i].column);
+    EXPECT_GT(intersection_over_union(found.box(found.places[i]), truth.box(truth.places[i])),
+              0.97);
+  }
+}
+
+TEST(Lattice, IsTheTrialThatTheBandsShow) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  const TrialLayout found = layout_of(fit_lattice(bands_of(trial, raster), {}));
+  expect_places(found, trial);
+  EXPECT_NEAR(found.column_pitch_m, 1.9, 0.01);
+  EXPECT_NEAR(found.row_pitch_m, 3.8, 0.01);
+  EXPECT_NEAR(found.skew_rad(), 0, 0.001);
+}
+
+// Between others and at the end; not where no plot stands.
+TEST(Lattice, HasPlacesThatTheBandsLeftOut) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  trial.places.erase(trial.places.begin() + 7);
+  const CanopyRaster raster = canopy_of(trial);
+  expect_places(layout_of(fit_lattice(bands_of(trial, raster, {{1, 2}, {3, 5}}), {})), trial);
+}
+
+TEST(Lattice, LeavesOutBandsWithoutCanopy) {
+  const TrialLayout bands = known_trial({0, 0, 0});
+  TrialLayout trial = bands;
+  trial.places.erase(trial.places.begin() + 8);
+  const CanopyRaster raster = canopy_of(trial);
+  expect_places(layout_of(fit_lattice(bands_of(bands, raster), {})), trial);
+}
+
+TEST(Lattice, HoldsTheNumberOfPlotsThatWasTold) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  EXPECT_EQ(fit_lattice(bands_of(trial, raster), {.plots = 13}).places.size(), 13U);
+}
+
+// Rows that start elsewhere have no columns in common; numbers count pitches along each row.
+TEST(Lattice, NumbersEachRowBySteps) {
+  TrialLayout trial = known_trial({0, 0.9, 0});
+  trial.places.erase(trial.places.begin() + 2);
+  const CanopyRaster raster = canopy_of(trial);
+  Layout layout = bands_of(trial, raster);
+  layout.aligned = false;
+  const Lattice lattice = fit_lattice(layout, {});
+  EXPECT_FALSE(lattice.aligned);
+  std::vector<int> first_row;
+  for (const Place& place : lattice.places)
+    if (place.row == 0) first_row.push_back(place.column);
+  EXPECT_THAT(first_row, testing::ElementsAre(0, 1, 3, 4));
+}
+
+// The same field, whichever axis is called r; its length stays the longer side.
+TEST(Lattice, TurnedIsTheSameTrial) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  lattice.r_per_c = 0.02;
+  const TrialLayout one = layout_of(lattice), other = layout_of(lattice.turned());
+  EXPECT_EQ(one.length_m, 3);
+  EXPECT_EQ(one.row_axis, other.row_axis);
+  EXPECT_EQ(one.column_axis, other.column_axis);
+  EXPECT_NEAR(one.skew_rad(), -0.02, 1e-4);
+  for (std::size_t i = 0; i < one.places.size(); ++i) {
+    EXPECT_EQ(one.places[i].row, other.places[i].row);
+    EXPECT_EQ(one.places[i].position_m, other.places[i].position_m);
+  }
+}
+
+TEST(CellsAbout, AreThoseOfThePlotAndWhatIsAroundIt) {
+  const TrialLayout trial = known_trial({0}, 1);
+  const CanopyRaster raster = canopy_of(trial);
+  const Lattice lattice = lattice_of(trial, raster);
+  const CellBox box = cells_about(lattice, lattice.places.front(), 0.1);
+  EXPECT_EQ(box.r0, 28);  // (3 - 1.5 - 0.1) / 0.05
+  EXPECT_EQ(box.r1, 92);
+  EXPECT_EQ(box.c0, 23);  // (2 - 0.75 - 0.1) / 0.05
+  EXPECT_EQ(box.c1, 57);
+}
+
+}  // namespace
+}  // namespace plotscan::plots

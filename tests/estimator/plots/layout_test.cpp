@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/layout.h"
+
+#include "known_trial.h"
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "plots/internal/layout_criterion.h"
+
+namespace plotscan::plots {
+namespace {
+
+// Every plot of the trial is one of the layout's, to two cells.
+void expect_layout(const Layout& found, const TrialLayout& trial) {
+  std::vector<Eigen::Vector2d> centres;
+  for (const Row& row : found.rows)
+    for (const Band& plot : row.plots)
+      centres.push_back(found.view.to_world(row.band.middle() * 0.05, plot.middle() * 0.05));
+  ASSERT_EQ(centres.size(), trial.places.size());
+  for (const TrialPlace& place : trial.places) {
+    double nearest_m = 1e9;
+    for (const Eigen::Vector2d& centre : centres)
+      nearest_m = std::min(nearest_m, (centre - trial.box(place).center).norm());
+    EXPECT_LT(nearest_m, 0.1);
+  }
+  const int length = std::max(found.r_shape.size, found.c_shape.size);
+  const int width = std::min(found.r_shape.size, found.c_shape.size);
+  EXPECT_NEAR(length * 0.05, 3, 0.15);
+  EXPECT_NEAR(width * 0.05, 1.5, 0.15);
+}
+
+TEST(BestLayout, IsTheTrialThatStandsThere) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  const Layout found = best_layout(raster);
+  expect_layout(found, trial);
+  EXPECT_TRUE(found.aligned);
+  EXPECT_NEAR(found.evidence, 0.5 * (criterion({.view = found.view}) - criterion(found)), 1e-9);
+}
+
+TEST(BestLayout, FollowsRowsThatStartAtOffsets) {
+  const TrialLayout trial = known_trial({0.8, 0, 0.4});
+  const CanopyRaster raster = canopy_of(trial);
+  const Layout found = best_layout(raster);
+  expect_layout(found, trial);
+  EXPECT_FALSE(found.aligned);
+}
+
+TEST(BestLayout, LeavesOutThePlotThatIsMissing) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  trial.places.erase(trial.places.begin() + 7);
+  const CanopyRaster raster = canopy_of(trial);
+  expect_layout(best_layout(raster), trial);
+}
+
+TEST(BestLayout, HasTheRowsAndColumnsThatWereTold) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  expect_layout(best_layout(raster, {.rows = 3, .columns = 5}), trial);
+  EXPECT_TRUE(best_layout(raster, {.rows = 4}).rows.empty());
+}
+
+TEST(BestLayout, IsNoneOfALevelCanopy) {
+  const CanopyRaster level = raster_of(10, 10, [](double, double) { return 0.5; });
+  EXPECT_TRUE(best_layout(level).rows.empty());
+}
+
+// Small enough to add up by hand: 40 x 50 cells of 10 cm, two rows of two plots of 1 x 1.2 m whose
+// pieces and gaps, of 0.5 m, are each one rectangle.
+TEST(Criterion, IsWhatAddingCellByCellGives) {
+  std::vector<double> cover(40 * 50);
+  const CanopyRaster raster = raster_of(
+      4, 5,
+      [&](double a, double b) {
+        const auto at =
+            static_cast<std::size_t>(50 * static_cast<int>(a * 10) + static_cast<int>(b * 10));
+        RandomStream random(9, random_purpose("test/criterion"), at);
+        return cover[at] = std::round(200 * random.uniform()) / 200;
+      },
+      0.1);
+  Layout layout{.view = {.raster = &raster}};
+  for (const int r : {5, 20}) layout.rows.push_back({{r, r + 10}, {{3, 15}, {20, 32}}});
+  const auto squares = [&](const auto& belongs) {
+    double n = 0, sum = 0, sum2 = 0;
+    for (int a = 0; a < 40; ++a) {
+      for (int b = 0; b < 50; ++b) {
+        if (!belongs(a, b)) continue;
+        const double canopy = cover[static_cast<std::size_t>(50 * a + b)];
+        n += 1;
+        sum += canopy;
+        sum2 += canopy * canopy;
+      }
+    }
+    return sum2 - sum * sum / n;
+  };
+  const std::vector<Band> rows = {{5, 15}, {15, 20}, {20, 30}};  // the second is a gap
+  const std::vector<Band> columns = {{3, 15}, {15, 20}, {20, 32}};
+  const auto is_in = [](int cell, const Band& band) {
+    return cell >= band.begin && cell < band.end;
+  };
+  double left = squares([&](int a, int b) {
+    const bool crossing = is_in(a, rows[1]) && is_in(b, columns[1]);  // four plots' corners
+    return crossing || a < 5 || a >= 30 || b < 3 || b >= 32;
+  });
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (r != 1 || c != 1)
+        left += squares([&](int a, int b) { return is_in(a, rows[r]) && is_in(b, columns[c]); });
+  const double clumps = 14 * 17;  // squares of three cells
+  const double lines = 2 + 2;     // two rows, two columns
+  EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * lines, 1e-6);
+  layout.aligned = false;  // each row's plots have lines of their own
+  EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * 6, 1e-6);
+}
+
+}  // namespace
+}  // namespace plotscan::plots

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "known_trial.h"
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace plotscan::plots {
+namespace {
+
+// Every place lies up to 6 cm off its plot; what straightens them has the canopy to go by.
+void expect_straightened(const TrialLayout& trial, bool aligned) {
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  lattice.aligned = aligned;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    RandomStream random(6, random_purpose("test/straighten"), i);
+    lattice.places[i].r_m += random.uniform(-0.06, 0.06);
+    lattice.places[i].c_m += random.uniform(-0.06, 0.06);
+  }
+  straighten(lattice);
+  for (std::size_t i = 0; i < trial.places.size(); ++i) {
+    const Eigen::Vector2d truth = trial.box(trial.places[i]).center;
+    EXPECT_NEAR(lattice.places[i].r_m, truth.x(), 0.012) << i;
+    EXPECT_NEAR(lattice.places[i].c_m, truth.y(), 0.012) << i;
+  }
+  EXPECT_LT(std::max(lattice.r.rms_m, lattice.c.rms_m), 0.02);
+}
+
+TEST(Straighten, PutsPlacesOnTheRowsAndColumns) {
+  expect_straightened(known_trial({0, 0, 0}), true);
+}
+
+TEST(Straighten, KeepsTheRowsOffsets) {
+  expect_straightened(known_trial({0.5, 0, 0.3}), false);
+  expect_straightened(known_trial({0, 0.15, 0}), true);
+}
+
+TEST(Straighten, KeepsAnAlleyThatIsWider) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  for (TrialPlace& place : trial.places)
+    if (place.column > 2) place.position_m.x() += 0.3;
+  expect_straightened(trial, true);
+}
+
+// Plots that are turned by 0.01 about the view's axes.
+TEST(Straighten, MeasuresHowTheRowsRun) {
+  constexpr double kTurn = 0.01;
+  TrialLayout trial = known_trial({0, 0, 0});
+  trial.column_axis = Eigen::Vector2d(1, kTurn).normalized();
+  trial.row_axis = Eigen::Vector2d(-kTurn, 1).normalized();
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  straighten(lattice);
+  EXPECT_NEAR(lattice.r_per_c, -kTurn, 0.001);
+  EXPECT_NEAR(lattice.c_per_r, kTurn, 0.001);
+}
+
+}  // namespace
+}  // namespace plotscan::plots
