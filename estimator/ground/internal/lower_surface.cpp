@@ -181,38 +181,66 @@ Field finite(const Field& z) {
   return result;
 }
 
-}  // namespace
-
-Field slope_limited(const Grid& grid, const Field& z, double slope) {
-  const auto straight = static_cast<float>(slope * grid.cell_m);
-  const float askew = straight * std::sqrt(2.0f);
-  Field s = z;
-  const auto lower = [&](int c, int r, int dc, int dr, float rise) {
+// Calls relax(node, neighbour, distance in cells) for the neighbours of every node, in the two sweeps
+// of a chamfer distance (Borgefors, 1986).
+template <class Relax>
+void for_chamfer_steps(const Grid& grid, const Relax& relax) {
+  const float askew = std::sqrt(2.0f);
+  const auto step = [&](int c, int r, int dc, int dr, float cells) {
     if (c + dc < 0 || c + dc >= grid.columns || r + dr < 0 || r + dr >= grid.rows) return;
-    float& here = s[grid.index(c, r)];
-    here = std::min(here, s[grid.index(c + dc, r + dr)] + rise);
+    relax(grid.index(c, r), grid.index(c + dc, r + dr), cells);
   };
   for (int r = 0; r < grid.rows; ++r) {
     for (int c = 0; c < grid.columns; ++c) {
-      lower(c, r, -1, 0, straight);
-      lower(c, r, 0, -1, straight);
-      lower(c, r, -1, -1, askew);
-      lower(c, r, 1, -1, askew);
+      step(c, r, -1, 0, 1);
+      step(c, r, 0, -1, 1);
+      step(c, r, -1, -1, askew);
+      step(c, r, 1, -1, askew);
     }
   }
   for (int r = grid.rows - 1; r >= 0; --r) {
     for (int c = grid.columns - 1; c >= 0; --c) {
-      lower(c, r, 1, 0, straight);
-      lower(c, r, 0, 1, straight);
-      lower(c, r, 1, 1, askew);
-      lower(c, r, -1, 1, askew);
+      step(c, r, 1, 0, 1);
+      step(c, r, 0, 1, 1);
+      step(c, r, 1, 1, askew);
+      step(c, r, -1, 1, askew);
     }
   }
+}
+
+// Where z is infinite, that of the nearest node where it is not.
+Field filled_from_nearest(const Grid& grid, const Field& z) {
+  Field filled = z;
+  Field distance(grid.nodes());
+  for (std::size_t i = 0; i < grid.nodes(); ++i) distance[i] = z[i] < kNone ? 0 : kNone;
+  for_chamfer_steps(grid, [&](std::size_t here, std::size_t neighbour, float cells) {
+    if (!(distance[neighbour] + cells < distance[here])) return;
+    distance[here] = distance[neighbour] + cells;
+    filled[here] = filled[neighbour];
+  });
+  return filled;
+}
+
+// The highest surface under the layers that is nowhere too steep for a field; level beyond them.
+Field first_lower_surface(const Grid& grid, const Field& layers) {
+  constexpr double kSteepest = 2.5;
+  Field surface = slope_limited(grid, layers, kSteepest);
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (!(layers[i] < kNone)) surface[i] = kNone;
+  return finite(filled_from_nearest(grid, surface));
+}
+
+}  // namespace
+
+Field slope_limited(const Grid& grid, const Field& z, double slope) {
+  Field s = z;
+  for_chamfer_steps(grid, [&](std::size_t here, std::size_t neighbour, float cells) {
+    s[here] = std::min(s[here], s[neighbour] + static_cast<float>(slope * grid.cell_m) * cells);
+  });
   return s;
 }
 
 Field lower_surface(const Columns& columns, double noise_m) {
-  constexpr double kSteepest = 2.5;
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
   Field surface(grid.nodes(), 0);
@@ -222,7 +250,7 @@ Field lower_surface(const Columns& columns, double noise_m) {
   for (int round = 0; round < 2; ++round) {
     Layer layer = lowest_layer(columns, surface, noise);
     drop_strays(grid, noise, layer);
-    if (round == 0) surface = finite(slope_limited(grid, layer.z_m, kSteepest));
+    if (round == 0) surface = first_lower_surface(grid, layer.z_m);
     const std::vector<Stage> stages =
         round == 0 ? std::vector<Stage>{{6, 0.4f}, {5, 0.25f}, {4, 0.15f}, {3, 0.1f}, {3, 0.1f}}
                    : std::vector<Stage>{{3, 0.08f}, {2, 0.06f}};

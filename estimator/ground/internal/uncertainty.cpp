@@ -157,7 +157,7 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& e
   tbb::parallel_for(0, kDraws, [&](int draw) {
     const Field right = random_right_side(coarse, fit, draw);
     Field error(coarse.nodes(), 0);
-    solve_right_side(coarse, fit, right, {.most_iterations = 150, .tolerance_m = 1e-3}, error);
+    solve_right_side(coarse, fit, right, {.most_iterations = 150, .tolerance_m = 1e-4}, error);
     std::copy(error.begin(), error.end(),
               errors.heights_m.begin() + static_cast<long>(draw * coarse.nodes()));
   });

@@ -73,6 +73,17 @@ class Patch {
   Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
 };
 
+// The height that half of the canopy's volume has its top under: however many blocks of low weeds, or
+// of ground that strips of the survey give different heights, lie around the crop, it is the crop's.
+double usual_top_m(std::vector<double> tops_m) {
+  std::ranges::sort(tops_m);
+  const double half = 0.5 * std::accumulate(tops_m.begin(), tops_m.end(), 0.0);
+  double below = 0;
+  for (const double top_m : tops_m)
+    if ((below += top_m) >= half) return top_m;
+  return tops_m.back();
+}
+
 }  // namespace
 
 struct FieldCanopy::Block {
@@ -203,7 +214,7 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m
     if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kTop));
   }
   leave_out_surfaces();
-  if (!tops.empty()) scale_.high_m = std::max(quantile(std::move(tops), 0.5), 2 * low_m);
+  if (!tops.empty()) scale_.high_m = std::max(usual_top_m(std::move(tops)), 2 * low_m);
 }
 
 }  // namespace plotscan::plots

@@ -131,7 +131,7 @@ TEST(FitSurface, HoldsAgainstStrayPoints) {
 }
 
 TEST(FitSurface, HasNoGroundBeyondReach) {
-  std::vector<Eigen::Vector3f> points = returns_of({.terrain = kPlane, .side_m = 20});
+  std::vector<Eigen::Vector3f> points = returns_of({.terrain = kWaves, .side_m = 20});
   std::erase_if(points, [](const Eigen::Vector3f& p) { return p.x() > 0 && p.y() > 0; });
   const Surface surface = fit_surface(points, SurfaceOptions());
   EXPECT_TRUE(std::isfinite(surface.height({1, 1})));
@@ -141,6 +141,16 @@ TEST(FitSurface, HasNoGroundBeyondReach) {
   const PlotBox beyond = {.center = {8, 8}, .width_m = 1, .length_m = 1, .heading_rad = 0};
   EXPECT_TRUE(std::isnan(surface.mean_standard_error(beyond)));
   EXPECT_TRUE(std::isnan(surface.height({100, 0})));
+}
+
+// The corners of the box around a round survey hold no return.
+TEST(FitSurface, GoesOnAlongTheGroundBeyondTheSurvey) {
+  auto points = returns_of({.terrain = kPlane, .side_m = 20});
+  std::erase_if(points, [](const Eigen::Vector3f& point) { return point.head<2>().norm() > 10; });
+  const Surface surface = fit_surface(points, SurfaceOptions());
+  for (double x = 7.3; x <= 8.5; x += 0.2) {
+    for (const double y : {-x, x}) EXPECT_NEAR(surface.height({x, y}), kPlane(x, y), 0.1);
+  }
 }
 
 TEST(FitSurface, GivesTheSameBytesForAnyNumberOfThreads) {

@@ -55,6 +55,13 @@ TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {
   }
 }
 
+TEST(FieldCanopy, TopIsTheCropsHoweverManyWeedsStandAround) {
+  const auto points = points_over([](double x, double y, RandomStream& random) {
+    return random.uniform(0, in_middle(x, y) ? 0.8 : 0.12);
+  });
+  EXPECT_NEAR(FieldCanopy(points, kNoise_m, 2).scale().high_m / 0.8, 0.9, 0.1);
+}
+
 TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {
   auto points = points_over([](double, double, RandomStream&) { return NAN; });
   for (int i = 0; i < 50; ++i) points.emplace_back(40.0F + 0.2F * static_cast<float>(i), 5, 0.5F);
