@@ -15,6 +15,7 @@
 #include "plots/internal/lattice.h"
 #include "plots/internal/layout.h"
 #include "plots/internal/outline.h"
+#include "plots/internal/sown_rows.h"
 
 namespace plotscan::plots {
 namespace {
@@ -41,7 +42,7 @@ bool is_cut_off(const Lattice& lattice, const Place& place) {
          share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
 }
 
-FieldFit fit_of(const Lattice& lattice) {
+FieldFit fit_of(const Lattice& lattice, const std::optional<SownRows>& sown_rows) {
   const bool by_c = lattice.c.size_m > lattice.r.size_m;
   const Side &length = by_c ? lattice.c : lattice.r, &width = by_c ? lattice.r : lattice.c;
   return {.layout = layout_of(lattice),
@@ -49,6 +50,7 @@ FieldFit fit_of(const Lattice& lattice) {
           .rms_along_length_m = length.rms_m,
           .rms_along_width_m = width.rms_m,
           .leaf_spread_m = std::max(lattice.r.blur_m, lattice.c.blur_m),
+          .sown_rows = sown_rows,
           .side_contrast = lattice.contrast};
 }
 
@@ -65,21 +67,34 @@ void take_given_sides(Lattice& lattice, const Hints& hints) {
   width.size_m = hints.width_m.value_or(width.size_m);
 }
 
+// The rows that the plots are sown in. Leaves say little of the sown width of a few of them: rows
+// times spacing does.
+std::optional<SownRows> take_sown_rows(Lattice& lattice) {
+  std::optional<SownRows> rows = sown_rows_along(lattice);
+  if (rows) {
+    lattice.r.size_m = rows->extent_m();
+    return rows;
+  }
+  rows = sown_rows_along(lattice.turned());
+  if (rows) lattice.c.size_m = rows->extent_m();
+  return rows;
+}
+
 // Sizes and places in turn.
-void refine(Lattice& lattice, const Layout& layout, const Hints& hints) {
+std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
   for (int round = 0; round < kRounds; ++round) {
     fit_edges(lattice);
     straighten(lattice);
   }
   fit_edges(lattice);
-  // Leaves say little of the sown width of few drill rows: rows times spacing does.
-  if (layout.r_drilled) lattice.r.size_m = lattice.r.band_m;
-  if (layout.c_drilled) lattice.c.size_m = lattice.c.band_m;
+  const std::optional<SownRows> rows = take_sown_rows(lattice);
   take_given_sides(lattice, hints);
+  return rows;
 }
 
-PlotField plots_on(const Lattice& lattice, double field_confidence) {
-  PlotField field{.fit = fit_of(lattice)};
+PlotField plots_on(const Lattice& lattice, const std::optional<SownRows>& sown_rows,
+                   double field_confidence) {
+  PlotField field{.fit = fit_of(lattice, sown_rows)};
   const TrialLayout& layout = field.fit->layout;
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     const Place& place = lattice.places[i];
@@ -145,12 +160,12 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout, hints);
   if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
-  refine(lattice, layout, hints);
+  const std::optional<SownRows> rows = refine(lattice, hints);
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
   lattice.view.raster = &cover;
   const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
-  Look look{because.empty() ? plots_on(lattice, field_confidence(signs)) : no_plots(because)};
+  Look look{because.empty() ? plots_on(lattice, rows, field_confidence(signs)) : no_plots(because)};
   if (because.empty()) look.evidence = layout.evidence;
   look.field.signs = signs;
   look.field.rival = rival;

@@ -34,12 +34,21 @@ struct FieldSigns {
   double evidence = 0;  // for a plot, over one canopy without them: Schwarz's criterion, nats
 };
 
+// The rows of plants that every plot is sown in, along its length or across it.
+struct SownRows {
+  int rows = 0;  // of a plot
+  double spacing_m = 0;
+
+  double extent_m() const { return rows * spacing_m; }
+};
+
 // The layout of a field's plots, and how well it fits.
 struct FieldFit {
   TrialLayout layout;
   bool columns_aligned = true;                           // else every row's plots lie by themselves
   double rms_along_length_m = 0, rms_along_width_m = 0;  // of the plots' centres about it
   double leaf_spread_m = 0;                              // sigma of the leaves over a plot's edges
+  std::optional<SownRows> sown_rows = std::nullopt;      // where the canopy shows them
   double side_contrast = 0;  // canopy within a plot's sides less that beyond, a share of full cover
 };
 

@@ -181,8 +181,8 @@ Field finite(const Field& z) {
   return result;
 }
 
-// Calls relax(node, neighbour, distance in cells) for the neighbours of every node, in the two sweeps
-// of a chamfer distance (Borgefors, 1986).
+// Calls relax(node, neighbour, distance in cells) for the neighbours of every node, in the two
+// sweeps of a chamfer distance (Borgefors, 1986).
 template <class Relax>
 void for_chamfer_steps(const Grid& grid, const Relax& relax) {
   const float askew = std::sqrt(2.0f);

@@ -83,6 +83,25 @@ DepthProfile pooled_profile(const Lattice& lattice, double reach_m) {
   return profile;
 }
 
+Neighbours neighbours_of(const Lattice& lattice) {
+  const double pitch_m = lattice.r.pitch_m;
+  if (!(pitch_m > 0)) return {};
+  double with = 0;
+  for (const Place& place : lattice.places) {
+    with += std::ranges::any_of(lattice.places, [&](const Place& other) {
+      return std::abs(other.r_m - place.r_m - pitch_m) < 0.2 * pitch_m &&
+             std::abs(other.c_m - place.c_m) < 0.5 * lattice.c.size_m;
+    });
+  }
+  return {pitch_m, with / std::max<double>(1, static_cast<double>(lattice.places.size()))};
+}
+
+DepthProfile profile_with_gaps(const Lattice& lattice) {
+  const double size_m = lattice.r.size_m, pitch_m = lattice.r.pitch_m;
+  const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;
+  return pooled_profile(lattice, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
+}
+
 double plateau_depth(const DepthProfile& profile, double size_m) {
   const double half_m = std::max(size_m / 4, size_m / 2 - 0.35);
   double transmitted = 0, count = 0;

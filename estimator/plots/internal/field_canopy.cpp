@@ -73,8 +73,9 @@ class Patch {
   Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
 };
 
-// The height that half of the canopy's volume has its top under: however many blocks of low weeds, or
-// of ground that strips of the survey give different heights, lie around the crop, it is the crop's.
+// The height that half of the canopy's volume has its top under: however many blocks of low weeds,
+// or of ground that strips of the survey give different heights, lie around the crop, it is the
+// crop's.
 double usual_top_m(std::vector<double> tops_m) {
   std::ranges::sort(tops_m);
   const double half = 0.5 * std::accumulate(tops_m.begin(), tops_m.end(), 0.0);

@@ -41,8 +41,6 @@ void leave_out_missing(Layout& layout) {
 
 Layout layout_of(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
   Layout layout{.view = view, .r_shape = r_fit.shape, .c_shape = c_fit.shape};
-  layout.r_drilled = r_fit.drilled;
-  layout.c_drilled = c_fit.drilled;
   layout.aligned = c_fit.begins.size() == 1;
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
   layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};

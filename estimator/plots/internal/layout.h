@@ -18,9 +18,8 @@ struct Row {
 // Rows of equal plots, and how clearly the canopy shows them.
 struct Layout {
   RowView view;
-  BandShape r_shape = {}, c_shape = {};       // of a plot along r and along c
-  bool r_drilled = false, c_drilled = false;  // the shape is that of a whole number of drill rows
-  Segmentation r_seen = {}, c_seen = {};      // the bands that show: drill rows, or the plots
+  BandShape r_shape = {}, c_shape = {};   // of a plot along r and along c
+  Segmentation r_seen = {}, c_seen = {};  // the bands that show: drill rows, or the plots
   std::vector<Row> rows = {};
   bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy

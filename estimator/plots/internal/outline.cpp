@@ -17,32 +17,11 @@ constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through
 constexpr int kRounds = 4;                 // which is sought so often,
 constexpr double kMostHalfDepth_m = 0.15;  // and is taken if it lies so near the box's edge
 constexpr double kMostOfBand_m = 0.3;      // from the size of the layout's bands
+constexpr double kMostBlur_m = 0.4;        // sigma of leaves over an edge: maize's blades
 
 struct EdgeFit {
   double size_m = 0;
   double blur_m = 0;  // sigma of the leaves' spread over the edge
-};
-
-// Share of the plots that have a neighbour one pitch further.
-double neighbour_share(const Lattice& lattice) {
-  const double pitch_m = lattice.r.pitch_m;
-  double with = 0;
-  for (const Place& place : lattice.places) {
-    with += std::ranges::any_of(lattice.places, [&](const Place& other) {
-      return std::abs(other.r_m - place.r_m - pitch_m) < 0.2 * pitch_m &&
-             std::abs(other.c_m - place.c_m) < 0.5 * lattice.c.size_m;
-    });
-  }
-  return with / std::max<double>(1, static_cast<double>(lattice.places.size()));
-}
-
-// Of a plot, along r.
-struct Neighbours {
-  double pitch_m = 0, share = 0;
-
-  double canopy(const BlurredBox& box, double x_m) const {
-    return pitch_m > 0 ? box(x_m - pitch_m) + box(x_m + pitch_m) : 0;
-  }
 };
 
 // Squares about depth * box + level in the edges' reach, the level at least 0.
@@ -52,7 +31,7 @@ double squares_of(const DepthProfile& profile, double depth, const BlurredBox& b
   for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
     const double x = profile.x_m[i];
     if (std::abs(std::abs(x) - edge_m) > kEdgeReach_m) continue;
-    const double left = profile.depth[i] - depth * (box(x) + near.share * near.canopy(box, x));
+    const double left = profile.depth[i] - depth * (box(x) + near.share * near.beside(box, x));
     n += 1;
     rest += left;
     squares += left * left;
@@ -72,7 +51,7 @@ double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit&
     for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
       const double x = std::abs(profile.x_m[i]) - size / 2;
       if (std::abs(x) > kHalfDepthReach_m) continue;
-      const double y = profile.depth[i] - depth * near.share * near.canopy(box, profile.x_m[i]);
+      const double y = profile.depth[i] - depth * near.share * near.beside(box, profile.x_m[i]);
       n += 1;
       x_sum += x;
       y_sum += y;
@@ -89,17 +68,15 @@ double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit&
 
 // Along r.
 EdgeFit fit_edges_along(const Lattice& lattice) {
-  const double size_m = lattice.r.size_m, pitch_m = lattice.r.pitch_m, band_m = lattice.r.band_m;
-  const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;
-  const DepthProfile profile =
-      pooled_profile(lattice, size_m / 2 + std::clamp(gap_m / 2, 0.2, 0.5));
-  const Neighbours near{pitch_m, pitch_m > 0 ? neighbour_share(lattice) : 0};
+  const double size_m = lattice.r.size_m, band_m = lattice.r.band_m;
+  const DepthProfile profile = profile_with_gaps(lattice);
+  const Neighbours near = neighbours_of(lattice);
   const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
   double best_squares = std::numeric_limits<double>::infinity();
   for (double size = size_m - 0.35; size <= size_m + 0.35; size += 0.01) {
     if (size < 0.2) continue;
-    for (double blur = 0.03; blur <= 0.25; blur += 0.02) {
+    for (double blur = 0.03; blur <= kMostBlur_m; blur += 0.02) {
       const double squares = squares_of(profile, depth, BlurredBox(size, blur), near, size_m / 2);
       if (squares >= best_squares) continue;
       best_squares = squares;

@@ -16,20 +16,25 @@ constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
 json json_of(const plots::FieldFit& fit) {
   const TrialLayout& layout = fit.layout;
   const double row_heading = std::atan2(layout.row_axis.y(), layout.row_axis.x());
-  return {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
-          {"second_axis_deg", wrap_heading(row_heading) * kDegreesOfRadian},
-          {"skew_deg", layout.skew_rad() * kDegreesOfRadian},
-          {"width_m", layout.width_m},
-          {"length_m", layout.length_m},
-          {"rows", layout.rows()},
-          {"columns", layout.columns()},
-          {"row_pitch_m", layout.row_pitch_m},
-          {"column_pitch_m", layout.column_pitch_m},
-          {"columns_aligned", fit.columns_aligned},
-          {"rms_along_length_m", fit.rms_along_length_m},
-          {"rms_along_width_m", fit.rms_along_width_m},
-          {"leaf_spread_m", fit.leaf_spread_m},
-          {"side_contrast", fit.side_contrast}};
+  json report = {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
+                 {"second_axis_deg", wrap_heading(row_heading) * kDegreesOfRadian},
+                 {"skew_deg", layout.skew_rad() * kDegreesOfRadian},
+                 {"width_m", layout.width_m},
+                 {"length_m", layout.length_m},
+                 {"rows", layout.rows()},
+                 {"columns", layout.columns()},
+                 {"row_pitch_m", layout.row_pitch_m},
+                 {"column_pitch_m", layout.column_pitch_m},
+                 {"columns_aligned", fit.columns_aligned},
+                 {"rms_along_length_m", fit.rms_along_length_m},
+                 {"rms_along_width_m", fit.rms_along_width_m},
+                 {"leaf_spread_m", fit.leaf_spread_m},
+                 {"side_contrast", fit.side_contrast}};
+  if (fit.sown_rows) {
+    report["drill_rows"] = fit.sown_rows->rows;
+    report["drill_row_spacing_m"] = fit.sown_rows->spacing_m;
+  }
+  return report;
 }
 
 json json_of(const plots::FieldSigns& signs) {
@@ -55,9 +60,14 @@ json json_of(const plots::PlotField& field) {
 std::vector<std::string> lines_of(const plots::PlotField& field) {
   if (!field.why_none.empty() || !field.fit) return {};
   const TrialLayout& layout = field.fit->layout;
-  return {fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.2f} deg", layout.width_m,
-                      layout.length_m, layout.heading_rad() * kDegreesOfRadian),
-          fmt::format("lattice    {} rows, {} columns", layout.rows(), layout.columns())};
+  std::vector<std::string> lines = {
+      fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.2f} deg", layout.width_m,
+                  layout.length_m, layout.heading_rad() * kDegreesOfRadian),
+      fmt::format("lattice    {} rows, {} columns", layout.rows(), layout.columns())};
+  if (const auto& sown = field.fit->sown_rows)
+    lines.push_back(
+        fmt::format("sown in    {} rows a plot, {:.2f} m apart", sown->rows, sown->spacing_m));
+  return lines;
 }
 
 }  // namespace plotscan::methods::lattice
