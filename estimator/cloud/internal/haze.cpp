@@ -34,11 +34,16 @@ class Voxels {
   Voxels(const Eigen::Vector3d& corner, double height_m, int a_metre)
       : a_metre_(a_metre),
         corner_(corner),
+        low_((corner.head<2>().array() - 1.5 / a_metre).cast<float>()),
+        high_((corner.head<2>().array() + 1 + 1.5 / a_metre).cast<float>()),
         across_(a_metre + 2),
         up_(static_cast<int>(std::ceil(height_m * a_metre)) + 2),
         counts_(static_cast<std::size_t>(across_ * across_ * up_), 0) {}
 
   void add(const Eigen::Vector3f& point) {
+    const bool far = point.x() < low_.x() || point.x() > high_.x() || point.y() < low_.y() ||
+                     point.y() > high_.y();
+    if (far) return;  // most points of the tiles around, at little cost
     const Eigen::Array3i at = voxel_of(point);
     const Eigen::Array3i size(across_, across_, up_);
     if ((at < 0).any() || (at >= size).any()) return;
@@ -72,6 +77,7 @@ class Voxels {
 
   int a_metre_;
   Eigen::Vector3d corner_;
+  Eigen::Array2f low_, high_;  // beyond the voxels
   int across_;
   int up_;
   std::vector<std::uint8_t> counts_;
