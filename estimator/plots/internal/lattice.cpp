@@ -74,14 +74,20 @@ void place_plots(const Layout& layout, Lattice& lattice) {
   lattice.c.pitch_m = usual_step(steps);
 }
 
-// Every place has the nearest of the columns that run through all rows.
-void number_columns(const std::vector<double>& columns, Lattice& lattice) {
+// Every place has the nearest of the columns that run through all rows. Numbers count pitches, so
+// that one is left for a column that no band shows.
+void number_columns(const std::vector<double>& columns, double pitch_m, Lattice& lattice) {
+  std::vector<int> numbers = {0};
+  for (std::size_t i = 1; i < columns.size(); ++i) {
+    const int steps = static_cast<int>(std::lround((columns[i] - columns[i - 1]) / pitch_m));
+    numbers.push_back(numbers.back() + std::max(1, steps));
+  }
   for (Place& place : lattice.places) {
     const auto nearest = std::ranges::min_element(
         columns, {}, [&](double column) { return std::abs(column - place.c_m); });
-    place.column = static_cast<int>(nearest - columns.begin());
+    place.column = numbers[static_cast<std::size_t>(nearest - columns.begin())];
   }
-  lattice.columns = static_cast<int>(columns.size());
+  lattice.columns = numbers.back() + 1;
 }
 
 // Every row by itself, from the place nearest to the first of all plots.
@@ -107,7 +113,7 @@ void number(const Layout& layout, Lattice& lattice) {
       layout.aligned ? columns_of(std::move(positions), pitch_m) : std::vector<double>{};
   lattice.aligned = !columns.empty();
   if (lattice.aligned) {
-    number_columns(columns, lattice);
+    number_columns(columns, pitch_m, lattice);
   } else {
     number_each_row(pitch_m, lattice);
   }

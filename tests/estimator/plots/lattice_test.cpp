@@ -54,6 +54,13 @@ TEST(Lattice, HasPlacesThatTheBandsLeftOut) {
   expect_places(layout_of(fit_lattice(bands_of(trial, raster, {{1, 2}, {3, 5}}), {})), trial);
 }
 
+TEST(Lattice, HasAColumnThatNoBandShows) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  expect_places(layout_of(fit_lattice(bands_of(trial, raster, {{1, 3}, {2, 3}, {3, 3}}), {})),
+                trial);
+}
+
 TEST(Lattice, LeavesOutBandsWithoutCanopy) {
   const TrialLayout bands = known_trial({0, 0, 0});
   TrialLayout trial = bands;
