@@ -181,7 +181,9 @@ estimate::PointAccount account_of(const cloud::FieldCloud& cloud, std::size_t wi
           .area_m = cloud.area};
 }
 
-// Of a cloud none of whose points has ground beneath it.
+constexpr std::size_t kLeastOfGround = 3;  // points with ground beneath them: fewer are no surface
+
+// Of a cloud hardly any of whose points has ground beneath it.
 std::string no_ground_because(const cloud::FieldCloud& cloud,
                               const estimate::PointAccount& points) {
   const cloud::Area& area = cloud.area;
@@ -239,7 +241,7 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
   const ground::Surface surface = ground_of(cloud, options, progress);
   const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
   estimate.diagnostics.points = account_of(cloud, heights.size());
-  if (heights.empty())
+  if (heights.size() < kLeastOfGround)
     throw NothingToMeasure(no_ground_because(cloud, *estimate.diagnostics.points));
   report(progress, kAbove);
   estimate.diagnostics.ground = facts_of(surface);
