@@ -146,7 +146,7 @@ std::optional<SownRows> sown_rows_along(const Lattice& lattice) {
     const RowsFit fit = best_spacing(profile, near, rows, low_m, high_m, kCoarse_m);
     if (fit.squares < best.squares) best = fit;
   }
-  if (best.squares > kClearly * squares_of_even_canopy(profile, near, size_m)) return std::nullopt;
+  if (best.squares >= kClearly * squares_of_even_canopy(profile, near, size_m)) return std::nullopt;
   const double about_m = best.rows.spacing_m;
   return best_spacing(profile, near, best.rows.rows, about_m - kCoarse_m, about_m + kCoarse_m,
                       kFine_m)
