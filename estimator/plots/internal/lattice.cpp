@@ -74,20 +74,33 @@ void place_plots(const Layout& layout, Lattice& lattice) {
   lattice.c.pitch_m = usual_step(steps);
 }
 
-// Every place has the nearest of the columns that run through all rows. Numbers count pitches, so
-// that one is left for a column that no band shows.
-void number_columns(const std::vector<double>& columns, double pitch_m, Lattice& lattice) {
-  std::vector<int> numbers = {0};
-  for (std::size_t i = 1; i < columns.size(); ++i) {
-    const int steps = static_cast<int>(std::lround((columns[i] - columns[i - 1]) / pitch_m));
-    numbers.push_back(numbers.back() + std::max(1, steps));
-  }
+// Every place has the nearest of the columns that run through all rows.
+void number_columns(const std::vector<double>& columns, Lattice& lattice) {
   for (Place& place : lattice.places) {
     const auto nearest = std::ranges::min_element(
         columns, {}, [&](double column) { return std::abs(column - place.c_m); });
-    place.column = numbers[static_cast<std::size_t>(nearest - columns.begin())];
+    place.column = static_cast<int>(nearest - columns.begin());
   }
-  lattice.columns = numbers.back() + 1;
+  lattice.columns = static_cast<int>(columns.size());
+}
+
+// Columns that run through all rows get numbers that count pitches, so that one is left for a
+// column that no band shows.
+void leave_numbers_between_columns(Lattice& lattice) {
+  if (!lattice.aligned || lattice.c.pitch_m <= 0) return;
+  std::vector<double> at_m(static_cast<std::size_t>(lattice.columns)), count(at_m);
+  for (const Place& place : lattice.places) {
+    at_m[static_cast<std::size_t>(place.column)] += place.c_m;
+    ++count[static_cast<std::size_t>(place.column)];
+  }
+  std::vector<int> numbers = {0};
+  for (std::size_t i = 1; i < at_m.size(); ++i) {
+    const double step_m = at_m[i] / count[i] - at_m[i - 1] / count[i - 1];
+    const int pitches = static_cast<int>(std::lround(step_m / lattice.c.pitch_m));
+    numbers.push_back(numbers.back() + std::max(1, pitches));
+  }
+  for (Place& place : lattice.places)
+    place.column = numbers[static_cast<std::size_t>(place.column)];
 }
 
 // Every row by itself, from the place nearest to the first of all plots.
@@ -113,7 +126,7 @@ void number(const Layout& layout, Lattice& lattice) {
       layout.aligned ? columns_of(std::move(positions), pitch_m) : std::vector<double>{};
   lattice.aligned = !columns.empty();
   if (lattice.aligned) {
-    number_columns(columns, pitch_m, lattice);
+    number_columns(columns, lattice);
   } else {
     number_each_row(pitch_m, lattice);
   }
@@ -258,6 +271,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
                   .c = {.size_m = c_m, .band_m = c_m}};
   number(layout, lattice);
   straighten(lattice);
+  leave_numbers_between_columns(lattice);
   add_places(lattice, !hints.rows && !hints.columns);
   test_places(lattice);
   if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));

@@ -61,6 +61,16 @@ TEST(Lattice, HasAColumnThatNoBandShows) {
                 trial);
 }
 
+// Nothing stands in the alley, and what lies beyond it stays in its place.
+TEST(Lattice, KeepsAnAlleyBetweenColumns) {
+  TrialLayout trial = known_trial({0, 0, 0, 0}, 9);
+  for (TrialPlace& place : trial.places)
+    if (place.column > 7) place.position_m.x() += 1.2;
+  trial.places.erase(trial.places.begin() + 7);
+  const CanopyRaster raster = canopy_of(trial);
+  expect_places(layout_of(fit_lattice(bands_of(trial, raster), {})), trial);
+}
+
 TEST(Lattice, LeavesOutBandsWithoutCanopy) {
   const TrialLayout bands = known_trial({0, 0, 0});
   TrialLayout trial = bands;
