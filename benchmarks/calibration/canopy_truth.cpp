@@ -35,6 +35,7 @@ CanopyTruth canopy_truth(const farm::Farm& farm, const lidar::Scene& scene, cons
   const std::vector<Place> places = grid_over(box);
   const float start_m = scene.top_m() + 1;
   std::vector<lidar::Ray> rays;
+  rays.reserve(places.size());
   for (const Place& place : places) {
     rays.push_back(
         {.origin_m = {static_cast<float>(place.at.x()), static_cast<float>(place.at.y()), start_m},

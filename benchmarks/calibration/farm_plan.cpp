@@ -33,7 +33,8 @@ std::string text(double value) { return format_number(value); }
 std::string models_of(const Library& library, std::uint64_t first_seed, RandomStream& random) {
   const bool usual = random.uniform() < 0.25;
   std::string values;
-  for (const auto& [key, value] : library.set) values += key + "=" + value + ", ";
+  for (const auto& [key, value] : library.set)
+    values.append(key).append("=").append(value).append(", ");
   for (const auto& [key, bounds] : library.vary) {
     const double value = draw(random, bounds);
     if ((!usual || library.always.contains(key)) && !library.set.contains(key))

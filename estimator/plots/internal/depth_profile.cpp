@@ -61,23 +61,24 @@ DepthProfile profile_of(const Lattice& lattice, const Place& place, double reach
 
 DepthProfile pooled_profile(const Lattice& lattice, double reach_m) {
   const double cell_m = lattice.view.cell_m();
-  const int bins = static_cast<int>(reach_m / cell_m);
+  const auto bins = static_cast<std::ptrdiff_t>(reach_m / cell_m);
   std::vector<double> cover(static_cast<std::size_t>(2 * bins + 1)), count(cover);
   for (const Place& place : lattice.places) {
     const double center = place.r_m / cell_m;
     const Band strip = strip_of(lattice, place);
-    for (int bin = -bins; bin <= bins; ++bin) {
-      const int cell = static_cast<int>(std::lround(center + bin - 0.5));  // its middle is at + 1/2
+    for (std::ptrdiff_t bin = -bins; bin <= bins; ++bin) {
+      // A cell's middle is at + 1/2.
+      const int cell = static_cast<int>(std::lround(center + static_cast<double>(bin) - 0.5));
       if (!seen_at(lattice, cell, strip)) continue;
       cover[static_cast<std::size_t>(bin + bins)] += cover_at(lattice, cell, strip);
       count[static_cast<std::size_t>(bin + bins)] += 1;
     }
   }
   DepthProfile profile;
-  for (int bin = -bins; bin <= bins; ++bin) {
+  for (std::ptrdiff_t bin = -bins; bin <= bins; ++bin) {
     const auto at = static_cast<std::size_t>(bin + bins);
     if (count[at] == 0) continue;
-    profile.x_m.push_back(bin * cell_m);
+    profile.x_m.push_back(static_cast<double>(bin) * cell_m);
     profile.depth.push_back(depth_of(cover[at] / count[at]));
   }
   return profile;

@@ -223,6 +223,7 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
 // Numbers from 0, without those that no plot has.
 int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;
+  used.reserve(places.size());
   for (const Place& place : places) used.push_back(place.*number);
   std::ranges::sort(used);
   used.erase(std::unique(used.begin(), used.end()), used.end());

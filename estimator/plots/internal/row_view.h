@@ -21,6 +21,7 @@ struct Band {
 // One after the other; their sizes differ by a cell at most.
 inline std::vector<Band> equal_parts(const Band& band, int count) {
   std::vector<Band> parts;
+  parts.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     parts.push_back(
         {band.begin + band.size() * i / count, band.begin + band.size() * (i + 1) / count});

@@ -76,10 +76,11 @@ double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& nea
   double least = std::numeric_limits<double>::infinity();
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(profile.x_m.size()), 2);
   curves.col(1).setOnes();
-  for (double size = std::max(0.2, size_m - kMostOff_m); size < size_m + kMostOff_m;
-       size += kCoarse_m) {
+  const double smallest_m = std::max(0.2, size_m - kMostOff_m);
+  const auto steps = static_cast<int>((size_m + kMostOff_m - smallest_m) / kCoarse_m);
+  for (int step = 0; step <= steps; ++step) {
     for (const double blur_m : kBlurs_m) {
-      curves.col(0) = curve_of(profile, near, BlurredBox(size, blur_m));
+      curves.col(0) = curve_of(profile, near, BlurredBox(smallest_m + step * kCoarse_m, blur_m));
       least = std::min(least, Curves(curves, depth_of(profile)).squares_left(std::array{0, 1}));
     }
   }
