@@ -8,10 +8,20 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NO
   set(PLOTSCAN_PRECOMPILES ON)
 endif()
 
+# The files of a library are compiled together: templates and headers that they share once for all of them. Not by Clang, nor
+# without optimisation, where small rebuilds count.
+set(unity OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_BUILD_TYPE STREQUAL Release)
+  set(unity ON)
+endif()
+option(PLOTSCAN_UNITY "Compile the files of each library together" ${unity})
+
 function(plotscan_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     # GCC 12 sees overlapping copies in std::string where there are none (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    # Its file is the one that includes all others.
+    $<$<AND:$<BOOL:${PLOTSCAN_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
     $<$<BOOL:${PLOTSCAN_PRECOMPILES}>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>
     # Embedded texts are long.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
@@ -53,6 +63,7 @@ function(plotscan_library name)
   # The rooms are linked into the shared libraries of library/, which show their own functions only.
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLOTSCAN_UNITY} UNITY_BUILD_BATCH_SIZE 0)
   plotscan_compile_options(${name})
   plotscan_precompile(${name} common_headers)
 endfunction()

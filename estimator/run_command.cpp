@@ -59,7 +59,7 @@ void say_ahead(const Program& program, const methods::lattice::WorkEstimate& wor
 }
 
 // The options as the arguments say.
-methods::RunOptions options_of(const Program& program, const RunArguments& arguments) {
+methods::RunOptions chosen_options(const Program& program, const RunArguments& arguments) {
   methods::RunOptions options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);
   options.cloud = cloud_of(arguments.cloud);
@@ -81,7 +81,7 @@ methods::RunOptions options_of(const Program& program, const RunArguments& argum
 }
 
 void run_estimate(const Program& program, const RunArguments& arguments) {
-  const methods::RunOptions options = options_of(program, arguments);
+  const methods::RunOptions options = chosen_options(program, arguments);
   const auto start = std::chrono::steady_clock::now();
   const estimate::Estimate estimate = methods::run(options, program.progress("estimating"));
   const double seconds =

@@ -76,7 +76,7 @@ void say_scores(const Program& program, const score::Scores& scores) {
     program.say("Every height against every truth: -v, or scores.json");
 }
 
-void score_estimate(const Program& program, score::RunOptions options, const std::string& output) {
+void score_given(const Program& program, score::RunOptions options, const std::string& output) {
   if (!output.empty()) options.output = output;
   const score::Scores scores = score::run(options);
   say_scores(program, scores);
@@ -95,7 +95,7 @@ void declare_score(Program& program) {
   auto& [options, output] = *shared;
   CLI::App& score = program.command(
       "score", "Compare an estimate with the truth.",
-      [&program, shared] { score_estimate(program, shared->options, shared->output); });
+      [&program, shared] { score_given(program, shared->options, shared->output); });
   score
       .add_option(
           "EST", options.estimate,

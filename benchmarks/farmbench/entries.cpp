@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-json to_json(const EnteredFarm& farm) {
+json farm_json(const EnteredFarm& farm) {
   return {{"case", farm.case_name},
           {"seed", farm.seed},
           {"field", farm.field},
@@ -77,7 +77,7 @@ bool add_farm(const EnteredFarm& farm, const fs::path& file, SuiteResult& result
 
 void write_entry(const fs::path& output, const Entry& entry) {
   json farms = json::array();
-  for (const EnteredFarm& farm : entry.farms) farms.push_back(to_json(farm));
+  for (const EnteredFarm& farm : entry.farms) farms.push_back(farm_json(farm));
   const json document = {{"method", entry.method},
                          {"suite", entry.suite},
                          {"program_sha256", entry.program_sha256},

@@ -16,7 +16,6 @@ namespace plotscan::farmbench {
 namespace {
 
 constexpr std::size_t kMostCases = 1000;
-constexpr std::size_t kMostSeeds = 10'000;
 constexpr std::size_t kMostMethods = 100;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";

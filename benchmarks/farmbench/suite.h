@@ -15,6 +15,8 @@
 
 namespace plotscan::farmbench {
 
+inline constexpr int kMostSeeds = 10'000;  // of a case
+
 // One kind of farm and flight: a description, with some of its keys replaced. Flights' seeds and
 // threads are set farm by farm.
 struct SuiteCase {

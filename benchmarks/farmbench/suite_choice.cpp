@@ -10,7 +10,6 @@
 namespace plotscan::farmbench {
 namespace {
 
-constexpr int kMostSeeds = 10'000;
 constexpr std::size_t kLeastSecret = 16;
 constexpr std::size_t kMostSecret = 65'536;
 constexpr std::size_t kCodeDigits = 10;

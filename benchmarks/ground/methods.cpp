@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
 #include "core/extent.h"
+#include "core/statistics.h"
 #include "ground/surface.h"
 
 namespace plotscan::ground_error {
@@ -21,8 +21,6 @@ namespace {
 
 using Points = std::span<const Eigen::Vector3f>;
 using Boxes = std::vector<PlotBox>;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<PlotGround> planes(Points points, const Boxes& boxes) {
   constexpr double kVoxel_m = 0.05, kExtend_m = 0.5, kTolerance_m = 0.05;  // the authors' settings

@@ -2,15 +2,12 @@
 #include "strata/tally.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
+
+#include "core/statistics.h"
 
 namespace plotscan::strata {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
 
 std::vector<score::HeightPairs> pairs_by_farm(std::span<const MeasuredField> fields,
                                               const std::string& height) {

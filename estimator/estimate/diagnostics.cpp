@@ -32,7 +32,7 @@ void add(const PointAccount& points, json& document) {
   }
 }
 
-json to_json(const GroundFacts& ground) {
+json ground_json(const GroundFacts& ground) {
   return {{"cell_m", ground.cell_m},
           {"nodes", ground.nodes},
           {"unknown_share", ground.unknown_share},
@@ -40,11 +40,11 @@ json to_json(const GroundFacts& ground) {
           {"noise_m", ground.noise_m}};
 }
 
-json to_json(const GivenBoxes& boxes) {
+json boxes_json(const GivenBoxes& boxes) {
   return {{"plots", boxes.plots}, {"id", boxes.id_property}, {"from_degrees", boxes.from_degrees}};
 }
 
-json to_json(const GivenNames& names) {
+json names_json(const GivenNames& names) {
   json not_found = json::array();
   for (const PlotId& id : names.not_found) not_found.push_back(id.json());
   return {{"plots", names.plots}, {"id", names.id_property}, {"not_found", not_found}};
@@ -70,11 +70,11 @@ json to_json(const Diagnostics& diagnostics) {
   if (diagnostics.notes) document["notes"] = *diagnostics.notes;
   if (diagnostics.points) add(*diagnostics.points, document);
   if (diagnostics.density_per_m2) document["density_per_m2"] = *diagnostics.density_per_m2;
-  if (diagnostics.ground) document["ground"] = to_json(*diagnostics.ground);
+  if (diagnostics.ground) document["ground"] = ground_json(*diagnostics.ground);
   if (!diagnostics.crops.empty()) document["crops"] = diagnostics.crops;
   if (!diagnostics.why_no_plots.empty()) document["nothing"] = diagnostics.why_no_plots;
-  if (diagnostics.boxes) document["boxes"] = to_json(*diagnostics.boxes);
-  if (diagnostics.names) document["names"] = to_json(*diagnostics.names);
+  if (diagnostics.boxes) document["boxes"] = boxes_json(*diagnostics.boxes);
+  if (diagnostics.names) document["names"] = names_json(*diagnostics.names);
   return document;
 }
 

@@ -102,7 +102,7 @@ std::optional<PlotGround> ground_of(const json& properties) {
   return PlotGround{.z_m = values[0], .slope = {values[1], values[2]}, .tolerance_m = values[3]};
 }
 
-std::vector<std::string> flags_of(const json& properties) {
+std::vector<std::string> stated_flags(const json& properties) {
   std::vector<std::string> flags;
   const auto found = properties.find("flags");
   if (found == properties.end() || !found->is_array()) return flags;
@@ -200,7 +200,7 @@ PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
     if (!name.empty() && value.is_number()) plot.heights_m[name] = value.get<double>();
   }
   plot.errors = errors_of(feature.properties, plot.heights_m);
-  plot.flags = flags_of(feature.properties);
+  plot.flags = stated_flags(feature.properties);
   plot.ground = ground_of(feature.properties);
   const auto confidence = feature.properties.find("confidence");
   if (confidence != feature.properties.end() && confidence->is_number())

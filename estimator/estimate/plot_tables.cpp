@@ -25,8 +25,8 @@ struct Column {
 };
 
 template <class Value>
-std::string text_of(const std::map<std::string, Value>& values, const std::string& name,
-                    double (*number)(const Value&)) {
+std::string text_or_blank(const std::map<std::string, Value>& values, const std::string& name,
+                          double (*number)(const Value&)) {
   const auto found = values.find(name);
   return found == values.end() ? "" : format_number(number(found->second));
 }
@@ -46,14 +46,14 @@ void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& co
       {kHigh, [](const HeightError& error) { return error.high95_m; }}};
   for (const std::string& name : names) {
     columns.push_back({property_of(name), [name](const PlotEstimate& plot) {
-                         return text_of<double>(plot.heights_m, name,
-                                                [](const double& height_m) { return height_m; });
+                         return text_or_blank<double>(
+                             plot.heights_m, name, [](const double& height_m) { return height_m; });
                        }});
     if (!with_errors.contains(name)) continue;
     for (const auto& [before, number] : parts) {
       columns.push_back(
           {property_of(name, before), [name, number = number](const PlotEstimate& plot) {
-             return text_of<HeightError>(plot.errors, name, number);
+             return text_or_blank<HeightError>(plot.errors, name, number);
            }});
     }
   }

@@ -20,7 +20,7 @@
 namespace plotscan::ground {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // Mean size of the bends where ground is seen: the scale of the Laplace law that they are taken to
 // follow.
@@ -55,9 +55,9 @@ void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Su
   distance_m = slope_limited(grid, distance_m, 1);
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     if (distance_m[i] <= static_cast<float>(reach_m)) continue;
-    surface.z_m[i] = kNaN;
-    surface.sd_m[i] = kNaN;
-    surface.misfit_m[i] = kNaN;
+    surface.z_m[i] = kUnknown;
+    surface.sd_m[i] = kUnknown;
+    surface.misfit_m[i] = kUnknown;
     surface.seen[i] = 0;
   }
 }
@@ -75,8 +75,8 @@ void take_better(const Evidence& other, Evidence& evidence) {
 }
 
 // How far above and below a surface returns still count, in sigmas (mixture.cpp looks no farther).
-constexpr float kBelow = 20;
-constexpr float kAbove = 11;
+constexpr float kCountedBelow = 20;
+constexpr float kCountedAbove = 11;
 
 // One step towards the most likely surface: what the returns about it say, and the smoothest
 // surface that agrees. Bends are taken to be of one size at first, then of a Laplace law.
@@ -154,8 +154,8 @@ Ground find_ground(const Columns& low, double noise_m, Steps& steps) {
     steps.done();
   }
   const auto noise = static_cast<float>(noise_m);
-  const Columns near = near_part(low, ground.z_m, -kBelow * noise, kAbove * noise + 0.1f,
-                                 poorly_supported(ground.evidence));
+  const Columns near = near_part(low, ground.z_m, -kCountedBelow * noise,
+                                 kCountedAbove * noise + 0.1f, poorly_supported(ground.evidence));
   for (int round = 0; round < kRounds; ++round) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
     step(grid, ground.evidence, false, ground.z_m);
@@ -240,7 +240,7 @@ std::optional<InCell> cell_of(const Surface& surface, const Eigen::Vector2d& pla
 double bilinear(const Surface& surface, const std::vector<float>& field,
                 const Eigen::Vector2d& place) {
   const std::optional<InCell> cell = cell_of(surface, place);
-  if (!cell) return kNaN;
+  if (!cell) return kUnknown;
   const auto [i, east, north] = *cell;
   const std::size_t up = i + surface.columns;
   return (1 - north) * ((1 - east) * field[i] + east * field[i + 1]) +
@@ -260,7 +260,7 @@ double Surface::misfit(const Eigen::Vector2d& place) const {
 }
 
 double Surface::mean_standard_error(const PlotBox& box) const {
-  if (!std::isfinite(standard_error(box.center))) return kNaN;
+  if (!std::isfinite(standard_error(box.center))) return kUnknown;
   constexpr double kStep_m = 0.2;
   const int along = std::max(2, static_cast<int>(std::ceil(box.length_m / kStep_m)));
   const int across = std::max(2, static_cast<int>(std::ceil(box.width_m / kStep_m)));
@@ -291,7 +291,7 @@ double Surface::mean_standard_error(const PlotBox& box) const {
 
 Eigen::Vector2d Surface::slope(const Eigen::Vector2d& place) const {
   const std::optional<InCell> cell = cell_of(*this, place);
-  if (!cell) return Eigen::Vector2d::Constant(kNaN);
+  if (!cell) return Eigen::Vector2d::Constant(kUnknown);
   const auto [i, east, north] = *cell;
   const std::size_t up = i + columns;
   const double along_east = (1 - north) * (z_m[i + 1] - z_m[i]) + north * (z_m[up + 1] - z_m[up]);

@@ -22,7 +22,7 @@ json numbers_of(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-json json_of(const Likeness& likeness) {
+json likeness_json(const Likeness& likeness) {
   return {{"weights", numbers_of(likeness.weights)},
           {"linear", likeness.covariance.linear},
           {"noise", likeness.covariance.noise}};
@@ -114,9 +114,9 @@ json json_of(const Calibration& calibration) {
           {"center", numbers_of(calibration.center)},
           {"scale", numbers_of(calibration.scale)},
           {"crops", calibration.crops},
-          {"like_crops", json_of(calibration.like_crops)},
+          {"like_crops", likeness_json(calibration.like_crops)},
           {"crop_sharpness", calibration.crop_sharpness},
-          {"like_ratios", json_of(calibration.like_ratios)},
+          {"like_ratios", likeness_json(calibration.like_ratios)},
           {"within", within},
           {"farms", farms}};
 }

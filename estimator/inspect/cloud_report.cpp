@@ -48,7 +48,7 @@ void judge_classes(CloudReport& report) {
     report.obstacles.emplace_back("every point is of the class ground: the crop was taken out");
 }
 
-json to_json(const std::optional<scan::CountByNumber>& counts) {
+json counts_json(const std::optional<scan::CountByNumber>& counts) {
   if (!counts) return nullptr;
   json document = json::object();
   for (std::size_t i = 0; i < counts->size(); ++i)
@@ -56,7 +56,7 @@ json to_json(const std::optional<scan::CountByNumber>& counts) {
   return document;
 }
 
-json to_json(const Eigen::AlignedBox3d& bounds) {
+json bounds_json(const Eigen::AlignedBox3d& bounds) {
   return {{"least", {bounds.min().x(), bounds.min().y(), bounds.min().z()}},
           {"most", {bounds.max().x(), bounds.max().y(), bounds.max().z()}}};
 }
@@ -118,14 +118,14 @@ json to_json(const CloudReport& report) {
       {"points", facts.points},
       {"not_finite", facts.not_finite},
       {"marked", facts.marked},
-      {"extent", to_json(facts.bounds)},
-      {"extent_m", to_json(facts.bounds_m)},
+      {"extent", bounds_json(facts.bounds)},
+      {"extent_m", bounds_json(facts.bounds_m)},
       {"units_m", {{"x_y", facts.system.units.horizontal_m}, {"z", facts.system.units.vertical_m}}},
       {"crs", facts.system.crs},
       {"notes", facts.system.notes},
       {"fields", facts.fields},
-      {"returns", to_json(facts.returns)},
-      {"classes", to_json(facts.classes)},
+      {"returns", counts_json(facts.returns)},
+      {"classes", counts_json(facts.classes)},
       {"time", time_json(facts)},
       {"field", {{"area_m", density.field}, {"area_m2", density.area_m2}}},
       {"density_per_m2",

@@ -25,15 +25,15 @@ constexpr double kCell_m = 0.05;
 constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
 constexpr double kStep_m = 1e-3;         // from no leaves to leaves
 
-constexpr int kRounds = 2;  // of size and centres in turn
+constexpr int kSizeRounds = 2;  // of size and centres in turn
 
 PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
 
 // Whether the ground beyond one of a plot's sides was not scanned.
 bool is_cut_off(const Lattice& lattice, const Place& place) {
-  constexpr double kBeyond_m = 0.3, kLeastShare = 0.25;
+  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
   const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int beyond = static_cast<int>(std::lround(kBeyond_m / lattice.view.cell_m()));
+  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
   const auto share = [&](int ra, int rb, int ca, int cb) {
     return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
   };
@@ -82,7 +82,7 @@ std::optional<SownRows> take_sown_rows(Lattice& lattice) {
 
 // Sizes and places in turn.
 std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSizeRounds; ++round) {
     fit_edges(lattice);
     straighten(lattice);
   }

@@ -2,14 +2,11 @@
 #include "score/height_score.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/statistics.h"
 
 namespace plotscan::score {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Sum of (a - mean a)(b - mean b).
 double co_moment(const std::vector<double>& a, const std::vector<double>& b) {
@@ -18,10 +15,6 @@ double co_moment(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - mean_a) * (b[i] - mean_b);
   return sum;
-}
-
-double ratio(double numerator, double denominator) {
-  return denominator > 0 ? numerator / denominator : kNaN;
 }
 
 double share(std::size_t part, std::size_t whole) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "core/plot_features.h"
@@ -39,11 +38,6 @@ bool lies_in_unscored(const std::vector<TruePlot>& truth, const PlotBox& box) {
     if (!plot.scored) inside_m2 += intersection_area(plot.box, box);
   }
   return inside_m2 > 0 && 2 * inside_m2 >= box.area_m2();
-}
-
-double ratio(std::size_t part, std::size_t whole) {
-  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
-  return static_cast<double>(part) / static_cast<double>(whole);
 }
 
 // The truths that a plot's properties state, by their names.

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-json to_json(const PlotBox& box) {
+json box_json(const PlotBox& box) {
   return {{"center_x_m", box.center.x()},
           {"center_y_m", box.center.y()},
           {"width_m", box.width_m},
@@ -31,7 +31,7 @@ PlotBox box_from_json(const json& document) {
       .heading_rad = document.at("heading_deg").get<double>() * kDegrees};
 }
 
-json to_json(const estimate::HeightError& error) {
+json error_json(const estimate::HeightError& error) {
   return {{"standard_error_m", error.standard_error_m},
           {"low95_m", error.low95_m},
           {"high95_m", error.high95_m}};
@@ -39,7 +39,7 @@ json to_json(const estimate::HeightError& error) {
 
 // What the estimate says of its own trust; a method that says nothing leaves no member.
 void add_trust(json& document, const FoundPlot& found) {
-  for (const auto& [name, error] : found.errors) document["errors"][name] = to_json(error);
+  for (const auto& [name, error] : found.errors) document["errors"][name] = error_json(error);
   if (found.confidence) document["confidence"] = *found.confidence;
   if (!found.flags.empty()) document["flags"] = found.flags;
 }
@@ -58,9 +58,9 @@ void read_trust(const json& document, FoundPlot& found) {
   if (document.contains("flags")) found.flags = document["flags"].get<std::vector<std::string>>();
 }
 
-json to_json(const PlotScore& plot) {
+json plot_json(const PlotScore& plot) {
   json document = {{"plot_number", plot.truth.id.json()}, {"row_number", plot.truth.row},
-                   {"col_number", plot.truth.column},     {"box", to_json(plot.truth.box)},
+                   {"col_number", plot.truth.column},     {"box", box_json(plot.truth.box)},
                    {"truths_m", plot.truth.heights_m},    {"found", nullptr}};
   if (plot.found) {
     document["found"] = {{"estimate", plot.found->estimate.json()},
@@ -165,7 +165,7 @@ json to_json(const HeightScore& score) {
 
 json to_json(const FieldScore& field) {
   json plots = json::array();
-  for (const PlotScore& plot : field.plots) plots.push_back(to_json(plot));
+  for (const PlotScore& plot : field.plots) plots.push_back(plot_json(plot));
   json extra = json::array();
   for (const PlotId& id : field.extra) extra.push_back(id.json());
   return {{"method", field.method}, {"extra", extra}, {"plots", plots}};

@@ -74,7 +74,7 @@ FarmRecord read_record(const fs::path& folder) {
   }
 }
 
-std::vector<farm::PlantModel> read_models(const fs::path& folder, const FarmRecord& record) {
+std::vector<farm::PlantModel> read_plant_models(const fs::path& folder, const FarmRecord& record) {
   const fs::path manifest = folder / "manifest.json";
   const std::set<std::string> with_light(record.light_models.begin(), record.light_models.end());
   std::vector<farm::PlantModel> models;
@@ -133,7 +133,7 @@ farm::Farm read_farm(const fs::path& folder) {
   farm::Farm farm{.name = record.name,
                   .seed = record.seed,
                   .terrain = read_terrain(truth / "terrain.ply"),
-                  .models = read_models(folder, record),
+                  .models = read_plant_models(folder, record),
                   .plots = read_plots(truth / "plots.geojson"),
                   .plants = {},
                   .anchor = record.anchor,

@@ -35,7 +35,7 @@ std::vector<farm::Plot> laid_out_plots(const FarmDescription& description,
   return plots;
 }
 
-std::vector<farm::Plot> plots_of(const std::vector<SownPlot>& sown) {
+std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {
   std::vector<farm::Plot> plots;
   for (const SownPlot& plot : sown) {
     plots.push_back(plot.plot);
@@ -95,7 +95,7 @@ farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
   std::vector<SownPlot> sown;
   if (description.plants) sown = sow(*grid, *description.plants, seed);
   std::vector<farm::Plot> plots =
-      description.plants ? plots_of(sown) : laid_out_plots(description, grid, seed);
+      description.plants ? planted_plots(sown) : laid_out_plots(description, grid, seed);
   terrain::MadeTerrain ground =
       terrain::make_terrain(description.terrain, boxes_of(plots), seed, description.source);
   farm::Farm farm{.name = description.name,

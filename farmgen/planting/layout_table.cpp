@@ -7,6 +7,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "planting/plants_description.h"
+
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
@@ -14,8 +16,6 @@
 namespace plotscan::planting {
 namespace {
 
-constexpr double kSmallestScale = 0.01;
-constexpr double kLargestScale = 100;
 constexpr long long kGreatestId = std::numeric_limits<std::uint32_t>::max();
 
 enum Column {
@@ -99,8 +99,9 @@ class LayoutRows {
         row.fail(places_[column], "is given beside scale; give one of the two");
       }
       scale[axis] = number(row, column, uniform);
-      if (scale[axis] >= kSmallestScale && scale[axis] <= kLargestScale) continue;
-      row.fail(places_[has(row, column) ? column : Column::scale], "is not in [0.01, 100]");
+      if (kPlantScale.contains(scale[axis])) continue;
+      row.fail(places_[has(row, column) ? column : Column::scale],
+               "is not in " + kPlantScale.text());
     }
     return scale;
   }

@@ -10,7 +10,12 @@
 #include "planting/plots_description.h"
 #include "planting/trial_design.h"
 
+#include "core/range.h"
+
 namespace plotscan::planting {
+
+// How large a plant may be, of its model.
+inline constexpr Range kPlantScale{0.01, 100};
 
 enum class PlantPattern { random, drilled };
 

@@ -5,7 +5,8 @@
 
 namespace plotscan {
 
+inline constexpr double kPi = std::numbers::pi;
 // In radians: 30 * kDegrees.
-inline constexpr double kDegrees = std::numbers::pi / 180;
+inline constexpr double kDegrees = kPi / 180;
 
 }  // namespace plotscan

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace plotscan {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // The share-quantile (0..1) of the values, linear between order statistics (Hyndman and Fan's type
 // 7, NumPy's and R's default). NaN when there are none.
@@ -20,6 +23,9 @@ Value selected(std::span<Value> values, std::size_t place) {
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
+
+// NaN of a whole that is none.
+inline double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
 
 // NaN when there are none.
 double mean(const std::vector<double>& values);

@@ -10,11 +10,11 @@
 namespace plotscan::boundary {
 namespace {
 
-Plot outer(const estimate::PlotEstimate& plot) {
+Plot outer_plot(const estimate::PlotEstimate& plot) {
   Plot made{.id = plot.id.text(),
             .row = plot.row,
             .column = plot.column,
-            .box = boundary::outer(plot.box),
+            .box = outer(plot.box),
             .points = plot.points,
             .heights = {},
             .confidence = plot.confidence,
@@ -28,11 +28,11 @@ Plot outer(const estimate::PlotEstimate& plot) {
   return made;
 }
 
-estimate::PlotEstimate inner(const Plot& plot) {
+estimate::PlotEstimate inner_plot(const Plot& plot) {
   estimate::PlotEstimate made{.id = PlotId(plot.id),
                               .row = plot.row,
                               .column = plot.column,
-                              .box = boundary::inner(plot.box),
+                              .box = inner(plot.box),
                               .points = plot.points};
   for (const auto& [name, height] : plot.heights) {
     made.heights_m[name] = height.value_m;
@@ -44,7 +44,7 @@ estimate::PlotEstimate inner(const Plot& plot) {
   return made;
 }
 
-GroundGrid outer(const ground::Surface& surface) {
+GroundGrid outer_ground(const ground::Surface& surface) {
   return {.x_m = surface.origin.x(),
           .y_m = surface.origin.y(),
           .cell_m = surface.cell_m,
@@ -58,9 +58,9 @@ GroundGrid outer(const ground::Surface& surface) {
 
 FieldEstimate outer(const estimate::Estimate& estimate) {
   FieldEstimate made{.method = estimate.method};
-  for (const estimate::PlotEstimate& plot : estimate.plots) made.plots.push_back(outer(plot));
+  for (const estimate::PlotEstimate& plot : estimate.plots) made.plots.push_back(outer_plot(plot));
   made.why_no_plots = estimate.diagnostics.why_no_plots;
-  if (estimate.ground) made.ground = outer(*estimate.ground);
+  if (estimate.ground) made.ground = outer_ground(*estimate.ground);
   made.crs = estimate.crs;
   made.geojson =
       plot_collection(features_of(estimate), estimate.crs, estimate.units).dump(1) + "\n";
@@ -70,7 +70,7 @@ FieldEstimate outer(const estimate::Estimate& estimate) {
 
 estimate::Estimate inner(const FieldEstimate& estimate) {
   estimate::Estimate made{.method = estimate.method};
-  for (const Plot& plot : estimate.plots) made.plots.push_back(inner(plot));
+  for (const Plot& plot : estimate.plots) made.plots.push_back(inner_plot(plot));
   return made;
 }
 

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/coordinate_units.h"
 #include "core/random.h"
 
 namespace plotscan::flight {
 namespace {
-
-constexpr double kFoot_m = 0.3048;
 
 // One component of the gusts, in units of its standard deviation and its time T: white noise
 // through 1/(1 + Ts) is x1, this through 1/(1 + Ts) again is x2. x1 and x2 have the covariance

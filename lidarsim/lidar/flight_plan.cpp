@@ -20,7 +20,7 @@ constexpr double kClearance_m = 0.5;      // to either side of the path
 constexpr double kClearanceStep_m = 0.1;  // between rays
 constexpr double kLeastLeg_m = 1e-3;
 
-void require_in_range(const char* name, double value, double low, double high) {
+void require_within(const char* name, double value, double low, double high) {
   if (value >= low && value <= high) return;
   throw InputError(std::string(name) + " " + format_number(value) + " m must be in [" +
                    format_number(low) + ", " + format_number(high) + "] m");
@@ -105,8 +105,7 @@ flight::Waypoint placed(const Scene& scene, const flight::StatedWaypoint& stated
     waypoint.position_m.z() = *ground_m + *stated.altitude_m;
   } else if (ground_m) {
     const double altitude_m = waypoint.position_m.z() - *ground_m;
-    require_in_range("its height over the ground below", altitude_m, kMinAltitude_m,
-                     kMaxAltitude_m);
+    require_within("its height over the ground below", altitude_m, kMinAltitude_m, kMaxAltitude_m);
   }
   return waypoint;
 }
@@ -130,8 +129,8 @@ void require_path(const std::filesystem::path& file, const std::vector<Eigen::Ve
 
 std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
                                          const FlightPlanOptions& options) {
-  require_in_range("altitude", options.altitude_m, kMinAltitude_m, kMaxAltitude_m);
-  require_in_range("spacing", options.spacing_m, 0.1, 1000);
+  require_within("altitude", options.altitude_m, kMinAltitude_m, kMaxAltitude_m);
+  require_within("spacing", options.spacing_m, 0.1, 1000);
   const std::vector<Eigen::Vector3d> path =
       flight::strips_over(site.areas, {.height_m = ground_of(site) + options.altitude_m,
                                        .spacing_m = options.spacing_m,

@@ -20,7 +20,7 @@ constexpr double kStep_m = 1e-4;
 constexpr int kPointFormat = 6;
 constexpr std::size_t kRing = 2;
 constexpr std::size_t kLabels = 4 + 4 + 1;
-constexpr std::size_t kMaxRecordSize = las::kFormatSizes[kPointFormat] + kRing + kLabels;
+constexpr std::size_t kLargestRecord = las::kFormatSizes[kPointFormat] + kRing + kLabels;
 constexpr double kScanAngleStep_rad = 0.006 * std::numbers::pi / 180;
 constexpr std::uint16_t kFlightLine = 1;
 constexpr int kMaxReturns = 15;
@@ -126,14 +126,14 @@ LasWriter::LasWriter(const std::filesystem::path& path, LasOptions options)
 
 void LasWriter::write(std::span<const LabelledPoint> points) {
   for (const LabelledPoint& point : points) {
-    pack(point, file_.room(kMaxRecordSize));
+    pack(point, file_.room(kLargestRecord));
     file_.used(record_size());
     ++points_;
   }
 }
 
 std::size_t LasWriter::record_size() const {
-  return kMaxRecordSize - (options_.labels ? 0 : kLabels);
+  return kLargestRecord - (options_.labels ? 0 : kLabels);
 }
 
 void LasWriter::close() { file_.close(header()); }

@@ -24,7 +24,7 @@ constexpr std::uint64_t kFirstRows = 8192;
 using Put = bool (*)(LabelledPoint&, double);
 
 template <class Whole>
-bool assign(Whole& field, double value) {
+bool assign_whole(Whole& field, double value) {
   const double rounded = std::round(value);
   if (!(rounded >= 0 && rounded <= std::numeric_limits<Whole>::max())) return false;
   field = static_cast<Whole>(rounded);
@@ -62,7 +62,7 @@ const std::vector<KnownField>& known_fields() {
        }},
       {"ring",
        {"ring", "laserid", "channel"},
-       [](LabelledPoint& p, double v) { return assign(p.ring, v); }},
+       [](LabelledPoint& p, double v) { return assign_whole(p.ring, v); }},
       {"time",
        {"time", "timestamp", "gpstime", "t"},
        [](LabelledPoint& p, double v) {
@@ -71,18 +71,18 @@ const std::vector<KnownField>& known_fields() {
        }},
       {"return_number",
        {"returnnumber"},
-       [](LabelledPoint& p, double v) { return assign(p.return_number, v); }},
+       [](LabelledPoint& p, double v) { return assign_whole(p.return_number, v); }},
       {"return_count",
        {"returncount", "numberofreturns"},
-       [](LabelledPoint& p, double v) { return assign(p.return_count, v); }},
+       [](LabelledPoint& p, double v) { return assign_whole(p.return_count, v); }},
       {"class",
        {"class", "label"},
        [](LabelledPoint& p, double v) {
          p.label = class_of(v);
          return true;
        }},
-      {"plot", {"plot"}, [](LabelledPoint& p, double v) { return assign(p.plot, v); }},
-      {"plant", {"plant"}, [](LabelledPoint& p, double v) { return assign(p.plant, v); }},
+      {"plot", {"plot"}, [](LabelledPoint& p, double v) { return assign_whole(p.plot, v); }},
+      {"plant", {"plant"}, [](LabelledPoint& p, double v) { return assign_whole(p.plant, v); }},
   };
   return fields;
 }

@@ -2,15 +2,14 @@
 #include "core/extent.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
+
 namespace plotscan {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(ExtentOf, HoldsTheCornersOfAll) {
   struct Item {

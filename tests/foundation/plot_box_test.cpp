@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plot_box.h"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/random.h"
 
 namespace plotscan {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 PlotBox random_box(std::uint64_t index) {
   RandomStream stream(5, random_purpose("box"), index);

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads which folder includes headers of which, and fails where folders go round in a circle, where a file includes a
 header that is in no folder, or where docs/architecture.md does not name a folder that has headers. A room's headers that
-others include, and what these include of the room, lie in the room; those for itself in its subfolder internal/.
+others include, and what these include of the room, lie in the room; those for itself in its subfolder internal/. No
+function or constant of an anonymous namespace has the name of one that a header of its namespace, or of one around it,
+declares: the files of a library are compiled together, and it would be taken in place of that.
 
 usage: rooms.py SOURCE_FOLDER
 """
@@ -12,6 +14,10 @@ from pathlib import Path
 
 ROOTS = ("foundation", "farmgen", "lidarsim", "estimator", "benchmarks", "library", "viewer")
 INTERNAL = "internal"
+NAMESPACE = re.compile(r"^namespace (plotscan[\w:]*) \{", re.MULTILINE)
+FUNCTION = re.compile(r"^(?!return|using|template)[A-Za-z][\w:<>,&*\[\]. ]*?[ &*](\w+)\(", re.MULTILINE)
+CONSTANT = re.compile(r"^(?:inline )?constexpr .*?\b(k[A-Z]\w*)", re.MULTILINE)
+ANONYMOUS = re.compile(r"^namespace \{\n(.*?)^\}  // namespace\n", re.MULTILINE | re.DOTALL)
 INCLUDE = re.compile(r'^\s*#include "([^"]+/[^"/]+)"', re.MULTILINE)
 
 
@@ -69,6 +75,26 @@ def arrows(source):
     return found, lost
 
 
+def names_in(text):
+    return set(FUNCTION.findall(text)) | set(CONSTANT.findall(text))
+
+
+def hidden(source):
+    """Names in anonymous namespaces that a header of their namespace, or of one around it, declares too."""
+    declared, texts = [], [(path, path.read_text()) for _, path in sources(source)]
+    for path, text in texts:
+        if path.suffix == ".h" and path.parent.name != "plotscan" and (where := NAMESPACE.search(text)):
+            declared.append((where[1] + "::", names_in(text), path))
+    made = []
+    for path, text in texts:
+        if path.suffix == ".cpp" and (where := NAMESPACE.search(text)):
+            names = set().union(*map(names_in, ANONYMOUS.findall(text)))
+            made += [f"{path}: {name} in an anonymous namespace hides that of {header}"
+                     for around, others, header in declared if f"{where[1]}::".startswith(around)
+                     for name in sorted(names & others)]
+    return made
+
+
 def circle(found):
     """Folders of which each includes the next and the last the first; nothing where there is no circle."""
     done, path = set(), []
@@ -90,7 +116,7 @@ def circle(found):
 
 def main(source):
     found, mistakes = arrows(source)
-    mistakes += misplaced(source)
+    mistakes += misplaced(source) + hidden(source)
     if round_trip := circle(found):
         mistakes.append("folders in a circle: " + " -> ".join(round_trip))
         mistakes += [f"  {found[a][b]} includes {b}/" for a, b in zip(round_trip, round_trip[1:])]

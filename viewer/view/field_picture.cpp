@@ -22,15 +22,14 @@ namespace plotscan::view {
 namespace {
 
 constexpr Range kSize_px{400, 8192};
-constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
-constexpr double kWidest = 1.6;        // of the heights; wider pictures have smaller text
-constexpr double kLeastWidth = 42;     // of the page in texts, for title and legend
-constexpr double kLabelShare = 0.85;   // of the other text
-constexpr double kLineShare = 0.06;    // of the boxes' shorter side
+constexpr double kWidest = 1.6;       // of the heights; wider pictures have smaller text
+constexpr double kLeastWidth = 42;    // of the page in texts, for title and legend
+constexpr double kLabelShare = 0.85;  // of the other text
+constexpr double kLineShare = 0.06;   // of the boxes' shorter side
 constexpr Rgb kPlotColour = kBlue;
 constexpr Rgb kFlaggedColour = kVermilion;
 // The colours end here: the share of pixels below, so that stray points do not bleach all others.
-constexpr double kTopShare = 0.995;
+constexpr double kColouredShare = 0.995;
 constexpr double kLeastTop_m = 0.1;
 
 void validate(const estimate::Estimate& estimate, const FieldPictureOptions& options) {
@@ -62,14 +61,14 @@ std::string title_of(const estimate::Estimate& estimate) {
 }
 
 // Where the map and its surroundings lie on the page.
-struct Layout {
+struct FieldPage {
   Eigen::Vector2d page_px = Eigen::Vector2d::Zero();
   Axes axes = {};
   double text_px = 0;
 };
 
-Layout lay_out(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& options) {
-  Layout layout;
+FieldPage lay_out_page(const Eigen::AlignedBox2d& shown, const FieldPictureOptions& options) {
+  FieldPage layout;
   layout.text_px = kTextShare * std::min(1.0 * options.width_px, kWidest * options.height_px);
   const double em = layout.text_px;
   const Eigen::Vector2d before(5.2 * em, 4.2 * em);  // marks and titles, left and below
@@ -129,7 +128,7 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
   }
 }
 
-void add_title(Page& page, const Layout& layout, const estimate::Estimate& estimate,
+void add_title(Page& page, const FieldPage& layout, const estimate::Estimate& estimate,
                bool groundless) {
   const double em = layout.text_px;
   const double left = layout.axes.frame_px.min().x();
@@ -158,7 +157,7 @@ void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& es
   validate(estimate, options);
   require_file(cloud);
   const Display display;
-  const Layout layout = lay_out(shown_part(estimate, options.margin_m), options);
+  const FieldPage layout = lay_out_page(shown_part(estimate, options.margin_m), options);
   const Axes& axes = layout.axes;
   TopHeights tops(axes.shown, axes.frame_px.sizes().cast<int>());
   CloudFiles files(cloud);
@@ -169,7 +168,7 @@ void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& es
                      "has no point in the estimate's field; is it the cloud of this "
                      "estimate, in the same coordinates?");
   }
-  const HeightColours colours{.top_m = std::max(kLeastTop_m, tops.quantile_m(kTopShare))};
+  const HeightColours colours{.top_m = std::max(kLeastTop_m, tops.quantile_m(kColouredShare))};
 
   Page page(layout.page_px);
   page.raster(axes.frame_px.min(), tops.drawn(colours));

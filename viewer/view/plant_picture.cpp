@@ -34,8 +34,6 @@ namespace {
 
 constexpr double kHeightsShowUpTo_deg = 60;  // steeper, the scale counts metres of ground
 constexpr double kCreaseAngle_deg = 50;      // sharper edges are not shaded as round
-// Pixels drawn each way for one of the picture, so that awns and thin stems show.
-constexpr int kSamples = 2;
 constexpr Range kPlantPictureSize_px{64, 8192};
 constexpr double kLeastTick_px = 30;
 constexpr int kLabelFont_px = 15;
@@ -70,7 +68,7 @@ void validate(const std::vector<PicturedPlant>& plants, const PlantPictureOption
   if (plants.empty()) throw InputError("there is no plant to draw");
 }
 
-PlantExtent extent_of(const PicturedPlant& plant, const View& view) {
+PlantExtent plant_extent(const PicturedPlant& plant, const View& view) {
   PlantExtent extent;
   extent.label_px = kLetter_px * static_cast<double>(plant.label.size());
   for (const Eigen::Vector3f& vertex : plant.mesh.vertices) {
@@ -181,7 +179,7 @@ void add_scale(vtkRenderer& renderer, const Sheet& sheet, const PlantRow& row,
   frame.show(renderer, 0.35, 1.5F);
 }
 
-void aim(vtkRenderer& renderer, const Sheet& sheet) {
+void aim_at(vtkRenderer& renderer, const Sheet& sheet) {
   vtkCamera& camera = *renderer.GetActiveCamera();
   camera.ParallelProjectionOn();
   camera.SetParallelScale(sheet.size_px.y() / 2 / sheet.px_per_m);
@@ -210,7 +208,7 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
   const View view = view_from(options);
   std::vector<PlantExtent> extents;
-  for (const PicturedPlant& plant : plants) extents.push_back(extent_of(plant, view));
+  for (const PicturedPlant& plant : plants) extents.push_back(plant_extent(plant, view));
   const Eigen::Vector2d size_px(options.width_px, options.height_px);
   const PlantLayout layout = lay_out(extents, size_px, static_cast<std::size_t>(options.columns));
   const Sheet sheet{view, size_px, layout.px_per_m, depth_behind(plants)};
@@ -230,7 +228,7 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
       add_text(*renderer, plants[i].label, {layout.feet[i].x(), row.label_px}, kLabelFont_px, true);
     }
   }
-  aim(*renderer, sheet);
+  aim_at(*renderer, sheet);
 
   vtkNew<vtkRenderWindow> window;
   prepare_offscreen(*window, kSamples * options.width_px, kSamples * options.height_px);

@@ -25,9 +25,8 @@ namespace {
 
 constexpr Range kWidth_px{600, 8192};
 constexpr Range kHeight_px{400, 8192};
-constexpr double kTextShare = 0.0145;  // of the picture's width: 7 points on a page 17 cm wide
-constexpr double kWidest = 2;          // of the heights; wider pictures have smaller text
-constexpr double kLeastChart = 5;      // height of the chart, in texts
+constexpr double kWidestPlot = 2;  // of the heights; wider pictures have smaller text
+constexpr double kLeastChart = 5;  // height of the chart, in texts
 constexpr Rgb kInside{0, 136, 96};
 constexpr Rgb kBeyond = kGrey;
 constexpr double kInterval = 1.96;  // standard errors
@@ -114,7 +113,7 @@ std::vector<LegendEntry> legend_of(double em) {
 }
 
 // The page from top to bottom: title, subtitle, flags, chart, legend.
-struct Layout {
+struct PlotPage {
   Eigen::Vector2d page_px = Eigen::Vector2d::Zero();
   Axes axes = {};
   double exaggeration = 1;
@@ -123,9 +122,9 @@ struct Layout {
   std::vector<LegendEntry> legend;
 };
 
-Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
-  Layout layout;
-  layout.text_px = kTextShare * std::min(1.0 * options.width_px, kWidest * options.height_px);
+PlotPage lay_out_plot(const Scene& scene, const PlotPictureOptions& options) {
+  PlotPage layout;
+  layout.text_px = kTextShare * std::min(1.0 * options.width_px, kWidestPlot * options.height_px);
   const double em = layout.text_px;
   if (!scene.plot.flags.empty()) {
     layout.flags = wrapped("flagged: " + joined(scene.plot.flags, "; "), options.width_px - 2 * em,
@@ -159,7 +158,7 @@ Layout lay_out(const Scene& scene, const PlotPictureOptions& options) {
 }
 
 // Solid where the ground was seen, dashed where not.
-void add_ground(Page& page, const Layout& layout, const Profile& ground) {
+void add_ground(Page& page, const PlotPage& layout, const Profile& ground) {
   const auto error_places = [&](double times) {
     return [&layout, times](const ProfilePoint& point) {
       return layout.axes.at({point.along_m, point.z_m + times * point.standard_error_m});
@@ -177,7 +176,7 @@ void add_ground(Page& page, const Layout& layout, const Profile& ground) {
   }
 }
 
-void add_ends(Page& page, const Layout& layout, double length_m) {
+void add_ends(Page& page, const PlotPage& layout, double length_m) {
   for (const double end_m : {0.0, length_m}) {
     const double x = layout.axes.at({end_m, 0}).x();
     page.line({{x, layout.axes.frame_px.min().y()}, {x, layout.axes.frame_px.max().y()}},
@@ -185,7 +184,7 @@ void add_ends(Page& page, const Layout& layout, double length_m) {
   }
 }
 
-void add_words(Page& page, const Layout& layout, const estimate::PlotEstimate& plot) {
+void add_words(Page& page, const PlotPage& layout, const estimate::PlotEstimate& plot) {
   const double em = layout.text_px;
   double y = layout.page_px.y() - 1.2 * em;
   page.text({em, y}, title_of(plot), {.size_px = 1.2 * em, .bold = true});
@@ -220,7 +219,7 @@ void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& est
     throw InputError(cloud, "has no point in plot " + id.text() +
                                 "; is it the cloud of this estimate, in the same coordinates?");
   }
-  const Layout layout = lay_out(scene, options);
+  const PlotPage layout = lay_out_plot(scene, options);
 
   Page page(layout.page_px);
   page.raster(layout.axes.frame_px.min(), scene.points.drawn(layout.axes, kInside, kBeyond));

@@ -15,7 +15,7 @@ std::string places_of(const std::map<std::string, std::string>& values) {
   return joined(names, ", ");
 }
 
-std::string substituted(const std::string& word, const std::map<std::string, std::string>& values) {
+std::string filled_in(const std::string& word, const std::map<std::string, std::string>& values) {
   std::string text;
   for (std::size_t at = 0; at < word.size();) {
     if (word[at] != '{') {
@@ -69,7 +69,7 @@ std::vector<std::string> split_command(const std::string& command) {
 std::vector<std::string> substituted(const std::vector<std::string>& words,
                                      const std::map<std::string, std::string>& values) {
   std::vector<std::string> arguments;
-  for (const std::string& word : words) arguments.push_back(substituted(word, values));
+  for (const std::string& word : words) arguments.push_back(filled_in(word, values));
   return arguments;
 }
 

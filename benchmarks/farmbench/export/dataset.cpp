@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCommand = "farmbench export --dataset";
+constexpr const char* kDatasetCommand = "farmbench export --dataset";
 constexpr std::array<const char*, 5> kClasses = {"unlabelled", "ground", "crop", "weed", "other"};
 constexpr std::array<const char*, 3> kSplits = {"train", "validation", "test"};
 
@@ -139,7 +139,7 @@ std::string split_of(std::size_t seed_index) {
 DatasetSummary export_dataset(const DatasetOptions& options, const ProgressReport& progress) {
   const Suite suite = chosen_suite(options.suite);
   const std::vector<Sequence> sequences = sequences_of(suite);
-  OutputFolder folder(options.output, options.replace, kCommand, {{suite.file}});
+  OutputFolder folder(options.output, options.replace, kDatasetCommand, {{suite.file}});
   const TemporaryPath work(folder.path().parent_path() /
                            (".farmbench-dataset-" + std::to_string(getpid())));
   json document = {{"format", "plotscan dataset 1"},
@@ -161,7 +161,7 @@ DatasetSummary export_dataset(const DatasetOptions& options, const ProgressRepor
   }
   write_text(folder.path() / "dataset.json", document.dump(1) + "\n");
   write_text(folder.path() / "README.md", card(document, options.command));
-  write_manifest(folder.path(), {.command = kCommand,
+  write_manifest(folder.path(), {.command = kDatasetCommand,
                                  .options = {{"suite", suite.name}, {"seeds", suite.seeds}},
                                  .inputs = {suite.file}});
   folder.commit();

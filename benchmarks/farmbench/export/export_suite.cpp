@@ -18,8 +18,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCommand = "farmbench export";
-constexpr double kFlown = 0.8;  // how far a field is when it has been flown
+constexpr const char* kExportCommand = "farmbench export";
+constexpr double kExportFlown = 0.8;  // how far a field is when it has been flown
 
 const json& heights_asked() {
   static const json heights = {
@@ -41,7 +41,7 @@ json export_field(const BlindField& field, const ExportOptions& options, const f
   fs::create_directories(folder);
   const FarmPlace place{field.suite_case, field.seed, work, options.threads};
   scan_farm(place, make_farm(place), [&](double share) {
-    if (progress) progress(kFlown * share);
+    if (progress) progress(kExportFlown * share);
   });
   const std::uint64_t points = write_blind_files(place, options.parts, folder);
   json hashes = json::object();
@@ -56,7 +56,7 @@ json export_field(const BlindField& field, const ExportOptions& options, const f
 }
 
 // The clock tells the order in which files were written.
-void set_times(const fs::path& folder) {
+void set_file_times(const fs::path& folder) {
   const auto instant = std::chrono::file_clock::from_sys(std::chrono::sys_seconds(
       std::chrono::sys_days{std::chrono::year{2000} / std::chrono::January / 1}));
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -70,7 +70,7 @@ ExportSummary export_suite(const ExportOptions& options, const ProgressReport& p
   const Suite suite = chosen_suite(options.suite);
   require_parts(options.parts, suite);
   const std::vector<BlindField> fields = blind_fields(suite, options.suite);
-  OutputFolder folder(options.output, options.replace, kCommand, {{options.suite.file}});
+  OutputFolder folder(options.output, options.replace, kExportCommand, {{options.suite.file}});
   const TemporaryPath work(folder.path().parent_path() /
                            (".farmbench-export-" + std::to_string(getpid())));
   ExportSummary summary{.fields = fields.size()};
@@ -87,8 +87,8 @@ ExportSummary export_suite(const ExportOptions& options, const ProgressReport& p
   }
   write_text(folder.path() / "task.json", task.dump(1) + "\n");
   write_text(folder.path() / "TASK.md", task_sheet(task));
-  write_manifest(folder.path(), {.command = kCommand, .options = {{"suite", suite.name}}});
-  set_times(folder.path());
+  write_manifest(folder.path(), {.command = kExportCommand, .options = {{"suite", suite.name}}});
+  set_file_times(folder.path());
   folder.commit();
   return summary;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -11,8 +10,6 @@
 
 namespace plotscan::farmbench {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool can_resample(const std::vector<SquaredErrors>& farms) {
   return std::ranges::count_if(farms, [](const SquaredErrors& f) { return f.count > 0; }) >= 2;

@@ -7,30 +7,30 @@
 namespace plotscan::farmbench {
 namespace {
 
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
+void read_into(const YamlSection& section, const std::string& key,
+               const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = section.number(key, setting.range);
 }
 
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
+void read_into(const YamlSection& section, const std::string& key,
+               const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = section.number(key, setting.range);
 }
 
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
+void read_into(const YamlSection& section, const std::string& key,
+               const lidar::WholeSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = static_cast<int>(section.integer(key, static_cast<int>(setting.range.low),
                                                         static_cast<int>(setting.range.high)));
 }
 
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::VectorSetting& setting, lidar::FlyOptions& flight) {
+void read_into(const YamlSection& section, const std::string& key,
+               const lidar::VectorSetting& setting, lidar::FlyOptions& flight) {
   const std::vector<double> numbers = section.numbers(key, 3, setting.range);
   setting.of(flight) = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]);
 }
 
-void read_setting(const YamlSection& section, const std::string& key,
-                  const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
+void read_into(const YamlSection& section, const std::string& key,
+               const lidar::TextSetting& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = setting.choices.empty()
                            ? section.text(key)
                            : setting.choices[section.choice(key, setting.choices)];
@@ -40,7 +40,7 @@ void read_setting(const YamlSection& section, const std::string& key,
 
 void read_fly_setting(const YamlSection& section, const lidar::FlySetting& setting,
                       lidar::FlyOptions& flight) {
-  std::visit([&](const auto& value) { read_setting(section, setting.key, value, flight); },
+  std::visit([&](const auto& value) { read_into(section, setting.key, value, flight); },
              setting.value);
 }
 

@@ -85,7 +85,7 @@ double share_of(std::size_t done, std::size_t all) {
   return static_cast<double>(done) / static_cast<double>(all);
 }
 
-void report(const ProgressReport& progress, double share) {
+void report_share(const ProgressReport& progress, double share) {
   if (progress) progress(share);
 }
 
@@ -95,7 +95,7 @@ std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
   return some;
 }
 
-FarmResult result_of(const FarmRun& run, const lidar::FlySummary& flown) {
+FarmResult farm_result(const FarmRun& run, const lidar::FlySummary& flown) {
   return {.case_name = run.suite_case.name,
           .seed = run.seed,
           .made_from = {},
@@ -113,7 +113,7 @@ struct FieldScan {
 FieldScan scan_field(const FarmPlace& place, const farm::Farm& farm, const cloud::Area& area,
                      const ProgressReport& progress) {
   ScannedFarm scanned =
-      scan_farm(place, farm, [&](double share) { report(progress, kFlown * share); });
+      scan_farm(place, farm, [&](double share) { report_share(progress, kFlown * share); });
   cloud::CloudMap map = cloud::read_map(scanned.cloud, area);
   return {std::move(scanned), std::move(map)};
 }
@@ -125,7 +125,7 @@ FarmResult not_flown(const FarmRun& run, const std::vector<score::TruePlot>& plo
   const std::string work = run.folder.string() + "/";
   for (std::size_t at = 0; (at = why.find(work, at)) != std::string::npos;)
     why.erase(at, work.size());
-  FarmResult result = result_of(run, {});
+  FarmResult result = farm_result(run, {});
   for (const std::string& name : run.suite.methods)
     result.methods.push_back({.method = name,
                               .failure = "no flight: " + why,
@@ -178,8 +178,8 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
     truth.clear();
     plots.clear();
   }
-  report(progress, kRead);
-  FarmResult result = result_of(run, scanned.flown);
+  report_share(progress, kRead);
+  FarmResult result = farm_result(run, scanned.flown);
   const fs::path poses = folder / "scan" / "poses.csv";
   const Field field{.cloud = scanned.cloud,
                     .poses = poses,
@@ -193,7 +193,8 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
     MethodRun method = run_named(name, suite, field, truth);
     result.methods.push_back(std::move(method.result));
     if (view) estimates.push_back(std::move(method.estimate));
-    report(progress, kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+    report_share(progress,
+                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
   }
   if (view) {
     write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",

@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-json number(double value) {
+json or_null(double value) {
   constexpr int kDecimals = 5;  // of metres
   return std::isfinite(value) ? json(report::decimals(value, kDecimals)) : json();
 }
@@ -36,29 +36,29 @@ json packed(const TableRow& row) {
           {"found", row.found},
           {"missed", row.missed},
           {"extra", row.extra},
-          {"recall", number(row.recall)},
-          {"precision", number(row.precision)},
-          {"iou_mean", number(row.iou_mean)},
-          {"iou_min", number(row.iou_min)},
-          {"center_rmse_m", number(row.center_rmse_m)},
-          {"heading_rmse_deg", number(degrees(row.heading_rmse_rad))},
-          {"rmse_m", number(row.rmse_m)},
-          {"rmse_low_m", number(row.rmse_low_m)},
-          {"rmse_high_m", number(row.rmse_high_m)},
-          {"rmse_change_m", number(row.rmse_change_m)},
-          {"rmse_change_low_m", number(row.rmse_change_low_m)},
-          {"rmse_change_high_m", number(row.rmse_change_high_m)},
-          {"bias_m", number(row.bias_m)},
-          {"mae_m", number(row.mae_m)},
-          {"r2", number(row.r2)},
-          {"farm_bias_m", number(row.within.farm_bias_m)},
-          {"within_m", number(row.within.within_m)},
-          {"r2_within", number(row.within.r2)},
-          {"rho_within", number(row.within.rho)},
-          {"coverage95", number(row.coverage95)},
+          {"recall", or_null(row.recall)},
+          {"precision", or_null(row.precision)},
+          {"iou_mean", or_null(row.iou_mean)},
+          {"iou_min", or_null(row.iou_min)},
+          {"center_rmse_m", or_null(row.center_rmse_m)},
+          {"heading_rmse_deg", or_null(degrees(row.heading_rmse_rad))},
+          {"rmse_m", or_null(row.rmse_m)},
+          {"rmse_low_m", or_null(row.rmse_low_m)},
+          {"rmse_high_m", or_null(row.rmse_high_m)},
+          {"rmse_change_m", or_null(row.rmse_change_m)},
+          {"rmse_change_low_m", or_null(row.rmse_change_low_m)},
+          {"rmse_change_high_m", or_null(row.rmse_change_high_m)},
+          {"bias_m", or_null(row.bias_m)},
+          {"mae_m", or_null(row.mae_m)},
+          {"r2", or_null(row.r2)},
+          {"farm_bias_m", or_null(row.within.farm_bias_m)},
+          {"within_m", or_null(row.within.within_m)},
+          {"r2_within", or_null(row.within.r2)},
+          {"rho_within", or_null(row.within.rho)},
+          {"coverage95", or_null(row.coverage95)},
           {"flagged", row.flagged},
           {"large_unflagged", row.large_unflagged},
-          {"seconds", number(row.seconds)}};
+          {"seconds", or_null(row.seconds)}};
 }
 
 const std::vector<score::PlotScore>& plots_of(const FarmResult& farm) {
@@ -78,7 +78,7 @@ json truths_of(const SuiteResult& result) {
     for (const FarmResult& farm : result.farms) {
       for (const score::PlotScore& plot : plots_of(farm)) {
         const auto value = plot.truth.heights_m.find(name);
-        values.push_back(value == plot.truth.heights_m.end() ? json() : number(value->second));
+        values.push_back(value == plot.truth.heights_m.end() ? json() : or_null(value->second));
       }
     }
   }
@@ -88,7 +88,7 @@ json truths_of(const SuiteResult& result) {
 json estimate_of(const score::PlotScore& plot, const std::string& height) {
   if (!plot.found) return {};
   const auto found = plot.found->heights_m.find(height);
-  return found == plot.found->heights_m.end() ? json() : number(found->second);
+  return found == plot.found->heights_m.end() ? json() : or_null(found->second);
 }
 
 // What a method says of the plots of truths_of, null where it says nothing.
@@ -141,7 +141,7 @@ json sweep_of(const SuiteResult& result) {
   document["row"] = asked == heights.end() ? "" : asked->row;
   json& flights = document["flights"] = json::array();
   for (const FlightCost& cost : flight_costs(result))
-    flights.push_back({{"flight_s", number(cost.flight_s)}, {"points", number(cost.points)}});
+    flights.push_back({{"flight_s", or_null(cost.flight_s)}, {"points", or_null(cost.points)}});
   return document;
 }
 

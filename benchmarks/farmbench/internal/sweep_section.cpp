@@ -85,7 +85,7 @@ std::string read_height(const YamlSection& root, const Suite& suite) {
 }
 
 // What the height is held against: the truth that it is named after, where there is one.
-std::string read_truth(const YamlSection& root, const std::string& height) {
+std::string read_height_truth(const YamlSection& root, const std::string& height) {
   std::vector<std::string> truths = {"height_hand3_m"};
   for (const MethodHeight& named : method_named("one-number").heights)
     truths.push_back(score::named_truth(named.height));
@@ -104,7 +104,7 @@ SweepGoal read_goal(const YamlSection& section) {
 void read_sweep(const YamlSection& root, const SuiteCase& base, Suite& suite) {
   Sweep sweep;
   sweep.height = read_height(root, suite);
-  sweep.truth = read_truth(root, sweep.height);
+  sweep.truth = read_height_truth(root, sweep.height);
   if (root.has("enough")) sweep.goal = read_goal(root.section("enough"));
   const YamlSection axes = root.section("axes");
   suite.cases = {base};

@@ -101,7 +101,7 @@ void declare_sweep(Program& program) {
   declare_running(command, *options);
 }
 
-void declare_report(Program& program) {
+void declare_report_page(Program& program) {
   const auto results = std::make_shared<std::string>();
   CLI::App& command = program.command(
       "report", "Make the table and the report again from results.json.",
@@ -117,7 +117,7 @@ void declare_report(Program& program) {
 void declare_run(Program& program) {
   declare_suite_run(program);
   declare_sweep(program);
-  declare_report(program);
+  declare_report_page(program);
 }
 
 }  // namespace plotscan

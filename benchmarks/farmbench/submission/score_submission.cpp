@@ -23,8 +23,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kCommand = "farmbench run";  // whose folders scores are added to
-
 // What is true of a field.
 struct FieldTruth {
   std::vector<score::TruePlot> plots;
@@ -161,7 +159,7 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
   json results = {{"farms", result.farms.size()}, {"finished", false}};
   if (fs::exists(output / "manifest.json")) results = read_manifest(output)["results"];
   fs::create_directories(output);
-  const Manifest manifest{.command = kCommand,
+  const Manifest manifest{.command = kRunCommand,
                           .seed = options.seed,
                           .inputs = {options.suite.file},
                           .results = std::move(results)};
@@ -199,7 +197,7 @@ ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
   const Suite suite = chosen_suite(options.suite);
   std::optional<SuiteResult> earlier;
   if (options.output) {
-    require_own_folder(*options.output, kCommand);
+    require_own_folder(*options.output, kRunCommand);
     require_apart(*options.output, {{options.submission}});
     earlier = earlier_results(*options.output, suite);
   }

@@ -14,11 +14,11 @@ namespace {
 
 using Cell = std::array<std::int32_t, 2>;
 
-std::uint64_t key_of(const Cell& cell) {
+std::uint64_t cell_key(const Cell& cell) {
   return static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell[0])) << 32 |
          static_cast<std::uint32_t>(cell[1]);
 }
-Cell cell_of(std::uint64_t key) {
+Cell cell_at(std::uint64_t key) {
   return {static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key)};
 }
 std::int32_t index_of(double coordinate_m) {
@@ -45,13 +45,13 @@ std::uint32_t typical_count(Counts counts) {
 
 // Takes the patch of cells around `start` out of `dense`.
 std::vector<Cell> take_patch(std::unordered_map<std::uint64_t, bool>& free, std::uint64_t start) {
-  std::vector<Cell> patch{cell_of(start)};
+  std::vector<Cell> patch{cell_at(start)};
   free[start] = false;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const Cell cell = patch[i];
     for (const Cell step : {Cell{1, 0}, Cell{-1, 0}, Cell{0, 1}, Cell{0, -1}}) {
       const Cell neighbour{cell[0] + step[0], cell[1] + step[1]};
-      const auto found = free.find(key_of(neighbour));
+      const auto found = free.find(cell_key(neighbour));
       if (found == free.end() || !found->second) continue;
       found->second = false;
       patch.push_back(neighbour);
@@ -79,7 +79,7 @@ std::vector<Cell> largest_patch(const Counts& counts, double threshold) {
 
 void FieldFinder::add(std::span<const Eigen::Vector3d> world_points) {
   for (const Eigen::Vector3d& point : world_points) {
-    ++count_by_cell_[key_of({index_of(point.x()), index_of(point.y())})];
+    ++count_by_cell_[cell_key({index_of(point.x()), index_of(point.y())})];
   }
 }
 

@@ -18,7 +18,7 @@
 namespace plotscan::cloud {
 namespace {
 
-constexpr double kSlab_m = 0.5;
+constexpr double kHazeSlab_m = 0.5;
 constexpr std::ptrdiff_t kOutwards = 12;  // slabs, that crops of 3 m fill half of
 constexpr std::int32_t kBlock = 8;        // tiles to each side
 constexpr double kMostVoxelsAMetre = 10;
@@ -90,9 +90,9 @@ class Air {
       : cloud_(cloud),
         options_(options),
         rows_(cloud.tiles),
-        slabs_(static_cast<std::ptrdiff_t>(std::ceil(2 * options.farthest_m / kSlab_m)) + 1) {
+        slabs_(static_cast<std::ptrdiff_t>(std::ceil(2 * options.farthest_m / kHazeSlab_m)) + 1) {
     for (const double level_m : tile_levels(cloud, rows_, options.threads))
-      bottom_m_.push_back(std::floor((level_m - options.farthest_m) / kSlab_m) * kSlab_m);
+      bottom_m_.push_back(std::floor((level_m - options.farthest_m) / kHazeSlab_m) * kHazeSlab_m);
     for (const Tile tile : cloud.tiles) west_ = std::min(west_, tile.x);
   }
 
@@ -100,7 +100,7 @@ class Air {
 
   // Not of the profile where a point lies beyond the air.
   std::ptrdiff_t slab_of(std::size_t tile, const Eigen::Vector3f& point) const {
-    const double slab = std::floor((point.z() - bottom_m_[tile]) / kSlab_m);
+    const double slab = std::floor((point.z() - bottom_m_[tile]) / kHazeSlab_m);
     return static_cast<std::ptrdiff_t>(std::clamp(slab, -1.0, static_cast<double>(slabs_)));
   }
 
@@ -118,7 +118,7 @@ class Air {
     const double voxels_m = std::round(3 * std::sqrt(density_m2 / options_.column_points));
     const int a_metre = static_cast<int>(std::clamp(voxels_m, 1.0, kMostVoxelsAMetre));
     if (9 * density_m2 / (a_metre * a_metre) < options_.column_points / 2) return result;
-    Voxels voxels(corner_of(tile), static_cast<double>(slabs_) * kSlab_m, a_metre);
+    Voxels voxels(corner_of(tile), static_cast<double>(slabs_) * kHazeSlab_m, a_metre);
     rows_.visit_around(tile, 1, [&](std::size_t other) {
       for (std::size_t i = cloud_.begin[other]; i < cloud_.begin[other + 1]; ++i)
         voxels.add(cloud_.points[i]);

@@ -120,14 +120,14 @@ std::string date_of(const OGRFeature& feature, int field) {
   return fmt::format("{:04}-{:02}-{:02}", year, month, day);
 }
 
-std::string text_of(const OGRFeature& feature, int field) {
+std::string field_text(const OGRFeature& feature, int field) {
   std::string text = feature.GetFieldAsString(field);
   if (CPLIsUTF8(text.c_str(), -1) != 0) return text;
   throw InputError(std::string("its attribute \"") + feature.GetFieldDefnRef(field)->GetNameRef() +
                    "\" has letters in another encoding than the file states; save it in UTF-8");
 }
 
-json value_of(const OGRFeature& feature, int field) {
+json field_value(const OGRFeature& feature, int field) {
   if (!feature.IsFieldSetAndNotNull(field)) return nullptr;
   const OGRFieldDefn& definition = *feature.GetFieldDefnRef(field);
   switch (definition.GetType()) {
@@ -140,7 +140,7 @@ json value_of(const OGRFeature& feature, int field) {
     case OFTDate:
       return date_of(feature, field);
     default:
-      return text_of(feature, field);
+      return field_text(feature, field);
   }
 }
 
@@ -148,7 +148,7 @@ json feature_of(const OGRFeature& feature, const std::string& key) {
   json properties = json::object();
   if (!key.empty()) properties[key] = feature.GetFID();
   for (int field = 0; field < feature.GetFieldCount(); ++field)
-    properties[feature.GetFieldDefnRef(field)->GetNameRef()] = value_of(feature, field);
+    properties[feature.GetFieldDefnRef(field)->GetNameRef()] = field_value(feature, field);
   return {{"type", "Feature"},
           {"geometry", geometry_of(feature.GetGeometryRef())},
           {"properties", properties}};

@@ -15,7 +15,7 @@ constexpr int kNear = 2;
 constexpr int kFar = 6;
 constexpr float kPrior = 0.3f;
 // Layers above the surface count up to so many standard errors.
-constexpr float kAbove = 2.5f;
+constexpr float kMostAbove = 2.5f;
 // A layer that holds the surface almost by itself tells little of what it would be without.
 constexpr float kMostLeverage = 0.8f;
 // From so many returns a layer on, noise and ground can be told apart.
@@ -43,7 +43,7 @@ struct Sizes {
 float size_of(float square_m2, bool many) {
   return many ? square_m2 : std::sqrt(std::sqrt(square_m2));
 }
-float spread_of(float mean_size, bool many) {
+float usual_spread(float mean_size, bool many) {
   return many ? std::sqrt(mean_size) : kSpreadOfRoots * mean_size * mean_size;
 }
 
@@ -103,7 +103,7 @@ Field spread_around(const Grid& grid, const Sizes& sizes) {
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     const float wide = std::max(0.0f, far.size[i] + kPrior * usual) / (far.nodes[i] + kPrior);
     const float here = std::max(0.0f, near.size[i] + kPrior * wide) / (near.nodes[i] + kPrior);
-    spread_m[i] = spread_of(here, sizes.many);
+    spread_m[i] = usual_spread(here, sizes.many);
   }
   return spread_m;
 }
@@ -116,7 +116,7 @@ Field misfit(const Grid& grid, const Layer& layer, const Fitted& fitted) {
       layer, fitted, [](std::size_t, float off_m) { return off_m < 0; }, sizes);
   const Field below_m = spread_around(grid, sizes);
   const auto as_near = [&](std::size_t i, float off_m) {
-    return off_m >= 0 && off_m < kAbove * std::hypot(fitted.sd_m[i], below_m[i]);
+    return off_m >= 0 && off_m < kMostAbove * std::hypot(fitted.sd_m[i], below_m[i]);
   };
   add(layer, fitted, as_near, sizes);
   return spread_around(grid, sizes);

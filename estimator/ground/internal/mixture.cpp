@@ -12,7 +12,7 @@
 namespace plotscan::ground {
 namespace {
 
-constexpr int kAround = 2;  // cells on either side over which shares are pooled
+constexpr int kPooledAround = 2;  // cells on either side over which shares are pooled
 
 // Of the canopy's density near the ground, which moves the ground's peak by as much of a sigma for
 // a contrast of one.
@@ -107,7 +107,7 @@ Counts count(const Columns& columns, const Field& surface, float noise) {
     }
   });
   for (Field* field : {&counts.below, &counts.about, &counts.low, &counts.mid, &counts.all}) {
-    pool(grid, kAround, *field);
+    pool(grid, kPooledAround, *field);
   }
   return counts;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kDraws = 32;
 constexpr int kCoarser = 2;           // the draws' grid is as many times coarser
-constexpr int kAround = 2;            // nodes on either side whose bends say how rough a place is
+constexpr int kBendsAround = 2;       // nodes on either side whose bends say how rough a place is
 constexpr double kLeastDoubt = 0.03;  // of the noise: what even bare ground leaves
 constexpr double kLeastBend_m = 5e-4;
 constexpr double kUnknownBend_m = 0.1;  // without any evidence
@@ -81,9 +81,10 @@ Field bend_variances(const Grid& grid, const Field& surface, const Field& data) 
     for (int column = 0; column < grid.columns; ++column) {
       double here = 0;
       int nodes = 0;
-      for (int r = std::max(0, row - kAround); r <= std::min(grid.rows - 1, row + kAround); ++r) {
-        for (int c = std::max(0, column - kAround);
-             c <= std::min(grid.columns - 1, column + kAround); ++c) {
+      for (int r = std::max(0, row - kBendsAround);
+           r <= std::min(grid.rows - 1, row + kBendsAround); ++r) {
+        for (int c = std::max(0, column - kBendsAround);
+             c <= std::min(grid.columns - 1, column + kBendsAround); ++c) {
           const double bend = bends[grid.index(c, r)];
           here += bend * bend;
           ++nodes;

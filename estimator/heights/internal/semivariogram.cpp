@@ -106,7 +106,7 @@ PairsAbove pairs_apart(const PlotBox& box, std::span<const Eigen::Vector3f> desc
 }
 
 // Of one lag over the far one; `longer` where either is unknown.
-double ratio(const Pairs& pairs, const Pairs& far, double noise_m, double longer) {
+double semivariance_ratio(const Pairs& pairs, const Pairs& far, double noise_m, double longer) {
   const double value = pairs.semivariance(noise_m) / far.semivariance(noise_m);
   return far.semivariance(noise_m) > 0 && std::isfinite(value) ? std::clamp(value, 0.0, kMost)
                                                                : longer;
@@ -124,7 +124,7 @@ std::vector<double> relative_semivariances(const PlotBox& box,
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const std::size_t at = i * kLags_m.size() + lag;
       const double longer = lag + 1 == kLags_m.size() ? 1 : values[at + 1];
-      values[at] = ratio(pairs[i], far[i], noise_m, longer);
+      values[at] = semivariance_ratio(pairs[i], far[i], noise_m, longer);
     }
   }
   return values;

@@ -27,14 +27,14 @@
 namespace plotscan::methods::dhami2020 {
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
+using Cloud = std::vector<Eigen::Vector3f>;
 using nlohmann::json;
 
 constexpr int kMostThreads = 1024;
 
 // The z filter: what stands more than min_height_m above the levelled ground.
-Points canopy_of(const Points& voxels, const GroundLevel& level, double min_height_m) {
-  Points canopy;
+Cloud canopy_of(const Cloud& voxels, const GroundLevel& level, double min_height_m) {
+  Cloud canopy;
   std::ranges::copy_if(voxels, std::back_inserter(canopy), [&](const Eigen::Vector3f& point) {
     return level.height_of(point) > min_height_m;
   });
@@ -42,8 +42,8 @@ Points canopy_of(const Points& voxels, const GroundLevel& level, double min_heig
 }
 
 // The points in an area given in the world frame.
-Points inside(const Points& points, const cloud::Area& area, const Eigen::Vector3d& origin) {
-  Points kept;
+Cloud inside(const Cloud& points, const cloud::Area& area, const Eigen::Vector3d& origin) {
+  Cloud kept;
   std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
     const Eigen::Vector3d world = origin + point.cast<double>();
     return world.x() >= area[0] && world.x() <= area[2] && world.y() >= area[1] &&
@@ -52,7 +52,7 @@ Points inside(const Points& points, const cloud::Area& area, const Eigen::Vector
   return kept;
 }
 
-Clustering cluster(const Points& canopy, std::size_t voxels, const Options& options) {
+Clustering cluster(const Cloud& canopy, std::size_t voxels, const Options& options) {
   if (canopy.size() < static_cast<std::size_t>(options.plots)) {
     throw NothingToMeasure(
         "only " + std::to_string(canopy.size()) + " of the map's " + std::to_string(voxels) +
@@ -65,7 +65,7 @@ Clustering cluster(const Points& canopy, std::size_t voxels, const Options& opti
 }
 
 // Each cluster flattened and boxed.
-std::vector<PlotBox> cluster_boxes(const Points& canopy, const Clustering& clustering) {
+std::vector<PlotBox> cluster_boxes(const Cloud& canopy, const Clustering& clustering) {
   std::vector<std::vector<Eigen::Vector2d>> flat(clustering.centers.size());
   for (std::size_t i = 0; i < canopy.size(); ++i) {
     flat[clustering.cluster_of[i]].emplace_back(canopy[i].head<2>().cast<double>());
@@ -126,14 +126,14 @@ std::string line_of(const Lattice& lattice) {
 }
 
 // Section IV-B: the clusters and plots of the map in its own frame.
-void find_plots(const cloud::CloudMap& map, const Points& voxels, const Options& options,
+void find_plots(const cloud::CloudMap& map, const Cloud& voxels, const Options& options,
                 estimate::Estimate& estimate) {
   json& said = estimate.diagnostics.of_method;
   const cloud::Area area = options.crop_box.value_or(map.area());
   const GroundLevel level =
       options.level ? fit_ground_level(voxels) : GroundLevel{.offset_m = -map.origin().z()};
-  const Points canopy = inside(canopy_of(voxels, level, options.min_height_m), area, map.origin());
-  const Points learnt =
+  const Cloud canopy = inside(canopy_of(voxels, level, options.min_height_m), area, map.origin());
+  const Cloud learnt =
       options.learn_box ? inside(canopy, *options.learn_box, map.origin()) : canopy;
   const Clustering clustering = cluster(learnt, voxels.size(), options);
   const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
@@ -210,7 +210,7 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
                                   const ProgressReport& progress) {
   require_sound(options);
   estimate::Estimate estimate{.method = "dhami2020"};
-  const Points voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
+  const Cloud voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
   estimate.diagnostics.points = {
       .read = map.points_read(),
       .in_area = map.points().size(),

@@ -25,8 +25,8 @@ void silence_pcl() {
   (void)silenced;
 }
 
-pcl::PointCloud<pcl::PointXYZ>::Ptr cloud_of(std::span<const Eigen::Vector3d> points,
-                                             const Eigen::Vector3d& origin) {
+pcl::PointCloud<pcl::PointXYZ>::Ptr pcl_cloud(std::span<const Eigen::Vector3d> points,
+                                              const Eigen::Vector3d& origin) {
   auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   cloud->reserve(points.size());
   for (const Eigen::Vector3d& point : points) {
@@ -64,7 +64,7 @@ std::optional<GroundPlane> find_ground_plane(std::span<const Eigen::Vector3d> po
   segmentation.setOptimizeCoefficients(true);
   segmentation.setDistanceThreshold(tolerance_m);
   segmentation.setMaxIterations(kMostIterations);
-  segmentation.setInputCloud(cloud_of(points, points.front()));
+  segmentation.setInputCloud(pcl_cloud(points, points.front()));
   pcl::PointIndices inliers;
   pcl::ModelCoefficients coefficients;
   segmentation.segment(inliers, coefficients);

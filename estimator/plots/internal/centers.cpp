@@ -20,8 +20,8 @@ struct Neighbour {
 };
 
 // The nearest places before and after along the axis, where they overlap aside of it.
-std::vector<Neighbour> neighbours_of(const Lattice& lattice, const std::vector<double>& depths,
-                                     std::size_t of) {
+std::vector<Neighbour> plots_beside(const Lattice& lattice, const std::vector<double>& depths,
+                                    std::size_t of) {
   const Place& self = lattice.places[of];
   const double side_m = lattice.c.size_m, size_m = lattice.r.size_m;
   std::vector<Neighbour> near;
@@ -109,7 +109,7 @@ std::vector<std::optional<double>> measured_shifts(const Lattice& lattice) {
   }
   std::vector<OwnCover> covers;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
-    covers.push_back(own_cover(profiles[i], neighbours_of(lattice, depths, i), box));
+    covers.push_back(own_cover(profiles[i], plots_beside(lattice, depths, i), box));
   }
   const double steep_m = steepest_size(covers, size_m);
   std::vector<std::optional<double>> shifts;

@@ -17,14 +17,14 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeast_m = 0.05;      // lower is no canopy, however little the noise
-constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
-constexpr double kLeastShare = 0.1;    // of a block's returns, where there is canopy
-constexpr double kTop = 0.9;           // quantile of a block's canopy returns: its top
+constexpr double kLeast_m = 0.05;          // lower is no canopy, however little the noise
+constexpr double kLeastDensity = 0.1;      // of the usual block's: less is the survey's margin
+constexpr double kLeastCanopyShare = 0.1;  // of a block's returns, where there is canopy
+constexpr double kBlockTop = 0.9;          // quantile of a block's canopy returns: its top
 constexpr std::size_t kMostBlocks = 1 << 18;
-constexpr int kPatches = 3;           // of a block's side
-constexpr float kLeastReturns = 4;    // of a patch that is judged
-constexpr double kSurfaceSigmas = 2;  // of the noise: what scatters less is a surface
+constexpr int kPatches = 3;              // of a block's side
+constexpr float kLeastPatchReturns = 4;  // of a patch that is judged
+constexpr double kSurfaceSigmas = 2;     // of the noise: what scatters less is a surface
 
 // Heights told apart by 10 %.
 class HeightCounts {
@@ -93,12 +93,12 @@ struct FieldCanopy::Block {
   HeightCounts heights;
   std::array<Patch, static_cast<std::size_t>(kPatches) * kPatches> patches{};
 
-  bool has_canopy() const { return heights.count() >= kLeastShare * count; }
+  bool has_canopy() const { return heights.count() >= kLeastCanopyShare * count; }
   // Most of the patches that stand above the ground scatter no more than noise does.
   bool is_surface(double canopy_m, double noise_m) const {
     int high = 0, smooth = 0;
     for (const Patch& patch : patches) {
-      if (patch.count() < kLeastReturns || patch.mean_height() < canopy_m) continue;
+      if (patch.count() < kLeastPatchReturns || patch.mean_height() < canopy_m) continue;
       ++high;
       smooth += patch.sd_about_plane() < kSurfaceSigmas * noise_m ? 1 : 0;
     }
@@ -212,7 +212,7 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m
     stands_out_.push_back(canopy);
     surface_.push_back(canopy && block.is_surface(canopy_m, noise_m));
     left_out_.push_back(block.count < least);
-    if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kTop));
+    if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kBlockTop));
   }
   leave_out_surfaces();
   if (!tops.empty()) scale_.high_m = std::max(usual_top_m(std::move(tops)), 2 * low_m);

@@ -18,13 +18,13 @@ namespace {
 
 // Of a plot, that takes part in its outline: half the gap to the next one.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
-constexpr double kPiece_m = 1;        // of a plot, in which canopy is taken
+constexpr double kCanopyPiece_m = 1;  // of a plot, in which canopy is taken
 constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked for
 constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kLeastRoughness =
-    0.08;                             // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
-constexpr double kLeastGap_m = 0.05;  // a cell of the raster: no less is seen
-constexpr double kMostAspect = 12;    // plots are sown and harvested one by one: no long rows
+    0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
+constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
+constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;
@@ -46,35 +46,35 @@ double canopy_in(const RowView& view, const CellBox& box) {
 }
 
 // The plots' mean canopy by place in a plot, x and y in its half sizes.
-struct Patch {
+struct MeanPlot {
   int r_cells = 0, c_cells = 0;
   std::vector<double> canopy = {}, seen = {};
 };
 
-Patch pooled(const Lattice& lattice, double around_m) {
+MeanPlot pooled(const Lattice& lattice, double around_m) {
   const double cell_m = lattice.view.cell_m();
-  Patch patch{.r_cells = static_cast<int>((lattice.r.size_m + 2 * around_m) / cell_m),
-              .c_cells = static_cast<int>((lattice.c.size_m + 2 * around_m) / cell_m)};
-  patch.canopy.assign(
-      static_cast<std::size_t>(patch.r_cells) * static_cast<std::size_t>(patch.c_cells), 0);
-  patch.seen = patch.canopy;
+  MeanPlot plot{.r_cells = static_cast<int>((lattice.r.size_m + 2 * around_m) / cell_m),
+                .c_cells = static_cast<int>((lattice.c.size_m + 2 * around_m) / cell_m)};
+  plot.canopy.assign(
+      static_cast<std::size_t>(plot.r_cells) * static_cast<std::size_t>(plot.c_cells), 0);
+  plot.seen = plot.canopy;
   for (const Place& place : lattice.places) {
     const CellBox box = cells_about(lattice, place, around_m);
     std::size_t at = 0;
-    for (int r = box.r0; r < box.r0 + patch.r_cells; ++r) {
-      for (int c = box.c0; c < box.c0 + patch.c_cells; ++c, ++at) {
+    for (int r = box.r0; r < box.r0 + plot.r_cells; ++r) {
+      for (int c = box.c0; c < box.c0 + plot.c_cells; ++c, ++at) {
         if (lattice.view.seen_cells(r, r + 1, c, c + 1) == 0) continue;
-        patch.canopy[at] += lattice.view.cover(r, r + 1, c, c + 1);
-        patch.seen[at] += 1;
+        plot.canopy[at] += lattice.view.cover(r, r + 1, c, c + 1);
+        plot.seen[at] += 1;
       }
     }
   }
-  return patch;
+  return plot;
 }
 
 // Squares about one level within an outline and one beyond it, the least over the outline's size.
 template <class Inside>
-double best_misfit(const Patch& patch, const Inside& inside) {
+double best_misfit(const MeanPlot& plot, const Inside& inside) {
   double best = std::numeric_limits<double>::infinity();
   constexpr int kScales = 17;
   const auto scale_of = [](int step) { return 0.6 + 0.05 * step; };
@@ -83,12 +83,12 @@ double best_misfit(const Patch& patch, const Inside& inside) {
       const double r_scale = scale_of(i), c_scale = scale_of(k);
       double n[2] = {}, sum[2] = {}, squares = 0;
       std::size_t at = 0;
-      for (int r = 0; r < patch.r_cells; ++r) {
-        const double y = (2 * (r + 0.5) / patch.r_cells - 1) / r_scale;
-        for (int c = 0; c < patch.c_cells; ++c, ++at) {
-          if (patch.seen[at] == 0) continue;
-          const double x = (2 * (c + 0.5) / patch.c_cells - 1) / c_scale;
-          const double canopy = patch.canopy[at] / patch.seen[at];
+      for (int r = 0; r < plot.r_cells; ++r) {
+        const double y = (2 * (r + 0.5) / plot.r_cells - 1) / r_scale;
+        for (int c = 0; c < plot.c_cells; ++c, ++at) {
+          if (plot.seen[at] == 0) continue;
+          const double x = (2 * (c + 0.5) / plot.c_cells - 1) / c_scale;
+          const double canopy = plot.canopy[at] / plot.seen[at];
           const int in = inside(x, y) ? 1 : 0;
           n[in] += 1;
           sum[in] += canopy;
@@ -109,11 +109,10 @@ double squareness_of(const Lattice& lattice) {
   const double around_m = std::clamp(std::min(half_gap(lattice.r.pitch_m, lattice.r.size_m),
                                               half_gap(lattice.c.pitch_m, lattice.c.size_m)),
                                      kLeastAround_m, kAround_m);
-  const Patch patch = pooled(lattice, around_m);
-  const double of_ellipse =
-      best_misfit(patch, [](double x, double y) { return x * x + y * y < 1; });
+  const MeanPlot plot = pooled(lattice, around_m);
+  const double of_ellipse = best_misfit(plot, [](double x, double y) { return x * x + y * y < 1; });
   const double of_rectangle =
-      best_misfit(patch, [](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 1; });
+      best_misfit(plot, [](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 1; });
   return of_ellipse / std::max(1e-9, of_rectangle);
 }
 
@@ -165,7 +164,7 @@ class Pieces {
 
  private:
   static int parts_of(double size_m) {
-    return std::max(1, static_cast<int>(std::lround(size_m / kPiece_m)));
+    return std::max(1, static_cast<int>(std::lround(size_m / kCanopyPiece_m)));
   }
 
   const Lattice& lattice_;
@@ -221,7 +220,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
-  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGap_m)
+  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
   if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))

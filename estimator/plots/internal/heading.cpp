@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -16,7 +15,6 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kAngles = 180;
 constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
 constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
@@ -25,7 +23,7 @@ constexpr double kSkewDoubt = 0.25;
 constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: one is tilted
 constexpr double kHintReach_rad = 5 * kDegrees;
 constexpr double kLeastCover = 0.1;  // of a block with canopy
-constexpr double kAround_m = 2;      // of bare ground about the canopy
+constexpr double kBareAround_m = 2;  // of bare ground about the canopy
 
 struct Cell {
   float x, y, cover;
@@ -34,7 +32,7 @@ struct Cell {
 // The cells about the canopy: bare ground has no lines.
 std::vector<Cell> cells_of(const CanopyRaster& raster) {
   const double step = raster.cell_m();
-  const int around = static_cast<int>(kAround_m / step), block = around / 2;
+  const int around = static_cast<int>(kBareAround_m / step), block = around / 2;
   int a0 = raster.a_cells(), a1 = 0, b0 = raster.b_cells(), b1 = 0;
   for (int a = 0; a < raster.a_cells(); a += block) {
     for (int b = 0; b < raster.b_cells(); b += block) {
@@ -63,9 +61,9 @@ struct LineSize {
 };
 
 // The cells in bins across lines of one direction, for each block along them.
-class Lines {
+class LineFamily {
  public:
-  Lines(const std::vector<Cell>& cells, double angle_rad, const LineSize& size)
+  LineFamily(const std::vector<Cell>& cells, double angle_rad, const LineSize& size)
       : c_(static_cast<float>(std::cos(angle_rad))), s_(static_cast<float>(std::sin(angle_rad))) {
     float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
     for (const Cell& cell : cells) {
@@ -122,7 +120,7 @@ class Lines {
 
 // Of the lines in direction angle_rad.
 double sharpness(const std::vector<Cell>& cells, double angle_rad, const LineSize& size) {
-  const Lines lines(cells, angle_rad, size);
+  const LineFamily lines(cells, angle_rad, size);
   const double length_m = std::min(size.block_m, static_cast<double>(lines.length_m()));
   return lines.steps(0.25 * length_m / size.bin_m);
 }

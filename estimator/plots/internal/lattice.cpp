@@ -17,7 +17,7 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kReach_m = 0.2;
-constexpr double kLeastShare = 0.3;
+constexpr double kLeastPlaceShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
 
@@ -208,7 +208,7 @@ void test_places(Lattice& lattice) {
     place.share /= std::max(1e-6, full_cover);
     place.contrast /= std::max(1e-6, lattice.contrast);
     // A lodged plot leans over its neighbour and shows no edge there, but it is covered.
-    place.full = place.share >= kLeastShare &&
+    place.full = place.share >= kLeastPlaceShare &&
                  (place.contrast >= kLeastContrast || place.share >= kWellCovered);
   }
 }

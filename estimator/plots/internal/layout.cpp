@@ -14,7 +14,7 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kSameColumn_m = 0.15;  // off which leaves do not move what is seen of a plot
-constexpr double kLeastShare = 0.3;     // of the usual plot's canopy: less is a missing one
+constexpr double kLeastOfUsual = 0.3;   // of the usual plot's canopy: less is a missing one
 
 std::vector<Band> whole(int cells) { return {{0, cells}}; }
 
@@ -33,13 +33,13 @@ void leave_out_missing(Layout& layout) {
   };
   for (const Row& row : layout.rows)
     for (const Band& plot : row.plots) covers.push_back(cover(row, plot));
-  const double least = kLeastShare * quantile(covers, 0.5);
+  const double least = kLeastOfUsual * quantile(covers, 0.5);
   for (Row& row : layout.rows)
     std::erase_if(row.plots, [&](const Band& plot) { return cover(row, plot) < least; });
   std::erase_if(layout.rows, [](const Row& row) { return row.plots.empty(); });
 }
 
-Layout layout_of(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
+Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
   Layout layout{.view = view, .r_shape = r_fit.shape, .c_shape = c_fit.shape};
   layout.aligned = c_fit.begins.size() == 1;
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
@@ -69,7 +69,7 @@ std::vector<Layout> layouts_with_rows(const RowView& view, const ViewHints& hint
   const Line each = line_of(along, each_alone(rows), hints.c);
   const AxisFit own = fit_axis(each, false);
   if (std::isfinite(own.misfit))
-    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(each, own)));
+    layouts.push_back(layout_from(view, put_together(r_line, r_fit), put_together(each, own)));
   if (!std::isfinite(columns.misfit)) return layouts;
   // Without the alleys between the columns the rows show more clearly, and the columns then.
   r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)}, hints.r);
@@ -79,7 +79,8 @@ std::vector<Layout> layouts_with_rows(const RowView& view, const ViewHints& hint
   c_line = line_of(along, {rows}, hints.c);
   columns = fit_axis(c_line, true);
   if (std::isfinite(columns.misfit))
-    layouts.push_back(layout_of(view, put_together(r_line, r_fit), put_together(c_line, columns)));
+    layouts.push_back(
+        layout_from(view, put_together(r_line, r_fit), put_together(c_line, columns)));
   return layouts;
 }
 
@@ -115,11 +116,11 @@ std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints) {
 
 // Places of the layout that may hold so many plots, some of which failed.
 bool may_hold(const Layout& layout, int plots) {
-  constexpr double kLeastFilled = 0.6;
+  constexpr double kLeastOfPlaces = 0.6;
   std::size_t columns = 0;
   for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
   const auto places = static_cast<double>(layout.rows.size() * columns);
-  return plots <= places && plots >= kLeastFilled * places;
+  return plots <= places && plots >= kLeastOfPlaces * places;
 }
 
 // As many plots as told: those that the canopy suggests, else whole rows and columns of so many.

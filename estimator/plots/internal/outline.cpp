@@ -14,7 +14,7 @@ namespace {
 // All chosen.
 constexpr double kEdgeReach_m = 0.3;       // about an edge, of what the box is fitted to
 constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through half the depth,
-constexpr int kRounds = 4;                 // which is sought so often,
+constexpr int kEdgeRounds = 4;             // which is sought so often,
 constexpr double kMostHalfDepth_m = 0.15;  // and is taken if it lies so near the box's edge
 constexpr double kMostOfBand_m = 0.3;      // from the size of the layout's bands
 constexpr double kMostBlur_m = 0.4;        // sigma of leaves over an edge: maize's blades
@@ -45,7 +45,7 @@ double squares_of(const DepthProfile& profile, double depth, const BlurredBox& b
 double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit,
                        const Neighbours& near) {
   double size = fit.size_m;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kEdgeRounds; ++round) {
     const BlurredBox box(size, fit.blur_m);
     double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
     for (std::size_t i = 0; i < profile.x_m.size(); ++i) {

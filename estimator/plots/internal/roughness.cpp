@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMargin =
     0.1;  // of a place's smaller side: the edges belong to what stands beside
-constexpr double kTop = 0.95;
+constexpr double kTopQuantile = 0.95;
 constexpr double kUpper = 0.5;          // of the height
 constexpr double kNoiseOfHeight = 0.1;  // above which roughness and noise are not told apart
 constexpr std::size_t kLeastReturns = 20;
@@ -96,7 +96,7 @@ double roughness_of(const std::vector<Eigen::Vector3f>& returns, double noise_m)
   std::vector<double> heights;
   heights.reserve(returns.size());
   for (const Eigen::Vector3f& point : returns) heights.push_back(point.z());
-  const double top_m = quantile(std::move(heights), kTop);
+  const double top_m = quantile(std::move(heights), kTopQuantile);
   std::vector<Eigen::Vector3f> upper;
   std::ranges::copy_if(returns, std::back_inserter(upper),
                        [&](const Eigen::Vector3f& point) { return point.z() > kUpper * top_m; });

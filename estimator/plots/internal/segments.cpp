@@ -26,17 +26,17 @@ Level level_of(const ProfileSums& sums, const BandShape& shape, int begin) {
 }
 
 // A stretch without a band.
-struct Gap {
+struct BandGap {
   double level = 0;
   double misfit = 0;
 };
 
 // From the end of one band, at its level, to the begin of the next; -1 where the line begins or
 // ends instead.
-Gap gap_between(const ProfileSums& sums, int blur, int end, double from, int begin, double to) {
+BandGap gap_between(const ProfileSums& sums, int blur, int end, double from, int begin, double to) {
   const int low = end < 0 ? 0 : end + blur;
   const int high = begin < 0 ? sums.cells() : begin - blur;
-  Gap gap{.level = sums.mean(low, high)};
+  BandGap gap{.level = sums.mean(low, high)};
   gap.misfit = sums.squares(low, high, gap.level);
   if (end >= 0) gap.misfit += sums.squares(end - blur, low, from, gap.level);
   if (begin >= 0) gap.misfit += sums.squares(high, begin + blur, gap.level, to);
@@ -98,13 +98,13 @@ double level_of(const Start& start) {
 }
 
 // Of all profiles together; null where the line begins or ends.
-Gap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
-                const Start* to) {
+BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
+                    const Start* from, const Start* to) {
   const int end = from != nullptr ? from->begin + shape.size : -1;
   const int begin = to != nullptr ? to->begin : -1;
-  Gap sum;
+  BandGap sum;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
-    const Gap gap =
+    const BandGap gap =
         gap_between(profiles[i], shape.blur, end, from != nullptr ? from->levels[i].canopy : 0,
                     begin, to != nullptr ? to->levels[i].canopy : 0);
     sum.level += gap.level;
@@ -116,7 +116,7 @@ Gap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape, c
 // The same, never between bands that it does not lie below.
 double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
                 const Start* to) {
-  const Gap gap = gap_between(profiles, shape, from, to);
+  const BandGap gap = gap_between(profiles, shape, from, to);
   const double lower =
       std::min(from != nullptr ? level_of(*from) : kNever, to != nullptr ? level_of(*to) : kNever);
   return gap.level > kMostGap * lower ? kNever : gap.misfit;

@@ -16,8 +16,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr int kMostRows = 12;
-constexpr double kLeastSpacing_m = 0.1, kMostSpacing_m = 1.2;
+constexpr int kMostSownRows = 12;
+constexpr double kLeastSownSpacing_m = 0.1, kMostSownSpacing_m = 1.2;
 constexpr double kMostOff_m = 0.45;  // rows times spacing, from the size that the outline has
 constexpr double kCoarse_m = 0.02, kFine_m = 0.005;  // steps of the spacing
 constexpr double kClearly = 0.5;  // of the squares that an even canopy leaves: rows leave fewer
@@ -140,9 +140,9 @@ std::optional<SownRows> sown_rows_along(const Lattice& lattice) {
   const DepthProfile profile = profile_with_gaps(lattice);
   const Neighbours near = neighbours_of(lattice);
   RowsFit best;
-  for (int rows = 2; rows <= kMostRows; ++rows) {
-    const double low_m = std::max(kLeastSpacing_m, (size_m - kMostOff_m) / rows);
-    const double high_m = std::min(kMostSpacing_m, (size_m + kMostOff_m) / rows);
+  for (int rows = 2; rows <= kMostSownRows; ++rows) {
+    const double low_m = std::max(kLeastSownSpacing_m, (size_m - kMostOff_m) / rows);
+    const double high_m = std::min(kMostSownSpacing_m, (size_m + kMostOff_m) / rows);
     const RowsFit fit = best_spacing(profile, near, rows, low_m, high_m, kCoarse_m);
     if (fit.squares < best.squares) best = fit;
   }

@@ -15,9 +15,9 @@ namespace {
 constexpr double kLeastError_m = 0.005;  // of centres about the lattice, however few they are
 
 // Which row, or which column, each plot lies in.
-class Groups {
+class PlotGroups {
  public:
-  Groups(std::vector<int> of_plots, int count)
+  PlotGroups(std::vector<int> of_plots, int count)
       : of_plots_(std::move(of_plots)), counts_(static_cast<std::size_t>(count)) {
     for (const int group : of_plots_) counts_[static_cast<std::size_t>(group)] += 1;
   }
@@ -65,7 +65,7 @@ double spread_of(std::vector<double> values) {
 }
 
 // Of what is left of plots' values about one mean for each group and one slope.
-double rms_of(const std::vector<double>& rest, const Groups& groups) {
+double rms_of(const std::vector<double>& rest, const PlotGroups& groups) {
   const double free = static_cast<double>(rest.size()) - static_cast<double>(groups.count()) - 1;
   return std::sqrt(sum_of_squares(rest) / std::max(1.0, free));
 }
@@ -76,7 +76,7 @@ struct LinesOfGroups {
   double slope = 0, rms_m = 0;
 };
 
-LinesOfGroups fit_lines(const Groups& groups, const std::vector<double>& x,
+LinesOfGroups fit_lines(const PlotGroups& groups, const std::vector<double>& x,
                         const std::vector<double>& y) {
   const std::vector<double> mean_x = groups.means(x), mean_y = groups.means(y);
   const std::vector<double> from_x = groups.less(x, mean_x), from_y = groups.less(y, mean_y);
@@ -130,7 +130,7 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
 
 // Centres as measured, and their rows and columns.
 struct Centers {
-  Groups row, column;
+  PlotGroups row, column;
   std::vector<double> r, c;
 };
 

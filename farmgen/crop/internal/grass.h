@@ -3,9 +3,12 @@
 
 #include <Eigen/Core>
 
+#include "core/angle.h"
 #include "crop/plant_builder.h"
 
 namespace plotscan::crop {
+
+inline constexpr double kUpright = kPi / 2;  // elevation
 
 // The blade of a grass leaf from its collar on: it leaves the stem upward, bends over under its
 // weight, twists, and waves at its margins.

@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUpright = std::numbers::pi / 2;
 constexpr int kElongatingInternodes = 3;  // at once, below the last collar
 constexpr double kStemTopShare = 0.3;     // radius at the top over that at the foot
 constexpr double kSheathRadiusShare = 1.18;

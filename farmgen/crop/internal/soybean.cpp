@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"
 #include "crop/internal/soybean_organs.h"
@@ -17,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMainStem = 0;                  // the shoot's number; branches follow from 1
 constexpr double kPetioleRadiusShare = 0.28;  // of the stem's at its foot
 constexpr double kFullStemNodes = 13;         // a stem of fewer is thinner

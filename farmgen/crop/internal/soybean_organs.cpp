@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "crop/internal/axis.h"
 
 namespace plotscan::crop {
@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kCotyledon_m = 0.02;
 constexpr double kFlower_m = 0.006;
 constexpr double kUnifoliolateWidth = 1.25;  // width over length, over that of a leaflet

@@ -18,7 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kUpright = std::numbers::pi / 2;
 // Of a grown stem: its elongated internodes from the base, the last one the peduncle under the ear.
 // Each is longer than the one below (Kirby 2002, The stem).
 constexpr std::array<double, 5> kInternodeShares = {0.07, 0.12, 0.17, 0.23, 0.41};

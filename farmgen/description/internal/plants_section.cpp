@@ -18,10 +18,10 @@ namespace plotscan::description {
 namespace {
 
 constexpr Range kJitter = {0, 10};
-constexpr Range kDensity = {0, 10000};
-constexpr Range kHeight = {0.01, 20};
+constexpr Range kPlantDensity = {0, 10000};
+constexpr Range kPlantHeight = {0.01, 20};
 constexpr Range kDeviation = {0, 10};
-constexpr Range kShare = {0, 1};
+constexpr Range kPlantShare = {0, 1};
 constexpr Range kGaps = {0, 100};
 constexpr Range kGapLength = {0, 1000};
 constexpr Range kLean = {0, 90};
@@ -63,7 +63,7 @@ std::uint32_t read_count(const Inherited& section, const planting::PlotGridDescr
   if (!where.has("density_m2")) {
     return static_cast<std::uint32_t>(where.integer("count", 0, kMostPlantsPerPlot));
   }
-  const double plants = where.number("density_m2", kDensity) * grid.width_m * grid.length_m;
+  const double plants = where.number("density_m2", kPlantDensity) * grid.width_m * grid.length_m;
   if (plants > static_cast<double>(kMostPlantsPerPlot)) {
     where.fail("density_m2", "makes more than 1000000 plants a plot");
   }
@@ -86,7 +86,7 @@ void read_pattern(const Inherited& section, planting::CultivarDescription& culti
 }
 
 planting::HeightDescription read_height(const YamlSection& section) {
-  const planting::HeightDescription height{.mean_m = section.number("mean", kHeight),
+  const planting::HeightDescription height{.mean_m = section.number("mean", kPlantHeight),
                                            .sd_m = section.number("sd", kDeviation)};
   if (height.sd_m > 0.3 * height.mean_m) {
     section.fail("sd", "is more than 0.3 of the mean; plants without height would be drawn");
@@ -97,7 +97,7 @@ planting::HeightDescription read_height(const YamlSection& section) {
 planting::MissingDescription read_missing(const YamlSection& section,
                                           const planting::PlotGridDescription& grid) {
   const planting::MissingDescription missing{
-      .rate = section.number("rate", kShare, 0.0),
+      .rate = section.number("rate", kPlantShare, 0.0),
       .gaps_per_plot = section.number("gaps_per_plot", kGaps, 0.0),
       .gap_length_m = section.number("gap_length_m", kGapLength, 0.0)};
   if (missing.gap_length_m > grid.length_m) {
@@ -113,7 +113,7 @@ planting::LodgingDescription read_lodging(const YamlSection& section) {
   const auto [least, greatest] = section.pair("angle_deg", kLean);
   if (least > greatest) section.fail("angle_deg", "is not [min, max]: min is the larger");
   planting::LodgingDescription lodging{
-      .plots_rate = section.number("plots_rate", kShare),
+      .plots_rate = section.number("plots_rate", kPlantShare),
       .min_angle_rad = least * kDegrees,
       .max_angle_rad = greatest * kDegrees,
       .spread_rad = section.number("spread_deg", kLean, 10.0) * kDegrees};

@@ -90,7 +90,7 @@ void read_missing(const YamlSection& section, planting::PlotGridDescription& gri
 }
 
 // Plots that lean against each other stay apart only when the steps are long enough.
-void require_apart(const YamlSection& section, const planting::PlotGridDescription& grid) {
+void require_plots_apart(const YamlSection& section, const planting::PlotGridDescription& grid) {
   const double column_step =
       grid.pitch ? grid.pitch->column_m.norm() : grid.width_m + grid.gap_width_m;
   const double row_step = grid.pitch ? grid.pitch->row_m.norm() : grid.length_m + grid.gap_length_m;
@@ -136,7 +136,7 @@ planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
   read_rows(section, grid);
   if (section.has("pitch")) read_pitch(section, grid);
   if (section.has("alleys")) read_alleys(section, grid);
-  require_apart(section, grid);
+  require_plots_apart(section, grid);
   if (section.choice("numbering", {"rows", "serpentine"}, 0) == 1) {
     grid.numbering = PlotNumbering::serpentine;
   }

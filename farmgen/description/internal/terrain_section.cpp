@@ -12,7 +12,7 @@ namespace plotscan::description {
 namespace {
 
 constexpr Range kSide = {1, 100000};
-constexpr Range kHeight = {-10000, 10000};
+constexpr Range kTerrainHeight = {-10000, 10000};
 constexpr Range kRelief = {0, 1000};
 constexpr Range kAngle = {-360, 360};
 constexpr Range kPercent = {0, 100};
@@ -42,7 +42,7 @@ terrain::HeightmapDescription read_heightmap(const YamlSection& section) {
   } else {
     heightmap.size_x_m = section.number("side_m", kSide);
   }
-  const auto [black, white] = section.pair("height_m", kHeight);
+  const auto [black, white] = section.pair("height_m", kTerrainHeight);
   heightmap.black_m = black;
   heightmap.white_m = white;
   return heightmap;

@@ -11,7 +11,7 @@
 namespace plotscan::description {
 namespace {
 
-constexpr Range kDensity = {0, 1000};
+constexpr Range kWeedDensity = {0, 1000};
 constexpr Range kMargin = {0, 1000};
 
 }  // namespace
@@ -19,7 +19,7 @@ constexpr Range kMargin = {0, 1000};
 planting::WeedsDescription read_weeds(const YamlSection& section,
                                       std::vector<planting::ModelDescription>& models) {
   planting::WeedsDescription weeds;
-  weeds.per_m2 = section.number("per_m2", kDensity);
+  weeds.per_m2 = section.number("per_m2", kWeedDensity);
   weeds.where = static_cast<planting::WeedPlace>(
       section.choice("where", {"everywhere", "alleys", "plots"}, 0));
   weeds.margin_m = section.number("margin_m", kMargin, weeds.margin_m);

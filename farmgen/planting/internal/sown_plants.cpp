@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "planting/plot_layout.h"
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "farm/heights.h"
@@ -16,11 +16,8 @@
 namespace plotscan::planting {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Heights further from the mean than this many standard deviations are drawn again.
 constexpr double kFarthestHeight = 3;
-constexpr double kSmallestScale = 0.01;
-constexpr double kLargestScale = 100;
 
 // A stretch along the length without plants: over the whole width, or of one drilled row.
 struct Gap {
@@ -159,12 +156,12 @@ class PlotPlants {
     while (std::abs(deviations) > kFarthestHeight) deviations = random.normal();
     const double height_m = cultivar_.height->mean_m + deviations * cultivar_.height->sd_m;
     const double scale = height_m / model.height_m;
-    if (scale >= kSmallestScale && scale <= kLargestScale) return scale;
-    throw InputError(
-        source_,
-        "plants.height_m: a plant of " + cultivar_.name +
-            fmt::format(" is to be {:.3f} m high, but its model ", height_m) + model.name +
-            fmt::format(" is {:.3f} m high; its scale has to be in [0.01, 100]", model.height_m));
+    if (kPlantScale.contains(scale)) return scale;
+    throw InputError(source_, "plants.height_m: a plant of " + cultivar_.name +
+                                  fmt::format(" is to be {:.3f} m high, but its model ", height_m) +
+                                  model.name +
+                                  fmt::format(" is {:.3f} m high; its scale has to be in {}",
+                                              model.height_m, kPlantScale.text()));
   }
 
   // What tilts an upright plant of a lodged plot.

@@ -18,7 +18,7 @@ constexpr const char* kRange = " in [";
 
 // CLI11 has a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]", a setting a range as
 // "INT in [0, 255]".
-std::string value_of(const CLI::Option& option) {
+std::string placeholder_of(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string type = option.get_type_name();
   const std::string choices = joined(choices_of(option), ",");
@@ -92,7 +92,7 @@ std::string wrapped(const std::string& begun, const std::string& text) {
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
   const std::string name = is_positional ? option->get_name(true) : joined(flags_of(*option), ",");
-  const std::string value = is_positional ? "" : value_of(*option);
+  const std::string value = is_positional ? "" : placeholder_of(*option);
   return wrapped("  " + name + (value.empty() ? "" : " " + value),
                  option->get_description() + notes_of(*option));
 }

@@ -221,7 +221,7 @@ CoordinateUnits units_of(const StatedUnits& stated) {
 }
 
 // Whether a coordinate system as well-known text is one of degrees.
-bool is_geographic(const std::string& wkt) {
+bool says_geographic(const std::string& wkt) {
   const auto has = [&](const char* word) { return wkt.find(word) != std::string::npos; };
   return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
 }
@@ -232,7 +232,7 @@ bool is_geographic(const std::string& wkt) {
 void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
   const std::string crs = "EPSG:" + std::to_string(layout.crs_epsg);
   if (layout.crs_epsg == 0 || stated.wkt.horizontal_m || stated.keys.horizontal_m) return;
-  if (utm_system(crs) || is_geographic(crs)) return;
+  if (utm_system(crs) || says_geographic(crs)) return;
   layout.notes.push_back("it states no unit, and that of its system, " + crs +
                          ", is not known here: taken for metres; --units says otherwise");
 }
@@ -269,7 +269,7 @@ void read_records(LasFile& file, const VariableRecords& records, const LasHeader
       add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
-      layout.in_degrees = is_geographic(layout.crs_wkt);
+      layout.in_degrees = says_geographic(layout.crs_wkt);
       units.wkt = units_of_wkt(layout.crs_wkt);
     } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
       read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units.keys);

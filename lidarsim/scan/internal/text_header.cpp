@@ -13,7 +13,7 @@ namespace {
 // Lines looked through for the first point.
 constexpr std::size_t kMostHeaderLines = 100;
 
-// Names of x, y and z, as plain_name leaves them, the first found counts.
+// Names of x, y and z, as plain_column leaves them, the first found counts.
 struct AxisNames {
   const char* axis;
   std::vector<std::string> names;
@@ -30,7 +30,7 @@ const std::array<AxisNames, 3>& axis_names() {
 }
 
 // "X [m]", "\"x\"" and "X_" are one name.
-std::string plain_name(std::string_view name) {
+std::string plain_column(std::string_view name) {
   std::string plain;
   for (const char c : name.substr(0, name.find_first_of("[("))) {
     if (c != '_' && c != '"' && c != '\'' && c != ' ')
@@ -127,7 +127,7 @@ std::vector<std::string> column_names(const TextHeader& header, char separator) 
 // The columns of x, y and z by their names; nothing unless all three are named.
 std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::string>& names) {
   std::vector<std::string> plain(names.size());
-  std::ranges::transform(names, plain.begin(), plain_name);
+  std::ranges::transform(names, plain.begin(), plain_column);
   std::array<std::size_t, 3> columns{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     auto found = plain.end();
@@ -139,7 +139,7 @@ std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::s
   return columns;
 }
 
-bool is_longitude(const std::string& name) { return plain_name(name).starts_with("lon"); }
+bool is_longitude(const std::string& name) { return plain_column(name).starts_with("lon"); }
 
 // Gives every column its name; x, y and z are called that.
 void add_fields(const std::vector<std::string>& names, const std::array<std::size_t, 3>& xyz,

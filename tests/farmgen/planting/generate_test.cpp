@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "../example_farm.h"
@@ -14,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "farm/heights.h"
@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-constexpr double kPi = std::numbers::pi;
 
 farm::Farm example(std::uint64_t seed = 42, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;

@@ -4,18 +4,16 @@
 
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "terrain/internal/refine.h"
 #include "terrain/make_terrain.h"
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/random.h"
 
 namespace plotscan::terrain {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TerrainDescription square(double side_m, std::uint32_t vertices = 0, double relief_m = 0) {
   TerrainDescription description;

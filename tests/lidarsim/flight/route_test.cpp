@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::flight {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // 2 m/s^2 and 4 m/s^3: speeding up to v takes v / 2 + 1/2 s, and so does braking.
 double straight_s(double distance_m, double speed_m_s) {

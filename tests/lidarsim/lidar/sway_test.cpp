@@ -2,17 +2,15 @@
 #include "lidar/sway.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "lidar/internal/bent_stem.h"
 
 namespace plotscan::lidar {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 flight::WindOptions steady_wind(double mean_m_s) {
   return {.mean_m_s = mean_m_s, .turbulence = 0, .seed = 5};

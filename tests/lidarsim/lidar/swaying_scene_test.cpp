@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "moeller_trumbore.h"
 #include "small_farm.h"
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "lidar/internal/bent_stem.h"
 #include "lidar/scene.h"
 #include "lidar/sway.h"
@@ -18,7 +18,6 @@ namespace {
 
 using testing::moeller_trumbore;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFar_m = 100;
 constexpr SwayOptions kSoft = {.lean_deg_at_5m_s = 25};
 

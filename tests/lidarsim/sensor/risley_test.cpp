@@ -2,19 +2,17 @@
 #include "sensor/risley.h"
 
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "sensor/shots.h"
 
 namespace plotscan::sensor {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A ray refracted at a surface by angles: it is turned, in the plane of incidence, by the
 // difference of the angles before and behind the surface.

@@ -3,12 +3,12 @@
 // here anew. The VLP-16 is in shots_test.cpp, the Mid-40 in risley_test.cpp.
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "sensor/shots.h"
 #include "sensor/summary.h"
 
@@ -17,7 +17,6 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180;
 
 struct PlainShot {

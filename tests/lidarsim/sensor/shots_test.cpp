@@ -2,14 +2,13 @@
 #include "sensor/shots.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
+
 namespace plotscan::sensor {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // The VLP-16 user manual's tables, typed here anew: elevation and vertical correction by laser id.
 constexpr double kElevation_deg[16] = {-15, 1, -13, 3,  -11, 5,  -9, 7,

@@ -14,7 +14,7 @@ namespace plotscan::view {
 namespace {
 
 constexpr double kUpSlope = 0.21;  // half of the view's angle: 24 degrees in all
-constexpr double kAir = 1.02;      // the picture's size over that of what it shows
+constexpr double kMargin = 1.02;   // the picture's size over that of what it shows
 
 // The interval of one coordinate in which points appear from a distance: for every point its place
 // less or plus what the lines of sight gain on the way to it.
@@ -54,7 +54,7 @@ Camera camera_that_sees(const std::vector<Eigen::Vector3d>& points, const Direct
                  std::sin(elevation)};
   camera.right = {-std::sin(azimuth), std::cos(azimuth), 0};
   camera.up = camera.back.cross(camera.right);
-  const double up_slope = kUpSlope / kAir, right_slope = aspect * kUpSlope / kAir;
+  const double up_slope = kUpSlope / kMargin, right_slope = aspect * kUpSlope / kMargin;
   const auto sides = [&](const Eigen::Vector3d& axis, double slope) {
     return sides_of(points, axis, camera.back, slope);
   };
@@ -68,8 +68,8 @@ Camera camera_that_sees(const std::vector<Eigen::Vector3d>& points, const Direct
   }
   camera.eye = sides(camera.right, right_slope).middle() * camera.right +
                sides(camera.up, high).middle() * camera.up + distance * camera.back;
-  camera.right_slope = kAir * right_slope;
-  camera.up_slope = kAir * high;
+  camera.right_slope = kMargin * right_slope;
+  camera.up_slope = kMargin * high;
   return camera;
 }
 

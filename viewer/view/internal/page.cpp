@@ -29,8 +29,6 @@
 namespace plotscan::view {
 namespace {
 
-// Pixels drawn each way for one of the picture.
-constexpr int kSamples = 2;
 constexpr int kDpi = 72;  // a font's point is a pixel
 
 // Draws what a page holds.

@@ -29,6 +29,9 @@ inline constexpr Rgb kInk{34, 34, 34};
 inline constexpr Rgb kGrey{150, 150, 150};
 inline constexpr Rgb kWhite{255, 255, 255};
 
+// Of a picture's width: 7 points on a page 17 cm wide.
+inline constexpr double kTextShare = 0.0145;
+
 // A picture of square pixels, rows from the lower one up.
 struct Raster {
   int width = 0;

@@ -14,7 +14,7 @@ namespace {
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
 constexpr float kNoGround = -1e9F;
 
-constexpr double kLargestDot_px = 6;
+constexpr double kLargestFilled_px = 6;
 constexpr double kPointsInDot = 4;  // on average
 
 // The highest within `radius` pixels along a line of them.
@@ -67,7 +67,7 @@ int TopHeights::dot_radius_px() const {
   const double pixels = static_cast<double>(top_m_.size());
   const double side_px =
       std::sqrt(kPointsInDot * pixels / std::max<double>(1, static_cast<double>(points_)));
-  return static_cast<int>(std::clamp(std::ceil((side_px - 1) / 2), 1.0, kLargestDot_px));
+  return static_cast<int>(std::clamp(std::ceil((side_px - 1) / 2), 1.0, kLargestFilled_px));
 }
 
 Raster TopHeights::drawn(const HeightColours& colours) const {

@@ -12,6 +12,9 @@ namespace plotscan::view {
 
 inline constexpr Range kPictureSize_px{64, 16384};
 
+// Pixels drawn each way for one of a drawing, so that awns and thin stems show.
+inline constexpr int kSamples = 2;
+
 // Throws InputError, naming `what`, when the value is outside the range.
 void require_range(double value, const Range& range, const std::string& what);
 

@@ -72,7 +72,7 @@ std::optional<double> number_of(const std::string& cell) {
 }
 
 // Reasons with semicolons between them.
-json flags_of(const std::string& cell) {
+json entered_flags(const std::string& cell) {
   json flags = json::array();
   for (std::size_t at = 0; at <= cell.size();) {
     const std::size_t end = std::min(cell.find(';', at), cell.size());
@@ -92,7 +92,7 @@ json id_of(const std::string& cell) {
 
 json cell_of(const std::string& column, const std::string& cell, const std::string& place,
              Problems& problems) {
-  if (column == "flags") return flags_of(cell);
+  if (column == "flags") return entered_flags(cell);
   if (column == "plot_number") return id_of(cell);
   const std::optional<double> number = number_of(cell);
   if (!number) {

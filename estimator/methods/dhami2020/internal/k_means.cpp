@@ -89,7 +89,7 @@ ChunkSums assign_chunk(Points points, std::size_t first, std::size_t last, const
 }
 
 // Assigns every point to its nearest centre and adds up the clusters.
-ChunkSums assign(Points points, Clustering& clustering, tbb::task_arena& arena) {
+ChunkSums assign_points(Points points, Clustering& clustering, tbb::task_arena& arena) {
   const CenterTable table(clustering.centers);
   const std::size_t chunks = (points.size() + kChunk - 1) / kChunk;
   std::vector<ChunkSums> parts(chunks);
@@ -140,10 +140,10 @@ Clustering lloyd(Points points, std::vector<Eigen::Vector3f> centers, int max_it
                         .cluster_of = std::vector<std::uint32_t>(points.size())};
   while (clustering.iterations < max_iterations) {
     ++clustering.iterations;
-    const ChunkSums sums = assign(points, clustering, arena);
+    const ChunkSums sums = assign_points(points, clustering, arena);
     if (move_centers(points, sums, clustering.centers) <= kSettled_m) break;
   }
-  assign(points, clustering, arena);
+  assign_points(points, clustering, arena);
   return clustering;
 }
 

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
 
-json json_of(const plots::FieldFit& fit) {
+json fit_json(const plots::FieldFit& fit) {
   const TrialLayout& layout = fit.layout;
   const double row_heading = std::atan2(layout.row_axis.y(), layout.row_axis.x());
   json report = {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
@@ -37,7 +37,7 @@ json json_of(const plots::FieldFit& fit) {
   return report;
 }
 
-json json_of(const plots::FieldSigns& signs) {
+json signs_json(const plots::FieldSigns& signs) {
   return {{"held_share", signs.held_share},
           {"filled_share", signs.filled_share},
           {"surface_share", signs.surface_share},
@@ -52,8 +52,8 @@ json json_of(const plots::FieldSigns& signs) {
 }  // namespace
 
 json json_of(const plots::PlotField& field) {
-  json report = field.fit ? json_of(*field.fit) : json::object();
-  if (field.signs) report["signs"] = json_of(*field.signs);
+  json report = field.fit ? fit_json(*field.fit) : json::object();
+  if (field.signs) report["signs"] = signs_json(*field.signs);
   return report;
 }
 

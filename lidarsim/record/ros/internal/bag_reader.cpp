@@ -13,9 +13,9 @@ constexpr std::uint8_t kMessage = 2, kFileHeader = 3, kIndex = 4, kChunk = 5, kC
                        kConnection = 7;
 
 // The "name=value" fields of a record's header.
-class Fields {
+class HeaderFields {
  public:
-  explicit Fields(std::span<const char> bytes) {
+  explicit HeaderFields(std::span<const char> bytes) {
     for (ByteReader reader(bytes); !reader.empty();) {
       const std::string field = reader.text();
       const auto equals = field.find('=');
@@ -54,7 +54,7 @@ class BagReader {
     if (std::string_view(magic.data(), magic.size()) != kMagic)
       throw InputError("is no ROS bag of format 2.0");
     while (in_.left() > 0) {
-      const Fields header(in_.read(in_.number<std::uint32_t>()));
+      const HeaderFields header(in_.read(in_.number<std::uint32_t>()));
       const auto size = in_.number<std::uint32_t>();
       const auto data = in_.read(size);
       const auto op = header.number<std::uint8_t>("op");
@@ -71,7 +71,7 @@ class BagReader {
  private:
   static constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 
-  void require_finished(const Fields& header) const {
+  void require_finished(const HeaderFields& header) const {
     if (!header.text_or("encryptor", "").empty()) throw InputError("is encrypted");
     const auto index_at = header.number<std::uint64_t>("index_pos");
     if (index_at == 0) throw InputError("was not closed; `rosbag reindex` mends it");
@@ -79,11 +79,11 @@ class BagReader {
 
   void read_chunk(const std::vector<char>& chunk) {
     for (ByteReader reader(chunk); !reader.empty();) {
-      const Fields header(reader.read(reader.number<std::uint32_t>()));
+      const HeaderFields header(reader.read(reader.number<std::uint32_t>()));
       const auto data = reader.read(reader.number<std::uint32_t>());
       const auto op = header.number<std::uint8_t>("op");
       if (op == kConnection)
-        add_topic(header, Fields(data));
+        add_topic(header, HeaderFields(data));
       else if (op == kMessage)
         hand_on(header, data);
       else
@@ -91,14 +91,14 @@ class BagReader {
     }
   }
 
-  void add_topic(const Fields& header, const Fields& data) {
+  void add_topic(const HeaderFields& header, const HeaderFields& data) {
     topics_.insert_or_assign(header.number<std::uint32_t>("conn"),
                              Topic{.name = header.text("topic"),
                                    .type = data.text("type"),
                                    .latched = data.text_or("latching", "0") == "1"});
   }
 
-  void hand_on(const Fields& header, std::span<const char> data) const {
+  void hand_on(const HeaderFields& header, std::span<const char> data) const {
     const auto topic = topics_.find(header.number<std::uint32_t>("conn"));
     if (topic == topics_.end()) throw InputError("is broken: a message of an unknown connection");
     const auto time = header.text("time");

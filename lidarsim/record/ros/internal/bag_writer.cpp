@@ -10,7 +10,6 @@ namespace plotscan::record::ros {
 namespace {
 
 // As rosbag does it.
-constexpr std::size_t kChunkSize = std::size_t{768} << 10;
 constexpr std::size_t kFileHeaderSize = 4096;
 constexpr std::uint32_t kIndexVersion = 1;
 

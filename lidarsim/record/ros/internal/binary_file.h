@@ -15,6 +15,9 @@
 
 namespace plotscan::record {
 
+// Messages are written in chunks of so many bytes.
+inline constexpr std::size_t kChunkSize = std::size_t{768} << 10;
+
 // Appends a number as it lies in memory (little endian).
 template <class Number>
 void append_number(std::string& bytes, Number value) {

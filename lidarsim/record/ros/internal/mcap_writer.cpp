@@ -13,7 +13,6 @@ namespace plotscan::record::ros {
 namespace {
 
 // rosbag2's default.
-constexpr std::size_t kChunkSize = std::size_t{768} << 10;
 
 void append_record(std::string& bytes, McapOp op, std::string_view content) {
   append_number(bytes, op);

@@ -19,19 +19,19 @@ constexpr std::uint16_t kVlan = 0x8100;
 constexpr std::uint16_t kServiceVlan = 0x88A8;
 constexpr std::uint8_t kUdp = 17;
 
-void put16(std::vector<std::uint8_t>& bytes, std::size_t value) {
+void append16(std::vector<std::uint8_t>& bytes, std::size_t value) {
   bytes.push_back(static_cast<std::uint8_t>(value >> 8));
   bytes.push_back(static_cast<std::uint8_t>(value));
 }
 
-std::uint16_t get16(Bytes bytes, std::size_t at) {
+std::uint16_t big16_at(Bytes bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
 
 // The Internet checksum of 16-bit words (RFC 1071), before its complement.
 std::uint32_t word_sum(Bytes bytes) {
   std::uint32_t sum = 0;
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) sum += get16(bytes, i);
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) sum += big16_at(bytes, i);
   while (sum > 0xFFFF) sum = (sum & 0xFFFF) + (sum >> 16);
   return sum;
 }
@@ -46,9 +46,9 @@ std::optional<Bytes> ip_packet(FrameKind kind, Bytes frame) {
   if (kind == FrameKind::ip) return frame;
   std::size_t at = kind == FrameKind::ethernet ? kEthernetSize : kCookedSize;
   if (frame.size() < at) return std::nullopt;
-  std::uint16_t type = get16(frame, at - 2);
+  std::uint16_t type = big16_at(frame, at - 2);
   while ((type == kVlan || type == kServiceVlan) && frame.size() >= at + 4) {
-    type = get16(frame, at + 2);
+    type = big16_at(frame, at + 2);
     at += 4;
   }
   if (type != kIpv4) return std::nullopt;
@@ -65,15 +65,15 @@ std::vector<std::uint8_t> broadcast_frame(std::uint16_t port, Bytes payload) {
       0x08, 0x00,                          // IPv4
       0x45, 0x00};
   frame.reserve(kUdpHeaders + payload.size());
-  put16(frame, kIpSize + kUdpSize + payload.size());
+  append16(frame, kIpSize + kUdpSize + payload.size());
   frame.insert(frame.end(), {0x00, 0x00, 0x40, 0x00,  // not to be fragmented
                              0xFF, kUdp, 0x00, 0x00,  // time to live, protocol, checksum below
                              192, 168, 1, 201, 255, 255, 255, 255});
   put_checksum(frame, kEthernetSize + 10, word_sum(Bytes(frame).subspan(kEthernetSize)));
-  put16(frame, port);
-  put16(frame, port);
-  put16(frame, kUdpSize + payload.size());
-  put16(frame, 0);  // no checksum
+  append16(frame, port);
+  append16(frame, port);
+  append16(frame, kUdpSize + payload.size());
+  append16(frame, 0);  // no checksum
   frame.insert(frame.end(), payload.begin(), payload.end());
   return frame;
 }
@@ -84,16 +84,16 @@ std::optional<UdpDatagram> udp_datagram(FrameKind kind, Bytes frame) {
   const Bytes ip = *found;
   const std::size_t header = std::size_t{4} * (ip[0] & 0x0F);
   // A VLP-16's position packets say 1234, the length of its data packets: UDP's own length counts.
-  const std::size_t length = std::min<std::size_t>(get16(ip, 2), ip.size());
-  const bool is_fragment = (get16(ip, 6) & 0x3FFF) != 0;
+  const std::size_t length = std::min<std::size_t>(big16_at(ip, 2), ip.size());
+  const bool is_fragment = (big16_at(ip, 6) & 0x3FFF) != 0;
   if (ip[9] != kUdp || is_fragment || header < kIpSize || length < header + kUdpSize)
     return std::nullopt;
   const Bytes udp = ip.subspan(header, length - header);
-  const std::size_t udp_length = get16(udp, 4);
+  const std::size_t udp_length = big16_at(udp, 4);
   if (udp_length < kUdpSize || udp_length > udp.size()) return std::nullopt;
   return UdpDatagram{
-      .source_address = static_cast<std::uint32_t>(get16(ip, 12)) << 16 | get16(ip, 14),
-      .destination_port = get16(udp, 2),
+      .source_address = static_cast<std::uint32_t>(big16_at(ip, 12)) << 16 | big16_at(ip, 14),
+      .destination_port = big16_at(udp, 2),
       .payload = udp.subspan(kUdpSize, udp_length - kUdpSize)};
 }
 

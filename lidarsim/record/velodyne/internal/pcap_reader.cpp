@@ -11,6 +11,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "record/velodyne/internal/close_pcap.h"
 #include "record/velodyne/internal/ethernet.h"
 
 namespace plotscan::record {
@@ -21,10 +22,6 @@ using namespace std::chrono;
 constexpr std::int64_t kHour_us = 3'600'000'000;
 // A packet that another one overtook on its way is left out; time that goes back further is wrong.
 constexpr std::int64_t kOvertaken_us = 1'000'000;
-
-struct ClosePcap {
-  void operator()(pcap_t* pcap) const { pcap_close(pcap); }
-};
 
 struct CapturedDatagram {
   UtcTime captured;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "record/velodyne/encoder.h"
+#include "record/velodyne/internal/close_pcap.h"
 #include "record/velodyne/internal/ethernet.h"
 #include "record/velodyne/internal/position_packets.h"
 
@@ -17,11 +18,6 @@ constexpr int kLongestFrame = 65'535;
 constexpr std::uint64_t kDataPerPosition = 14;
 // A position packet follows its data packet when that is through: 0.1 ms at 100 Mbit/s.
 constexpr double kFrameTime_s = 1e-4;
-
-struct ClosePcap {
-  void operator()(pcap_t* pcap) const { pcap_close(pcap); }
-  void operator()(pcap_dumper_t* file) const { pcap_dump_close(file); }
-};
 
 // A pcap file of Ethernet frames stamped in microseconds.
 class FrameFile {

@@ -3,16 +3,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/random.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 std::vector<Eigen::Vector2d> random_points(std::uint64_t seed, int count) {
   RandomStream random(seed, random_purpose("test/hull"), 0);

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/dhami2020/internal/voting.h"
 
-#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/plot_box.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 TEST(Vote, TakesTheMeanOfTheFullestBin) {
   const Vote width = vote(std::vector{1.55, 1.65, 1.75, 0.9, 1.0, 3.2, 1.81}, 0.3);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pcap/pcap.h>
+
+namespace plotscan::record {
+
+// What libpcap's handles are deleted by.
+struct ClosePcap {
+  void operator()(pcap_t* pcap) const { pcap_close(pcap); }
+  void operator()(pcap_dumper_t* file) const { pcap_dump_close(file); }
+};
+
+}  // namespace plotscan::record
