@@ -46,11 +46,11 @@ function(plotscan_common_headers name)
   set(empty ${PROJECT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${empty} CONTENT "")
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen ${ARG_LIBRARIES})
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json ${ARG_LIBRARIES})
   plotscan_compile_options(${name})
   target_compile_options(${name} PRIVATE -fPIC)
   target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
-    <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> ${ARG_HEADERS})
+    <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> <fmt/format.h> <nlohmann/json.hpp> ${ARG_HEADERS})
 endfunction()
 
 # plotscan_library(NAME ROOT dir SOURCES ... PUBLIC ... PRIVATE ...)
