@@ -8,13 +8,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NO
   set(PLOTSCAN_PRECOMPILES ON)
 endif()
 
-# The files of a library are compiled together: templates and headers that they share once for all of them. Not by Clang, nor
+# The files of a library, or a test, are compiled together: templates and headers that they share once for all of them. Not by Clang, nor
 # without optimisation, where small rebuilds count.
 set(unity OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_BUILD_TYPE STREQUAL Release)
   set(unity ON)
 endif()
-option(PLOTSCAN_UNITY "Compile the files of each library together" ${unity})
+option(PLOTSCAN_UNITY "Compile the files of each library and test together" ${unity})
 
 function(plotscan_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -46,11 +46,11 @@ function(plotscan_common_headers name)
   set(empty ${PROJECT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${empty} CONTENT "")
   add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json ${ARG_LIBRARIES})
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen ${ARG_LIBRARIES})
   plotscan_compile_options(${name})
   target_compile_options(${name} PRIVATE -fPIC)
   target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
-    <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> <fmt/format.h> <nlohmann/json.hpp> ${ARG_HEADERS})
+    <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> ${ARG_HEADERS})
 endfunction()
 
 # plotscan_library(NAME ROOT dir SOURCES ... PUBLIC ... PRIVATE ...)
@@ -68,7 +68,8 @@ function(plotscan_library name)
   plotscan_precompile(${name} common_headers)
 endfunction()
 
-plotscan_common_headers(common_headers)
+plotscan_common_headers(common_headers HEADERS <fmt/format.h> <nlohmann/json.hpp>
+  LIBRARIES fmt::fmt nlohmann_json::nlohmann_json)
 set_target_properties(common_headers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
 # Files that declare commands: CLI11 costs each of them more than all else, and less when it is compiled at -O1, once for
@@ -96,6 +97,7 @@ function(plotscan_test_program name)
   target_compile_definitions(${name} PRIVATE
     PLOTSCAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PLOTSCAN_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data")
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLOTSCAN_UNITY} UNITY_BUILD_BATCH_SIZE 0)
   plotscan_compile_options(${name})
   plotscan_precompile(${name} common_test_headers)
 endfunction()

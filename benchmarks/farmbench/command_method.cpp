@@ -50,7 +50,7 @@ fs::path found_program(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path file = fs::path(folder) / program;
+    fs::path file = fs::path(folder) / program;
     if (access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file)) return file;
   }
   return program;

@@ -2,7 +2,6 @@
 #include "farmbench/sweep.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "core/csv.h"
 
@@ -11,12 +10,12 @@ namespace plotscan::farmbench {
 using nlohmann::json;
 
 std::vector<json> combination(const Sweep& sweep, std::size_t i) {
-  std::vector<json> values;
-  for (const SweepAxis& axis : std::views::reverse(sweep.axes)) {
-    values.push_back(axis.values[i % axis.values.size()]);
-    i /= axis.values.size();
+  std::vector<json> values(sweep.axes.size());
+  for (std::size_t axis = values.size(); axis-- > 0;) {
+    const auto& of_axis = sweep.axes[axis].values;
+    values[axis] = of_axis[i % of_axis.size()];
+    i /= of_axis.size();
   }
-  std::ranges::reverse(values);
   return values;
 }
 

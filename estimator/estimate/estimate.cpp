@@ -131,7 +131,7 @@ json given_attributes(const PlotFeature& feature) {
   for (const auto& [property, value] : feature.properties.items()) {
     if (!is_measured(property)) continue;
     std::string name = "given_" + property;
-    while (attributes.contains(name)) name = "given_" + name;
+    while (attributes.contains(name)) name.insert(0, "given_");
     attributes[name] = value;
   }
   return attributes;

@@ -24,7 +24,7 @@ inline std::string property_of(const std::string& height, std::string_view befor
 // The name of a height from its property, "" when the property is no height.
 inline std::string height_of(const std::string& property) {
   if (!property.ends_with(kSuffix)) return "";
-  const std::string name = property.substr(0, property.size() - kSuffix.size());
+  std::string name = property.substr(0, property.size() - kSuffix.size());
   if (name.size() > kCanopy.size() && name.starts_with(kCanopy)) return name;
   if (name.size() <= kPrefix.size() || !name.starts_with(kPrefix)) return "";
   return name.substr(kPrefix.size());

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -56,14 +58,17 @@ std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>&
     const std::string& place = where[ids.size()];
     const std::optional<PlotId> id = id_in(plot, property);
     if (!id) {
-      throw InputError(file, place + " has no id in its property \"" + property +
-                                 "\", and others have; --id names another property");
+      throw InputError(file,
+                       fmt::format("{} has no id in its property \"{}\", and others have; --id "
+                                   "names another property",
+                                   place, property));
     }
     const auto [earlier, is_new] = places.emplace(*id, place);
     if (!is_new) {
-      throw InputError(file, earlier->second + " and " + place + " have the same " + property +
-                                 " \"" + id->text() +
-                                 "\"; --id names a property that differs from plot to plot");
+      throw InputError(file,
+                       fmt::format("{} and {} have the same {} \"{}\"; --id names a property that "
+                                   "differs from plot to plot",
+                                   earlier->second, place, property, id->text()));
     }
     ids.push_back(*id);
   }

@@ -92,8 +92,9 @@ Eigen::Vector2f place_of(const Eigen::Vector3f& point, const Grid& grid) {
 
 std::uint32_t node_at(const Eigen::Vector2f& place, const Grid& grid) {
   if (place.x() < -0.5f) return kOutside;
-  const int column = std::min(static_cast<int>(place.x() + 0.5f), grid.columns - 1);
-  const int row = std::min(static_cast<int>(place.y() + 0.5f), grid.rows - 1);
+  const Eigen::Vector2f nearest = place.array() + 0.5f;  // truncated
+  const int column = std::min(static_cast<int>(nearest.x()), grid.columns - 1);
+  const int row = std::min(static_cast<int>(nearest.y()), grid.rows - 1);
   return static_cast<std::uint32_t>(grid.index(column, row));
 }
 
@@ -209,12 +210,11 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
       const std::uint32_t node = nodes[i];
       if (node < begin || node >= end) continue;
       const Eigen::Vector2f place = place_of(points[i], grid);
-      const auto column = static_cast<float>(node % grid.columns);
-      const auto row = static_cast<float>(node / grid.columns);
+      const std::uint32_t row = node / grid.columns, column = node % grid.columns;
       const float base = static_cast<float>(columns.base.z_m) + slope.dot(place);
       columns.returns[next[node]++] = {.z_m = points[i].z() - base,
-                                       .dx = part_of_cell(place.x() - column),
-                                       .dy = part_of_cell(place.y() - row)};
+                                       .dx = part_of_cell(place.x() - static_cast<float>(column)),
+                                       .dy = part_of_cell(place.y() - static_cast<float>(row))};
     }
   });
   return columns;

@@ -209,8 +209,8 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                             {.z_m = ground.z_m, .evidence = ground.evidence, .sd_m = surface.sd_m});
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
     surface.sd_m[i] = std::hypot(surface.sd_m[i], surface.misfit_m[i]);
-    const Eigen::Vector2d place(static_cast<double>(i % grid.columns),
-                                static_cast<double>(i / grid.columns));
+    const std::size_t row = i / grid.columns, column = i % grid.columns;
+    const Eigen::Vector2d place(static_cast<double>(column), static_cast<double>(row));
     surface.z_m[i] += static_cast<float>(low.base.z_m + grid.cell_m * low.base.slope.dot(place));
     surface.seen[i] = ground.evidence.support[i] > 0.5f && ground.evidence.data[i] > 0;
   }

@@ -144,6 +144,7 @@ double strip_sd(const PlotBox& box, std::span<const Eigen::Vector3f> points, dou
 
 std::vector<std::string> make_names() {
   std::vector<std::string> names;
+  names.reserve(kAreaShares.size() + kHeightShares.size());
   for (const double share : kAreaShares) names.push_back("q" + format_number(100 * share));
   for (const double share : kHeightShares) names.push_back("above" + format_number(100 * share));
   for (const double cell_m : kCells_m) {
@@ -166,6 +167,7 @@ CanopyFeatures canopy_features(const PlotBox& box, std::span<const Eigen::Vector
   std::vector<Eigen::Vector3f> descending(points.begin(), points.end());
   std::ranges::sort(descending, std::greater(), [](const auto& point) { return point.z(); });
   std::vector<double> values;
+  values.reserve(feature_names().size());
   for (const double share : kAreaShares) values.push_back(profile.quantile(share) / top_m);
   for (const double share : kHeightShares) values.push_back(profile.share_above(share * top_m));
   for (const double cell_m : kCells_m) {

@@ -55,7 +55,7 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
 }
 
 Scores run(const RunOptions& options) {
-  const Scores scores =
+  Scores scores =
       score(read_truth(options.truth), estimate::read_estimate(options.estimate), options.score);
   if (options.output) write_scores(scores, options);
   return scores;

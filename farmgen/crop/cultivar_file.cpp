@@ -61,7 +61,7 @@ class CultivarFile {
 
   // A source is one of the file's `sources`, or text that begins with one and a comma.
   std::string source(const YamlSection& section, const std::string& kept) const {
-    const std::string named = text(section, "source", kept);
+    std::string named = text(section, "source", kept);
     const std::string key = named.substr(0, named.find(','));
     if (complete_ && std::find(sources_.begin(), sources_.end(), key) == sources_.end()) {
       section.fail("source", "\"" + key + "\" is not one of the file's sources, which are " +

@@ -32,6 +32,7 @@ template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values,
                           const std::vector<std::size_t>& indices) {
   std::vector<Value> kept;
+  kept.reserve(indices.size());
   for (const std::size_t index : indices) kept.push_back(values[index]);
   return kept;
 }

@@ -85,6 +85,7 @@ std::vector<CultivarSummary> summarise_cultivars(const std::vector<Plot>& plots,
     if (leaves != leaves_m2.end()) sums.leaves_m2 += leaves->second;
   }
   std::vector<CultivarSummary> summaries;
+  summaries.reserve(cultivars.size());
   for (const auto& [name, sums] : cultivars) summaries.push_back(summary_of(sums));
   return summaries;
 }

@@ -12,6 +12,7 @@ std::vector<SurfaceClass> classes_of_models(const Farm& farm) {
     if (!label) label = class_of(plant.kind);
   }
   std::vector<SurfaceClass> classes;
+  classes.reserve(first.size());
   for (const auto& label : first) classes.push_back(label.value_or(SurfaceClass::crop));
   return classes;
 }

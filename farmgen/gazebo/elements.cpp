@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 const char* sdf_version(Gazebo gazebo) { return gazebo == Gazebo::classic ? "1.6" : "1.9"; }
 
 fs::path mesh_folder(const ModelFolder& models, const std::string& name) {
-  const fs::path folder = models.path / name / "meshes";
+  fs::path folder = models.path / name / "meshes";
   fs::create_directories(folder);
   return folder;
 }

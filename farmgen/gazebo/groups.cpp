@@ -84,6 +84,7 @@ std::vector<PlantGroups> by_row(const farm::Farm& farm, const PlantsByPlace& sor
     row.links.push_back(std::move(group));
   }
   std::vector<PlantGroups> models;
+  models.reserve(rows.size());
   for (auto& [key, row] : rows) models.push_back(std::move(row));
   return models;
 }

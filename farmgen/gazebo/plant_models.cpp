@@ -111,6 +111,7 @@ std::vector<MergedMesh> write_merged_meshes(const ModelFolder& models, const std
     for (const Surface& surface : surfaces.models[plant->model]) materials.insert(surface.material);
   }
   std::vector<MergedMesh> meshes;
+  meshes.reserve(materials.size());
   for (const std::size_t material : materials)
     meshes.push_back(write_merged_mesh(models, model, group, material, farm, surfaces));
   return meshes;

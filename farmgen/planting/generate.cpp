@@ -46,6 +46,7 @@ std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {
 
 std::vector<PlotBox> boxes_of(const std::vector<farm::Plot>& plots) {
   std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
   for (const farm::Plot& plot : plots) boxes.push_back(plot.box);
   return boxes;
 }

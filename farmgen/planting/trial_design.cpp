@@ -47,6 +47,7 @@ void number_blocks_by_lines(std::vector<farm::Plot*> plots, int farm::Plot::*lin
 
 void make_blocks(BlockBy by, std::size_t cultivars, std::vector<farm::Plot>& plots) {
   std::vector<farm::Plot*> all;
+  all.reserve(plots.size());
   for (farm::Plot& plot : plots) all.push_back(&plot);
   if (by == BlockBy::plots) return number_blocks(all, cultivars);
   if (by == BlockBy::rows) return number_blocks_by_lines(all, &farm::Plot::row, "rows", cultivars);

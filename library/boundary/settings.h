@@ -11,6 +11,7 @@
 
 #include "plotscan/settings.h"
 #include <Eigen/Core>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/setting.h"
@@ -73,9 +74,9 @@ void take(const std::string& owner, const std::map<std::string, SettingValue>& g
     if (found == table.end()) {
       std::vector<std::string> keys;
       for (const TableEntry& known : table) keys.push_back(known.key);
-      throw InputError(owner + " has no \"" + key + "\"; it has " + joined(keys, ", "));
+      throw InputError(fmt::format("{} has no \"{}\"; it has {}", owner, key, joined(keys, ", ")));
     }
-    const std::string name = owner + "'s " + key;
+    const std::string name = fmt::format("{}'s {}", owner, key);
     std::visit([&](const auto& setting) { take(name, entry.second, setting.of(options)); },
                found->value);
   }

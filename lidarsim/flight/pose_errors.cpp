@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 
@@ -52,8 +53,8 @@ std::vector<double> report_times(const scan::Trajectory& truth) {
   for (const scan::StampedPose& pose : truth.poses()) {
     const double before = times.empty() ? pose.time_s : times.back();
     const double gaps = std::ceil((pose.time_s - before) / kPose_s * (1 - 1e-9));
-    for (double gap = 1; gap < gaps; ++gap)
-      times.push_back(std::lerp(before, pose.time_s, gap / gaps));
+    for (std::int64_t gap = 1; static_cast<double>(gap) < gaps; ++gap)
+      times.push_back(std::lerp(before, pose.time_s, static_cast<double>(gap) / gaps));
     times.push_back(pose.time_s);
   }
   return times;

@@ -44,6 +44,7 @@ MotionLimits limits_along(const Quadrotor& quadrotor, const Eigen::Vector3d& way
 
 std::vector<Waypoint> waypoints_at(const std::vector<Eigen::Vector3d>& positions_m) {
   std::vector<Waypoint> waypoints;
+  waypoints.reserve(positions_m.size());
   for (const Eigen::Vector3d& position : positions_m) waypoints.push_back({.position_m = position});
   return waypoints;
 }

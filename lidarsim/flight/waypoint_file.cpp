@@ -37,6 +37,7 @@ std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file) {
   const std::vector<YamlSection> sections = root.list("waypoints", kMostWaypoints);
   if (sections.size() < 2) root.fail("waypoints", "must list at least two");
   std::vector<StatedWaypoint> waypoints;
+  waypoints.reserve(sections.size());
   for (const YamlSection& section : sections) waypoints.push_back(read_waypoint(section));
   root.refuse_unread();
   if (waypoints.back().waypoint.speed_m_s)

@@ -131,7 +131,7 @@ std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
                                          const FlightPlanOptions& options) {
   require_within("altitude", options.altitude_m, kMinAltitude_m, kMaxAltitude_m);
   require_within("spacing", options.spacing_m, 0.1, 1000);
-  const std::vector<Eigen::Vector3d> path =
+  std::vector<Eigen::Vector3d> path =
       flight::strips_over(site.areas, {.height_m = ground_of(site) + options.altitude_m,
                                        .spacing_m = options.spacing_m,
                                        .run_up_m = options.run_up_m,

@@ -87,8 +87,9 @@ std::optional<double> mean_height(const SceneContent& ground, const Eigen::Align
   const Eigen::Vector3d step = area.sizes() / (kGrid - 1);
   const float top = scene.top_m() + 1;
   for (int i = 0; i < kGrid * kGrid; ++i) {
-    const double x = area.min().x() + (i % kGrid) * step.x();
-    const double y = area.min().y() + (i / kGrid) * step.y();
+    const int row = i / kGrid, column = i % kGrid;
+    const double x = area.min().x() + column * step.x();
+    const double y = area.min().y() + row * step.y();
     rays.push_back({{static_cast<float>(x), static_cast<float>(y), top}, {0, 0, -1}});
   }
   std::vector<Hit> hits(rays.size());

@@ -141,6 +141,7 @@ class PointFilter {
 // "2, 9".
 std::string numbers_text(const std::vector<int>& numbers) {
   std::vector<std::string> texts;
+  texts.reserve(numbers.size());
   for (const int number : numbers) texts.push_back(std::to_string(number));
   return joined(texts, ", ");
 }

@@ -83,7 +83,7 @@ std::string extra_bytes(bool labels) {
   constexpr std::uint8_t kUnsigned8 = 1;
   constexpr std::uint8_t kUnsigned16 = 3;
   constexpr std::uint8_t kUnsigned32 = 5;
-  const std::string ring = extra_byte(kUnsigned16, "ring", "laser by elevation, 0 lowest");
+  std::string ring = extra_byte(kUnsigned16, "ring", "laser by elevation, 0 lowest");
   if (!labels) return ring;
   return ring + extra_byte(kUnsigned32, "plot", "plot id, 0 none") +
          extra_byte(kUnsigned32, "plant", "plant id, 0 none") +

@@ -32,9 +32,8 @@ double ScanAngles::angle_rad(const LabelledPoint& point) {
 }
 
 Eigen::Vector3d ScanAngles::direction(double time_s) const {
-  const Eigen::Vector3d way =
-      horizontal(reported_.world_from_body(time_s + kHalfWindow_s).translation() -
-                 reported_.world_from_body(time_s - kHalfWindow_s).translation());
+  Eigen::Vector3d way = horizontal(reported_.world_from_body(time_s + kHalfWindow_s).translation() -
+                                   reported_.world_from_body(time_s - kHalfWindow_s).translation());
   if (way.norm() > kLeastWay_m) return way;
   const Eigen::Vector3d nose = horizontal(reported_.world_from_body(time_s).linear().col(0));
   return nose.norm() > 0 ? nose : Eigen::Vector3d::UnitX();

@@ -23,7 +23,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // Four plots, flown in six ways; one key a line.
-const std::string kSound =
+const std::string kSoundSweep =
     "name: mine\n"
     "farm: " +
     std::string(PLOTSCAN_SOURCE_DIR) +
@@ -39,14 +39,14 @@ const std::string kSound =
     "seeds: [1]\n"
     "methods: [lattice true-boxes]\n";
 
-std::string with(const std::string& line, const std::string& other) {
-  std::string text = kSound;
+std::string swept_with(const std::string& line, const std::string& other) {
+  std::string text = kSoundSweep;
   return text.replace(text.find(line), line.size(), other);
 }
 
 TEST(LoadSweep, EveryCombinationIsACase) {
   const TemporaryFolder folder;
-  const Suite suite = load_suite(folder.write("s.yaml", kSound));
+  const Suite suite = load_suite(folder.write("s.yaml", kSoundSweep));
   std::vector<std::string> names;
   for (const SuiteCase& one : suite.cases) names.push_back(one.name);
   EXPECT_THAT(names, ElementsAre("6_vlp16", "6_puck_hires", "9.5_vlp16", "9.5_puck_hires",
@@ -67,17 +67,17 @@ TEST(LoadSweep, TellsWhatIsWrong) {
     const fs::path file = folder.write("s.yaml", text);
     return message_of<InputError>([&] { load_suite(file); });
   };
-  EXPECT_THAT(message(with("altitude_m: [6", "altitude: [6")),
+  EXPECT_THAT(message(swept_with("altitude_m: [6", "altitude: [6")),
               HasSubstr("s.yaml:6: axes.altitude is no option of a flight that can vary"));
-  EXPECT_THAT(message(with("[6, 9.5, 119]", "[6, 9.5, 6]")),
+  EXPECT_THAT(message(swept_with("[6, 9.5, 119]", "[6, 9.5, 6]")),
               HasSubstr("s.yaml:6: axes.altitude_m name 6 twice"));
-  EXPECT_THAT(message(with("[6, 9.5, 119]", "[6, 9000]")), HasSubstr("altitude_m"));
-  EXPECT_THAT(message(with("height: max", "height: tallest")), HasSubstr("s.yaml:8: height"));
-  EXPECT_THAT(message(with("height: max", "height: max\ntruth: tallest")),
+  EXPECT_THAT(message(swept_with("[6, 9.5, 119]", "[6, 9000]")), HasSubstr("altitude_m"));
+  EXPECT_THAT(message(swept_with("height: max", "height: tallest")), HasSubstr("s.yaml:8: height"));
+  EXPECT_THAT(message(swept_with("height: max", "height: max\ntruth: tallest")),
               HasSubstr("s.yaml:9: truth"));
-  EXPECT_THAT(message(with("[vlp16, puck_hires]", "[a/vlp16.yaml, vlp16]")),
+  EXPECT_THAT(message(swept_with("[vlp16, puck_hires]", "[a/vlp16.yaml, vlp16]")),
               HasSubstr("whose files would be called 6_vlp16"));
-  EXPECT_THAT(message(with("height: max", "baseline: mine")), HasSubstr("baseline"));
+  EXPECT_THAT(message(swept_with("height: max", "baseline: mine")), HasSubstr("baseline"));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -125,7 +125,7 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
 
 TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   const TemporaryFolder folder;
-  const fs::path suite = folder.write("s.yaml", with("6, 9.5, 119", "6, 40"));
+  const fs::path suite = folder.write("s.yaml", swept_with("6, 9.5, 119", "6, 40"));
   const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   run({.suite = suite, .output = folder.path() / "b", .jobs = 3, .threads = 4, .build = "test"});
   for (const char* file : {"sweep.csv", "sweep.md", "table.csv", "results.json"})
@@ -154,8 +154,8 @@ TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
 // From 119 m the ground is out of the sensor's range.
 TEST(Sweep, GoesOnAfterAFlightThatSeesNothing) {
   const TemporaryFolder folder;
-  const fs::path suite =
-      folder.write("s.yaml", with("[6, 9.5, 119]\n  sensor: [vlp16, puck_hires]", "[119, 6]"));
+  const fs::path suite = folder.write(
+      "s.yaml", swept_with("[6, 9.5, 119]\n  sensor: [vlp16, puck_hires]", "[119, 6]"));
   const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   const std::vector<TableRow> rows = sweep_rows(summary.result, summary.table);
   ASSERT_EQ(rows.size(), 2U);

@@ -26,7 +26,7 @@ constexpr const char* kCircle = R"(<?xml version="1.0"?>
 <library_visual_scenes><visual_scene id="s"><node id="n"><instance_node url="#a"/></node>
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 
-const std::string kPaper = std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'";
+const std::string kPaperWorld = std::string("'") + PLOTSCAN_SOURCE_DIR "/worlds/paper_flat.yaml'";
 
 struct Door {
   std::string name;
@@ -53,13 +53,13 @@ TEST_P(HostileMeshFile, IsRefusedWhereverItComesIn) {
 
 INSTANTIATE_TEST_SUITE_P(
     Doors, HostileMeshFile,
-    ::testing::Values(Door{"Plant", "farmgen generate " + kPaper +
+    ::testing::Values(Door{"Plant", "farmgen generate " + kPaperWorld +
                                         " -o out --set \"plants.models=[$PWD/circle.dae]\""},
                       Door{"Light",
-                           "farmgen generate " + kPaper +
+                           "farmgen generate " + kPaperWorld +
                                " -o out --set \"plants.models=[{mesh: $PWD/sound.obj, light: "
                                "$PWD/circle.dae}]\""},
-                      Door{"Terrain", "farmgen generate " + kPaper +
+                      Door{"Terrain", "farmgen generate " + kPaperWorld +
                                           " -o out --set \"terrain={mesh: $PWD/circle.dae}\""},
                       Door{"Picture", "plotview plants circle.dae -o p.png"}),
     [](const auto& tested) { return tested.param.name; });

@@ -2,17 +2,16 @@
 #include "core/trial_layout.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "core/angle.h"
 
 namespace plotscan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 Eigen::Vector2d direction(double angle_deg) {
-  return {std::cos(angle_deg * kDegree), std::sin(angle_deg * kDegree)};
+  return {std::cos(angle_deg * kDegrees), std::sin(angle_deg * kDegrees)};
 }
 
 // Plots whose length points 30 degrees from x, in rows that are 5 degrees off the perpendicular.
@@ -27,8 +26,8 @@ TrialLayout skewed() {
 }
 
 TEST(TrialLayout, HasTheAnglesOfItsAxes) {
-  EXPECT_NEAR(skewed().heading_rad(), 30 * kDegree, 1e-12);
-  EXPECT_NEAR(skewed().skew_rad(), 5 * kDegree, 1e-12);
+  EXPECT_NEAR(skewed().heading_rad(), 30 * kDegrees, 1e-12);
+  EXPECT_NEAR(skewed().skew_rad(), 5 * kDegrees, 1e-12);
   EXPECT_NEAR(TrialLayout{}.skew_rad(), 0, 1e-12);
 }
 
@@ -42,9 +41,11 @@ TEST(TrialLayout, CountsRowsAndColumns) {
 TEST(TrialLayout, PutsABoxAtAPlace) {
   const TrialLayout layout = skewed();
   const PlotBox box = layout.box(layout.places[1]);
-  EXPECT_NEAR(box.center.x(), 100 + 4 * std::cos(-55 * kDegree) + 6 * std::cos(30 * kDegree), 1e-9);
-  EXPECT_NEAR(box.center.y(), 200 + 4 * std::sin(-55 * kDegree) + 6 * std::sin(30 * kDegree), 1e-9);
-  EXPECT_NEAR(box.heading_rad, 30 * kDegree, 1e-12);
+  EXPECT_NEAR(box.center.x(), 100 + 4 * std::cos(-55 * kDegrees) + 6 * std::cos(30 * kDegrees),
+              1e-9);
+  EXPECT_NEAR(box.center.y(), 200 + 4 * std::sin(-55 * kDegrees) + 6 * std::sin(30 * kDegrees),
+              1e-9);
+  EXPECT_NEAR(box.heading_rad, 30 * kDegrees, 1e-12);
   EXPECT_EQ(box.width_m, 1.5);
   EXPECT_EQ(box.length_m, 4);
 }

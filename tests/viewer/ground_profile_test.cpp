@@ -11,18 +11,18 @@
 namespace plotscan::view {
 namespace {
 
-const Eigen::Vector2d kOrigin(552000, 4128000);
-const Eigen::Vector2d kSlope(0.1, -0.2);
+const Eigen::Vector2d kCorner(552000, 4128000);
+const Eigen::Vector2d kGradient(0.1, -0.2);
 
 PlotBox tilted_box() {
-  return {.center = kOrigin + Eigen::Vector2d(6, 5),
+  return {.center = kCorner + Eigen::Vector2d(6, 5),
           .width_m = 1.5,
           .length_m = 4,
           .heading_rad = std::numbers::pi / 6};
 }
 
 TEST(GroundProfile, FollowsThePlotsMiddle) {
-  const ground::Surface surface = plane(kOrigin, 300, kSlope, 60);
+  const ground::Surface surface = plane(kCorner, 300, kGradient, 60);
   const auto profile = ground_profile(surface, tilted_box(), 1);
   EXPECT_DOUBLE_EQ(profile.front().along_m, -1);
   EXPECT_DOUBLE_EQ(profile.back().along_m, 5);
@@ -30,7 +30,7 @@ TEST(GroundProfile, FollowsThePlotsMiddle) {
   const Eigen::Vector2d axis(std::sqrt(3) / 2, 0.5);
   for (const ProfilePoint& point : profile) {
     const Eigen::Vector2d place = Eigen::Vector2d(6, 5) + (point.along_m - 2) * axis;
-    EXPECT_NEAR(point.z_m, 300 + kSlope.dot(place), 1e-4);  // a float's step at 300 m
+    EXPECT_NEAR(point.z_m, 300 + kGradient.dot(place), 1e-4);  // a float's step at 300 m
     EXPECT_NEAR(point.standard_error_m, 0.01, 1e-6);
     EXPECT_TRUE(point.seen);
   }

@@ -49,7 +49,7 @@ std::filesystem::path small_cloud(const testing::TemporaryFolder& folder) {
                        points);
 }
 
-bool vermilion(const Colour& c) { return c[0] > 190 && c[1] < 125 && c[2] < 50; }
+bool vermilion_box(const Colour& c) { return c[0] > 190 && c[1] < 125 && c[2] < 50; }
 
 TEST(Picture, ShowsPlantsOnTheLeftAndCloudWithBoxesOnTheRight) {
   const testing::TemporaryFolder folder;
@@ -58,11 +58,11 @@ TEST(Picture, ShowsPlantsOnTheLeftAndCloudWithBoxesOnTheRight) {
   draw_picture(farm, small_cloud(folder), {farm.plots[0].box}, folder.path() / "with.png", options);
   EXPECT_GT(count_pixels(folder.path() / "with.png", 0, 0.5, green), 50);
   EXPECT_GT(count_pixels(folder.path() / "with.png", 0.5, 1, green), 50);
-  EXPECT_EQ(count_pixels(folder.path() / "with.png", 0, 0.5, vermilion), 0);
-  EXPECT_GT(count_pixels(folder.path() / "with.png", 0.5, 1, vermilion), 50);
+  EXPECT_EQ(count_pixels(folder.path() / "with.png", 0, 0.5, vermilion_box), 0);
+  EXPECT_GT(count_pixels(folder.path() / "with.png", 0.5, 1, vermilion_box), 50);
 
   draw_picture(farm, small_cloud(folder), {}, folder.path() / "without.png", options);
-  EXPECT_EQ(count_pixels(folder.path() / "without.png", 0, 1, vermilion), 0);
+  EXPECT_EQ(count_pixels(folder.path() / "without.png", 0, 1, vermilion_box), 0);
 }
 
 TEST(Picture, OfAFarmAloneFillsThePicture) {

@@ -18,16 +18,16 @@ using ::testing::HasSubstr;
 using testing::message_of;
 using testing::TemporaryFolder;
 
-const Eigen::Vector2d kOrigin(552000, 4128000);
+const Eigen::Vector2d kPlotOrigin(552000, 4128000);
 
 // A plot of 4 x 1 m that heads north, on level ground at 300 m.
 estimate::Estimate one_plot() {
   estimate::Estimate estimate{.method = "lattice"};
-  estimate.ground = plane(kOrigin, 300, {0, 0}, 51);
+  estimate.ground = plane(kPlotOrigin, 300, {0, 0}, 51);
   estimate.plots.push_back({.id = 7,
                             .row = 2,
                             .column = 3,
-                            .box = {.center = kOrigin + Eigen::Vector2d(5, 5),
+                            .box = {.center = kPlotOrigin + Eigen::Vector2d(5, 5),
                                     .width_m = 1,
                                     .length_m = 4,
                                     .heading_rad = std::numbers::pi / 2},
@@ -37,10 +37,10 @@ estimate::Estimate one_plot() {
 }
 
 // Ground everywhere, and crop of 0.3 m in the plot's southern half.
-std::filesystem::path cloud_of(const TemporaryFolder& folder) {
-  return write_field(folder, kOrigin, kOrigin + Eigen::Vector2d(10, 10), 0.04,
+std::filesystem::path plot_cloud(const TemporaryFolder& folder) {
+  return write_field(folder, kPlotOrigin, kPlotOrigin + Eigen::Vector2d(10, 10), 0.04,
                      [](const Eigen::Vector2d& place) {
-                       const Eigen::Vector2d p = place - kOrigin;
+                       const Eigen::Vector2d p = place - kPlotOrigin;
                        const bool crop = std::abs(p.x() - 5) < 0.5 && p.y() > 3 && p.y() < 5;
                        return crop ? 300.3 : 300.0;
                      });
@@ -78,7 +78,7 @@ double row_of(const std::filesystem::path& png, double from, double to,
 TEST(PlotPicture, ShowsHeightsOverTheGround) {
   const TemporaryFolder folder;
   const auto png = folder.path() / "plot.png";
-  draw_plot(cloud_of(folder), one_plot(), 7, png, {.width_px = 1200});
+  draw_plot(plot_cloud(folder), one_plot(), 7, png, {.width_px = 1200});
   // Where nothing else lies over them: the northern half.
   const double mean = row_of(png, 0.45, 0.6, mean_line);
   const double max = row_of(png, 0.45, 0.6, max_line);
@@ -91,7 +91,7 @@ TEST(PlotPicture, ShowsHeightsOverTheGround) {
 TEST(PlotPicture, ShowsPointsInThePlotApartFromThoseBeyond) {
   const TemporaryFolder folder;
   const auto png = folder.path() / "plot.png";
-  draw_plot(cloud_of(folder), one_plot(), 7, png, {.width_px = 800});
+  draw_plot(plot_cloud(folder), one_plot(), 7, png, {.width_px = 800});
   int width = 0;
   int first = 1 << 30;
   int last = 0;
@@ -115,7 +115,7 @@ TEST(PlotPicture, ShowsPointsInThePlotApartFromThoseBeyond) {
 
 TEST(PlotPicture, DashesTheGroundWhereItIsInterpolated) {
   const TemporaryFolder folder;
-  const auto cloud = cloud_of(folder);
+  const auto cloud = plot_cloud(folder);
   auto estimate = one_plot();
   const auto inked = [&](const char* name) {
     draw_plot(cloud, estimate, 7, folder.path() / name, {.width_px = 800, .heights = {"mean"}});
@@ -132,14 +132,14 @@ TEST(PlotPicture, DrawsPlotsWithoutHeightsOrGround) {
   auto bare = one_plot();
   bare.plots[0].heights_m.clear();
   std::ranges::fill(bare.ground->z_m, std::numeric_limits<float>::quiet_NaN());
-  draw_plot(cloud_of(folder), bare, 7, folder.path() / "bare.png", {.width_px = 700});
+  draw_plot(plot_cloud(folder), bare, 7, folder.path() / "bare.png", {.width_px = 700});
   EXPECT_EQ(count_pixels(folder.path() / "bare.png", 0, 1, mean_line), 0);
   EXPECT_GT(count_pixels(folder.path() / "bare.png", 0, 1, crop_points), 100);
 }
 
 TEST(PlotPicture, RefusesWhatItCannotDraw) {
   const TemporaryFolder folder;
-  const auto cloud = cloud_of(folder);
+  const auto cloud = plot_cloud(folder);
   const auto png = folder.path() / "plot.png";
   const auto refusal = [&](const estimate::Estimate& estimate, std::uint32_t number,
                            const PlotPictureOptions& options) {
@@ -156,7 +156,7 @@ TEST(PlotPicture, RefusesWhatItCannotDraw) {
   groundless.ground.reset();
   EXPECT_THAT(refusal(groundless, 7, {}), HasSubstr("has no ground"));
   auto elsewhere = one_plot();
-  elsewhere.plots[0].box.center -= kOrigin;
+  elsewhere.plots[0].box.center -= kPlotOrigin;
   EXPECT_THAT(refusal(elsewhere, 7, {}), HasSubstr("has no point in plot 7"));
   EXPECT_FALSE(std::filesystem::exists(png));
 }

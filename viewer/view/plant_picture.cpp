@@ -208,6 +208,7 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
   const View view = view_from(options);
   std::vector<PlantExtent> extents;
+  extents.reserve(plants.size());
   for (const PicturedPlant& plant : plants) extents.push_back(plant_extent(plant, view));
   const Eigen::Vector2d size_px(options.width_px, options.height_px);
   const PlantLayout layout = lay_out(extents, size_px, static_cast<std::size_t>(options.columns));

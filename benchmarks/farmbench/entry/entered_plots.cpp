@@ -76,7 +76,8 @@ void read_heights(const EnteredRow& row, estimate::PlotEstimate& plot, Problems&
       const auto found = row.properties.find(height);
       const bool is_measured = found != row.properties.end() && !found->is_null();
       if (!estimate::height_of(height).empty() && !is_measured)
-        problems.add(row.place, property + " belongs to " + height + ", which is not there");
+        problems.add(row.place,
+                     fmt::format("{} belongs to {}, which is not there", property, height));
     }
   }
 }

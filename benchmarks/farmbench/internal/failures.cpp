@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 namespace plotscan::farmbench {
 
 std::vector<std::string> failure_lines(const SuiteResult& result) {
@@ -21,8 +23,8 @@ std::vector<std::string> failure_lines(const SuiteResult& result) {
       }
       if (failed == 0) continue;
       std::ranges::replace(first, '\n', ' ');
-      lines.push_back(method + ", " + info.name + ": " + std::to_string(failed) + " of " +
-                      std::to_string(farms) + (farms == 1 ? " farm, " : " farms, ") + first);
+      lines.push_back(fmt::format("{}, {}: {} of {} {}, {}", method, info.name, failed, farms,
+                                  farms == 1 ? "farm" : "farms", first));
     }
   }
   return lines;

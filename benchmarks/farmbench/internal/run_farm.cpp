@@ -159,6 +159,21 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
   return document;
 }
 
+// Adds each method's result, and gives their estimates.
+std::vector<estimate::Estimate> run_methods(const Suite& suite, const Field& field,
+                                            const std::vector<score::TruePlot>& truth,
+                                            const ProgressReport& progress, FarmResult& result) {
+  std::vector<estimate::Estimate> estimates;
+  for (const std::string& name : suite.methods) {
+    MethodRun method = run_named(name, suite, field, truth);
+    result.methods.push_back(std::move(method.result));
+    estimates.push_back(std::move(method.estimate));
+    report_share(progress,
+                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+  }
+  return estimates;
+}
+
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const auto& [suite, suite_case, seed, folder, threads, view] = run;
   const FarmPlace place{suite_case, seed, folder, threads};
@@ -188,14 +203,8 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
                     .terrain = farm.terrain,
                     .seed = seed,
                     .threads = threads};
-  std::vector<estimate::Estimate> estimates;
-  for (const std::string& name : suite.methods) {
-    MethodRun method = run_named(name, suite, field, truth);
-    result.methods.push_back(std::move(method.result));
-    if (view) estimates.push_back(std::move(method.estimate));
-    report_share(progress,
-                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
-  }
+  const std::vector<estimate::Estimate> estimates =
+      run_methods(suite, field, truth, progress, result);
   if (view) {
     write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
                             .area = shown,

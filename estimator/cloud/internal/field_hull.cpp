@@ -23,6 +23,7 @@ std::vector<TileCount> coarsened(std::span<const TileCount> counts) {
   std::map<Tile, std::uint64_t> sums;
   for (const TileCount& count : counts) sums[coarse(count.tile, 1)] += count.points;
   std::vector<TileCount> result;
+  result.reserve(sums.size());
   for (const auto& [tile, points] : sums) result.push_back({tile, points});
   return result;
 }

@@ -32,7 +32,7 @@ class Normal {
  public:
   Normal() {
     for (int i = 0; i < kSize; ++i) {
-      const double x = (i - kSize / 2) / kPerSigma;
+      const double x = (i - kMiddle) / kPerSigma;
       density_[i] = static_cast<float>(0.3989422804 * std::exp(-0.5 * x * x));
       share_[i] = static_cast<float>(0.5 * std::erfc(-x * 0.7071067812));
     }
@@ -43,9 +43,10 @@ class Normal {
  private:
   static constexpr double kPerSigma = 64;
   static constexpr int kSize = 1024;
+  static constexpr int kMiddle = kSize / 2;
   static int index(float x) {
-    return std::clamp(static_cast<int>(x * static_cast<float>(kPerSigma) + kSize / 2.0f + 0.5f), 0,
-                      kSize - 1);
+    const float nearest = x * static_cast<float>(kPerSigma) + kMiddle + 0.5f;  // truncated
+    return std::clamp(static_cast<int>(nearest), 0, kSize - 1);
   }
   std::array<float, kSize> density_{};
   std::array<float, kSize> share_{};

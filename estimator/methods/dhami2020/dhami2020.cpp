@@ -125,6 +125,16 @@ std::string line_of(const Lattice& lattice) {
                      lattice.rms_m, pitch);
 }
 
+// The lattice of a part of the field, carried on over all of it.
+Lattice carried_on(const Lattice& lattice, const PlotBox& plot, const Cloud& canopy) {
+  if (!lattice.many_rows || !lattice.many_columns) {
+    throw InputError(
+        "the plots in the learn box lie in one line, which tells nothing of the grid's other "
+        "step; a learn box holds at least 2 x 2 plots");
+  }
+  return carried_over(lattice, plot, canopy);
+}
+
 // Section IV-B: the clusters and plots of the map in its own frame.
 void find_plots(const cloud::CloudMap& map, const Cloud& voxels, const Options& options,
                 estimate::Estimate& estimate) {
@@ -151,15 +161,7 @@ void find_plots(const cloud::CloudMap& map, const Cloud& voxels, const Options& 
   if (!lattice)
     throw NothingToMeasure(
         "the clusters form no grid of plots; check the crop box and the number of plots");
-  if (options.learn_box) {
-    if (!lattice->many_rows || !lattice->many_columns) {
-      throw InputError(
-          "the plots in the learn box lie in one line, which tells nothing of the grid's other "
-          "step; " +
-          std::string("a learn box holds at least 2 x 2 plots"));
-    }
-    lattice = carried_over(*lattice, plot, canopy);
-  }
+  if (options.learn_box) lattice = carried_on(*lattice, plot, canopy);
   said["grid"] = to_json(*lattice);
   estimate.diagnostics.lines.push_back(line_of(*lattice));
   const std::size_t most = options.learn_box ? kMostPlots : options.plots;

@@ -72,7 +72,7 @@ OwnCover own_cover(const DepthProfile& profile, const std::vector<Neighbour>& ne
 // of another size would move towards the blunter one of a plot's edges.
 double steepest_size(const std::vector<OwnCover>& covers, double size_m) {
   double best = -1, best_size_m = size_m;
-  for (double wider = -0.1; wider <= 0.4; wider += 0.02) {
+  for (const double wider : steps_between(-0.1, 0.4, 0.02)) {
     double height = 0;
     for (const OwnCover& own : covers) height += own.edges(0, size_m + wider);
     if (height <= best) continue;
@@ -113,6 +113,7 @@ std::vector<std::optional<double>> measured_shifts(const Lattice& lattice) {
   }
   const double steep_m = steepest_size(covers, size_m);
   std::vector<std::optional<double>> shifts;
+  shifts.reserve(covers.size());
   for (const OwnCover& own : covers) shifts.push_back(shift_of(own, steep_m));
   return shifts;
 }

@@ -114,6 +114,15 @@ double plateau_depth(const DepthProfile& profile, double size_m) {
   return count > 0 ? -std::log(transmitted / count) : 0;
 }
 
+std::vector<double> steps_between(double low, double high, double step) {
+  std::vector<double> values;
+  while (low <= high) {
+    values.push_back(low);
+    low += step;
+  }
+  return values;
+}
+
 BlurredBox::BlurredBox(double size_m, double blur_m) : half_m_(size_m / 2), per_m_(100 / blur_m) {}
 
 double BlurredBox::edge(double x_m) const {

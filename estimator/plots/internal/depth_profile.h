@@ -39,6 +39,9 @@ DepthProfile profile_with_gaps(const Lattice& lattice);
 // Depth of the middle of the plot, within size_m.
 double plateau_depth(const DepthProfile& profile, double size_m);
 
+// Sizes to be tried: low, low + step and so on, up to high.
+std::vector<double> steps_between(double low, double high, double step);
+
 // A box of height 1 about 0, blurred by a normal kernel.
 class BlurredBox {
  public:

@@ -99,7 +99,7 @@ void fill_in(std::vector<double>& places) {
     const double times = i > 0 && step > 0 ? (places[i] - places[i - 1]) / step : 1;
     const double whole = std::round(times);
     if (std::abs(times - whole) < kTolerance) {
-      for (double k = 1; k < whole; ++k)
+      for (int k = 1; k < static_cast<int>(whole); ++k)
         filled.push_back(places[i - 1] + k / whole * (places[i] - places[i - 1]));
     }
     filled.push_back(places[i]);

@@ -74,9 +74,10 @@ EdgeFit fit_edges_along(const Lattice& lattice) {
   const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
   double best_squares = std::numeric_limits<double>::infinity();
-  for (double size = size_m - 0.35; size <= size_m + 0.35; size += 0.01) {
+  const std::vector<double> blurs = steps_between(0.03, kMostBlur_m, 0.02);
+  for (const double size : steps_between(size_m - 0.35, size_m + 0.35, 0.01)) {
     if (size < 0.2) continue;
-    for (double blur = 0.03; blur <= kMostBlur_m; blur += 0.02) {
+    for (const double blur : blurs) {
       const double squares = squares_of(profile, depth, BlurredBox(size, blur), near, size_m / 2);
       if (squares >= best_squares) continue;
       best_squares = squares;

@@ -38,6 +38,7 @@ Vector3d Axis::at(double length_m) const {
 
 std::vector<Vector3d> Axis::part(double from_m, double to_m, int points) const {
   std::vector<Vector3d> path;
+  path.reserve(static_cast<std::size_t>(points));
   for (int i = 0; i < points; ++i) path.push_back(at(from_m + (to_m - from_m) * i / (points - 1)));
   return path;
 }

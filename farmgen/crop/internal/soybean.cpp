@@ -43,7 +43,7 @@ class Soybean {
     const double lean = traits_.radians("lean_deg") * random.uniform();
     const double lean_azimuth = 2 * kPi * random.uniform();
     const int spread = traits_.count("nodes_variation");
-    const int more = static_cast<int>(random.below(static_cast<std::uint64_t>(2 * spread + 1)));
+    const int more = static_cast<int>(random.below(2 * static_cast<std::uint64_t>(spread) + 1));
     const Shoot stem{.number = kMainStem,
                      .nodes = std::max(1, traits_.count("nodes") + more - spread),
                      .first_azimuth = 2 * kPi * random.uniform(),

@@ -52,7 +52,9 @@ class Noise {
       const int cell = static_cast<int>(std::floor(value)) % period;
       return cell < 0 ? cell + period : cell;
     };
-    return values_[static_cast<std::size_t>(wrapped(y, rows_) * columns_ + wrapped(x, columns_))];
+    const auto row = static_cast<std::size_t>(wrapped(y, rows_));
+    return values_[row * static_cast<std::size_t>(columns_) +
+                   static_cast<std::size_t>(wrapped(x, columns_))];
   }
 
   int columns_;

@@ -85,8 +85,8 @@ Eigen::Affine3d parent_from(const Element& element, const std::string& what, con
   if (!errors.empty()) refuse(file, errors);
   const auto& p = pose.Pos();
   const auto& q = pose.Rot();
-  const Eigen::Affine3d transform = Eigen::Translation3d(p.X(), p.Y(), p.Z()) *
-                                    Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized();
+  Eigen::Affine3d transform = Eigen::Translation3d(p.X(), p.Y(), p.Z()) *
+                              Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized();
   if (!transform.matrix().allFinite())
     throw InputError(file, what + " has a pose that is not finite");
   return transform;

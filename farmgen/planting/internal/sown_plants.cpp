@@ -37,7 +37,11 @@ struct Lodging {
 std::uint32_t poisson(double mean, RandomStream& random) {
   const double limit = std::exp(-mean);
   std::uint32_t events = 0;
-  for (double product = random.uniform(); product > limit; product *= random.uniform()) ++events;
+  double product = random.uniform();
+  while (product > limit) {
+    ++events;
+    product *= random.uniform();
+  }
   return events;
 }
 

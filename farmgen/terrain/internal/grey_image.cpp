@@ -51,6 +51,7 @@ class PngReader {
     std::vector<std::vector<png_byte>> rows(height(),
                                             std::vector<png_byte>(png_get_rowbytes(png_, info_)));
     std::vector<png_bytep> places;
+    places.reserve(rows.size());
     for (auto& row : rows) places.push_back(row.data());
     if (!read_rows(places.data())) fail();
     return rows;

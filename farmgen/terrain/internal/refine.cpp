@@ -145,9 +145,11 @@ class Crowded {
 
   template <class Visit>
   static void for_each_index(double middle, double reach, Eigen::Index count, Visit visit) {
-    const double last = std::min(std::floor(middle + reach), static_cast<double>(count - 1));
-    for (double i = std::max(std::ceil(middle - reach), 0.0); i <= last; ++i)
-      visit(static_cast<Eigen::Index>(i));
+    const auto end = static_cast<double>(count);
+    const auto first = static_cast<Eigen::Index>(std::clamp(std::ceil(middle - reach), 0.0, end));
+    const auto last =
+        static_cast<Eigen::Index>(std::clamp(std::floor(middle + reach), -1.0, end - 1));
+    for (Eigen::Index i = first; i <= last; ++i) visit(i);
   }
 
   const Lattice& lattice_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.h"
 #include "record/ros/internal/cloud.h"
@@ -43,7 +44,8 @@ std::vector<double> pose_times(const scan::Trajectory& trajectory) {
     const double gap_s = poses[i + 1].time_s - poses[i].time_s;
     // Gaps of a pose's interval are not split because of rounding.
     const double parts = std::max(1.0, std::ceil(gap_s / kPose_s - 1e-6));
-    for (double part = 0; part < parts; ++part) times_s.push_back(begin_s + gap_s * part / parts);
+    for (std::int64_t part = 0; static_cast<double>(part) < parts; ++part)
+      times_s.push_back(begin_s + gap_s * static_cast<double>(part) / parts);
   }
   times_s.push_back(trajectory.end_s() - trajectory.start_s());
   return times_s;

@@ -20,10 +20,9 @@ constexpr double kRounding_s = 1e-6;
 scan::StampedPose pose_of(const ros::TransformStamped& transform, ros::Time epoch) {
   const ros::Vector3& t = transform.transform.translation;
   const ros::Quaternion& q = transform.transform.rotation;
-  const scan::StampedPose pose{
-      .time_s = 1e-9 * static_cast<double>(transform.header.stamp.ns - epoch.ns),
-      .position_m = {t.x, t.y, t.z},
-      .attitude = {q.w, q.x, q.y, q.z}};
+  scan::StampedPose pose{.time_s = 1e-9 * static_cast<double>(transform.header.stamp.ns - epoch.ns),
+                         .position_m = {t.x, t.y, t.z},
+                         .attitude = {q.w, q.x, q.y, q.z}};
   const std::string error = pose_error(pose, -std::numeric_limits<double>::infinity());
   if (!error.empty())
     throw InputError("the transform of frame \"" + transform.child_frame_id + "\": " + error);

@@ -164,7 +164,7 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
       file.fail("an extra byte has type " + std::to_string(type) + "; 0 to 30 are known");
     // 11 to 20 and 21 to 30 are pairs and triples of 1 to 10.
     const std::size_t base = type == 0 ? 0 : (type - 1) % 10u + 1;
-    ScalarField field{.name = description.substr(4, 32).c_str(),
+    ScalarField field{.name = {&description[4], strnlen(&description[4], 32)},
                       .kind = kKinds[base],
                       .size = kSizes[base],
                       .count = type == 0 ? options : (type - 1) / 10u + 1,

@@ -20,11 +20,11 @@ using plotscan::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-using Points = std::vector<Eigen::Vector3d>;
+using WorldPoints = std::vector<Eigen::Vector3d>;
 
-Points field_points(std::size_t count, const Eigen::Vector3d& centre) {
+WorldPoints field_points(std::size_t count, const Eigen::Vector3d& centre) {
   RandomStream random(1, random_purpose("test/field_cloud"), 0);
-  Points points;
+  WorldPoints points;
   for (std::size_t i = 0; i < count; ++i)
     points.push_back(centre + Eigen::Vector3d(random.uniform(-10, 10), random.uniform(-5, 5),
                                               random.uniform(0, 1)));
@@ -33,13 +33,13 @@ Points field_points(std::size_t count, const Eigen::Vector3d& centre) {
   return points;
 }
 
-FieldCloud field_of(const Points& points, const FieldOptions& options = {}) {
+FieldCloud field_of(const WorldPoints& points, const FieldOptions& options = {}) {
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   store.add(points);
   return take_field(store, options, "points");
 }
 
-std::string pcd_of(const Points& points) {
+std::string pcd_text(const WorldPoints& points) {
   std::string text = "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
                      std::to_string(points.size()) + "\nHEIGHT 1\nDATA ascii\n";
   for (const Eigen::Vector3d& p : points)
@@ -48,7 +48,7 @@ std::string pcd_of(const Points& points) {
 }
 
 TEST(FieldCloud, IsTheSameInAnyOrderAndMovedByWholeMetres) {
-  Points points = field_points(20000, {0, 0, 0});
+  WorldPoints points = field_points(20000, {0, 0, 0});
   const FieldCloud field = field_of(points);
   EXPECT_EQ(field.points.size(), 20000u);
   std::shuffle(points.begin(), points.end(), std::mt19937(1));
@@ -62,11 +62,11 @@ TEST(FieldCloud, IsTheSameInAnyOrderAndMovedByWholeMetres) {
 
 TEST(FieldCloud, KeepsATenthOfAMillimetreInMapGridCoordinates) {
   const TemporaryFolder folder;
-  Points points;  // apart in x, to be known again
+  WorldPoints points;  // apart in x, to be known again
   for (int i = 0; i < 3000; ++i)
     points.emplace_back(512345.6789 + 0.0061 * i, 4123456.7891 + 0.0017 * (i * 7 % 1999),
                         1234.5678 + 0.0001 * (i % 777));
-  const FieldCloud field = read_field(folder.write("cloud.pcd", pcd_of(points)), {});
+  const FieldCloud field = read_field(folder.write("cloud.pcd", pcd_text(points)), {});
   ASSERT_EQ(field.points.size(), points.size());
   const auto by_x = [](const auto& p) { return p.x(); };
   std::vector<Eigen::Vector3d> read;
@@ -81,12 +81,12 @@ TEST(FieldCloud, KeepsATenthOfAMillimetreInMapGridCoordinates) {
 
 TEST(FieldCloud, SaysWhatBecameOfEachPoint) {
   const TemporaryFolder folder;
-  Points points = field_points(2000, {0, 0, 0});
+  WorldPoints points = field_points(2000, {0, 0, 0});
   points.insert(points.end(), points.begin(), points.begin() + 10);
   points.emplace_back(0, std::nan(""), 0);
   points.emplace_back(4000, 300, 0);
   points.emplace_back(0, 1e20, 0);
-  const FieldCloud field = read_field(folder.write("cloud.pcd", pcd_of(points)), {});
+  const FieldCloud field = read_field(folder.write("cloud.pcd", pcd_text(points)), {});
   EXPECT_EQ(field.counts.read, 2013u);
   EXPECT_EQ(field.counts.not_finite, 1u);
   EXPECT_EQ(field.counts.outside, 2u);
@@ -97,7 +97,7 @@ TEST(FieldCloud, SaysWhatBecameOfEachPoint) {
 }
 
 TEST(FieldCloud, TakesTheCropBoxToThePoint) {
-  const Points points = field_points(20000, {0, 0, 0});
+  const WorldPoints points = field_points(20000, {0, 0, 0});
   const Area area{-3.25, -2.5, 4.125, 1.75};
   const FieldCloud field = field_of(points, {.area = area});
   EXPECT_EQ(field.area, area);
@@ -117,7 +117,7 @@ TEST(FieldCloud, RefusesPointsBeyondAnyPlace) {
 
 TEST(FieldCloud, RefusesACropBoxWithoutPoints) {
   const TemporaryFolder folder;
-  const auto file = folder.write("cloud.pcd", pcd_of(field_points(3, {0, 0, 0})));
+  const auto file = folder.write("cloud.pcd", pcd_text(field_points(3, {0, 0, 0})));
   EXPECT_THAT(message_of<InputError>([&] {
                 read_field(file, {.area = Area{90, 90, 91, 91}});
               }),

@@ -34,7 +34,7 @@ Points haze(double density, std::uint64_t seed) {
   return points;
 }
 
-std::size_t dropped(const Points& points) {
+std::size_t dropped_as_haze(const Points& points) {
   TiledPoints cloud = tiled(points);
   return drop_haze(cloud, {.threads = 2});
 }
@@ -70,7 +70,7 @@ TEST(Haze, IsNotInFieldsWithoutIt) {
   const Height mast = [](double x, double y) { return std::hypot(x - 15, y - 15) < 0.05 ? 3 : 0; };
   for (const Height& height : {Height(plots), steep, maize, mast}) {
     for (const double density : {0.7, 10.0, 100.0, 700.0})
-      EXPECT_EQ(dropped(scanned(density, kSide_m, height)), 0u) << density;
+      EXPECT_EQ(dropped_as_haze(scanned(density, kSide_m, height)), 0u) << density;
   }
 }
 
@@ -82,7 +82,7 @@ TEST(Haze, LeavesTheGroundUnderAClosedCanopy) {
         density / 30, kSide_m, [](double, double) { return 0.0; }, 1);
     points.insert(points.end(), ground.begin(), ground.end());
     const auto low = [](const Eigen::Vector3f& p) { return std::abs(p.z()) < 0.15; };
-    EXPECT_EQ(dropped(points), 0u);
+    EXPECT_EQ(dropped_as_haze(points), 0u);
     const Points stray = haze(density, 2);
     points.insert(points.end(), stray.begin(), stray.end());
     TiledPoints cloud = tiled(points);

@@ -14,18 +14,18 @@
 namespace plotscan::cloud {
 namespace {
 
-using Points = std::vector<Eigen::Vector3d>;
+using WorldPoints = std::vector<Eigen::Vector3d>;
 
-Points random_points(std::size_t count, double side_m, std::uint64_t seed = 1) {
+WorldPoints random_points(std::size_t count, double side_m, std::uint64_t seed = 1) {
   RandomStream random(seed, random_purpose("test/tile_store"), 0);
-  Points points;
+  WorldPoints points;
   for (std::size_t i = 0; i < count; ++i)
     points.emplace_back(random.uniform(-side_m, side_m), random.uniform(-side_m, side_m),
                         random.uniform(-3, 3));
   return points;
 }
 
-TiledKeys taken(const Points& points, const TileStoreOptions& options,
+TiledKeys taken(const WorldPoints& points, const TileStoreOptions& options,
                 TileStore::Counts* counts = nullptr) {
   TileStore store(options);
   constexpr std::size_t kPiece = 1000;
@@ -78,7 +78,7 @@ TEST(PointKey, HasNoneBeyondReason) {
 
 // By sorting all points of each cell.
 TEST(TileStore, KeepsTheFirstOfEachCellAsBruteForceDoes) {
-  const Points points = random_points(40000, 2);
+  const WorldPoints points = random_points(40000, 2);
   constexpr std::size_t kMost = 7;
   std::map<std::tuple<int, int, int>, std::set<std::uint64_t>> by_cell;
   for (const Eigen::Vector3d& point : points) {
@@ -98,7 +98,7 @@ TEST(TileStore, KeepsTheFirstOfEachCellAsBruteForceDoes) {
 
 // Whatever the order, the pieces, the merges in between and the threads.
 TEST(TileStore, TheOrderOfThePointsChangesNothing) {
-  Points points = random_points(60000, 3);
+  WorldPoints points = random_points(60000, 3);
   const TiledKeys once = taken(points, {.points_per_cell = 20});
   EXPECT_LT(once.keys.size(), 0.9 * static_cast<double>(points.size()));
   for (const std::size_t buffered_points : {1000u, 7000u, 100000u}) {
@@ -110,7 +110,7 @@ TEST(TileStore, TheOrderOfThePointsChangesNothing) {
 }
 
 TEST(TileStore, CountsEveryPointOnce) {
-  Points points = random_points(20000, 3);
+  WorldPoints points = random_points(20000, 3);
   points.insert(points.end(), points.begin(), points.begin() + 5000);  // exact repeats
   points.emplace_back(1e12, 0, 0);
   TileStore::Counts counts;
@@ -127,7 +127,7 @@ TEST(TileStore, CountsEveryPointOnce) {
 
 TEST(TileStore, HandsOverWhatIsWanted) {
   TileStore store({});
-  store.add(Points{{0.5, 0.5, 0}, {1.5, 0.5, 0}, {-0.5, 7.5, 0}, {0.5, 0.6, 0}});
+  store.add(WorldPoints{{0.5, 0.5, 0}, {1.5, 0.5, 0}, {-0.5, 7.5, 0}, {0.5, 0.6, 0}});
   const std::vector<TileCount> counts = store.tile_counts();
   ASSERT_EQ(counts.size(), 3u);
   EXPECT_EQ(counts[0].tile, (Tile{0, 0}));
@@ -142,7 +142,7 @@ TEST(TileStore, HandsOverWhatIsWanted) {
 // In a crowded cell, the points kept have the distribution of all: their mean height is that of
 // the cell within four of its standard errors.
 TEST(TileStore, KeepsAFairSample) {
-  Points points = random_points(400000, 0.5);
+  WorldPoints points = random_points(400000, 0.5);
   for (Eigen::Vector3d& point : points) {
     point.head<2>() *= 0.9999;  // is not rounded into the next cell
     point.z() = 2 * point.x() + std::abs(point.z());
@@ -163,7 +163,7 @@ TEST(TileStore, IsBoundedByTheArea) {
   TileStore store({.points_per_cell = 16, .buffered_points = 1u << 22, .threads = 2});
   constexpr std::size_t kPoints = 50'000'000;
   std::mt19937_64 random(1);
-  Points piece(1u << 16);
+  WorldPoints piece(1u << 16);
   std::size_t added = 0;
   for (; added < kPoints; added += piece.size()) {
     for (Eigen::Vector3d& point : piece) {

@@ -16,7 +16,7 @@ using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 
 // Nodes at x 500000, 500000.2, 500000.4 and y 40, 40.2; the last node is out of reach.
-ground::Surface surface() {
+ground::Surface graded() {
   const float none = std::numeric_limits<float>::quiet_NaN();
   return {.origin = {500000, 40},
           .cell_m = 0.2,
@@ -31,7 +31,7 @@ ground::Surface surface() {
 // the first node.
 TEST(GroundGrids, AreEsriAsciiRasters) {
   const TemporaryFolder folder;
-  write_ground(folder.path(), surface());
+  write_ground(folder.path(), graded());
   const std::string head =
       "ncols 3\nnrows 2\nxllcorner 499999.9\nyllcorner 39.9\ncellsize 0.2\n"
       "NODATA_value -9999\n";
@@ -45,7 +45,7 @@ TEST(GroundGrids, AreEsriAsciiRasters) {
 TEST(GroundGrids, AreInTheUnitsOfTheCloud) {
   const TemporaryFolder folder;
   const CoordinateUnits units{.horizontal_m = 0.5, .vertical_m = 0.25};
-  write_ground(folder.path(), surface(), units);
+  write_ground(folder.path(), graded(), units);
   const std::string head =
       "ncols 3\nnrows 2\nxllcorner 999999.8\nyllcorner 79.8\ncellsize 0.4\n"
       "NODATA_value -9999\n";
@@ -60,7 +60,7 @@ TEST(GroundGrids, AreInTheUnitsOfTheCloud) {
 
 TEST(GroundGrids, SayThatTheyCannotBeWritten) {
   const TemporaryFolder folder;
-  EXPECT_THAT(message_of<WriteError>([&] { write_ground(folder.path() / "absent", surface()); }),
+  EXPECT_THAT(message_of<WriteError>([&] { write_ground(folder.path() / "absent", graded()); }),
               ::testing::HasSubstr("cannot be written"));
 }
 

@@ -39,17 +39,17 @@ TEST(HeightProfile, CountsAreaNotReturns) {
 // Of a tilted plane with noise, the quantiles are those of a uniform distribution.
 TEST(HeightProfile, WithoutNoiseItIsTheSurfacesOwn) {
   const PlotBox box = plot_at(1, 2);
-  constexpr double kNoise_m = 0.03;
+  constexpr double kSpread_m = 0.03;
   RandomStream random(2, random_purpose("test"), 0);
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 40'000; ++i) {
     const double along = random.uniform(-0.5, 0.5);
     const Eigen::Vector2d place = box.center + along * box.length_m * box.length_axis() +
                                   random.uniform(-0.5, 0.5) * box.width_m * box.width_axis();
-    points.emplace_back(place.x(), place.y(), 1 + 0.5 * along + kNoise_m * random.normal());
+    points.emplace_back(place.x(), place.y(), 1 + 0.5 * along + kSpread_m * random.normal());
   }
-  const HeightProfile noisy = height_profile(box, points, 5 * kNoise_m);
-  const HeightProfile profile = without_noise(noisy, kNoise_m);
+  const HeightProfile noisy = height_profile(box, points, 5 * kSpread_m);
+  const HeightProfile profile = without_noise(noisy, kSpread_m);
   for (const double share : {0.05, 0.5, 0.95, 0.99})
     EXPECT_NEAR(profile.quantile(share), 0.75 + 0.5 * share, 0.006) << share;
   EXPECT_GT(noisy.quantile(0.99), 0.75 + 0.5 * 0.99 + 0.012);

@@ -10,13 +10,13 @@
 namespace plotscan::heights {
 namespace {
 
-constexpr double kNoise_m = 0.02;
+constexpr double kSigma_m = 0.02;
 constexpr int kReturns = 18'000;
 
 struct OnePlot {
   PlotBox box = plot_at(0, 0);
-  ground::Surface surface = level_ground(kNoise_m);
-  std::vector<Eigen::Vector3f> points = dome_returns(box, 1, kNoise_m, kReturns, 7);
+  ground::Surface surface = level_ground(kSigma_m);
+  std::vector<Eigen::Vector3f> points = dome_returns(box, 1, kSigma_m, kReturns, 7);
 
   // Along the box from its middle, metres.
   double along(const Eigen::Vector3f& point) const {

@@ -17,7 +17,7 @@ using Standing = std::function<double(double x, double y, RandomStream& random)>
 
 // The same thing on every place of a lattice of 5 x 5 m steps, turned by 20 degrees, on 30 x 30 m.
 PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
-  constexpr double kTurn_rad = 0.35, kHalf_m = 15, kNoise_m = 0.02;
+  constexpr double kTurn_rad = 0.35, kHalf_m = 15, kScatter_m = 0.02;
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 300000; ++i) {
     RandomStream random(3, random_purpose("test/signs"), i);
@@ -28,9 +28,9 @@ PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_
     const double height =
         in_field ? standing(std::remainder(a, step_x_m), std::remainder(b, step_y_m), random) : 0;
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(height + kNoise_m * random.normal()));
+                        static_cast<float>(height + kScatter_m * random.normal()));
   }
-  return find_plots(points, kNoise_m, {}, 2);
+  return find_plots(points, kScatter_m, {}, 2);
 }
 
 std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {

@@ -3,12 +3,12 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/random.h"
 #include "plots/internal/field_signs.h"
 
@@ -17,12 +17,10 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // Plots 4 m long on a lattice turned by 33 degrees, with the given gaps.
 struct Trial {
   int rows = 3, columns = 6;
-  double gap_m = 0.4, row_gap_m = 0.8, heading_rad = 33 * kDegree;
+  double gap_m = 0.4, row_gap_m = 0.8, heading_rad = 33 * kDegrees;
   std::vector<double> offsets_m = {0, 0, 0};
   int missing = -1;  // number of the plot that is not there, row by row
   double width_m = 1.5;
@@ -127,7 +125,7 @@ void expect_found(const Trial& trial, const Sown& sown = everywhere, double leas
     EXPECT_GT(best, least_iou) << truth.center.transpose();
   }
   const double off_rad = heading_difference(field.plots.front().box.heading_rad, trial.heading_rad);
-  EXPECT_LT(off_rad, 0.3 * kDegree);
+  EXPECT_LT(off_rad, 0.3 * kDegrees);
 }
 
 TEST(FindPlots, FindsATurnedTrial) { expect_found({}); }

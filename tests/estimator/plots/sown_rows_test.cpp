@@ -31,7 +31,7 @@ CanopyRaster sown_canopy(const TrialLayout& trial, int rows, double stems_m, dou
   });
 }
 
-struct Sown {
+struct SownField {
   int rows;
   double stems_m, blades_m;
 };
@@ -39,8 +39,8 @@ struct Sown {
 // The blades of the last ones close every gap: only the stems between them tell rows apart.
 TEST(SownRows, AreFoundWithTheirSpacing) {
   const TrialLayout trial = known_trial({0, 0});
-  for (const auto& [rows, stems_m, blades_m] :
-       {Sown{2, 0.12, 0.2}, Sown{3, 0.08, 0.15}, Sown{5, 0.06, 0.1}, Sown{3, 0.12, 0.3}}) {
+  for (const auto& [rows, stems_m, blades_m] : {SownField{2, 0.12, 0.2}, SownField{3, 0.08, 0.15},
+                                                SownField{5, 0.06, 0.1}, SownField{3, 0.12, 0.3}}) {
     const CanopyRaster raster = sown_canopy(trial, rows, stems_m, blades_m);
     Lattice lattice = lattice_of(trial, raster);
     lattice.c.size_m -= 0.2;  // what an outline by half the depth may miss

@@ -25,7 +25,7 @@ using plotscan::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-PlotBox box_at(double x, double heading_rad = 0) {
+PlotBox turned_box(double x, double heading_rad = 0) {
   return {.center = {x, 0}, .width_m = 1, .length_m = 4, .heading_rad = heading_rad};
 }
 
@@ -33,7 +33,7 @@ TruePlot true_plot(std::uint32_t id, double x, double max_m) {
   return {.id = id,
           .row = 1,
           .column = static_cast<int>(id),
-          .box = box_at(x),
+          .box = turned_box(x),
           .heights_m = {{"height_max_m", max_m}, {"height_mean_m", max_m / 2}}};
 }
 
@@ -46,8 +46,8 @@ estimate::PlotEstimate estimated_plot(std::uint32_t id, const PlotBox& box, doub
 FieldScore three_plots() {
   const estimate::Estimate estimate{
       .method = "m",
-      .plots = {estimated_plot(1, box_at(5.3, 0.1), 0.75), estimated_plot(2, box_at(0), 0.5),
-                estimated_plot(3, box_at(20), 9)}};
+      .plots = {estimated_plot(1, turned_box(5.3, 0.1), 0.75),
+                estimated_plot(2, turned_box(0), 0.5), estimated_plot(3, turned_box(20), 9)}};
   return score_field({true_plot(1, 0, 0.6), true_plot(2, 5, 0.8), true_plot(3, 10, 1.0)}, estimate);
 }
 
@@ -145,7 +145,7 @@ FieldScore four_plots_with_intervals() {
   for (std::uint32_t i = 0; i < 4; ++i) {
     truth.push_back(true_plot(i + 1, 3.0 * i, 1));
     estimate.plots.push_back({.id = i + 1,
-                              .box = box_at(3.0 * i),
+                              .box = turned_box(3.0 * i),
                               .heights_m = {{"max", 1 + errors_m[i]}, {"raw-p99", 1}},
                               .confidence = 0.5});
     const double height_m = 1 + errors_m[i];
@@ -192,13 +192,13 @@ TEST(Trust, IntervalsCountForTheTruthThatTheHeightIsNamedAfter) {
 TEST(ScoreField, WhatIsSaidOfAnUnscoredPlotDoesNotCount) {
   std::vector<TruePlot> truth = {true_plot(1, 0, 0.6), true_plot(2, 5, 0.8), true_plot(3, 10, 1)};
   truth[1].scored = truth[2].scored = false;
-  PlotBox cut = box_at(10);  // a third of the plot: too little for a pair
+  PlotBox cut = turned_box(10);  // a third of the plot: too little for a pair
   cut.length_m = 1.3;
   cut.center.x() = 9;
   const estimate::Estimate estimate{
       .method = "m",
-      .plots = {estimated_plot(1, box_at(0), 0.5), estimated_plot(2, box_at(5), 0.5),
-                estimated_plot(3, cut, 0.5), estimated_plot(4, box_at(30), 0.5)}};
+      .plots = {estimated_plot(1, turned_box(0), 0.5), estimated_plot(2, turned_box(5), 0.5),
+                estimated_plot(3, cut, 0.5), estimated_plot(4, turned_box(30), 0.5)}};
   const FieldScore field = score_field(truth, estimate);
   ASSERT_EQ(field.plots.size(), 1U);
   EXPECT_EQ(field.plots[0].truth.id, 1U);
@@ -217,7 +217,7 @@ TEST(ScoreHeight, WhatCannotBeComputedIsNaN) {
 TEST(ScoreHeight, AMissingHeightIsCounted) {
   estimate::Estimate estimate{
       .method = "m",
-      .plots = {estimated_plot(1, box_at(0), 0.5), estimated_plot(2, box_at(5), 0.5)}};
+      .plots = {estimated_plot(1, turned_box(0), 0.5), estimated_plot(2, turned_box(5), 0.5)}};
   estimate.plots[1].heights_m.clear();
   const FieldScore field = score_field({true_plot(1, 0, 0.6), true_plot(2, 5, 0.8)}, estimate);
   const auto scores = score_heights(field);
@@ -284,10 +284,11 @@ class ScoreRun : public ::testing::Test {
  protected:
   void SetUp() override {
     std::filesystem::create_directories(folder_.path() / "farm" / "truth");
-    write_plot_features(folder_.path() / "farm" / "truth" / "plots.geojson",
-                        {{box_at(0), {{"plot_number", 4}, {"plants", 90}, {"height_max_m", 0.6}}},
-                         {box_at(5), {{"plot_number", 7}, {"plants", 90}, {"height_max_m", 0.8}}}});
-    write_plot_features(estimate_, {{box_at(5), {{"plot_number", 1}, {"height_mine_m", 0.9}}}});
+    write_plot_features(
+        folder_.path() / "farm" / "truth" / "plots.geojson",
+        {{turned_box(0), {{"plot_number", 4}, {"plants", 90}, {"height_max_m", 0.6}}},
+         {turned_box(5), {{"plot_number", 7}, {"plants", 90}, {"height_max_m", 0.8}}}});
+    write_plot_features(estimate_, {{turned_box(5), {{"plot_number", 1}, {"height_mine_m", 0.9}}}});
   }
 
   TemporaryFolder folder_;
@@ -313,7 +314,7 @@ TEST_F(ScoreRun, ReadsAnyonesEstimateAndWritesTheScores) {
 
 TEST_F(ScoreRun, TakesTruthsOfTheCanopy) {
   const std::filesystem::path truth = folder_.path() / "canopy.geojson";
-  write_plot_features(truth, {{box_at(5), {{"canopy_p95_m", 0.7}, {"height_max_m", 0.8}}}});
+  write_plot_features(truth, {{turned_box(5), {{"canopy_p95_m", 0.7}, {"height_max_m", 0.8}}}});
   const Scores scores = run({.estimate = estimate_, .truth = truth});
   ASSERT_EQ(scores.heights.size(), 2U);
   EXPECT_EQ(scores.heights[0].truth, "canopy_p95_m");

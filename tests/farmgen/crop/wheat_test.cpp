@@ -94,12 +94,12 @@ TEST(Wheat, RipeEarsNod) {
 TEST(Wheat, PlantsHaveTheMeanNumberOfTillers) {
   for (const double tillers : {0.0, 1.0, 3.0}) {
     double shoots = 0;
-    constexpr int kPlants = 150;
-    for (std::uint64_t seed = 1; seed <= kPlants; ++seed) {
+    constexpr int kGrown = 150;
+    for (std::uint64_t seed = 1; seed <= kGrown; ++seed) {
       shoots += static_cast<double>(ears_of("Z65", seed, {"tillers=" + std::to_string(tillers)}));
     }
     // One standard error of the mean is 0.07: a plant's number is within 2 of the mean.
-    EXPECT_NEAR(shoots / kPlants, 1 + tillers, 0.2) << tillers;
+    EXPECT_NEAR(shoots / kGrown, 1 + tillers, 0.2) << tillers;
   }
 }
 

@@ -51,7 +51,7 @@ std::string stl() {
   return text + "endsolid\n";
 }
 
-std::string dae(const std::string& asset, const std::string& positions) {
+std::string collada(const std::string& asset, const std::string& positions) {
   return "<?xml version=\"1.0\"?>\n"
          "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
          "<asset>" +
@@ -126,17 +126,17 @@ TEST(MeshImport, EveryFormatMakesTheSameTetrahedron) {
   expect_tetrahedron(import_mesh(folder.write("t.ply", kPly)));
   expect_tetrahedron(import_mesh(folder.write("t.stl", stl())));
   expect_tetrahedron(import_mesh(write_gltf(folder)));
-  expect_tetrahedron(
-      import_mesh(folder.write("z.dae", dae("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>", z_up))));
   expect_tetrahedron(import_mesh(
-      folder.write("y.dae", dae("<unit meter=\"0.0254\"/><up_axis>Y_UP</up_axis>", y_up_inches))));
+      folder.write("z.dae", collada("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>", z_up))));
+  expect_tetrahedron(import_mesh(folder.write(
+      "y.dae", collada("<unit meter=\"0.0254\"/><up_axis>Y_UP</up_axis>", y_up_inches))));
 }
 
 TEST(MeshImport, WhatTheUserSaysCountsMoreThanTheFile) {
   const TemporaryFolder folder;
   const std::string z_up = "0 0 0 1 0 0 0 2 0 0 0 3";
   const fs::path file =
-      folder.write("t.dae", dae("<unit meter=\"0.01\"/><up_axis>Y_UP</up_axis>", z_up));
+      folder.write("t.dae", collada("<unit meter=\"0.01\"/><up_axis>Y_UP</up_axis>", z_up));
   expect_tetrahedron(import_mesh(file, {.up = UpAxis::z, .unit_m = 100}));
 }
 

@@ -7,10 +7,10 @@
 #include "planting/plot_layout.h"
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
+
 namespace plotscan::planting {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 PlotGridDescription three_by_four() {
   return {.width_m = 2,
@@ -87,22 +87,22 @@ TEST(PlotGrid, AlleysTakeThePlaceOfGaps) {
 
 TEST(PlotGrid, SkewTurnsTheAxisFromRowToRow) {
   PlotGridDescription grid = three_by_four();
-  grid.heading_rad = 20 * kDegree;
-  grid.skew_rad = 10 * kDegree;
+  grid.heading_rad = 20 * kDegrees;
+  grid.skew_rad = 10 * kDegrees;
   const std::vector<farm::Plot> plots = grid_plots(grid);
   const Eigen::Vector2d along = plot_at(plots, 2, 2).box.center - plot_at(plots, 2, 1).box.center;
   const Eigen::Vector2d across = plot_at(plots, 2, 2).box.center - plot_at(plots, 1, 2).box.center;
   EXPECT_NEAR(along.norm(), 3, 1e-12);
   EXPECT_NEAR(across.norm(), 8, 1e-12);
-  EXPECT_NEAR(std::atan2(along.y(), along.x()), 20 * kDegree, 1e-12);
-  EXPECT_NEAR(std::atan2(across.y(), across.x()), 120 * kDegree, 1e-12);
-  EXPECT_NEAR(plots[0].box.heading_rad, 120 * kDegree, 1e-12) << "of the length axis";
+  EXPECT_NEAR(std::atan2(along.y(), along.x()), 20 * kDegrees, 1e-12);
+  EXPECT_NEAR(std::atan2(across.y(), across.x()), 120 * kDegrees, 1e-12);
+  EXPECT_NEAR(plots[0].box.heading_rad, 120 * kDegrees, 1e-12) << "of the length axis";
 }
 
 TEST(PlotGrid, OverlappingPlotsAreFoundAmongMany) {
   PlotGridDescription grid = three_by_four();
   grid.rows = std::vector<PlotRowDescription>(60, {.plots = 60});
-  grid.heading_rad = 30 * kDegree;
+  grid.heading_rad = 30 * kDegrees;
   std::vector<farm::Plot> plots = grid_plots(grid);
   EXPECT_FALSE(overlapping_plots(plots));
   plots[1234].box.center += 1.01 * plots[1234].box.width_axis();
@@ -133,7 +133,7 @@ TEST(PlotGrid, TheKentlandLatticeIsExact) {
     EXPECT_NEAR(plot.box.heading_rad, std::atan2(3.85, -3.25), 1e-12);
   }
   const double between = std::acos(column.dot(row) / column.norm() / row.norm());
-  EXPECT_NEAR(between / kDegree, 89.7, 0.1) << "not perpendicular";
+  EXPECT_NEAR(between / kDegrees, 89.7, 0.1) << "not perpendicular";
 }
 
 TEST(PlotGrid, SomePlotsAreMissing) {

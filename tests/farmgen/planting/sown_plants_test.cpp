@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::planting {
@@ -21,8 +22,6 @@ namespace {
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // 100 plots of 1.2 x 4 m.
 farm::Farm trial(const std::string& plants, std::uint64_t seed = 6, const std::string& more = "") {
@@ -256,17 +255,17 @@ TEST(SownPlants, PlantsOfALodgedPlotLeanOneWay) {
   for (const farm::Plant& plant : farm.plants) {
     const Eigen::Vector3d stem = plant.rotation * Eigen::Vector3d::UnitZ();
     const double lean = std::atan2(stem.head<2>().norm(), stem.z());
-    leans[plant.plot].push_back(lean / kDegree);
+    leans[plant.plot].push_back(lean / kDegrees);
     EXPECT_NEAR(plant.height_m, highest_vertex(farm, plant), 1e-9);
     if (lean == 0) continue;
-    const Eigen::Vector2d wanted(std::cos(200 * kDegree), std::sin(200 * kDegree));
-    EXPECT_GE(stem.head<2>().normalized().dot(wanted), std::cos(5 * kDegree) - 1e-12);
+    const Eigen::Vector2d wanted(std::cos(200 * kDegrees), std::sin(200 * kDegrees));
+    EXPECT_GE(stem.head<2>().normalized().dot(wanted), std::cos(5 * kDegrees) - 1e-12);
   }
   int lodged = 0;
   for (const farm::Plot& plot : farm.plots) {
     const auto& [least, greatest] =
         std::minmax_element(leans[plot.id].begin(), leans[plot.id].end());
-    EXPECT_NEAR(plot.lodging_rad / kDegree, moments_of(leans[plot.id]).mean, 1e-6);
+    EXPECT_NEAR(plot.lodging_rad / kDegrees, moments_of(leans[plot.id]).mean, 1e-6);
     if (plot.lodging_rad == 0) continue;
     ++lodged;
     EXPECT_GE(*least, 25 - 1e-6);
@@ -283,7 +282,7 @@ TEST(SownPlants, LodgedPlotsFallEachItsOwnWay) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const farm::Plant& plant : farm.plants) {
     const Eigen::Vector3d stem = plant.rotation * Eigen::Vector3d::UnitZ();
-    EXPECT_NEAR(stem.z(), std::cos(45 * kDegree), 1e-12);
+    EXPECT_NEAR(stem.z(), std::cos(45 * kDegrees), 1e-12);
     sum += stem.head<2>().normalized();
   }
   EXPECT_LT(sum.norm(), 4 * std::sqrt(100 / 2.0)) << "uniform directions cancel";

@@ -3,14 +3,13 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
+
 namespace plotscan::flight {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // East at 2 m/s, turning left at 0.1 rad/s; poses every `gap_s`.
 scan::Trajectory curve(double duration_s, double gap_s) {
@@ -25,14 +24,14 @@ scan::Trajectory curve(double duration_s, double gap_s) {
   return scan::Trajectory(std::move(poses));
 }
 
-scan::Trajectory hover(double duration_s) {
+scan::Trajectory hovering(double duration_s) {
   return scan::Trajectory({{.time_s = 0}, {.time_s = duration_s}});
 }
 
-// Errors of a hover at the instants of its fixes.
+// Errors of a hovering at the instants of its fixes.
 std::vector<double> errors_at_fixes(const PoseErrors& errors, double duration_s,
                                     const std::function<double(const Eigen::Isometry3d&)>& error) {
-  const scan::Trajectory reported = reported_trajectory(hover(duration_s), errors, 7);
+  const scan::Trajectory reported = reported_trajectory(hovering(duration_s), errors, 7);
   std::vector<double> values;
   for (int fix = 0; 0.1 * fix < duration_s; ++fix)
     values.push_back(error(reported.world_from_body(0.1 * fix)));
@@ -80,8 +79,8 @@ TEST(PoseErrors, NoiseIsWhiteWithItsStandardDeviations) {
   };
   EXPECT_NEAR(ratio(east, 0.02), 1, tolerance);
   EXPECT_NEAR(ratio(up, 0.05), 1, tolerance);
-  EXPECT_NEAR(ratio(roll, 0.1 * kDegree), 1, tolerance);
-  EXPECT_NEAR(ratio(heading, 0.3 * kDegree), 1, tolerance);
+  EXPECT_NEAR(ratio(roll, 0.1 * kDegrees), 1, tolerance);
+  EXPECT_NEAR(ratio(heading, 0.3 * kDegrees), 1, tolerance);
   EXPECT_NEAR(autocorrelation(errors_at_fixes(errors, 0.1 * n, east), 1), 0, 4 / std::sqrt(n));
 }
 
@@ -96,7 +95,7 @@ TEST(PoseErrors, DriftFadesAsItsCorrelationTimeSays) {
 
 TEST(PoseErrors, AxesErrIndependently) {
   const scan::Trajectory reported =
-      reported_trajectory(hover(2000), {.position_noise_m = 1, .height_noise_m = 1}, 3);
+      reported_trajectory(hovering(2000), {.position_noise_m = 1, .height_noise_m = 1}, 3);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int fix = 0; fix < 20'000; ++fix) {
     const Eigen::Vector3d error = reported.world_from_body(0.1 * fix).translation();
@@ -126,7 +125,7 @@ TEST(PoseErrors, AreTheSameHoweverTheTruthIsSampled) {
 }
 
 TEST(PoseErrors, MountTurnsAboutTheBodysAxes) {
-  const Eigen::Isometry3d stated(Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitY()));
+  const Eigen::Isometry3d stated(Eigen::AngleAxisd(90 * kDegrees, Eigen::Vector3d::UnitY()));
   const Eigen::Isometry3d truth =
       true_mount(stated, {.boresight_rpy_deg = {0, 0, 90}, .lever_arm_m = {0.1, 0.2, 0.3}});
   // The stated mount turns lidar x to body -z and lidar z to body x; a yaw of 90 degrees turns x to

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStep_s = 0.01;
 
-double tilt(const Eigen::Quaterniond& attitude) {
+double tilt_of(const Eigen::Quaterniond& attitude) {
   return std::acos(std::clamp((attitude * Eigen::Vector3d::UnitZ()).z(), -1.0, 1.0));
 }
 
@@ -40,10 +40,10 @@ TEST(Quadrotor, LeansAgainstDragAtConstantSpeed) {
     const double drag = 0.12 * speed * speed;  // N
     const Eigen::Quaterniond attitude =
         attitude_for(quadrotor, Eigen::Vector3d::Zero(), {0, speed, 0}, 1.5707963267948966);
-    EXPECT_NEAR(tilt(attitude), std::atan(drag / (1.477 * 9.80665)), 1e-12);
+    EXPECT_NEAR(tilt_of(attitude), std::atan(drag / (1.477 * 9.80665)), 1e-12);
     // Leaning forward: the nose, pointing along +y, is down.
     const Eigen::Vector3d nose = attitude * Eigen::Vector3d::UnitX();
-    EXPECT_NEAR(nose.z(), -std::sin(tilt(attitude)), 1e-12);
+    EXPECT_NEAR(nose.z(), -std::sin(tilt_of(attitude)), 1e-12);
     EXPECT_GT(nose.y(), 0);
   }
 }
@@ -51,7 +51,7 @@ TEST(Quadrotor, LeansAgainstDragAtConstantSpeed) {
 TEST(Quadrotor, HoversLevel) {
   const Eigen::Quaterniond attitude =
       attitude_for(Quadrotor(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.7);
-  EXPECT_NEAR(tilt(attitude), 0, 1e-9);
+  EXPECT_NEAR(tilt_of(attitude), 0, 1e-9);
   EXPECT_NEAR(heading(attitude), 0.7, 1e-12);
 }
 
@@ -73,7 +73,7 @@ TEST(Quadrotor, ThrustFollowsFromTheMotion) {
       const Eigen::Vector3d body_z = poses[i].attitude * Eigen::Vector3d::UnitZ();
       // The jerk steps between two poses: jerk * step / g.
       ASSERT_LT(body_z.cross(thrust.normalized()).norm(), 4 * kStep_s / 9.8) << "pose " << i;
-      ASSERT_LE(tilt(poses[i].attitude), quadrotor.max_tilt_rad);
+      ASSERT_LE(tilt_of(poses[i].attitude), quadrotor.max_tilt_rad);
       ASSERT_LE(acceleration.norm(), quadrotor.acceleration_m_s2 + 1e-6);
       ASSERT_LE(velocity.norm(), speed + 1e-9);
     }

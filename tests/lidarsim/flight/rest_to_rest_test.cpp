@@ -28,14 +28,14 @@ TEST_P(RestToRestOver, StartsAndEndsAtRest) {
 // Speed is the derivative of distance, acceleration of speed, and the jerk is within its limit.
 TEST_P(RestToRestOver, StatesAreDerivativesWithinTheLimits) {
   const RestToRest motion(GetParam(), kLimits);
-  constexpr double kStep_s = 1e-4;
-  for (double t = kStep_s; t < motion.duration_s() - kStep_s; t += 7 * kStep_s) {
-    const auto before = motion.at(t - kStep_s);
+  constexpr double kShort_s = 1e-4;
+  for (double t = kShort_s; t < motion.duration_s() - kShort_s; t += 7 * kShort_s) {
+    const auto before = motion.at(t - kShort_s);
     const auto now = motion.at(t);
-    const auto after = motion.at(t + kStep_s);
-    ASSERT_NEAR((after.distance - before.distance) / (2 * kStep_s), now.speed, 1e-6);
-    ASSERT_NEAR((after.speed - before.speed) / (2 * kStep_s), now.acceleration, 1e-3);
-    ASSERT_LE(std::abs(after.acceleration - before.acceleration) / (2 * kStep_s),
+    const auto after = motion.at(t + kShort_s);
+    ASSERT_NEAR((after.distance - before.distance) / (2 * kShort_s), now.speed, 1e-6);
+    ASSERT_NEAR((after.speed - before.speed) / (2 * kShort_s), now.acceleration, 1e-3);
+    ASSERT_LE(std::abs(after.acceleration - before.acceleration) / (2 * kShort_s),
               kLimits.jerk * (1 + 1e-6));
     ASSERT_LE(now.speed, kLimits.speed * (1 + 1e-12));
     ASSERT_LE(std::abs(now.acceleration), kLimits.acceleration * (1 + 1e-12));

@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<scan::LabelledPoint>;
 
-constexpr double kHeight_m = 8;
+constexpr double kSensor_m = 8;
 
 // Over flat ground, noiseless, from a hover; fired with the true mount, placed with the stated one.
 Points scan_with(const flight::PoseErrors& errors) {
@@ -30,7 +30,7 @@ Points scan_with(const flight::PoseErrors& errors) {
                           .plants = {}};
   const sensor::Sensor sensor = testing::exact_vlp16();
   const Eigen::Isometry3d mount = testing::spin_along_flight();
-  const scan::Trajectory truth = testing::hover({0, 0, kHeight_m}, 0.2);
+  const scan::Trajectory truth = testing::hover({0, 0, kSensor_m}, 0.2);
   const sensor::ShotPlan fired(sensor, 10, flight::true_mount(mount, errors), truth);
   const sensor::ShotPlan placed(sensor, 10, mount, flight::reported_trajectory(truth, errors, 1));
   Points points;
@@ -46,7 +46,7 @@ Points scan_with(const flight::PoseErrors& errors) {
 void expect_plane_turned(const Eigen::Vector3d& boresight_rpy_deg, const Eigen::Matrix3d& turn) {
   const Points points = scan_with({.boresight_rpy_deg = boresight_rpy_deg});
   ASSERT_GT(points.size(), 10'000u);
-  const Eigen::Vector3d sensor(0, 0, kHeight_m);
+  const Eigen::Vector3d sensor(0, 0, kSensor_m);
   double moved = 0;
   for (const scan::LabelledPoint& point : points) {
     const Eigen::Vector3d seen = testing::position(point) - sensor;

@@ -14,7 +14,7 @@ namespace {
 
 using testing::WorldShot;
 
-constexpr double kHeight_m = 8;
+constexpr double kFlown_m = 8;
 constexpr SimulateOptions kNoiseless = {.range_noise_m = 0, .seed = 1, .threads = 2};
 
 farm::Farm farm_of(terrain::Terrain terrain) {
@@ -31,7 +31,7 @@ farm::Farm farm_of(terrain::Terrain terrain) {
 void expect_ranges_to_plane(const farm::Farm& farm, const Eigen::Vector3d& normal, double offset) {
   const sensor::Sensor sensor = testing::exact_vlp16();
   const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
-                              testing::hover({0.5, 0.2, kHeight_m}, 0.2));
+                              testing::hover({0.5, 0.2, kFlown_m}, 0.2));
   std::map<std::uint64_t, scan::LabelledPoint> by_shot;
   for (const auto& point : testing::simulated(farm, sensor, plan, kNoiseless))
     by_shot[testing::shot_of(point)] = point;

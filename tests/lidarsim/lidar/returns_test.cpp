@@ -10,12 +10,12 @@ namespace plotscan::lidar {
 namespace {
 
 // Pulses of 6 ns merge within 0.764 m; 10 % at 50 m is just detected.
-constexpr sensor::Beam kBeam = {.along_rad = 3e-3,
-                                .across_rad = 1.5e-3,
-                                .pulse_s = 6e-9,
-                                .faintest_reflectance = 0.1,
-                                .faintest_range_m = 50,
-                                .least_separation_m = 1};
+constexpr sensor::Beam kWideBeam = {.along_rad = 3e-3,
+                                    .across_rad = 1.5e-3,
+                                    .pulse_s = 6e-9,
+                                    .faintest_reflectance = 0.1,
+                                    .faintest_range_m = 50,
+                                    .least_separation_m = 1};
 
 std::vector<Hit> operator*(int count, const Hit& hit) {
   return std::vector<Hit>(static_cast<std::size_t>(count), hit);
@@ -33,7 +33,7 @@ Hit facing(float range_m, float reflectance, std::uint32_t surface = 0) {
 Hit nothing() { return facing(std::numeric_limits<float>::infinity(), 0); }
 
 std::vector<Return> detect(const std::vector<Hit>& hits, ReturnMode mode) {
-  Detector detector(kBeam, mode);
+  Detector detector(kWideBeam, mode);
   const auto returns = detector.detect(hits);
   return {returns.begin(), returns.end()};
 }
@@ -112,8 +112,8 @@ TEST(Returns, CloserThanTheLeastSeparationTheStrongerCounts) {
 // Overlapping pulses pull their maxima together: of two equal echoes a distance 2 a apart they are
 // 2 x apart, x = a tanh(a x / sigma^2). The least separation is of the maxima: 2 x = 1 m.
 TEST(Returns, LeastSeparationIsOfTheMaxima) {
-  const double sigma_m = 0.5 * 299'792'458 * kBeam.pulse_s / (2 * std::sqrt(2 * std::log(2)));
-  const double x = 0.5 * kBeam.least_separation_m;
+  const double sigma_m = 0.5 * 299'792'458 * kWideBeam.pulse_s / (2 * std::sqrt(2 * std::log(2)));
+  const double x = 0.5 * kWideBeam.least_separation_m;
   double a = x;
   for (int i = 0; i < 1000; ++i) a = x / std::tanh(a * x / (sigma_m * sigma_m));
   const auto returns = [](double apart_m) {

@@ -24,7 +24,7 @@ constexpr double kGround_m = 1.5;
 constexpr double kAltitude_m = 8;
 constexpr double kHalfSide_m = 40;
 
-farm::Farm flat_farm() {
+farm::Farm level_farm() {
   return {.name = "flat",
           .terrain = testing::flat_terrain(kHalfSide_m, kGround_m),
           .models = {},
@@ -58,7 +58,7 @@ Footprint footprint_of(const std::filesystem::path& cloud) {
 // Hovers for 0.3 s, three turns, nose to the east.
 FlySummary hover(const testing::TemporaryFolder& folder, const std::string& sensor) {
   const auto flight = folder.write("flight.tum", "0 0 0 9.5 0 0 0 1\n0.3 0 0 9.5 0 0 0 1\n");
-  return fly(flat_farm(), folder.path() / sensor,
+  return fly(level_farm(), folder.path() / sensor,
              {.sensor = sensor, .flight = flight, .range_noise_m = 0}, false);
 }
 
@@ -103,7 +103,7 @@ TEST(Sensors, ARisleyScannerHasNoSpinAndIsReadBack) {
   EXPECT_EQ(flight.spin_hz, 0);
   EXPECT_EQ(flight.placed().sequences() * flight.placed().lasers(), summary.shots);
   EXPECT_THAT(testing::message_of<InputError>([&] {
-                fly(flat_farm(), folder.path() / "refused",
+                fly(level_farm(), folder.path() / "refused",
                     {.sensor = "livox_mid40", .spin_hz = 10}, false);
               }),
               ::testing::HasSubstr("sensor livox_mid40 does not spin; leave out --spin"));

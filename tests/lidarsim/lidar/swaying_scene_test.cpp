@@ -18,7 +18,7 @@ namespace {
 
 using testing::moeller_trumbore;
 
-constexpr double kFar_m = 100;
+constexpr double kBeyond_m = 100;
 constexpr SwayOptions kSoft = {.lean_deg_at_5m_s = 25};
 
 flight::WindOptions gusty_wind() {
@@ -86,7 +86,7 @@ TEST(SwayingScene, ScannedStickLiesOnTheBentChain) {
       const Ray ray{(foot_m + Eigen::Vector3d(x_m + beside_m, -3, z_m)).cast<float>(),
                     Eigen::Vector3f(0, 1, 0), 10.0};
       Hit hit;
-      scene.cast({&ray, 1}, kFar_m, {&hit, 1});
+      scene.cast({&ray, 1}, kBeyond_m, {&hit, 1});
       ASSERT_TRUE(std::isfinite(hit.range_m)) << z_m;
       // The prism's near side: 2 mm from the axis, its flats at cos 15 degrees of that.
       EXPECT_NEAR(hit.range_m, 3 - 0.00195, 1e-4);
@@ -97,7 +97,7 @@ TEST(SwayingScene, ScannedStickLiesOnTheBentChain) {
       const Ray ray{(foot_m + Eigen::Vector3d(x_m + beside_m, -3, z_m)).cast<float>(),
                     Eigen::Vector3f(0, 1, 0), 10.0};
       Hit hit;
-      scene.cast({&ray, 1}, kFar_m, {&hit, 1});
+      scene.cast({&ray, 1}, kBeyond_m, {&hit, 1});
       EXPECT_TRUE(std::isinf(hit.range_m)) << z_m;
     }
   }
@@ -107,7 +107,7 @@ TEST(SwayingScene, ScannedStickLiesOnTheBentChain) {
   const Ray down{(foot_m + Eigen::Vector3d(tip_m - 0.0005, -0.00195, 5)).cast<float>(),
                  Eigen::Vector3f(0, 0, -1), 10.0};
   Hit hit;
-  scene.cast({&down, 1}, kFar_m, {&hit, 1});
+  scene.cast({&down, 1}, kBeyond_m, {&hit, 1});
   ASSERT_TRUE(std::isfinite(hit.range_m));
   EXPECT_LT(5 - hit.range_m, top_m + 1e-5);
 }
@@ -124,7 +124,7 @@ TEST(SwayingScene, ScannedTipSwingsAtTheStatedFrequency) {
     for (int i = -40; i <= 40; ++i) {
       const Ray ray{{2, 0.001f * static_cast<float>(i), 0.9f}, {-1, 0, 0}, time_s};
       Hit hit;
-      scene.cast({&ray, 1}, kFar_m, {&hit, 1});
+      scene.cast({&ray, 1}, kBeyond_m, {&hit, 1});
       nearest = std::min(nearest, static_cast<double>(hit.range_m));
     }
     return 2 - nearest;
@@ -241,7 +241,7 @@ TEST(SwayingScene, HitsWhatBentTrianglesAreHit) {
     const Ray ray{origin_m.cast<float>(), (target_m - origin_m).normalized().cast<float>(),
                   kTime_s};
     Hit hit;
-    scene.cast({&ray, 1}, kFar_m, {&hit, 1});
+    scene.cast({&ray, 1}, kBeyond_m, {&hit, 1});
     double nearest_m = std::numeric_limits<double>::infinity();
     const BentTriangle* met = nullptr;
     for (const BentTriangle& triangle : triangles) {
@@ -284,7 +284,7 @@ TEST(SwayingScene, MovesFromTimeToTime) {
     rays[1] = rays[0];
     rays[1].time_s = 0.3;
     std::vector<Hit> hits(2);
-    scene.cast(rays, kFar_m, hits);
+    scene.cast(rays, kBeyond_m, hits);
     if (hits[0].range_m != hits[1].range_m) ++changed;
   }
   EXPECT_GT(changed, 100);

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "record/convert.h"
 #include "record/scan_folder.h"
@@ -22,8 +23,6 @@ using ::testing::HasSubstr;
 using testing::hovering;
 using testing::message_of;
 using testing::TemporaryFolder;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 std::vector<DataPacket> packets_of(const FlightRecord& flight) {
   std::vector<DataPacket> packets;

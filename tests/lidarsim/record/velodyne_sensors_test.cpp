@@ -23,7 +23,7 @@ struct Shipped {
 };
 
 // Points of a recording in the lidar frame, as its first packet names the sensor.
-std::vector<scan::LabelledPoint> points_of(const std::filesystem::path& file) {
+std::vector<scan::LabelledPoint> decoded(const std::filesystem::path& file) {
   std::vector<scan::LabelledPoint> points;
   read_pcap(file, sensor_of_product(read_pcap_info(file).product, file), {},
             [&](auto piece) { points.insert(points.end(), piece.begin(), piece.end()); });
@@ -69,7 +69,7 @@ TEST_P(VelodyneSensors, RecordingsReadBackAsTheCloudWasMeasured) {
   const PcapSummary summary = read_pcap(file, scan.flight.sensor, {}, [](auto) {});
   EXPECT_EQ(summary.data_packets,
             (sequences + shipped.sequences_a_packet - 1) / shipped.sequences_a_packet);
-  expect_measured(scan, points_of(file));
+  expect_measured(scan, decoded(file));
 }
 
 // The small farm with bushes of more than 2 m: a sensor tells returns apart from 1 m on.
@@ -88,7 +88,7 @@ TEST_P(VelodyneSensors, DualReturnsOfAFlightComeBack) {
   const auto file = scan.folder.path() / "flight.pcap";
   convert(scan.folder.path() / "scan", file, {});
   EXPECT_EQ(read_pcap_info(file).mode, ReturnMode::dual);
-  expect_measured(scan, points_of(file));
+  expect_measured(scan, decoded(file));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, VelodyneSensors,

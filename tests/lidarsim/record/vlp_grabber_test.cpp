@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <pcl/io/vlp_grabber.h>
 
+#include "core/angle.h"
 #include "record/velodyne/internal/pcap_writer.h"
 
 namespace plotscan::record {
@@ -15,8 +16,6 @@ namespace {
 
 using testing::FlownScan;
 using testing::Measured;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The points of every whole sweep, waited for until there are as many as expected; it replays in
 // real time. What it has after a minute is handed back whatever it is.
@@ -69,7 +68,7 @@ TEST(VlpGrabber, SeesTheFlightsRangesAndAngles) {
     ASSERT_NEAR(std::asin(way.z() / way.norm()), laser.elevation_rad, 1e-5);
     // Its y axis is at azimuth 0 and its x axis at 90 degrees: our x and -y. It cuts azimuths off
     // to hundredths of a degree after halving the way from block to block.
-    const double azimuth_deg = std::atan2(way.x(), way.y()) / kDegree;
+    const double azimuth_deg = std::atan2(way.x(), way.y()) / kDegrees;
     const double sequence_azimuth_deg = sequence_deg * static_cast<double>(expected[i].sequence);
     ASSERT_LT(testing::azimuth_error_deg(azimuth_deg, sequence_azimuth_deg), 0.0201);
     ASSERT_EQ(points[i].intensity, scan.points[i].intensity);

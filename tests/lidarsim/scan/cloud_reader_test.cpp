@@ -23,13 +23,13 @@ using testing::TemporaryFolder;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-struct Read {
+struct ReadCloud {
   CloudSummary summary;
   std::vector<Eigen::Vector3d> positions;
 };
 
-Read read(const std::filesystem::path& file) {
-  Read result;
+ReadCloud read(const std::filesystem::path& file) {
+  ReadCloud result;
   result.summary = read_positions(file, [&](std::span<const Eigen::Vector3d> piece) {
     result.positions.insert(result.positions.end(), piece.begin(), piece.end());
   });
@@ -51,7 +51,7 @@ pcl::PointCloud<Point> pcl_cloud(std::size_t size = 20001) {
 }
 
 template <class Point>
-void expect_same(const Read& read, const pcl::PointCloud<Point>& cloud, double tolerance = 0) {
+void expect_same(const ReadCloud& read, const pcl::PointCloud<Point>& cloud, double tolerance = 0) {
   ASSERT_EQ(read.positions.size(), cloud.size());
   EXPECT_EQ(read.summary.points, cloud.size());
   EXPECT_EQ(read.summary.not_finite, 0u);
@@ -163,7 +163,7 @@ TEST(CloudReader, ReadsBigEndianPly) {
                   "property double z\r\nelement face 0\r\n"
                   "property list uchar int vertex_indices\r\nend_header\r\n") +
           std::string("\x07\x3f\xc0\0\0\xc0\0\0\0\x40\x09\0\0\0\0\0\0", 17));
-  const Read result = read(file);
+  const ReadCloud result = read(file);
   ASSERT_EQ(result.positions.size(), 1u);
   EXPECT_EQ(result.positions[0], Eigen::Vector3d(1.5, -2.0, 3.125));
 }
@@ -190,11 +190,11 @@ TEST(CloudReader, ReadsCapitalsAndBlanks) {
 TEST(CloudReader, ReadsPdalsPcdAsItsLas) {
   const std::filesystem::path real = PLOTSCAN_SHARED_DATA_DIR "/real";
   if (!exists(real)) GTEST_SKIP() << real << " is not at hand";
-  const Read pcd = read(real / "autzen-utm.pcd");
-  const Read las = read(real / "autzen-utm-chipped-25.las");
+  const ReadCloud pcd = read(real / "autzen-utm.pcd");
+  const ReadCloud las = read(real / "autzen-utm-chipped-25.las");
   ASSERT_EQ(pcd.positions.size(), 1065u);
   ASSERT_EQ(las.positions.size(), 1065u);
-  const auto mean = [](const Read& read) -> Eigen::Vector3d {
+  const auto mean = [](const ReadCloud& read) -> Eigen::Vector3d {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& position : read.positions) sum += position;
     return sum / static_cast<double>(read.positions.size());
@@ -217,7 +217,7 @@ TEST(CloudReader, ReadsPclsOrganisedClouds) {
     } else {
       pcl::io::savePCDFileBinary(file.string(), cloud);
     }
-    const Read result = read(file);
+    const ReadCloud result = read(file);
     EXPECT_EQ(result.summary.not_finite, 640u * 48 / 3);
     ASSERT_EQ(result.positions.size(), 640u * 48 * 2 / 3);
     EXPECT_EQ(result.positions.back().x(), cloud.back().x);
@@ -259,7 +259,7 @@ TEST(CloudReader, ReadsAsciiWithNanAndFieldsOfManyColumns) {
       "nan nan nan nan 0 1 2\n"
       "0 0 1 3 0 -inf 2\n"
       "0 0 1 3e0 0 +1.0 2\n");
-  const Read result = read(file);
+  const ReadCloud result = read(file);
   EXPECT_EQ(result.summary.not_finite, 2u);
   EXPECT_EQ(result.positions,
             (std::vector<Eigen::Vector3d>{{512345.6789, 4123456.7891, 234.5678}, {1, 2, 3}}));
@@ -273,7 +273,7 @@ TEST(CloudReader, CountsPointsThatAreNotFinite) {
   for (const bool binary : {true, false}) {
     const auto file = folder.path() / "cloud.pcd";
     pcl::io::savePCDFile(file.string(), cloud, binary);
-    const Read result = read(file);
+    const ReadCloud result = read(file);
     EXPECT_EQ(result.summary.points, 3u);
     EXPECT_EQ(result.summary.not_finite, 2u);
     ASSERT_EQ(result.positions.size(), 3u);

@@ -77,13 +77,13 @@ struct Kind {
 
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
-class CloudFiles : public ::testing::TestWithParam<Kind> {
+class CloudFormats : public ::testing::TestWithParam<Kind> {
  protected:
   TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_.path() / ("cloud." + GetParam().name.substr(0, 3));
 };
 
-TEST_P(CloudFiles, PclReadsEveryField) {
+TEST_P(CloudFormats, PclReadsEveryField) {
   write_cloud(*GetParam().create(file_, Eigen::Vector3d::Zero()), 1001);
   pcl::PCLPointCloud2 cloud;
   if (file_.extension() == ".ply") {
@@ -94,12 +94,12 @@ TEST_P(CloudFiles, PclReadsEveryField) {
   expect_every_field(cloud, 1001);
 }
 
-TEST_P(CloudFiles, OurReaderReadsEveryField) {
+TEST_P(CloudFormats, OurReaderReadsEveryField) {
   write_cloud(*GetParam().create(file_, Eigen::Vector3d::Zero()), 1001);
   EXPECT_EQ(read_back(file_), numbered_points(1001));
 }
 
-TEST_P(CloudFiles, AnOriginMakesDoubles) {
+TEST_P(CloudFormats, AnOriginMakesDoubles) {
   const Eigen::Vector3d origin(553000, 4123000, -1000);
   write_cloud(*GetParam().create(file_, origin), 101);
   pcl::PCLPointCloud2 cloud;
@@ -135,7 +135,7 @@ const Kind kKinds[] = {
                                           CloudWriteOptions{.ascii = true, .origin_m = origin});
      }}};
 
-INSTANTIATE_TEST_SUITE_P(All, CloudFiles, ::testing::ValuesIn(kKinds),
+INSTANTIATE_TEST_SUITE_P(All, CloudFormats, ::testing::ValuesIn(kKinds),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(PcdWriter, UnclosedFileHoldsNoPoints) {

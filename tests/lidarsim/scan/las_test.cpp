@@ -34,7 +34,7 @@ void write_las(const std::filesystem::path& file, const LasOptions& options,
   writer.close();
 }
 
-std::vector<LabelledPoint> read_back(const std::filesystem::path& file) {
+std::vector<LabelledPoint> points_in(const std::filesystem::path& file) {
   std::vector<LabelledPoint> points;
   read_points(file, read_cloud_info(file), [&](std::span<const LabelledPoint> piece) {
     points.insert(points.end(), piece.begin(), piece.end());
@@ -108,7 +108,7 @@ TEST(Las, OurReaderReadsEveryField) {
     const CloudInfo info = read_cloud_info(file);
     EXPECT_EQ(info.start, options.start);
     EXPECT_EQ(info.crs_wkt, local_crs_wkt());
-    const auto points = read_back(file);
+    const auto points = points_in(file);
     ASSERT_EQ(points.size(), 1001u);
     for (std::uint32_t i = 0; i < 1001; ++i) {
       LabelledPoint expected = numbered_point(i);
@@ -128,7 +128,7 @@ TEST(Las, FarCoordinatesKeepTheirTenthOfAMillimetre) {
   options.offset_m = {553000, 4123000, 1000};
   write_las(file, options, {{.x = 123.4567f, .y = -0.1234f, .z = 7.5f}});
   EXPECT_EQ(read_cloud_info(file).origin_m, options.offset_m);
-  const LabelledPoint point = read_back(file).at(0);
+  const LabelledPoint point = points_in(file).at(0);
   EXPECT_NEAR(point.x, 123.4567, kStep_m);
   EXPECT_NEAR(point.y, -0.1234, kStep_m);
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -173,7 +173,7 @@ class BrokenLas : public ::testing::Test {
   }
   std::string refusal(const std::string& bytes) const {
     const auto file = folder_.write("broken.las", bytes);
-    return message_of<InputError>([&] { read_back(file); });
+    return message_of<InputError>([&] { points_in(file); });
   }
 
   TemporaryFolder folder_;
@@ -233,7 +233,7 @@ TEST_F(BrokenLas, OldVersionsAreRead) {
                                .return_number = 2,
                                .return_count = 3,
                                .label = PointClass::ground};
-  EXPECT_EQ(read_back(file).at(0), expected);
+  EXPECT_EQ(points_in(file).at(0), expected);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Read {
   std::vector<LabelledPoint> points;
 };
 
-Read read(const std::filesystem::path& file) {
+Read read_points(const std::filesystem::path& file) {
   Read result{.info = read_cloud_info(file), .points = {}};
   read_points(file, result.info, [&](auto piece) {
     result.points.insert(result.points.end(), piece.begin(), piece.end());
@@ -90,8 +90,8 @@ TEST_F(Laz, UnlazRefusesWhatIsNoLaz) {
 TEST_F(Laz, LaszipReadsWhatUnlazReads) {
   for (const char* name :
        {"simple.laz", "simple.copc.laz", "iowa_farmland.laz", "lone-star.copc.laz"}) {
-    const Read laz = read(real_ / name);
-    const Read las = read(unpacked(real_ / name));
+    const Read laz = read_points(real_ / name);
+    const Read las = read_points(unpacked(real_ / name));
     EXPECT_EQ(laz.info.fields, las.info.fields) << name;
     EXPECT_EQ(laz.info.crs_wkt, las.info.crs_wkt) << name;
     EXPECT_EQ(laz.points.size(), las.info.points) << name;
@@ -103,7 +103,7 @@ TEST_F(Laz, TruncatedFilesAreRefused) {
   const std::string bytes = read_text(real_ / "iowa_farmland.laz");
   for (const std::size_t size : {std::size_t{400}, bytes.size() / 2, bytes.size() - 100}) {
     const auto file = folder_.write("cut.laz", bytes.substr(0, size));
-    EXPECT_NE(message_of<InputError>([&] { read(file); }), "") << size;
+    EXPECT_NE(message_of<InputError>([&] { read_points(file); }), "") << size;
   }
 }
 
@@ -116,19 +116,19 @@ TEST_F(Laz, WrittenFilesAreRead) {
     writer->write(points);
     writer->close();
   }
-  const Read plain = read(folder_.path() / "cloud.las");
-  const Read packed = read(folder_.path() / "cloud.laz");
+  const Read plain = read_points(folder_.path() / "cloud.las");
+  const Read packed = read_points(folder_.path() / "cloud.laz");
   EXPECT_EQ(packed.info.fields, plain.info.fields);
   EXPECT_EQ(packed.info.crs_wkt, "none");
   EXPECT_TRUE(packed.points == plain.points);
-  EXPECT_TRUE(read(unpacked(folder_.path() / "cloud.laz")).points == plain.points);
+  EXPECT_TRUE(read_points(unpacked(folder_.path() / "cloud.laz")).points == plain.points);
   EXPECT_LT(file_size(folder_.path() / "cloud.laz") * 2, file_size(folder_.path() / "cloud.las"));
 }
 
 #else
 
 TEST_F(Laz, IsRefusedWithWhatHelps) {
-  const std::string message = message_of<InputError>([&] { read(real_ / "simple.laz"); });
+  const std::string message = message_of<InputError>([&] { read_points(real_ / "simple.laz"); });
   EXPECT_THAT(message, HasSubstr("is compressed (LAZ), which this build does not read"));
   EXPECT_THAT(message, HasSubstr("scripts/unlaz"));
 }

@@ -83,7 +83,7 @@ TEST(Trajectory, WhatIsWrittenReadsBackTheSame) {
   }
 }
 
-std::string refusal(const std::string& text) {
+std::string trajectory_refusal(const std::string& text) {
   const TemporaryFolder folder;
   const auto file = folder.write("flight", text);
   return message_of<InputError>([&] { read_trajectory(file); });
@@ -91,20 +91,24 @@ std::string refusal(const std::string& text) {
 
 TEST(Trajectory, BrokenFilesAreRefusedByLine) {
   const std::string first = "0 0 0 8 0 0 0 1\n";
-  EXPECT_THAT(refusal(""), HasSubstr("at least two poses; the file has 0"));
-  EXPECT_THAT(refusal(first), HasSubstr("the file has 1"));
-  EXPECT_THAT(refusal(first + first), HasSubstr("flight:2: time 0 s is not after"));
-  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 1\n"), HasSubstr("flight:2: has 7 numbers"));
-  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 0 1 9\n"), HasSubstr("has 9 numbers"));
-  EXPECT_THAT(refusal(first + "1 0 0 up 0 0 0 1\n"), HasSubstr("\"up\" is not a number"));
-  EXPECT_THAT(refusal(first + "1 0 0 nan 0 0 0 1\n"), HasSubstr("not finite"));
-  EXPECT_THAT(refusal("inf 0 0 8 0 0 0 1\n"), HasSubstr("not finite"));
-  EXPECT_THAT(refusal(first + "1 1e300 0 8 0 0 0 1\n"), HasSubstr("from the origin"));
-  EXPECT_THAT(refusal(first + "1 0 0 8 0 0 0 0\n"), HasSubstr("quaternion norm 0 is not 1"));
-  EXPECT_THAT(refusal(first + "1 0 0 8 1 0 0 1\n"), HasSubstr("flight:2: quaternion norm 1.41"));
+  EXPECT_THAT(trajectory_refusal(""), HasSubstr("at least two poses; the file has 0"));
+  EXPECT_THAT(trajectory_refusal(first), HasSubstr("the file has 1"));
+  EXPECT_THAT(trajectory_refusal(first + first), HasSubstr("flight:2: time 0 s is not after"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 8 0 0 1\n"), HasSubstr("flight:2: has 7 numbers"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 8 0 0 0 1 9\n"), HasSubstr("has 9 numbers"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 up 0 0 0 1\n"),
+              HasSubstr("\"up\" is not a number"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 nan 0 0 0 1\n"), HasSubstr("not finite"));
+  EXPECT_THAT(trajectory_refusal("inf 0 0 8 0 0 0 1\n"), HasSubstr("not finite"));
+  EXPECT_THAT(trajectory_refusal(first + "1 1e300 0 8 0 0 0 1\n"), HasSubstr("from the origin"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 8 0 0 0 0\n"),
+              HasSubstr("quaternion norm 0 is not 1"));
+  EXPECT_THAT(trajectory_refusal(first + "1 0 0 8 1 0 0 1\n"),
+              HasSubstr("flight:2: quaternion norm 1.41"));
   const std::string header = "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n";
-  EXPECT_THAT(refusal(header + "0,0,0,8,0,0,0,1\n0,0,0,8,0,0,0,1\n"), HasSubstr("flight:3: "));
-  EXPECT_THAT(refusal(header + "0,0,0,8,0,0,0\n"), HasSubstr("flight:2: has 7 fields"));
+  EXPECT_THAT(trajectory_refusal(header + "0,0,0,8,0,0,0,1\n0,0,0,8,0,0,0,1\n"),
+              HasSubstr("flight:3: "));
+  EXPECT_THAT(trajectory_refusal(header + "0,0,0,8,0,0,0\n"), HasSubstr("flight:2: has 7 fields"));
 }
 
 TEST(Trajectory, BrokenPosesAreRefused) {

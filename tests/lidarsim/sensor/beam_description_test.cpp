@@ -19,7 +19,7 @@ std::string with_beam(const std::string& beam) {
          beam + "lasers: [{fires_us: 0, elevation_deg: 0}]\n";
 }
 
-std::string refusal(const std::string& beam) {
+std::string beam_refusal(const std::string& beam) {
   try {
     parse_sensor(with_beam(beam), "mine.yaml");
   } catch (const InputError& error) {
@@ -58,17 +58,20 @@ TEST(BeamDescription, WhatCannotBeIsRefused) {
     return "beam: {divergence_mrad: " + divergence + ", " + rest + "}\n";
   };
   const std::string faintest = "faintest: {reflectance: 0.1, range_m: 50}";
-  EXPECT_THAT(refusal(beam("[3, -1]", "pulse_ns: 6, " + faintest)),
+  EXPECT_THAT(beam_refusal(beam("[3, -1]", "pulse_ns: 6, " + faintest)),
               HasSubstr("mine.yaml:7: beam.divergence_mrad"));
-  EXPECT_THAT(refusal(beam("3", "pulse_ns: 6, " + faintest)), HasSubstr("beam.divergence_mrad"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "pulse_ns: 0, " + faintest)), HasSubstr("beam.pulse_ns"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "pulse_ns: .nan, " + faintest)), HasSubstr("beam.pulse_ns"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "pulse_ns: 6")), HasSubstr("faintest"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "pulse_ns: 6, faintest: {reflectance: 2, range_m: 50}")),
+  EXPECT_THAT(beam_refusal(beam("3", "pulse_ns: 6, " + faintest)),
+              HasSubstr("beam.divergence_mrad"));
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "pulse_ns: 0, " + faintest)), HasSubstr("beam.pulse_ns"));
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "pulse_ns: .nan, " + faintest)),
+              HasSubstr("beam.pulse_ns"));
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "pulse_ns: 6")), HasSubstr("faintest"));
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "pulse_ns: 6, faintest: {reflectance: 2, range_m: 50}")),
               HasSubstr("beam.faintest.reflectance"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "pulse_ns: 6, faintest: {reflectance: 0.1, range_m: 0}")),
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "pulse_ns: 6, faintest: {reflectance: 0.1, range_m: 0}")),
               HasSubstr("beam.faintest.range_m"));
-  EXPECT_THAT(refusal(beam("[3, 1]", "width: 2, pulse_ns: 6, " + faintest)), HasSubstr("width"));
+  EXPECT_THAT(beam_refusal(beam("[3, 1]", "width: 2, pulse_ns: 6, " + faintest)),
+              HasSubstr("width"));
 }
 
 }  // namespace

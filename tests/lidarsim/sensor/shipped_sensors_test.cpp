@@ -17,8 +17,6 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr double kDegree = kPi / 180;
-
 struct PlainShot {
   double time_s = 0;
   Eigen::Vector3d origin;
@@ -70,7 +68,7 @@ TEST(ShippedSensors, PuckHiRes) {
     return PlainShot{
         .time_s = time_s,
         .origin = {0, 0, 1e-3 * kVertical_mm[k]},
-        .direction = velodyne_direction(head_azimuth(10, time_s), 0, elevation_deg * kDegree)};
+        .direction = velodyne_direction(head_azimuth(10, time_s), 0, elevation_deg * kDegrees)};
   });
 }
 
@@ -83,7 +81,7 @@ TEST(ShippedSensors, Hdl32e) {
     return PlainShot{
         .time_s = time_s,
         .origin = {0, 0, 0},
-        .direction = velodyne_direction(head_azimuth(20, time_s), 0, elevation_deg * kDegree)};
+        .direction = velodyne_direction(head_azimuth(20, time_s), 0, elevation_deg * kDegrees)};
   });
 }
 
@@ -121,7 +119,7 @@ TEST(ShippedSensors, Os1) {
     expect_shots("os1_64", spin_hz, 64, 2e-5, [&](std::uint64_t m, std::size_t i) {
       const double encoder = 2 * kPi * (1 - static_cast<double>(m % 1024) / 1024);
       const double azimuth = -2 * kPi * kAzimuth_deg[i % 4] / 360;
-      const double altitude = (16.611 - 33.222 / 63 * static_cast<double>(i)) * kDegree;
+      const double altitude = (16.611 - 33.222 / 63 * static_cast<double>(i)) * kDegrees;
       return PlainShot{
           .time_s = static_cast<double>(m) / (1024 * spin_hz),
           .origin = {kOrigin_m * std::cos(encoder), kOrigin_m * std::sin(encoder), 0},

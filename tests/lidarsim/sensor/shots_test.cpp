@@ -16,7 +16,7 @@ constexpr double kElevation_deg[16] = {-15, 1, -13, 3,  -11, 5,  -9, 7,
 constexpr double kCorrection_mm[16] = {11.2, -0.7, 9.7, -2.2, 8.1, -3.7, 6.6, -5.1,
                                        5.1,  -6.6, 3.7, -8.1, 2.2, -9.7, 0.7, -11.2};
 
-struct PlainShot {
+struct ManualShot {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;
 };
@@ -24,8 +24,8 @@ struct PlainShot {
 // A shot by the manual's formulae: time offset, azimuth, and spherical to Cartesian coordinates.
 // There, x = R cos(elevation) sin(azimuth), y = R cos(elevation) cos(azimuth) with y forward; here
 // x is forward and y to the left.
-PlainShot plain_shot(std::uint64_t shot, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
-                     const scan::Trajectory& trajectory) {
+ManualShot plain_shot(std::uint64_t shot, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
+                      const scan::Trajectory& trajectory) {
   const std::uint64_t laser = shot % 16;
   const double time_s =
       55.296e-6 * static_cast<double>(shot / 16) + 2.304e-6 * static_cast<double>(laser);
@@ -45,7 +45,7 @@ void expect_plain(std::uint64_t first, std::uint64_t shots, double spin_hz,
   SequenceShots fired;
   for (std::uint64_t shot = first; shot < first + shots; ++shot) {
     if (shot == first || shot % 16 == 0) plan.fire(shot / 16, fired);
-    const PlainShot expected = plain_shot(shot, spin_hz, body_from_lidar, trajectory);
+    const ManualShot expected = plain_shot(shot, spin_hz, body_from_lidar, trajectory);
     for (int axis = 0; axis < 3; ++axis) {
       ASSERT_NEAR(fired.direction[axis][shot % 16], expected.direction[axis], 1e-9)
           << "shot " << shot;

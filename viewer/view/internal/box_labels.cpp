@@ -42,11 +42,13 @@ double turn_along(const PlotBox& box) {
 
 // The largest size at which the widest label fits its box.
 double fitting_size(const std::vector<BoxLabel>& labels, double largest_px, bool along) {
-  for (double size_px = largest_px; size_px > kSmallest * largest_px; size_px *= 0.95) {
+  double size_px = largest_px;
+  while (size_px > kSmallest * largest_px) {
     const bool all = std::ranges::all_of(labels, [&](const BoxLabel& label) {
       return fits(label, size_px, along ? turn_along(label.box_px) : 0);
     });
     if (all) return size_px;
+    size_px *= 0.95;
   }
   return 0;
 }

@@ -49,8 +49,8 @@ void draw_colour_bar(Page& page, const HeightColours& colours, const Eigen::Alig
     bar.pixels.insert(bar.pixels.end(), static_cast<std::size_t>(size.x()), colour);
   }
   page.raster(bar_px.min(), bar);
-  const Eigen::Vector2d low = bar_px.min();
-  const Eigen::Vector2d high = bar_px.max();
+  const Eigen::Vector2d& low = bar_px.min();
+  const Eigen::Vector2d& high = bar_px.max();
   const Stroke thin{.colour = kInk, .width_px = text_px / 16};
   page.line({low, {high.x(), low.y()}, high, {low.x(), high.y()}, low}, thin);
 

@@ -51,8 +51,10 @@ void VelodyneDecoder::decode(const DataPacket& packet, double time_s,
   const std::size_t lasers = sensor_.lasers.size();
   const bool is_dual = packet.mode == ReturnMode::dual;
   const std::size_t stride = is_dual ? 2 : 1;
-  const double block_s = sensor_.sequence_s * static_cast<double>(kBlockReturns / lasers);
+  const std::size_t sequences = kBlockReturns / lasers;  // in a block
+  const double block_s = sensor_.sequence_s * static_cast<double>(sequences);
   for (std::size_t block = 0; block < kPacketBlocks; block += stride) {
+    const std::size_t turn = block / stride;
     const PacketBlock& last = packet.blocks[block];
     const PacketBlock& other = packet.blocks[block + stride - 1];
     // The last block turns on as the one before it.
@@ -65,12 +67,13 @@ void VelodyneDecoder::decode(const DataPacket& packet, double time_s,
       PacketReturn far = last.returns[i];
       if (near.distance == 0) std::swap(near, far);
       if (near.distance == 0) continue;
+      const std::size_t sequence = i / lasers, laser = i % lasers;
       const double in_block_s =
-          sensor_.sequence_s * static_cast<double>(i / lasers) + sensor_.lasers[i % lasers].fires_s;
+          sensor_.sequence_s * static_cast<double>(sequence) + sensor_.lasers[laser].fires_s;
       const Shot shot{
-          .laser = i % lasers,
+          .laser = laser,
           .head_rad = kAzimuthStep_rad * (last.azimuth + last_turn_ * in_block_s / block_s),
-          .time_s = time_s + block_s * static_cast<double>(block / stride) + in_block_s};
+          .time_s = time_s + block_s * static_cast<double>(turn) + in_block_s};
       const bool are_two = is_dual && far.distance != 0 && near != far;
       if (are_two && near.distance > far.distance) std::swap(near, far);
       add_return(shot, near, 1, are_two ? 2 : 1, points);

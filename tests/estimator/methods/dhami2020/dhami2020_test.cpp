@@ -2,13 +2,13 @@
 #include "methods/dhami2020/dhami2020.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "estimator/synthetic_farm.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -17,8 +17,6 @@ namespace {
 using plotscan::testing::message_of;
 using ::testing::HasSubstr;
 using testing::SyntheticFarm;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 const estimate::PlotEstimate* at(const estimate::Estimate& estimate, const PlotBox& box) {
   const auto found = std::ranges::find_if(estimate.plots, [&](const estimate::PlotEstimate& plot) {

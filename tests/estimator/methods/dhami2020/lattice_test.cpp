@@ -2,18 +2,17 @@
 #include "methods/dhami2020/internal/lattice.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "methods/dhami2020/internal/plot_grid.h"
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/random.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180;
 using Centers = std::vector<Eigen::Vector2d>;
 
 // The grid of the paper's wheat field: 4 rows of 28, the two axes not quite perpendicular.

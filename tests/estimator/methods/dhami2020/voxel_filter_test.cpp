@@ -12,7 +12,7 @@
 namespace plotscan::methods::dhami2020 {
 namespace {
 
-std::vector<Eigen::Vector3f> random_points(std::size_t count, double side_m) {
+std::vector<Eigen::Vector3f> random_cloud(std::size_t count, double side_m) {
   std::vector<Eigen::Vector3f> points;
   RandomStream random(3, random_purpose("test/voxels"), 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ std::map<std::array<long, 3>, Eigen::Vector3d> naive(const std::vector<Eigen::Ve
 
 TEST(VoxelFilter, AgreesWithANaiveMap) {
   constexpr double kVoxel_m = 0.05;
-  const auto points = random_points(200000, 2);  // about two points a voxel; the table grows
+  const auto points = random_cloud(200000, 2);  // about two points a voxel; the table grows
   const auto expected = naive(points, kVoxel_m);
   const auto filtered = voxel_filter(points, kVoxel_m);
   ASSERT_EQ(filtered.size(), expected.size());
