@@ -72,7 +72,8 @@ void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
     const fs::path place = output.parent_path() / names.back();
     if (!replace && !have_same_bytes(file.path(), place)) require_free(place);
   }
-  std::ranges::partition(names, [&](const fs::path& name) { return name != output.filename(); });
+  std::partition(names.begin(), names.end(),
+                 [&](const fs::path& name) { return name != output.filename(); });
   place(names, partial.path(), output.parent_path());
 }
 

@@ -59,6 +59,7 @@ estimate::Estimate one_number(const Field& field) {
 std::vector<MethodHeight> rows_of(const std::string& method,
                                   const std::vector<std::string>& heights) {
   std::vector<MethodHeight> rows;
+  rows.reserve(heights.size());
   for (const std::string& name : heights) rows.push_back({name, row_name(method, name)});
   return rows;
 }
@@ -140,6 +141,7 @@ Method method_named(const std::string& name) {
   if (base == "dhami2020")
     return dhami2020_method(name, in_true_boxes, with_words(methods::dhami2020::settings(), words));
   std::vector<std::string> known;
+  known.reserve(methods.size());
   for (const Method& method : methods) known.push_back(method.name);
   throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
 }

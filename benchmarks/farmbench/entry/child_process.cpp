@@ -100,6 +100,7 @@ FinishedProcess run_process(const std::vector<std::string>& arguments,
                             const ProcessLimits& limits) {
   std::vector<std::string> own = arguments;
   std::vector<char*> pointers;
+  pointers.reserve(own.size() + 1);
   for (std::string& argument : own) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const std::string folder_text = folder.string();

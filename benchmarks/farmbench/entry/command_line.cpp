@@ -11,6 +11,7 @@ namespace {
 
 std::string places_of(const std::map<std::string, std::string>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back("{" + name + "}");
   return joined(names, ", ");
 }
@@ -69,6 +70,7 @@ std::vector<std::string> split_command(const std::string& command) {
 std::vector<std::string> substituted(const std::vector<std::string>& words,
                                      const std::map<std::string, std::string>& values) {
   std::vector<std::string> arguments;
+  arguments.reserve(words.size());
   for (const std::string& word : words) arguments.push_back(filled_in(word, values));
   return arguments;
 }

@@ -22,6 +22,7 @@ std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::strin
       if (run.method == method) names.merge(score::estimated_heights(run.score));
   }
   std::vector<MethodHeight> heights;
+  heights.reserve(names.size());
   for (const std::string& name : names) heights.push_back({name, row_name(method, name)});
   if (heights.empty()) heights.push_back({"", method});
   return heights;

@@ -133,6 +133,49 @@ FarmResult not_flown(const FarmRun& run, const std::vector<score::TruePlot>& plo
   return result;
 }
 
+// Adds each method's result, and gives their estimates.
+std::vector<estimate::Estimate> run_methods(const Suite& suite, const Field& field,
+                                            const std::vector<score::TruePlot>& truth,
+                                            const ProgressReport& progress, FarmResult& result) {
+  std::vector<estimate::Estimate> estimates;
+  for (const std::string& name : suite.methods) {
+    MethodRun method = run_named(name, suite, field, truth);
+    result.methods.push_back(std::move(method.result));
+    estimates.push_back(std::move(method.estimate));
+    report_share(progress,
+                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+  }
+  return estimates;
+}
+
+FarmResult run_on_scan(const FarmRun& run, const farm::Farm& farm, const FieldScan& scan,
+                       const std::vector<score::TruePlot>& truth, const cloud::Area& shown,
+                       const ProgressReport& progress) {
+  const auto& [suite, suite_case, seed, folder, threads, view] = run;
+  const std::vector<score::TruePlot> plots = scored(truth);
+  const fs::path poses = folder / "scan" / "poses.csv";
+  const Field field{.cloud = scan.scanned.cloud,
+                    .poses = poses,
+                    .map = scan.map,
+                    .plots = plots,
+                    .terrain = farm.terrain,
+                    .seed = seed,
+                    .threads = threads};
+  FarmResult result = farm_result(run, scan.scanned.flown);
+  const std::vector<estimate::Estimate> estimates =
+      run_methods(suite, field, truth, progress, result);
+  if (view) {
+    write_farm_view(*view, {.scan = suite_case.survey ? scan.scanned.cloud : folder / "scan",
+                            .area = shown,
+                            .points = view_points(suite),
+                            .estimates = estimates,
+                            .truth = truth,
+                            .terrain = farm.terrain,
+                            .result = result});
+  }
+  return result;
+}
+
 }  // namespace
 
 json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
@@ -159,62 +202,22 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
   return document;
 }
 
-// Adds each method's result, and gives their estimates.
-std::vector<estimate::Estimate> run_methods(const Suite& suite, const Field& field,
-                                            const std::vector<score::TruePlot>& truth,
-                                            const ProgressReport& progress, FarmResult& result) {
-  std::vector<estimate::Estimate> estimates;
-  for (const std::string& name : suite.methods) {
-    MethodRun method = run_named(name, suite, field, truth);
-    result.methods.push_back(std::move(method.result));
-    estimates.push_back(std::move(method.estimate));
-    report_share(progress,
-                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
-  }
-  return estimates;
-}
-
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
-  const auto& [suite, suite_case, seed, folder, threads, view] = run;
-  const FarmPlace place{suite_case, seed, folder, threads};
+  const FarmPlace place{run.suite_case, run.seed, run.folder, run.threads};
   const farm::Farm farm = make_farm(place);
   std::vector<score::TruePlot> truth = standing_plots(place);
+  const std::vector<score::TruePlot> plots = scored(truth);
   const cloud::Area shown = field_area(truth, kShown_m);
-  std::vector<score::TruePlot> plots = scored(truth);
   std::optional<FieldScan> scan;
   try {
-    scan = scan_field(place, farm, field_area(plots, suite.crop_margin_m), progress);
+    scan = scan_field(place, farm, field_area(plots, run.suite.crop_margin_m), progress);
   } catch (const InputError& error) {
-    if (!suite.sweep) throw;
+    if (!run.suite.sweep) throw;
     return not_flown(run, plots, error.what());
   }
-  const auto& [scanned, map] = *scan;
-  if (suite_case.without_plots) {
-    truth.clear();
-    plots.clear();
-  }
   report_share(progress, kRead);
-  FarmResult result = farm_result(run, scanned.flown);
-  const fs::path poses = folder / "scan" / "poses.csv";
-  const Field field{.cloud = scanned.cloud,
-                    .poses = poses,
-                    .map = map,
-                    .plots = plots,
-                    .terrain = farm.terrain,
-                    .seed = seed,
-                    .threads = threads};
-  const std::vector<estimate::Estimate> estimates =
-      run_methods(suite, field, truth, progress, result);
-  if (view) {
-    write_farm_view(*view, {.scan = suite_case.survey ? scanned.cloud : folder / "scan",
-                            .area = shown,
-                            .points = view_points(suite),
-                            .estimates = estimates,
-                            .truth = truth,
-                            .terrain = farm.terrain,
-                            .result = result});
-  }
-  return result;
+  if (run.suite_case.without_plots) truth.clear();
+  return run_on_scan(run, farm, *scan, truth, shown, progress);
 }
 
 }  // namespace plotscan::farmbench
