@@ -61,7 +61,7 @@ void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
           ->delimiter(',')
           ->expected(3),
       convert.add_option("--start", arguments.flight.start_utc,
-                         "of a bare cloud: when its time 0 was, UTC")};
+                         "of a bare cloud: when its time 0 was, UTC; else as it says itself")};
 }
 
 }  // namespace

@@ -42,6 +42,11 @@ struct Plant {
   double height_m = 0;  // highest vertex of the placed mesh minus terrain height at the stem's base
 };
 
+// translation(position) * rotation * scale
+inline Eigen::Affine3d world_from_plant(const Plant& plant) {
+  return Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
+}
+
 // What grows where no cultivar is named.
 inline constexpr std::string_view kNoAccession = "crop";
 

@@ -79,7 +79,7 @@ std::vector<farm::PlantModel> read_plant_models(const fs::path& folder, const Fa
   const std::set<std::string> with_light(record.light_models.begin(), record.light_models.end());
   std::vector<farm::PlantModel> models;
   for (const std::string& name : record.models) {
-    // A name that is no single folder name would lead out of models/.
+    // A name that leads out of models/ is refused.
     path_inside(folder / "models", name, manifest);
     mesh::Mesh mesh = mesh::import_mesh(path_inside(folder, model_mesh_path(name), manifest));
     const double height_m = mesh::mesh_height(mesh);

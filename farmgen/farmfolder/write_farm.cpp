@@ -21,15 +21,6 @@ namespace {
 constexpr double kTruthShare = 0.35;
 constexpr double kWorldShare = 0.9;
 
-mesh::Mesh mesh_of(const terrain::Terrain& terrain) {
-  mesh::Mesh mesh;
-  for (const Eigen::Vector3d& vertex : terrain.vertices()) {
-    mesh.vertices.emplace_back(vertex.cast<float>());
-  }
-  mesh.triangles = terrain.triangles();
-  return mesh;
-}
-
 // With every surface that has no material in one of the given name and colour.
 mesh::Mesh coloured(mesh::Mesh mesh, const std::string& name, const Eigen::Vector3f& colour) {
   if (mesh.materials.empty()) mesh.materials.emplace_back();
@@ -51,7 +42,7 @@ void write_model(const fs::path& folder, const std::string& name, const mesh::Me
 }
 
 void write_models(const fs::path& folder, const farm::Farm& farm) {
-  mesh::Mesh ground = coloured(mesh_of(farm.terrain), "soil", farm::kSoilBrown);
+  mesh::Mesh ground = coloured(terrain::mesh_of(farm.terrain), "soil", farm::kSoilBrown);
   if (farm.soil_reflectance)
     ground.materials.front().reflectance = static_cast<float>(*farm.soil_reflectance);
   write_model(folder, sdfxml::kTerrainModel, ground, "Terrain of the farm " + farm.name,

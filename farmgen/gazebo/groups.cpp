@@ -117,10 +117,6 @@ void add_outside(const farm::Farm& farm, SurfaceClass label, const Plants& plant
 
 }  // namespace
 
-Eigen::Affine3d world_from_plant(const farm::Plant& plant) {
-  return Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
-}
-
 std::vector<PlantGroups> plant_groups(const farm::Farm& farm, Merge merge) {
   const PlantsByPlace sorted = sorted_plants(farm);
   std::vector<PlantGroups> models =

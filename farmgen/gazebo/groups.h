@@ -29,9 +29,6 @@ struct PlantGroups {
   std::vector<PlantGroup> links;
 };
 
-// translation(position) * rotation * scale
-Eigen::Affine3d world_from_plant(const farm::Plant& plant);
-
 // The models of merge `plot` or `row` with the names of naming.h, by plot or row, crop before
 // weeds; then the plants outside plots, by tiles of kTile_m where they are more than kTilePlants.
 std::vector<PlantGroups> plant_groups(const farm::Farm& farm, Merge merge);

@@ -93,7 +93,7 @@ MergedMesh write_merged_mesh(const ModelFolder& models, const std::string& model
   const bool double_sided_material = models.gazebo == Gazebo::sim;
   for (const farm::Plant* plant : group.plants) {
     const Eigen::Affine3d link_from_plant =
-        Eigen::Translation3d(-group.origin) * world_from_plant(*plant);
+        Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
     for (const Surface& surface : surfaces.models[plant->model]) {
       if (surface.material != material) continue;
       obj.add(surface, link_from_plant, needs_back_faces(surface, double_sided_material));
@@ -122,8 +122,9 @@ CollisionBox box_around(const PlantGroup& group, const PlantSurfaces& surfaces) 
   const Eigen::AngleAxisd link_from_box(group.heading_rad, Eigen::Vector3d::UnitZ());
   Eigen::AlignedBox3d box;
   for (const farm::Plant* plant : group.plants) {
-    const Eigen::Affine3d box_from_plant =
-        link_from_box.inverse() * Eigen::Translation3d(-group.origin) * world_from_plant(*plant);
+    const Eigen::Affine3d box_from_plant = link_from_box.inverse() *
+                                           Eigen::Translation3d(-group.origin) *
+                                           farm::world_from_plant(*plant);
     for (const Surface& surface : surfaces.models[plant->model]) {
       for (const Eigen::Vector3f& v : surface.vertices)
         box.extend(box_from_plant * v.cast<double>());
@@ -257,12 +258,8 @@ EntityCounts write_merged_plants(const ModelFolder& models, const farm::Farm& fa
 }
 
 EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& farm) {
-  mesh::Mesh ground;
-  for (const Eigen::Vector3d& vertex : farm.terrain.vertices())
-    ground.vertices.emplace_back(vertex.cast<float>());
-  ground.triangles = farm.terrain.triangles();
   std::vector<mesh::Material> materials;
-  const std::vector<Surface> surfaces = surfaces_of(ground, materials);
+  const std::vector<Surface> surfaces = surfaces_of(terrain::mesh_of(farm.terrain), materials);
   const std::string name = sdfxml::kTerrainModel;
   const fs::path folder = mesh_folder(models, name);
   ObjFile obj(folder / (name + ".obj"), name + ".mtl", kGroundNormals);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.h"
 #include "mesh/internal/image_pixels.h"
 
 namespace plotscan::mesh {
@@ -32,6 +33,13 @@ AlphaMask::AlphaMask(std::shared_ptr<const Image> image, float cutoff,
 bool AlphaMask::is_opaque(const Eigen::Vector2f& uv) const {
   const std::size_t row = height_ - 1 - texel(uv.y(), height_);
   return opaque_[row * width_ + texel(uv.x(), width_)];
+}
+
+AlphaMask AlphaMask::with_image(std::shared_ptr<const Image> image) const {
+  check(image->bytes == image_->bytes, "a mask's image");
+  AlphaMask mask = *this;
+  mask.image_ = std::move(image);
+  return mask;
 }
 
 double AlphaMask::opaque_share() const {

@@ -26,6 +26,8 @@ class AlphaMask {
   double opaque_share() const;
 
   const std::shared_ptr<const Image>& image() const { return image_; }
+  // The same mask, of an image of the same bytes.
+  AlphaMask with_image(std::shared_ptr<const Image> image) const;
   float cutoff() const { return cutoff_; }
 
   static constexpr std::size_t kMostTexels = std::size_t{1} << 26;  // 8192 x 8192: a leaf's scan

@@ -6,10 +6,12 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/reflectance.h"
+
 namespace plotscan::mesh {
 namespace {
 
-bool is_leaf(const Material& material) { return material.name.find("leaf") != std::string::npos; }
+bool is_leaf(const Material& material) { return names_leaf(material.name); }
 
 }  // namespace
 

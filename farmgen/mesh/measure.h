@@ -15,8 +15,8 @@ class ScaledArea {
  public:
   // Of all triangles.
   explicit ScaledArea(const Mesh& mesh);
-  // Of the leaves: the triangles whose material's name contains "leaf", or all of them where no
-  // material's does. A leaf is one sheet, so this is its one-sided area.
+  // Of the leaves: the triangles whose material's name says so (names_leaf), or all of them where
+  // no material's does. A leaf is one sheet, so this is its one-sided area.
   static ScaledArea of_leaves(const Mesh& mesh);
 
   // Square metres with each axis scaled. By the number of triangles.

@@ -48,9 +48,6 @@ struct Mesh {
   }
 };
 
-// Puts the other mesh's triangles after the mesh's own. Materials that are equal become one.
-void append(Mesh& mesh, const Mesh& other);
-
 // Triangles that show the same surface with about `triangles` of them or fewer. Each connected part
 // of each material (a leaf, a stem) keeps its share of the triangles, its place, its texture and,
 // by being widened a little, its area; the mesh keeps its extent and height. Where the triangles

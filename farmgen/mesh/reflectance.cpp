@@ -94,6 +94,10 @@ std::optional<float> reflectance_by_name(std::string_view name) {
   return {};
 }
 
+bool names_leaf(std::string_view name) {
+  return holds(name, kLeaf) || holds(name, "leaves") || holds(name, "blade");
+}
+
 std::optional<float> reflectance_of(const Material& material) {
   return material.reflectance ? material.reflectance : reflectance_by_name(material.name);
 }

@@ -19,6 +19,9 @@ inline constexpr float kLeafReflectance =
 // docs/reflectance.md. Absent when it says nothing.
 std::optional<float> reflectance_by_name(std::string_view name);
 
+// Whether the material's name has "leaf", "leaves" or "blade", in capitals or not.
+bool names_leaf(std::string_view name);
+
 // What the material states, else by its name.
 std::optional<float> reflectance_of(const Material& material);
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <string_view>
 #include <unordered_map>
 
 #include "planting/plants_description.h"
+#include "terrain/terrain.h"
 
 #include "core/angle.h"
 #include "core/csv.h"
@@ -142,6 +144,8 @@ class LayoutRows {
     plant.model = model_of(row);
     plant.position = {row.number(places_[Column::x]), row.number(places_[Column::y])};
     if (has(row, Column::z)) plant.z_m = row.number(places_[Column::z]);
+    if (std::abs(plant.z_m.value_or(0)) > terrain::kFarthest_m)
+      row.fail(places_[Column::z], "is more than 100 km from the world's origin");
     plant.scale = scale_of(row);
     plant.rotation = rotation_of(row);
     if (has(row, Column::plot)) {

@@ -18,9 +18,6 @@ using Vertices = std::vector<Eigen::Vector3d>;
 // same.
 constexpr double kEdgeTolerance = 1e-9;
 
-// The greatest coordinate: the world frame is local metres.
-constexpr double kFarthest_m = 1e5;
-
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -100,6 +97,14 @@ std::optional<double> Terrain::height(double x, double y) const {
     least_share = std::min(share, 0.0);
   }
   return highest ? highest : nearest;
+}
+
+mesh::Mesh mesh_of(const Terrain& terrain) {
+  mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
+  mesh.vertices.reserve(terrain.vertices().size());
+  for (const Eigen::Vector3d& vertex : terrain.vertices())
+    mesh.vertices.emplace_back(vertex.cast<float>());
+  return mesh;
 }
 
 }  // namespace plotscan::terrain

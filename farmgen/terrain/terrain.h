@@ -9,14 +9,19 @@
 #include "terrain/triangle_grid.h"
 #include <Eigen/Core>
 
+#include "mesh/mesh.h"
+
 namespace plotscan::terrain {
+
+// The greatest coordinate of a farm, metres: the world frame is local.
+inline constexpr double kFarthest_m = 1e5;
 
 // A triangulated height field: z as a function of (x, y), world frame, metres. Immutable.
 class Terrain {
  public:
-  // Throws InputError when a vertex is not finite, a triangle names a missing vertex, or no
-  // triangle has an area when seen from above. Triangles without such area are dropped, the others
-  // are turned to run counter-clockwise seen from above.
+  // Throws InputError when a vertex is not finite or lies beyond kFarthest_m, a triangle names a
+  // missing vertex, or no triangle has an area when seen from above. Triangles without such area
+  // are dropped, the others are turned to run counter-clockwise seen from above.
   Terrain(std::vector<Eigen::Vector3d> vertices,
           std::vector<std::array<std::uint32_t, 3>> triangles);
 
@@ -32,5 +37,8 @@ class Terrain {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   TriangleGrid grid_;
 };
+
+// Its surface as a mesh without materials.
+mesh::Mesh mesh_of(const Terrain& terrain);
 
 }  // namespace plotscan::terrain

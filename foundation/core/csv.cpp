@@ -35,8 +35,10 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 // The whole text of a table, which is UTF-8: its values go into JSON.
 std::string table_text(const std::filesystem::path& file) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::string text = read_text(file);
   require_utf8(text, file);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return text;
 }
 
@@ -52,6 +54,10 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file, std
       throw InputError(file, line, "column \"" + wanted[i] + "\" is missing");
     places.push_back(found == header.end() ? kAbsent
                                            : static_cast<std::size_t>(found - header.begin()));
+  }
+  for (auto name = header.begin(); name != header.end(); ++name) {
+    if (std::find(header.begin(), name, *name) != name)
+      throw InputError(file, line, "column \"" + std::string(*name) + "\" is there twice");
   }
   for (const std::string_view name : header) {
     if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) {
@@ -147,8 +153,6 @@ namespace {
 class TableText {
  public:
   TableText(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
     const std::string_view header = text_.substr(0, text_.find('\n'));
     for (const char separator : {'\t', ';', ','}) {
       if (header.find(separator) != std::string_view::npos) separator_ = separator;
@@ -182,18 +186,22 @@ class TableText {
   }
 
   std::string quoted_field(std::size_t start) {
+    const std::size_t opened = line_;
     std::string text;
     for (std::size_t at = start; at < text_.size(); ++at) {
       const bool closes = text_[at] == '"' && !text_.substr(at + 1).starts_with('"');
       if (closes) {
         at_ = std::min(text_.find_first_of(std::string{separator_, '\n'}, at), text_.size());
+        if (!trimmed(text_.substr(at + 1, at_ - at - 1)).empty())
+          throw InputError(file_, line_,
+                           "there is text behind the closing quote of \"" + text + '"');
         return text;
       }
       if (text_[at] == '"') ++at;  // two are one
       if (text_[at] == '\n') ++line_;
       text += text_[at];
     }
-    throw InputError(file_, line_, "a quote is opened and not closed");
+    throw InputError(file_, opened, "a quote is opened and not closed");
   }
 
   const std::filesystem::path& file_;

@@ -20,7 +20,7 @@ std::string format_utc(UtcTime time);
 UtcTime later(UtcTime time, double seconds);
 
 // Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC and the 18 leap seconds that it
-// has been behind since 2017.
+// has been behind since 2017 (17 from July 2015, 16 from July 2012: earlier times are as much off).
 double gps_seconds(UtcTime time);
 
 }  // namespace plotscan

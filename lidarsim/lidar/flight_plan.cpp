@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -81,6 +82,7 @@ void require_clearance(const Scene& scene, const std::vector<Eigen::Vector3d>& p
 // The highest ground there, whatever grows or stands over it.
 std::optional<double> ground_below(const Scene& scene, const Eigen::Vector3d& place) {
   constexpr float kPastSurface_m = 1e-3F;
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
   float z = scene.top_m() + 1;
   while (z > scene.bottom_m()) {
     const Ray ray{.origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), z},
@@ -90,7 +92,9 @@ std::optional<double> ground_below(const Scene& scene, const Eigen::Vector3d& pl
     if (!std::isfinite(hit.range_m)) return std::nullopt;
     if (scene.surface(hit).label == scan::PointClass::ground)
       return static_cast<double>(z - hit.range_m);
-    z -= hit.range_m + kPastSurface_m;
+    const float surface_z = z - hit.range_m;
+    // Far from the origin a millimetre may be less than a float's step.
+    z = std::min(surface_z - kPastSurface_m, std::nextafter(surface_z, -kEndless));
   }
   return std::nullopt;
 }

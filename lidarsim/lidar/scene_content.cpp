@@ -9,13 +9,6 @@
 namespace plotscan::lidar {
 namespace {
 
-mesh::Mesh shape_of(const terrain::Terrain& terrain) {
-  mesh::Mesh shape{.vertices = {}, .triangles = terrain.triangles()};
-  for (const Eigen::Vector3d& vertex : terrain.vertices())
-    shape.vertices.emplace_back(vertex.cast<float>());
-  return shape;
-}
-
 void require_model(const farm::Farm& farm, const farm::Plant& plant) {
   if (plant.model < farm.models.size()) return;
   throw InputError("plant " + std::to_string(plant.id) + " names model " +
@@ -59,10 +52,8 @@ SceneContent scene_content(const farm::Farm& farm) {
   content.placed.reserve(farm.plants.size() + 1);
   for (const farm::Plant& plant : farm.plants) {
     require_model(farm, plant);
-    const Eigen::Affine3d world_from_model =
-        Eigen::Translation3d(plant.position) * plant.rotation * Eigen::Scaling(plant.scale);
     content.placed.push_back({.mesh = plant.model,
-                              .world_from_mesh = world_from_model,
+                              .world_from_mesh = farm::world_from_plant(plant),
                               .surface = surface_of(plant),
                               .rooted = true});
   }
@@ -71,7 +62,7 @@ SceneContent scene_content(const farm::Farm& farm) {
        .surface = {.label = scan::PointClass::ground,
                    .reflectance = static_cast<float>(
                        farm.soil_reflectance.value_or(mesh::kSoilReflectance))}});
-  content.meshes.push_back(shape_of(farm.terrain));
+  content.meshes.push_back(terrain::mesh_of(farm.terrain));
   return content;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/open_source.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.h"
@@ -12,16 +13,21 @@ namespace plotscan::record {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kStart = "2026-06-01T10:00:00Z";
+
+UtcTime parsed_start(const std::string& start_utc) {
+  const auto start = parse_utc(start_utc);
+  if (!start) throw InputError("--start \"" + start_utc + "\" must be like " + std::string(kStart));
+  return *start;
+}
+
 FlightRecord flight_record(const FlightOptions& options) {
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor.value_or("vlp16"));
-  const auto start = parse_utc(options.start_utc);
-  if (!start)
-    throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
   return {.sensor = sensor,
           .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
           .body_from_lidar = mount_pose(options.mount_rpy_deg * std::numbers::pi / 180),
           .reported = scan::read_trajectory(*options.trajectory),
-          .start = *start};
+          .start = parsed_start(options.start_utc.value_or(kStart))};
 }
 
 std::optional<FlightRecord> told_flight(const SourceOptions& options) {
@@ -42,7 +48,7 @@ Source open_scan_folder(const fs::path& folder, const SourceOptions& options) {
   const FlightRecord flight = read_flight_record(folder);
   Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", {.flight = flight});
   source.path = folder;
-  source.info.start = flight.start;
+  if (source.info.start) source.info.start = flight.start;
   return source;
 }
 
@@ -50,6 +56,30 @@ Source open_scan_folder(const fs::path& folder, const SourceOptions& options) {
 void make_relative(Source& source) {
   if (!source.flight || source.info.origin_m.isZero()) return;
   source.flight->reported = scan::moved(source.flight->reported, -source.info.origin_m);
+}
+
+// The points' times count from a trajectory that begins at 0.
+void count_from_first_pose(Source& source, bool is_recording, bool start_is_told) {
+  if (!source.flight) return;
+  FlightRecord& flight = *source.flight;
+  const double begin_s = flight.reported.start_s();
+  flight.reported = scan::delayed(flight.reported, -begin_s);
+  if (is_recording) {
+    flight.start = source.info.start.value_or(flight.start);
+    return;
+  }
+  if (start_is_told || source.info.start)
+    flight.start = later(start_is_told ? flight.start : *source.info.start, begin_s);
+  source.info.start = flight.start;
+  if (begin_s == 0 || std::ranges::count(source.info.fields, "time") == 0) return;
+  source.stream = [stream = source.stream, begin_s](const scan::PointSink& sink) {
+    std::vector<scan::LabelledPoint> counted;
+    stream([&](std::span<const scan::LabelledPoint> points) {
+      counted.assign(points.begin(), points.end());
+      for (scan::LabelledPoint& point : counted) point.time -= begin_s;
+      sink(counted);
+    });
+  };
 }
 
 }  // namespace
@@ -69,6 +99,8 @@ Source open_source(const fs::path& in, const SourceOptions& options) {
                         .sensor_told = options.flight && options.flight->sensor.has_value(),
                         .topic = options.topic});
   make_relative(source);
+  count_from_first_pose(source, format->is_recording,
+                        options.flight && options.flight->start_utc.has_value());
   return source;
 }
 

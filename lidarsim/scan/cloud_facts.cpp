@@ -38,8 +38,9 @@ struct Columns {
   }
 };
 
+// What is no number counts as 0.
 std::size_t bin_of(double number) {
-  return static_cast<std::size_t>(std::clamp(number, 0.0, 255.0));
+  return number > 0 ? static_cast<std::size_t>(std::min(number, 255.0)) : 0;
 }
 
 bool is_noise(double number) { return number == las::kLowNoise || number == las::kHighNoise; }

@@ -58,7 +58,7 @@ const std::vector<KnownField>& known_fields() {
        {"intensity", "reflectivity"},
        [](LabelledPoint& p, double v) {
          p.intensity = static_cast<float>(v);
-         return true;
+         return std::isfinite(p.intensity);
        }},
       {"ring",
        {"ring", "laserid", "channel"},
@@ -131,22 +131,26 @@ Selection select(const CloudLayout& layout) {
 
 Eigen::Vector3d position(std::span<const double> row) { return {row[0], row[1], row[2]}; }
 
-// The first finite point of the cloud's beginning, with its time; zero where there is none.
+// The first finite point of the cloud's beginning, zero where there is none; its time where the
+// file has one.
 struct FirstPoint {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double time_s = 0;
+  std::optional<double> time_s = {};
 };
 
 FirstPoint first_point(const std::filesystem::path& cloud, const CloudLayout& layout) {
   std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  if (const ScalarField* time = layout.find(kGpsTime)) fields.push_back(*time);
+  const ScalarField* time = layout.find(kGpsTime);
+  if (time != nullptr) fields.push_back(*time);
   std::optional<FirstPoint> first;
   read_rows(
       cloud, layout, fields,
       [&](std::span<const double> rows) {
         for (std::size_t i = 0; i < rows.size() && !first; i += fields.size()) {
           const auto row = rows.subspan(i, fields.size());
-          if (position(row).allFinite()) first = {position(row), row.back()};
+          if (!position(row).allFinite()) continue;
+          first = {.position_m = position(row)};
+          if (time != nullptr) first->time_s = row.back();
         }
       },
       kFirstRows);
@@ -195,7 +199,8 @@ CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   if (!has_float_coordinates(layout)) {
     const FirstPoint first = first_point(cloud, layout);
     info.origin_m = origin_near(first.position_m);
-    if (layout.adjusted_gps_time && !info.start) info.start = second_of(first.time_s);
+    if (layout.adjusted_gps_time && first.time_s && !info.start)
+      info.start = second_of(*first.time_s);
   }
   for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);
   return info;

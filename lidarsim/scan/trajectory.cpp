@@ -71,4 +71,10 @@ Trajectory moved(const Trajectory& trajectory, const Eigen::Vector3d& by_m) {
   return Trajectory(std::move(poses));
 }
 
+Trajectory delayed(const Trajectory& trajectory, double by_s) {
+  std::vector<StampedPose> poses = trajectory.poses();
+  for (StampedPose& pose : poses) pose.time_s += by_s;
+  return Trajectory(std::move(poses));
+}
+
 }  // namespace plotscan::scan

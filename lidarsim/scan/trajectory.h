@@ -39,6 +39,9 @@ class Trajectory {
 // The same motion, every position moved by `by_m`.
 Trajectory moved(const Trajectory& trajectory, const Eigen::Vector3d& by_m);
 
+// The same motion, every time later by `by_s`.
+Trajectory delayed(const Trajectory& trajectory, double by_s);
+
 // What is wrong with a pose that follows one at `previous_s` (-infinity for the first); "" when
 // nothing is.
 std::string pose_error(const StampedPose& pose, double previous_s);

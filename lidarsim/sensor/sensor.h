@@ -36,7 +36,7 @@ struct Beam {
 };
 
 // How a sensor's raw data packets tell of it, for sensors that send Velodyne's (record/
-// velodyne_packet.h): 16 or 32 lasers, whose order is that of the packets' laser ids.
+// velodyne/packet.h): 16 or 32 lasers, whose order is that of the packets' laser ids.
 struct PacketFormat {
   std::uint8_t product = 0;        // the packets' product byte
   double distance_step_m = 0.002;  // of their distances

@@ -41,6 +41,10 @@ TEST(Csv, SaysWhichFileLineAndColumnIsWrong) {
   EXPECT_EQ(message("a,n\nx\n"), file + ":2: has 1 fields; the header names 2");
   EXPECT_EQ(message("a,b\n"), file + ":1: column \"n\" is missing");
   EXPECT_EQ(message("a,n,z\n"), file + ":1: unknown column \"z\"; known are a,n");
+  EXPECT_EQ(message("a,n,a\n"), file + ":1: column \"a\" is there twice");
+  EXPECT_EQ(message("\xef\xbb\xbf"
+                    "a,n\nx,10\n"),
+            file + ":2: n \"10\" is not in [0, 9]");
   EXPECT_EQ(message(""), file + ": is empty; the header line a,n is expected");
 }
 
@@ -97,7 +101,8 @@ TEST(CsvTable, SaysWhatIsWrong) {
   refused("a,a\n", "column 2 is called \"a\"");
   refused("a,\n1,2\n", "column 2 is called \"\"");
   refused("a,b\n1,2\n1\n", ":3: has 1 fields; the header names 2");
-  refused("a,b\n1,\"2\n", "is opened and not closed");
+  refused("a,b\n1,\"2\n3,4\n5,6\n", ":2: a quote is opened and not closed");
+  refused("a,b\n\"A\"12,2\n", ":2: there is text behind the closing quote of \"A\"");
 }
 
 }  // namespace

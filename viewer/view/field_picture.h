@@ -18,7 +18,7 @@ struct FieldPictureOptions {
 // boxes of flagged plots in another colour. Numbers that would not fit their boxes are thinned out.
 // Of an estimate without plots the ground's whole extent is shown. Needs a display as draw_picture
 // does. Throws InputError on options out of range, an estimate without ground, a cloud that is
-// broken or has no point there, a file that cannot be written, or a missing display.
+// broken or has no point there, or a missing display; WriteError when the file cannot be written.
 void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
                 const std::filesystem::path& png, const FieldPictureOptions& options);
 

@@ -27,8 +27,8 @@ struct PictureOptions {
 // Draws the farm (terrain and plants) and, beside it, the cloud coloured by height over the terrain
 // with the boxes on it, and writes a PNG. `cloud` is a PCD or PLY; without it only the farm is
 // drawn. Rendered by VTK into an off-screen window, for which Debian's VTK needs an X display
-// (xvfb-run serves). Throws InputError on options out of range, a broken cloud, a file that cannot
-// be written, or a missing display.
+// (xvfb-run serves). Throws InputError on options out of range, a broken cloud or a missing
+// display; WriteError when the file cannot be written.
 void draw_picture(const farm::Farm& farm, const std::optional<std::filesystem::path>& cloud,
                   const std::vector<PlotBox>& boxes, const std::filesystem::path& png,
                   const PictureOptions& options);

@@ -29,7 +29,7 @@ struct PicturedPlant {
 // metres, and writes a PNG. The scale counts heights over the foot of a stem; from above (more than
 // 60 degrees) it counts metres of ground instead. Needs a display as draw_picture does. Throws
 // InputError on no plants, options out of range, plants that do not fit, a texture that cannot be
-// decoded, a file that cannot be written, or a missing display.
+// decoded, or a missing display; WriteError when the file cannot be written.
 void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem::path& png,
                  const PlantPictureOptions& options);
 

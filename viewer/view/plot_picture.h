@@ -25,8 +25,8 @@ struct PlotPictureOptions {
 // where interpolated) within 1.96 standard errors, and its heights over that ground with their 95 %
 // intervals. The sight is along the width axis: the plot's length axis points to the right. Needs a
 // display as draw_picture does. Throws InputError on options out of range, an estimate without
-// ground, a plot or height that it does not have, a cloud that is broken or has no point there, a
-// file that cannot be written, or a missing display.
+// ground, a plot or height that it does not have, a cloud that is broken or has no point there, or
+// a missing display; WriteError when the file cannot be written.
 void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& estimate,
                const PlotId& plot, const std::filesystem::path& png,
                const PlotPictureOptions& options);

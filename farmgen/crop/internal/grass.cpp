@@ -63,6 +63,7 @@ Blade grass_blade(const GrassBlade& blade) {
 
 double RankProfile::at(double rank) const {
   if (rank <= peak_rank) {
+    if (peak_rank <= first_rank) return 1;
     const double share = std::clamp((rank - first_rank) / (peak_rank - first_rank), 0.0, 1.0);
     return first + (1 - first) * std::pow(std::sin(kHalfTurn / 2 * share), rise_exponent);
   }

@@ -136,12 +136,12 @@ planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
   read_rows(section, grid);
   if (section.has("pitch")) read_pitch(section, grid);
   if (section.has("alleys")) read_alleys(section, grid);
-  require_plots_apart(section, grid);
   if (section.choice("numbering", {"rows", "serpentine"}, 0) == 1) {
     grid.numbering = PlotNumbering::serpentine;
   }
   grid.first_number =
       static_cast<std::uint32_t>(section.integer("first_number", 1, kLargestFirstNumber, 1));
+  require_plots_apart(section, grid);
   read_missing(section, grid);
   return grid;
 }

@@ -24,7 +24,6 @@ constexpr std::array<std::string_view, 2> kKindNames = {"crop", "weed"};
 // How far from 1 the length of a rotation's quaternion may be.
 constexpr double kUnitTolerance = 1e-6;
 constexpr double kMostScale = 1000;
-constexpr double kFarthest_m = 1e5;
 
 using ModelIndex = std::unordered_map<std::string, std::uint32_t>;
 
@@ -55,7 +54,7 @@ farm::Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelInde
     if (plant.scale[axis] < 1 / kMostScale || plant.scale[axis] > kMostScale) {
       row.fail(Column::scale_x + axis, "is not in [0.001, 1000]");
     }
-    if (std::abs(plant.position[axis]) > kFarthest_m) {
+    if (std::abs(plant.position[axis]) > terrain::kFarthest_m) {
       row.fail(Column::x + axis, "is more than 100 km from the farm's centre");
     }
   }

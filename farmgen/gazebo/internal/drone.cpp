@@ -11,7 +11,7 @@ namespace {
 using sdfxml::sdf_numbers;
 using sdfxml::XmlFile;
 
-// The VLP-16 as lidarsim has it (lidarsim/lidar/sensor.cpp): at 10 Hz its 18,084 firing sequences a
+// The VLP-16 as lidarsim has it (models/sensors/vlp16.yaml): at 10 Hz its 18,084 firing sequences a
 // second are 1,808 azimuths a turn.
 constexpr int kAzimuths = 1808;
 constexpr double kElevation_rad = 15 * std::numbers::pi / 180;

@@ -147,6 +147,7 @@ void add_node(const std::filesystem::path& path, const aiScene& scene, const aiN
               const Eigen::Affine3d& model_from_parent, const std::string& object,
               MeshBuilder& builder) {
   const Eigen::Affine3d model_from_node = model_from_parent * file_from_node(node.mTransformation);
+  const bool mirrored = model_from_node.linear().determinant() < 0;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
     const bool wanted =
@@ -159,6 +160,7 @@ void add_node(const std::filesystem::path& path, const aiScene& scene, const aiN
       for (int k = 0; k < 3; ++k) {
         corners[k] = corner_of(path, part, face.mIndices[k], model_from_node, builder.textured());
       }
+      if (mirrored) std::swap(corners[1], corners[2]);  // their outside stays outside
       builder.add(corners, static_cast<std::uint16_t>(part.mMaterialIndex));
     }
   }

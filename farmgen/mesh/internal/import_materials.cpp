@@ -84,11 +84,10 @@ std::shared_ptr<const Image> opacity_image(const std::filesystem::path& path, co
     notes->push_back(path.string() + ": material " + material.name +
                      " is taken as opaque everywhere: its mask " + found.missing);
   }
-  if (!found.image || !material.texture || found.image->name != material.texture->name)
-    return found.image;
-  if (found.image->bytes == material.texture->bytes) return material.texture;
-  // Another image of the same name: both have to lie in one folder.
-  return std::make_shared<const Image>(Image{"mask_" + found.image->name, found.image->bytes});
+  const bool is_texture = found.image && material.texture &&
+                          found.image->name == material.texture->name &&
+                          found.image->bytes == material.texture->bytes;
+  return is_texture ? material.texture : found.image;
 }
 
 bool is_gltf_opaque(const aiMaterial& given) {

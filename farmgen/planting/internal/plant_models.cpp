@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "crop/grow.h"
+#include "mesh/image_names.h"
 #include "mesh/measure.h"
 
 namespace plotscan::planting {
@@ -58,6 +59,13 @@ void apply_reflectance(const ModelDescription& description, const std::filesyste
   }
 }
 
+// Those whose files lie in the model's folder.
+std::vector<mesh::Mesh*> meshes_of(farm::PlantModel& model) {
+  std::vector<mesh::Mesh*> meshes = {&model.mesh};
+  if (model.light) meshes.push_back(&*model.light);
+  return meshes;
+}
+
 farm::PlantModel make_model(const ModelDescription& description,
                             const std::filesystem::path& source) {
   farm::PlantModel model{.name = description.name, .mesh = {}};
@@ -68,6 +76,7 @@ farm::PlantModel make_model(const ModelDescription& description,
     model.mesh = mesh::import_mesh(description.mesh, description.options, &model.notes);
     if (description.light) model.light = mesh::import_mesh(*description.light, description.options);
   }
+  mesh::name_images_apart(meshes_of(model));
   apply_reflectance(description, source, model);
   model.height_m = mesh::mesh_height(model.mesh);
   if (model.height_m > kTallest_m) {

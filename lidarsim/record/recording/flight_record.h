@@ -24,7 +24,7 @@ struct FlightRecord {
   sensor::Sensor sensor;
   double spin_hz = 10;                         // 0 of a sensor that does not spin
   Eigen::Isometry3d body_from_lidar;           // as stated; the true one may differ
-  scan::Trajectory reported;                   // what places the points
+  scan::Trajectory reported;                   // what places the points; begins at time 0
   UtcTime start;                               // at time 0 of the points and the trajectory
   std::optional<Anchor> anchor = {};           // of the world frame's origin
   ReturnMode returns = ReturnMode::strongest;  // what the sensor reports of a shot

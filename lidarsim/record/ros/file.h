@@ -56,7 +56,7 @@ using MessageSink = std::function<void(const Message&)>;
 // otherwise, and names the file in what the sink throws of this kind.
 void read_messages(const std::filesystem::path& file, const MessageSink& sink);
 
-// Private to ros_file: read_messages of either kind.
+// Private to file.cpp: read_messages of either kind.
 void read_bag(const std::filesystem::path& file, const MessageSink& sink);
 void read_mcap(const std::filesystem::path& file, const MessageSink& sink);
 

@@ -8,7 +8,7 @@
 
 // The ROS messages of our recordings, member for member as ROS defines them; they are the same in
 // ROS 1 and ROS 2 but for Header's seq. Each type names its members once, in fields(), from which
-// its bytes are made and read (ros_codec.h); its text is in ros_definitions.cpp. Units and frames
+// its bytes are made and read (codec.h); its text is in internal/definitions.cpp. Units and frames
 // are ROS's (REP 103): metres, seconds, radians; quaternions (x, y, z, w).
 namespace plotscan::record::ros {
 

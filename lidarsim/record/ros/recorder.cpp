@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/csv.h"
 #include "core/error.h"
 #include "record/ros/internal/cloud.h"
 #include "record/ros/internal/inertial.h"
@@ -26,6 +27,8 @@ constexpr double kFix_s = 0.1;
 constexpr double kPose_s = 0.01;
 // A sensor that does not turn sweeps so long.
 constexpr double kSweep_s = 0.1;
+// Points so much before or after the trajectory are in another time than it is.
+constexpr double kOutside_s = 1;
 
 ros::Transform transform_of(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d& t = pose.translation();
@@ -91,6 +94,7 @@ std::size_t RosRecorder::topic(const char* name, const char* type, bool latched)
 void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
   const Eigen::Isometry3d lidar_from_body = flight_.body_from_lidar.inverse();
   for (const scan::LabelledPoint& point : points) {
+    require_flown(point.time);
     if (encoder_) encoder_->write({&point, 1});
     while (point.time >= static_cast<double>(sweeps_done_ + 1) * sweep_interval_s_) end_sweep();
     // Where the sensor met it from where it was at that instant: nothing corrects for its motion.
@@ -101,6 +105,13 @@ void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
     const double begin_s = static_cast<double>(sweeps_done_) * sweep_interval_s_;
     add_point(sweep_, point, position.cast<float>(), static_cast<float>(point.time - begin_s));
   }
+}
+
+void RosRecorder::require_flown(double time_s) const {
+  if (time_s >= -kOutside_s && time_s <= duration_s_ + kOutside_s) return;
+  throw InputError("a point was measured " + format_number(time_s) +
+                   " s after the trajectory's first pose, and the trajectory takes " +
+                   format_number(duration_s_) + " s; both have to be in the same time");
 }
 
 void RosRecorder::close() {

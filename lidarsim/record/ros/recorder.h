@@ -21,7 +21,7 @@ struct RosRecorderOptions {
   // the reported poses stand for it.
   std::optional<scan::Trajectory> motion = {};
   // The sensor's raw packets too, where it sends Velodyne's: the points must then be shots of the
-  // flight (velodyne_encoder.h).
+  // flight (record/velodyne/encoder.h).
   bool packets = false;
 };
 
@@ -64,6 +64,8 @@ class RosRecorder : public scan::PointWriter {
   // The file's number of a topic.
   std::size_t topic(const char* name, const char* type, bool latched = false);
   // Ends the sweep and begins the next one.
+  // Throws InputError on a time outside the trajectory.
+  void require_flown(double time_s) const;
   void end_sweep();
   void emit_packets(double end_s);
   void emit_mounts();

@@ -226,7 +226,6 @@ bool says_geographic(const std::string& wkt) {
   return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
 }
 
-// Where the points lie is said elsewhere: a wrong count of records does no harm to them.
 // GeoTIFF lets a file leave out the unit of a system of EPSG's (OGC 19-008r4, requirements of
 // ProjLinearUnitsGeoKey): UTM counts in metres, of others it is not known here.
 void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
@@ -237,6 +236,7 @@ void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
                          ", is not known here: taken for metres; --units says otherwise");
 }
 
+// Where the points lie is said elsewhere: a wrong count of records does no harm to them.
 std::string count_note(std::uint64_t promised, std::uint64_t found) {
   return "the header promises " + std::to_string(promised) + " variable length records, " +
          std::to_string(found) + " are whole; the others were not looked at";

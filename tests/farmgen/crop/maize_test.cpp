@@ -117,5 +117,12 @@ TEST(Maize, ParametersDoWhatTheySay) {
   EXPECT_GT(area("shed_leaves=4"), area("shed_leaves=6"));
 }
 
+// Its first internode is then the longest.
+TEST(Maize, GrowsInternodesThatOnlyGetShorter) {
+  const Mesh mesh = maize("R1", 1, {"leaves=10", "longest_internode_share=0.5"});
+  for (const Eigen::Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
+  EXPECT_GT(mesh::mesh_height(mesh), 0.5);
+}
+
 }  // namespace
 }  // namespace plotscan::crop

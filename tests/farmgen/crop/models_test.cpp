@@ -55,6 +55,7 @@ TEST_P(ShippedModels, AreMadeAgainByteForByte) {
 }
 
 TEST_P(ShippedModels, AreAsTheirDescriptionSays) {
+  ASSERT_GT(description()["models"].size(), 0u);
   for (const auto& model : description()["models"]) {
     const fs::path file = folder() / model["file"].as<std::string>();
     const mesh::Mesh mesh = mesh::import_mesh(file);

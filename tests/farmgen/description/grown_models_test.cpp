@@ -83,6 +83,25 @@ TEST(GrownModels, ALightMeshMayBeGivenBesideAMesh) {
   EXPECT_EQ(farm.models[0].light->triangles.size(), light.triangles.size());
 }
 
+// Both lie in one folder of the farm.
+TEST(GrownModels, AMeshAndItsLightOneKeepTheirTexturesOfOneName) {
+  const TemporaryFolder folder;
+  const std::string square =
+      "mtllib p.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+      "usemtl leaf\nf 1/1 2/2 3/3 4/4\n";
+  const std::string png = "\x89PNG\r\n\x1a\n";  // nothing decodes it
+  for (const std::string detail : {"scan", "light"}) {
+    fs::create_directory(folder.path() / detail);
+    folder.write(detail + "/p.obj", square);
+    folder.write(detail + "/p.mtl", "newmtl leaf\nmap_Kd leaf.jpg\n");
+    folder.write(detail + "/leaf.jpg", png + detail);
+  }
+  write(folder, example(folder, "[{mesh: scan/p.obj, light: light/p.obj}]"));
+  const farm::Farm read = farmfolder::read_farm(folder.path() / "farm");
+  EXPECT_EQ(read.models[0].mesh.materials.at(0).texture->bytes, png + "scan");
+  EXPECT_EQ(read.models[0].light->materials.at(0).texture->bytes, png + "light");
+}
+
 TEST(GrownModels, AnEditedLightMeshIsRefused) {
   const TemporaryFolder folder;
   write(folder, example(folder, "[{crop: soybean, name: grown}]"));

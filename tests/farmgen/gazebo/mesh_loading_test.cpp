@@ -79,6 +79,7 @@ TEST(MeshLoading, NormalsPointToTheFront) {
   const fs::path models = example.path() / "world/models";
   const auto leaf =
       loader.Load((models / "plot_1/meshes/leaf.obj").string())->SubMeshByIndex(0).lock();
+  ASSERT_GT(leaf->VertexCount(), 0u);
   for (unsigned i = 0; i + 2 < leaf->VertexCount(); i += 3) {
     const auto front =
         (leaf->Vertex(i + 1) - leaf->Vertex(i)).Cross(leaf->Vertex(i + 2) - leaf->Vertex(i));
@@ -86,6 +87,7 @@ TEST(MeshLoading, NormalsPointToTheFront) {
   }
   const auto ground =
       loader.Load((models / "terrain/meshes/terrain.obj").string())->SubMeshByIndex(0).lock();
+  ASSERT_GT(ground->VertexCount(), 0u);
   for (unsigned i = 0; i < ground->VertexCount(); ++i) EXPECT_GT(ground->Normal(i).Z(), 0);
 }
 

@@ -51,7 +51,8 @@ std::string stl() {
   return text + "endsolid\n";
 }
 
-std::string collada(const std::string& asset, const std::string& positions) {
+std::string collada(const std::string& asset, const std::string& positions,
+                    const std::string& node = "") {
   return "<?xml version=\"1.0\"?>\n"
          "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
          "<asset>" +
@@ -67,7 +68,8 @@ std::string collada(const std::string& asset, const std::string& positions) {
          "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>\n"
          "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\n"
          "<p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries>\n"
-         "<library_visual_scenes><visual_scene id=\"s\"><node id=\"n\">\n"
+         "<library_visual_scenes><visual_scene id=\"s\"><node id=\"n\">\n" +
+         node +
          "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes>\n"
          "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
 }
@@ -100,6 +102,14 @@ fs::path write_gltf(const TemporaryFolder& folder) {
 }
 
 // The four vertices and the outward volume of the tetrahedron.
+// Negative where the faces look inward.
+float volume_of(const Mesh& mesh) {
+  float volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
+  return volume;
+}
+
 void expect_tetrahedron(const Mesh& mesh) {
   ASSERT_EQ(mesh.vertices.size(), 4u);
   ASSERT_EQ(mesh.triangles.size(), 4u);
@@ -109,11 +119,7 @@ void expect_tetrahedron(const Mesh& mesh) {
                             [&](const auto& vertex) { return (vertex - expected).norm() < 1e-5F; }))
         << "no vertex at " << expected.transpose();
   }
-  float volume = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    volume += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6;
-  }
-  EXPECT_NEAR(volume, 1.0F, 1e-4F) << "faces keep looking outward";
+  EXPECT_NEAR(volume_of(mesh), 1.0F, 1e-4F) << "faces keep looking outward";
 }
 
 TEST(MeshImport, EveryFormatMakesTheSameTetrahedron) {
@@ -130,6 +136,17 @@ TEST(MeshImport, EveryFormatMakesTheSameTetrahedron) {
       folder.write("z.dae", collada("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>", z_up))));
   expect_tetrahedron(import_mesh(folder.write(
       "y.dae", collada("<unit meter=\"0.0254\"/><up_axis>Y_UP</up_axis>", y_up_inches))));
+}
+
+// As programs write symmetric parts.
+TEST(MeshImport, ANodeThatMirrorsKeepsFacesLookingOutward) {
+  const TemporaryFolder folder;
+  const Mesh mesh = import_mesh(
+      folder.write("m.dae", collada("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>",
+                                    "0 0 0 1 0 0 0 2 0 0 0 3", "<scale>-1 1 1</scale>")));
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  for (const Eigen::Vector3f& vertex : mesh.vertices) EXPECT_LE(vertex.x(), 0);
+  EXPECT_NEAR(volume_of(mesh), 1.0F, 1e-4F);
 }
 
 TEST(MeshImport, WhatTheUserSaysCountsMoreThanTheFile) {

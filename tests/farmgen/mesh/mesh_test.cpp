@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/mesh.h"
 
+#include <array>
 #include <filesystem>
 
+#include "farmgen/mesh/append.h"
 #include "temporary_folder.h"
+#include "test_images.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "mesh/alpha_mask.h"
+#include "mesh/image_names.h"
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
@@ -16,6 +21,7 @@
 namespace plotscan::mesh {
 namespace {
 
+using plotscan::testing::append;
 using plotscan::testing::TemporaryFolder;
 
 // The smallest bytes that pass for a PNG here; nothing decodes them.
@@ -54,22 +60,44 @@ TEST(ScaledArea, AreaOfAScaledBoxIsThatOfItsSides) {
   EXPECT_DOUBLE_EQ(ScaledArea(open_box()).at({0.5, 2, 3}), 1 * 6 + 2 * (1 + 6) * 15);
 }
 
-TEST(Mesh, AppendingKeepsMaterialsApartAndJoinsEqualOnes) {
+TEST(ScaledArea, OfLeavesIsThatOfTheirMaterials) {
   Mesh mesh = two_squares();
-  append(mesh, two_squares());
-  EXPECT_EQ(mesh.materials.size(), 2u);
-  EXPECT_EQ(mesh.triangles.size(), 8u);
-  EXPECT_EQ(mesh.triangle_material, (std::vector<std::uint16_t>{0, 0, 1, 1, 0, 0, 1, 1}));
-  EXPECT_EQ(mesh.texture_coordinates.size(), mesh.vertices.size());
-  EXPECT_DOUBLE_EQ(ScaledArea(mesh).at(), 4);
-  EXPECT_DOUBLE_EQ(ScaledArea::of_leaves(mesh).at({2, 3, 1}), 2 * 6);
+  EXPECT_DOUBLE_EQ(ScaledArea(mesh).at(), 2);
+  EXPECT_DOUBLE_EQ(ScaledArea::of_leaves(mesh).at({2, 3, 1}), 6);
+  for (const char* leaf : {"Leaf.001", "LEAVES", "blade_2"}) {
+    mesh.materials[0].name = leaf;
+    EXPECT_DOUBLE_EQ(ScaledArea::of_leaves(mesh).at(), 1) << leaf;
+  }
+  mesh.materials[0].name = "husk";
+  EXPECT_DOUBLE_EQ(ScaledArea::of_leaves(mesh).at(), 2) << "none is called so";
 }
 
-TEST(Mesh, AppendingToNothingIsACopy) {
-  Mesh mesh;
-  append(mesh, two_squares());
-  EXPECT_EQ(mesh.vertices, two_squares().vertices);
-  EXPECT_EQ(mesh.triangle_material, two_squares().triangle_material);
+// Of one folder: a scan's mesh, whose leaf has a texture and a mask of one name, and a light one.
+TEST(Mesh, ImagesOfOneNameAreNamedApart) {
+  const auto image = [](const std::string& bytes) {
+    return std::make_shared<const Image>(Image{"leaf.png", bytes});
+  };
+  Mesh scan = square({.name = "leaf", .texture = image(kPng + "1")});
+  const std::string mask =
+      plotscan::testing::png_of_alpha(2, 2, [](int i, int) { return 255 * i; });
+  scan.materials[0].mask = std::make_shared<const AlphaMask>(image(mask), 0.5F, "leaf.png");
+  Mesh light = square({.name = "leaf", .texture = image(kPng + "2")});
+  append(light, square({.name = "stem", .texture = image(kPng + "1")}));
+  const std::array meshes = {&scan, &light};
+  name_images_apart(meshes);
+  EXPECT_EQ(scan.materials[0].texture->name, "leaf.png");
+  EXPECT_EQ(scan.materials[0].mask->image()->name, "leaf_2.png");
+  EXPECT_EQ(light.materials[0].texture->name, "leaf_3.png");
+  EXPECT_EQ(light.materials[1].texture->name, "leaf.png") << "the same bytes";
+  EXPECT_FALSE(scan.materials[0].mask->is_opaque({0.2F, 0.5F}));
+  EXPECT_TRUE(scan.materials[0].mask->is_opaque({0.8F, 0.5F}));
+
+  const TemporaryFolder folder;
+  write_obj(folder.path() / "scan.obj", scan);
+  write_obj(folder.path() / "light.obj", light);
+  EXPECT_EQ(read_text(folder.path() / "leaf.png"), kPng + "1");
+  EXPECT_EQ(read_text(folder.path() / "leaf_2.png"), mask);
+  EXPECT_EQ(read_text(folder.path() / "leaf_3.png"), kPng + "2");
 }
 
 TEST(Mesh, ObjKeepsMaterialsAndTextures) {

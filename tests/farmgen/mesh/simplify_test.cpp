@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "farmgen/mesh/append.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -12,6 +13,8 @@
 
 namespace plotscan::mesh {
 namespace {
+
+using plotscan::testing::append;
 
 // A sheet of squares over the unit square, so many a side, whose texture coordinates are its x and
 // y.

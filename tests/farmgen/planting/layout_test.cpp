@@ -76,6 +76,8 @@ TEST(LayoutTable, MistakesNameLineAndColumn) {
               HasSubstr("scale_z \"-1\" is given beside scale"));
   EXPECT_THAT(message("model,x_m,y_m,id\na,1,2,1\na,1,2,3\n"),
               HasSubstr("t.csv:3: id \"3\" is not 2"));
+  EXPECT_THAT(message("model,x_m,y_m,z_m\na,1,2,2e5\n"),
+              HasSubstr("t.csv:2: z_m \"2e5\" is more than 100 km from the world's origin"));
   EXPECT_THAT(message("model,x_m\na,1\n"), HasSubstr("column \"y_m\" is missing"));
   EXPECT_THAT(message("model,x_m,y_m,size\na,1,2,1\n"), HasSubstr("unknown column \"size\""));
   EXPECT_THAT(message("model,x_m,y_m\na,1,2\n", {{"scale", "size"}}),

@@ -80,12 +80,15 @@ TEST(Placing, BoresightMovesTheNadirPointByHeightTimesTangent) {
 }
 
 TEST(Placing, ALeverArmErrorMovesEveryPointByIt) {
-  for (const scan::LabelledPoint& point : scan_with({.lever_arm_m = {0, 0, 0.25}}))
-    ASSERT_NEAR(point.z, -0.25, 1e-3);
+  const Points lifted = scan_with({.lever_arm_m = {0, 0, 0.25}});
+  ASSERT_GT(lifted.size(), 10'000u);
+  for (const scan::LabelledPoint& point : lifted) ASSERT_NEAR(point.z, -0.25, 1e-3);
   std::map<double, Eigen::Vector3d> exact;
   const auto key = [](const scan::LabelledPoint& p) { return p.time + 10 * p.ring; };
   for (const auto& point : scan_with({})) exact[key(point)] = testing::position(point);
-  for (const auto& point : scan_with({.lever_arm_m = {0.1, -0.2, 0}})) {
+  const Points moved = scan_with({.lever_arm_m = {0.1, -0.2, 0}});
+  ASSERT_GT(moved.size(), 10'000u);
+  for (const auto& point : moved) {
     if (std::hypot(point.x, point.y) > 150) continue;  // near the edge of the ground
     const auto same_shot = exact.find(key(point));
     ASSERT_NE(same_shot, exact.end());

@@ -133,7 +133,9 @@ TEST(Simulate, RangesAreMultiplesOfTheStep) {
   const sensor::Sensor sensor = sensor::load_sensor("vlp16");
   const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
                               testing::hover({0, 0, 8}, 0.1));
-  for (const auto& point : testing::simulated(flat_farm(), sensor, plan, {.seed = 2})) {
+  const Points points = testing::simulated(flat_farm(), sensor, plan, {.seed = 2});
+  ASSERT_GT(points.size(), 10'000u);
+  for (const auto& point : points) {
     const testing::WorldShot shot = testing::world_shot(plan, testing::shot_of(point));
     const double steps = (testing::position(point) - shot.origin).norm() / 0.002;
     ASSERT_NEAR(steps, std::round(steps), 0.01);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "lidar/fly.h"
+#include "record/open_source.h"
 #include "scan/cloud_writer.h"
 
 namespace plotscan::record {
@@ -26,6 +27,20 @@ std::vector<scan::LabelledPoint> points_of(const fs::path& file) {
   scan::read_points(file, scan::read_cloud_info(file),
                     [&](auto piece) { points.insert(points.end(), piece.begin(), piece.end()); });
   return points;
+}
+
+struct Recorded {
+  std::optional<UtcTime> start;
+  std::vector<scan::LabelledPoint> points;
+};
+
+// Of any format.
+Recorded recorded(const fs::path& file) {
+  const Source source = open_source(file, {});
+  Recorded read{.start = source.info.start, .points = {}};
+  source.stream(
+      [&](auto piece) { read.points.insert(read.points.end(), piece.begin(), piece.end()); });
+  return read;
 }
 
 // Within the steps of LAS: 0.1 mm, 60 ns, and 1/257 of intensity.
@@ -201,6 +216,53 @@ TEST_F(Convert, ABareCloudTakesItsFlightFromTheOptions) {
   wrong = flight;
   wrong.start_utc = "noon";
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.pcd", {.flight = wrong}), HasSubstr("--start"));
+}
+
+// A cloud whose clock does not begin with the flight, with a trajectory of the same clock: the
+// scan's own LAS and bag, so much later.
+TEST_F(Convert, ABareCloudAndItsTrajectoryMayCountFromAnyTime) {
+  const double begin_s = 1000;
+  const fs::path later = folder_.path() / "later.pcd";
+  std::vector<scan::LabelledPoint> points = points_of(scan_ / "cloud.pcd");
+  for (scan::LabelledPoint& point : points) point.time += begin_s;
+  scan::PcdWriter writer(later, scan::CloudWriteOptions{});
+  writer.write(points);
+  writer.close();
+  scan::write_tum(folder_.path() / "later.tum",
+                  scan::delayed(scan::read_trajectory(scan_ / "poses.csv"), begin_s));
+  const FlightOptions flight{.trajectory = folder_.path() / "later.tum",
+                             .start_utc = "2026-06-01T09:43:20Z"};  // 1000 s before 10:00
+  for (const std::string extension : {".las", ".bag"}) {
+    const fs::path from_scan = folder_.path() / ("scan" + extension);
+    const fs::path from_cloud = folder_.path() / ("cloud" + extension);
+    convert(scan_, from_scan, {});
+    convert(later, from_cloud, {.flight = flight});
+    EXPECT_EQ(recorded(from_cloud).start, recorded(from_scan).start);
+    expect_same(recorded(from_cloud).points, recorded(from_scan).points);
+  }
+}
+
+TEST_F(Convert, ACloudInAnotherTimeThanItsTrajectoryIsNoRecording) {
+  const scan::Trajectory flown = scan::read_trajectory(scan_ / "poses.csv");
+  scan::write_tum(folder_.path() / "early.tum", scan::delayed(flown, -5000));
+  const ConvertOptions options{.flight = FlightOptions{.trajectory = folder_.path() / "early.tum"}};
+  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag", options), HasSubstr("in the same time"));
+}
+
+// Its time is told by the file, and --start tells it better.
+TEST_F(Convert, ALasWithATrajectoryKeepsItsTime) {
+  const fs::path las = folder_.path() / "cloud.las";
+  lidar::fly(testing::small_farm(), folder_.path() / "may", {.start_utc = "2025-05-04T03:02:01Z"},
+             false);
+  convert(folder_.path() / "may", las, {});
+  FlightOptions flight{.trajectory = scan_ / "poses.csv"};
+  const auto start_of = [&](const char* out) {
+    convert(las, folder_.path() / out, {.flight = flight});
+    return format_utc(scan::read_cloud_info(folder_.path() / out).start.value());
+  };
+  EXPECT_EQ(start_of("kept.las"), "2025-05-04T03:02:01Z");
+  flight.start_utc = "2025-05-04T03:00:00Z";
+  EXPECT_EQ(start_of("told.las"), "2025-05-04T03:00:00Z");
 }
 
 }  // namespace

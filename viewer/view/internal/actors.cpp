@@ -140,10 +140,7 @@ Field field_of(const farm::Farm& farm, double margin_m) {
 }
 
 void add_terrain(vtkRenderer& renderer, const terrain::Terrain& terrain, const Field& field) {
-  mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
-  for (const Eigen::Vector3d& vertex : terrain.vertices())
-    mesh.vertices.emplace_back(vertex.cast<float>());
-  vtkSmartPointer<vtkPolyData> shown = surfaces_of(mesh).front().triangles;
+  vtkSmartPointer<vtkPolyData> shown = surfaces_of(terrain::mesh_of(terrain)).front().triangles;
   for (const int axis : {0, 1}) {
     for (const int side : {-1, 1}) shown = behind_plane(shown, field, axis, side);
   }

@@ -23,7 +23,6 @@ struct Rgb {
 inline constexpr Rgb kBlue{0, 114, 178};
 inline constexpr Rgb kVermilion{213, 94, 0};
 inline constexpr Rgb kPurple{204, 121, 167};
-inline constexpr Rgb kGreen{0, 158, 115};
 inline constexpr Rgb kOrange{230, 159, 0};
 inline constexpr Rgb kInk{34, 34, 34};
 inline constexpr Rgb kGrey{150, 150, 150};

@@ -40,7 +40,7 @@ void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int s
   writer->SetFileName(file.path().c_str());
   writer->SetCompressionLevel(9);
   writer->Write();
-  if (writer->GetErrorCode() != 0) throw WriteError(png);
+  if (writer->GetErrorCode() != 0) throw WriteError(file.path());
   file.commit();
 }
 

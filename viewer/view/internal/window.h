@@ -22,7 +22,7 @@ void require_range(double value, const Range& range, const std::string& what);
 void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px);
 
 // Renders the window and writes it as a PNG, beside its place first, so that no half a picture is
-// left. `samples` by `samples` pixels of the window become one of the picture. Throws InputError
+// left. `samples` by `samples` pixels of the window become one of the picture. Throws WriteError
 // when the file cannot be written.
 void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples = 1);
 

@@ -85,13 +85,10 @@ void add_point(ros::PointCloud2& cloud, const scan::LabelledPoint& point,
   cloud.row_step = cloud.width * cloud.point_step;
 }
 
-bool CloudPoints::fits(const ros::PointCloud2& cloud) {
-  return find_field(cloud, "x") && find_field(cloud, "y") && find_field(cloud, "z");
-}
-
 CloudPoints::CloudPoints(const ros::PointCloud2& cloud) : cloud_(cloud) {
   if (cloud.is_bigendian) throw InputError("a cloud is big-endian; little-endian ones are read");
-  if (!fits(cloud)) throw InputError("a cloud has no fields x, y and z");
+  for (const char* axis : {"x", "y", "z"})
+    if (!find_field(cloud, axis)) throw InputError("a cloud has no fields x, y and z");
   const std::uint64_t step = cloud.point_step;
   if (cloud.width > 0 && cloud.height > 0 &&
       (step == 0 || step * cloud.width > cloud.row_step ||

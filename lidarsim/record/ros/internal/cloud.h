@@ -26,9 +26,6 @@ void add_point(ros::PointCloud2& cloud, const scan::LabelledPoint& point,
 // The points of a cloud of any fields.
 class CloudPoints {
  public:
-  // Whether points have a place: x, y and z.
-  static bool fits(const ros::PointCloud2& cloud);
-
   // Throws InputError where the cloud has no x, y, z, is big-endian, or its sizes do not fit its
   // data. The cloud must outlive this.
   explicit CloudPoints(const ros::PointCloud2& cloud);

@@ -12,8 +12,6 @@
 namespace plotscan::record::ros {
 namespace {
 
-// rosbag2's default.
-
 void append_record(std::string& bytes, McapOp op, std::string_view content) {
   append_number(bytes, op);
   append_number(bytes, static_cast<std::uint64_t>(content.size()));
