@@ -105,7 +105,11 @@ endfunction()
 # plotscan_test(NAME SOURCES ... LIBRARIES ...): the same, its cases found by CTest.
 function(plotscan_test name)
   plotscan_test_program(${name} ${ARGN})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  set(seconds 300)
+  if(PLOTSCAN_SANITIZE)
+    set(seconds 3000)  # under which programs take up to ten times as long
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${seconds})
 endfunction()
 include(GoogleTest)
 # plotscan_embed_texts(SOURCE NAMESPACE FUNCTION HEADER name=file...): makes SOURCE, whose function

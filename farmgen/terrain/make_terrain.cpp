@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "terrain/extent.h"
 #include "terrain/internal/heightmap.h"
 #include "terrain/internal/lattice.h"
 #include "terrain/internal/random_terrain.h"
@@ -75,13 +76,6 @@ MadeTerrain make_base(const TerrainDescription& description, std::uint64_t seed)
   return {.terrain =
               random_terrain(description.side_m, description.vertices, description.relief_m, seed),
           .origin_m = {}};
-}
-
-Eigen::AlignedBox2d bounds_of(const Terrain& terrain) {
-  Eigen::AlignedBox2d bounds;
-  for (const Eigen::Vector3d& vertex : terrain.vertices())
-    bounds.extend(Eigen::Vector2d(vertex.head<2>()));
-  return bounds;
 }
 
 // The rectangle of furrows and clods: the one given, else the plots' with a margin, else more than
@@ -193,7 +187,7 @@ MadeTerrain make_terrain(const TerrainDescription& description, const std::vecto
       description.slope || description.rolling || description.furrows || description.clods;
   if (!has_relief) return made;
   try {
-    const Eigen::AlignedBox2d bounds = bounds_of(made.terrain);
+    const Eigen::AlignedBox2d bounds = outline_of(made.terrain);
     const Eigen::AlignedBox2d detail = detail_box(description, plots, bounds);
     const std::vector<Patch> patches = patches_of(description, bounds, detail);
     require_countable(made.terrain, patches);

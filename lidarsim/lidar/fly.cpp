@@ -80,7 +80,7 @@ SimulateOptions simulate_options(const FlyOptions& options) {
           .seed = options.seed,
           .threads = options.threads,
           .sub_rays = options.sub_rays,
-          .returns = return_mode(options.returns),
+          .returns = sensor::return_mode(options.returns).value(),
           .part = options.part};
 }
 

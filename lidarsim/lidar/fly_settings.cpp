@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "lidar/internal/beam.h"
-#include "lidar/returns.h"
+#include "sensor/return_mode.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -117,7 +117,7 @@ const std::vector<FlySetting>& fly_settings() {
       {.key = "returns",
        .flag = "--returns",
        .help = "which returns of a shot are kept, where --sub-rays is more than 1",
-       .value = TextSetting{return_mode_names(),
+       .value = TextSetting{sensor::return_mode_names(),
                             [](FlyOptions& o) -> std::string& { return o.returns; }},
        .group = kBeam},
       {.key = "start_utc",

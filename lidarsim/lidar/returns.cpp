@@ -37,18 +37,6 @@ std::vector<Peak> reported(std::vector<Peak> strongest_first, ReturnMode mode) {
 
 }  // namespace
 
-const std::vector<std::string>& return_mode_names() {
-  static const std::vector<std::string> names = {"strongest", "last", "dual"};
-  return names;
-}
-
-ReturnMode return_mode(const std::string& name) {
-  const auto& names = return_mode_names();
-  const auto found = std::ranges::find(names, name);
-  check(found != names.end(), "the return mode has a name");
-  return static_cast<ReturnMode>(found - names.begin());
-}
-
 float return_intensity(double reflectance, double cos_incidence) {
   return static_cast<float>(std::min(255.0, rounded(100 * reflectance * cos_incidence)));
 }

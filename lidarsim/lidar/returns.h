@@ -8,18 +8,12 @@
 
 #include "lidar/scene.h"
 #include "lidar/waveform.h"
+#include "sensor/return_mode.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::lidar {
 
-// Which of a shot's returns a sensor reports; `dual` both the strongest and the last, and where
-// these are the same the second strongest (VLP-16 User Manual 63-9243, page 57).
-enum class ReturnMode { strongest, last, dual };
-
-// "strongest", "last", "dual", in the order of the enumeration.
-const std::vector<std::string>& return_mode_names();
-// The name must be one of them.
-ReturnMode return_mode(const std::string& name);
+using sensor::ReturnMode;
 
 // A return as the sensor sees it, before its range is noisy and quantised.
 struct Return {

@@ -35,9 +35,7 @@ Eigen::Isometry3d mount_of(const json& options) {
 
 ReturnMode returns_of(const json& options) {
   const std::string mode = options.value("returns", "strongest");
-  if (mode == "strongest") return ReturnMode::strongest;
-  if (mode == "last") return ReturnMode::last;
-  if (mode == "dual") return ReturnMode::dual;
+  if (const auto known = sensor::return_mode(mode)) return *known;
   throw InputError("returns \"" + mode + "\" is none of strongest, last, dual");
 }
 

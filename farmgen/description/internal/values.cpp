@@ -3,12 +3,13 @@
 
 #include <string_view>
 
+#include "planting/plants_description.h"
+
 namespace plotscan::description {
 namespace {
 
 constexpr Range kUnit = {1e-6, 1e6};
 constexpr Range kReflectance = {0, 1};
-constexpr Range kScale = {0.01, 100};
 constexpr std::size_t kLongestName = 64;
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
@@ -55,7 +56,7 @@ double reflectance_at(const YamlSection& section, const std::string& key) {
 }
 
 std::pair<double, double> scale_at(const YamlSection& section) {
-  const auto scale = section.pair("scale", kScale, std::pair{1.0, 1.0});
+  const auto scale = section.pair("scale", planting::kPlantScale, std::pair{1.0, 1.0});
   if (scale.first > scale.second) section.fail("scale", "is not [min, max]: min is the larger");
   return scale;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -9,14 +8,13 @@
 #include "core/geodesy.h"
 #include "core/utc_time.h"
 #include "scan/trajectory.h"
+#include "sensor/return_mode.h"
 #include "sensor/sensor.h"
 #include "sensor/shots.h"
 
 namespace plotscan::record {
 
-// Which returns of a shot the sensor reports; the numbers are those of the mode byte in Velodyne's
-// packets.
-enum class ReturnMode : std::uint8_t { strongest = 0x37, last = 0x38, dual = 0x39 };
+using sensor::ReturnMode;
 
 // What is known of a flight beside its points: enough to turn each point back into the range that
 // the sensor measured, and to say when and where on Earth that was.
