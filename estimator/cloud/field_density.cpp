@@ -89,10 +89,7 @@ int first_edge(double mean_per_m2, double area_m2) {
 void TileCounter::add(std::span<const Eigen::Vector3d> points) {
   constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
   for (const Eigen::Vector3d& point : points) {
-    if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) {
-      ++out_of_range_;
-      continue;
-    }
+    if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) continue;
     ++count_by_tile_[tile_key({static_cast<std::int32_t>(std::floor(point.x())),
                                static_cast<std::int32_t>(std::floor(point.y()))})];
   }

@@ -20,18 +20,16 @@ inline constexpr double kPlotsLost_m2 = 20;
 // Plots are not searched below, even ones much larger than those.
 inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 2;
 
-// Counts points by tile. Memory follows the area over which they lie.
+// Counts points by tile, but for those farther away than a tile's number reaches. Memory follows
+// the area over which they lie.
 class TileCounter {
  public:
   void add(std::span<const Eigen::Vector3d> points);  // metres
   // In the tiles' order.
   std::vector<TileCount> counts() const;
-  // Points farther away than a tile's number reaches.
-  std::uint64_t out_of_range() const { return out_of_range_; }
 
  private:
   std::unordered_map<std::uint64_t, std::uint64_t> count_by_tile_;
-  std::uint64_t out_of_range_ = 0;
 };
 
 // How densely a field was scanned.

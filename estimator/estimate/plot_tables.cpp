@@ -119,8 +119,12 @@ std::vector<Column> columns_of(const Estimate& estimate) {
     columns.push_back({"confidence", [](const auto& plot) {
                          return plot.confidence ? format_number(*plot.confidence) : "";
                        }});
-    columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
   }
+  const auto may_have_flags = [](const auto& plot) {
+    return plot.confidence.has_value() || !plot.flags.empty();
+  };
+  if (std::ranges::any_of(plots, may_have_flags))
+    columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
   add_attributes(plots, columns);
   return columns;
 }

@@ -80,7 +80,7 @@ double usual_count(const Raster& raster) {
   return 0;
 }
 
-// Where a point lies on the grid: cells from its first node. Outside, or not finite: negative.
+// Where a point lies on the grid: cells from its first node. Outside, or not finite: below -0.5.
 Eigen::Vector2f place_of(const Eigen::Vector3f& point, const Grid& grid) {
   const Eigen::Vector2f place =
       (point.head<2>() - grid.origin.cast<float>()) / static_cast<float>(grid.cell_m);

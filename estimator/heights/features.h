@@ -12,8 +12,10 @@
 
 namespace plotscan::heights {
 
-// What the heights of a plot's plants are predicted from. All but `top_m` are without unit: a crop
-// twice as high has the same, but for what noise and slope do to it.
+// What the heights of a plot's plants are predicted from (docs/plot-heights.md): shares of `top_m`
+// and of the area, which are the same for a crop of twice the height; and of the crop's size itself
+// the logarithms of `top_m`, of the returns and of the peaks per square metre, and how its tops
+// differ over 10, 20 and 40 cm.
 struct CanopyFeatures {
   double top_m = 0;        // height that 1 % of the area exceeds, without noise
   Eigen::VectorXd values;  // by feature_names()

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.h"
+
 namespace plotscan::heights {
 namespace {
 
@@ -47,6 +49,7 @@ Kriging::Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vec
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     matrix(i, i) += noise_variance(noise_[static_cast<std::size_t>(i)]);
   factor_.compute(matrix);
+  check(factor_.info() == Eigen::Success, "the covariance of the places is positive definite");
   const Eigen::MatrixXd centred = values_.rowwise() - center_;
   weights_ = factor_.solve(centred);
   scales_ = (centred.cwiseProduct(weights_).colwise().sum() / static_cast<double>(centred.rows()))

@@ -10,8 +10,9 @@
 
 namespace plotscan::plots {
 
-// Finds the plots of a field from its points as (x, y, height above the ground), metres. noise_m is
-// the sigma of the heights.
+// Finds the plots of a field from its points as (x, y, height above the ground), metres; boxes are
+// in the frame of x and y. noise_m is the sigma of the heights. Without plots `why_none` of the
+// field says why. The same for any number of threads.
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
+#include "estimate/height_properties.h"
 
 namespace plotscan::score {
 namespace {
@@ -54,9 +55,7 @@ std::set<std::string> true_heights(const FieldScore& field) {
   return names;
 }
 
-std::string named_truth(const std::string& height) {
-  return (height.starts_with("canopy_") ? "" : "height_") + height + "_m";
-}
+std::string named_truth(const std::string& height) { return estimate::property_of(height); }
 
 HeightPairs height_pairs(const FieldScore& field, const std::string& height,
                          const std::string& truth) {

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
+#include "estimate/height_properties.h"
 #include "score/internal/matching.h"
 
 namespace plotscan::score {
@@ -44,9 +45,8 @@ bool lies_in_unscored(const std::vector<TruePlot>& truth, const PlotBox& box) {
 std::map<std::string, double> truths_of(const nlohmann::json& properties) {
   std::map<std::string, double> truths_m;
   for (const auto& [name, value] : properties.items()) {
-    const bool is_truth =
-        (name.starts_with("height_") || name.starts_with("canopy_")) && name.ends_with("_m");
-    if (is_truth && value.is_number()) truths_m[name] = value.get<double>();
+    if (!estimate::height_of(name).empty() && value.is_number())
+      truths_m[name] = value.get<double>();
   }
   return truths_m;
 }

@@ -43,7 +43,7 @@ std::uint32_t typical_count(Counts counts) {
   return 0;
 }
 
-// Takes the patch of cells around `start` out of `dense`.
+// Takes the patch of cells around `start` out of those that are `free`.
 std::vector<Cell> take_patch(std::unordered_map<std::uint64_t, bool>& free, std::uint64_t start) {
   std::vector<Cell> patch{cell_at(start)};
   free[start] = false;

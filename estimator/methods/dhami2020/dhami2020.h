@@ -40,8 +40,8 @@ void require_sound(const Options& options);
 // Heights "voxel-max", "raw-max" and "raw-p99" for every plot of a map: of the plots it finds, or
 // of the given boxes, with the plane of its ground. One map serves several calls; crop_box limits
 // the search for plots. `clusters` are the boxes before the vote; `diagnostics` says how each step
-// went: cluster and vote counts, grid, ground level. Throws InputError on options out of range or
-// when no plot can be found.
+// went: cluster and vote counts, grid, ground level. Throws InputError on options out of range,
+// NothingToMeasure when no plot can be found.
 estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& options,
                                   const ProgressReport& progress = {});
 

@@ -217,6 +217,11 @@ ground::Surface moved(ground::Surface surface, const Eigen::Vector3d& by) {
   return surface;
 }
 
+void require_ground_points(const cloud::FieldCloud& cloud, const Options& options) {
+  if (!options.ground_classes.empty() && cloud.ground_points.empty())
+    throw InputError("the cloud has no points of the ground's classes that are given");
+}
+
 }  // namespace
 
 void require_sound(const Options& options) {
@@ -235,6 +240,7 @@ std::optional<cloud::Area> area_to_read(const Options& options) {
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
+  require_ground_points(cloud, options);
   estimate::Estimate estimate{.method = "lattice"};
   estimate.diagnostics.density_per_m2 = cloud.density_m2;
   tell_work(cloud, options);

@@ -42,7 +42,8 @@ void require_sound(const Options& options);
 // "p99" of its plants, and "canopy_p95" and "canopy_p99" of its canopy, with standard errors, 95 %
 // intervals and flags, over one ground surface for the whole field (docs/methods.md). A field
 // without a lattice of plots has an estimate without plots; diagnostics.why_no_plots says why.
-// Throws InputError on options out of range and on a cloud without ground.
+// Throws InputError on options out of range and on ground classes that the cloud lacks,
+// NothingToMeasure on a cloud without ground.
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress = {});
 

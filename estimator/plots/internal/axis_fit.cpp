@@ -125,7 +125,7 @@ AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
     const bool is_one = plots.drilled || is_regular(line, fit);
     if (line.hint.count ? has_told_count(line, plots) : is_one) return fit;
   }
-  return line.hint.count ? AxisFit{} : fits.front();
+  return line.hint.count || fits.empty() ? AxisFit{} : fits.front();
 }
 
 std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,

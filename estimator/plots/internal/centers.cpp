@@ -19,7 +19,7 @@ struct Neighbour {
   double depth = 0;
 };
 
-// The nearest places before and after along the axis, where they overlap aside of it.
+// The places next to it before and after along the axis, where they overlap aside of it.
 std::vector<Neighbour> plots_beside(const Lattice& lattice, const std::vector<double>& depths,
                                     std::size_t of) {
   const Place& self = lattice.places[of];

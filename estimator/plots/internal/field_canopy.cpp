@@ -163,13 +163,15 @@ std::size_t FieldCanopy::block_of(const Eigen::Vector3f& point) const {
 
 // With their neighbours: a surface's edge fills its blocks in part.
 void FieldCanopy::leave_out_surfaces() {
-  const auto along = static_cast<std::ptrdiff_t>(blocks_along_y_);
-  const auto count = static_cast<std::ptrdiff_t>(surface_.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    if (surface_[static_cast<std::size_t>(i)] == 0) continue;
-    for (std::ptrdiff_t row = i - along; row <= i + along; row += along) {
-      for (std::ptrdiff_t k = row - 1; k <= row + 1; ++k)
-        if (k >= 0 && k < count) left_out_[static_cast<std::size_t>(k)] = 1;
+  const std::size_t along_y = blocks_along_y_, along_x = surface_.size() / along_y;
+  for (std::size_t i = 0; i < surface_.size(); ++i) {
+    if (surface_[i] == 0) continue;
+    const std::size_t x = i / along_y, y = i % along_y;
+    for (std::size_t near_x = x - std::min<std::size_t>(x, 1); near_x < std::min(x + 2, along_x);
+         ++near_x) {
+      for (std::size_t near_y = y - std::min<std::size_t>(y, 1); near_y < std::min(y + 2, along_y);
+           ++near_y)
+        left_out_[near_x * along_y + near_y] = 1;
     }
   }
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -32,7 +31,7 @@ struct Cell {
 // The cells about the canopy: bare ground has no lines.
 std::vector<Cell> cells_of(const CanopyRaster& raster) {
   const double step = raster.cell_m();
-  const int around = static_cast<int>(kBareAround_m / step), block = around / 2;
+  const int around = static_cast<int>(kBareAround_m / step), block = std::max(1, around / 2);
   int a0 = raster.a_cells(), a1 = 0, b0 = raster.b_cells(), b1 = 0;
   for (int a = 0; a < raster.a_cells(); a += block) {
     for (int b = 0; b < raster.b_cells(); b += block) {

@@ -7,7 +7,7 @@
 
 namespace plotscan::plots {
 
-// Measures the lattice's r_size_m, c_size_m, r_blur_m and c_blur_m. The cover of all plots is
+// Measures size and blur of the lattice's two axes. The cover of all plots is
 // pooled about their centres; its optical depth is fitted as a blurred box, on a level of its own,
 // and the same box at the neighbours; the size is where the depth falls through half.
 void fit_edges(Lattice& lattice);

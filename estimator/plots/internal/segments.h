@@ -3,7 +3,6 @@
 
 // Private to the library: which bands of canopy a profile shows.
 
-#include <functional>
 #include <span>
 #include <vector>
 

@@ -172,6 +172,18 @@ TEST(Estimate, TabulatesErrorsBesideTheirHeights) {
       "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,1,\n");
 }
 
+// Of given boxes: nothing was searched, so there is no confidence.
+TEST(Estimate, TabulatesFlagsOfGivenPlots) {
+  const TemporaryFolder folder;
+  Estimate estimate = two_plots();
+  estimate.plots[1].flags = {"no points"};
+  write_estimate(folder.path(), estimate);
+  const std::string table = read_text(folder.path() / "heights.csv");
+  EXPECT_THAT(table, ::testing::HasSubstr("height_voxel-max_m,flags\n"));
+  EXPECT_THAT(table, ::testing::HasSubstr("0.75,0.7,\n"));
+  EXPECT_THAT(table, ::testing::EndsWith(",,no points\n"));
+}
+
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {
   const TemporaryFolder folder;
   write_estimate(folder.path(), {.method = "lattice"});

@@ -44,7 +44,8 @@ std::vector<std::size_t> farms_of(const Calibration& calibration, const std::str
   return farms;
 }
 
-// Farms of whole libraries that the model has not seen.
+// Farms of whole libraries that the regression leaves out. What is fitted once to all farms, scales
+// and weights, has seen them: blind is scripts/measure_plots, on plants of its own.
 struct Unseen {
   std::size_t farms = 0, inside = 0, of_its_crop = 0;
   double told_squares = 0, given_squares = 0;  // of the mean's errors, square metres

@@ -44,6 +44,19 @@ TEST(FieldCanopy, LeavesOutRoofsAndWallsButNoCanopy) {
   EXPECT_GT(FieldCanopy(roof, kNoise_m, 2).surface_share(places, 5), 0.9);
 }
 
+// A roof along the southern edge, a crop along the northern one.
+TEST(FieldCanopy, ARoofAtAnEdgeLeavesTheCanopyAtTheOtherEdge) {
+  const auto points = points_over([](double, double y, RandomStream& random) {
+    if (y < 3) return 1 + 0.1 * y;
+    return y > 17 ? random.uniform(0, 0.8) : NAN;
+  });
+  const FieldCanopy field(points, kNoise_m, 2);
+  for (float x = 1; x < 19; x += 0.25F) {
+    EXPECT_TRUE(field.leaves_out({x, 0.1F, 1})) << x;
+    EXPECT_FALSE(field.leaves_out({x, 19.9F, 0.5F})) << x;
+  }
+}
+
 TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {
   for (const double top_m : {0.3, 0.8, 2.5}) {
     const auto points = points_over([&](double x, double y, RandomStream& random) {
@@ -73,7 +86,9 @@ TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {
 }
 
 TEST(FieldCanopy, OfNoPointsHasNoneToLeaveOut) {
-  EXPECT_TRUE(FieldCanopy({}, kNoise_m, 2).points().empty());
+  const FieldCanopy field({}, kNoise_m, 2);
+  EXPECT_TRUE(field.leaves_out({NAN, 0, 0}));
+  EXPECT_FALSE(field.scale().high_m > 0);
 }
 
 }  // namespace

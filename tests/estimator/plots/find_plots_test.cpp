@@ -133,7 +133,6 @@ TEST(FindPlots, LeavesAMissingPlotOut) { expect_found({.missing = 8}); }
 TEST(FindPlots, FindsPlotsWithNarrowGaps) { expect_found({.gap_m = 0.2, .row_gap_m = 0.3}); }
 TEST(FindPlots, FollowsRowsThatStartAtOffsets) { expect_found({.offsets_m = {0.6, -0.5, 0.1}}); }
 
-// The box reaches half a row's spacing beyond the outer rows, where there are no leaves.
 // The last row begins two plots before the others and lacks its second plot, so that no row has a
 // plot there; and the rows' offsets, less whole plots, lie on a line as those of tilted plots
 // would.
@@ -141,6 +140,7 @@ TEST(FindPlots, KeepsAPlaceThatNoRowFills) {
   expect_found({.offsets_m = {0.35, 0, -0.35 - 2 * 1.9}, .missing = 13});
 }
 
+// The box reaches half a row's spacing beyond the outer rows, where there are no leaves.
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
 TEST(FindPlots, PutsTheWidestDrillRowsTogether) {
   expect_found({.columns = 4, .gap_m = 0.9, .width_m = 2}, in_two_wide_rows);

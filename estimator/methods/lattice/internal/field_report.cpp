@@ -46,6 +46,8 @@ json signs_json(const plots::FieldSigns& signs) {
           {"roughness", signs.roughness},
           {"unevenness", signs.unevenness},
           {"mean_unevenness", signs.mean_unevenness},
+          {"least_gap_m", signs.least_gap_m},
+          {"plots", signs.plots},
           {"evidence_per_plot", signs.evidence}};
 }
 
