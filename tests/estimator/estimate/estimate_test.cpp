@@ -181,7 +181,7 @@ TEST(Estimate, TabulatesFlagsOfGivenPlots) {
   const std::string table = read_text(folder.path() / "heights.csv");
   EXPECT_THAT(table, ::testing::HasSubstr("height_voxel-max_m,flags\n"));
   EXPECT_THAT(table, ::testing::HasSubstr("0.75,0.7,\n"));
-  EXPECT_THAT(table, ::testing::EndsWith(",,no points\n"));
+  EXPECT_THAT(table, ::testing::EndsWith(",,\"no points\"\n"));
 }
 
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {
