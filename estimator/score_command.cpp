@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "score/run.h"
 
 namespace plotscan {
@@ -23,7 +23,7 @@ void say_boxes(const Program& program, const score::BoxScore& boxes) {
       fmt::format("boxes    IoU mean {:.3f}, median {:.3f}, least {:.3f}; centre {:.3f} m rms, "
                   "heading {:.2f} deg rms",
                   boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
-                  boxes.heading_rmse_rad * 180 / std::numbers::pi));
+                  degrees(boxes.heading_rmse_rad)));
 }
 
 void say_errors(const Program& program, const std::vector<score::HeightScore>& heights) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <fmt/core.h>
@@ -21,8 +20,6 @@ inline std::string centimetres(double metres) { return number("{:.2f}", 100 * me
 
 // A share as a percentage with one decimal; "-" for NaN.
 inline std::string percent(double share) { return number("{:.1f} %", 100 * share); }
-
-inline double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 // How many errors of more than 5 cm come without a flag: "3 (0.33 %)".
 inline std::string unflagged(const TableRow& row) {

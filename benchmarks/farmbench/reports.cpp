@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"

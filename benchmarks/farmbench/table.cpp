@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/statistics.h"
 #include "farmbench/format.h"

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <numbers>
 #include <vector>
 
 #include <pcl/filters/voxel_grid.h>
@@ -17,6 +16,7 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/approximate_progressive_morphological_filter.h>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_box.h"
@@ -147,7 +147,7 @@ void write_heights(const Cloud& cloud, const Raster& ground, const char* boxes, 
              const PlotBox box{.center = {row.number(1), row.number(2)},
                                .width_m = row.number(3),
                                .length_m = row.number(4),
-                               .heading_rad = row.number(5) * std::numbers::pi / 180};
+                               .heading_rad = radians(row.number(5))};
              std::vector<double> heights_m;
              for (const pcl::PointXYZ& point : cloud) {
                if (box.contains({point.x, point.y}))

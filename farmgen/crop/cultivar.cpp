@@ -2,11 +2,11 @@
 #include "crop/cultivar.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace plotscan::crop {
@@ -40,17 +40,14 @@ const Parameter& parameter_named(const Cultivar& cultivar, const std::string& as
 }
 
 double assigned_value(const Parameter& parameter, const std::string& assignment) {
-  const char* const end = assignment.data() + assignment.size();
-  const char* const begin = std::min(assignment.data() + parameter.name.size() + 1, end);
-  double value = 0;
-  const auto parsed = std::from_chars(begin, end, value);
-  const bool number = parsed.ec == std::errc() && parsed.ptr == end;
-  if (!number || !parameter.range.contains(value) ||
-      (parameter.whole() && value != std::floor(value))) {
+  const std::size_t begin = std::min(parameter.name.size() + 1, assignment.size());
+  const auto value = parsed<double>(std::string_view(assignment).substr(begin));
+  if (!value || !parameter.range.contains(*value) ||
+      (parameter.whole() && *value != std::floor(*value))) {
     throw InputError("--set " + assignment + ": " + parameter.name + " is to be " +
                      parameter.allowed());
   }
-  return value;
+  return *value;
 }
 
 }  // namespace
@@ -75,8 +72,6 @@ double Traits::operator[](const std::string& name) const {
 
 int Traits::count(const std::string& name) const { return static_cast<int>((*this)[name]); }
 
-double Traits::radians(const std::string& name) const {
-  return (*this)[name] * std::numbers::pi / 180;
-}
+double Traits::radians(const std::string& name) const { return plotscan::radians((*this)[name]); }
 
 }  // namespace plotscan::crop

@@ -3,16 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/angle.h"
 #include "farm/farm.h"
 
 namespace plotscan::farm {
 
 // A plot whose plants lean more than this on average is lodged.
-inline constexpr double kLodged_rad = 5 * std::numbers::pi / 180;
+inline constexpr double kLodged_rad = radians(5);
 
 // Least, mean and greatest of some values; all zero without values.
 struct Spread {

@@ -9,4 +9,7 @@ inline constexpr double kPi = std::numbers::pi;
 // In radians: 30 * kDegrees.
 inline constexpr double kDegrees = kPi / 180;
 
+constexpr double radians(double angle_deg) { return angle_deg * kPi / 180; }
+constexpr double degrees(double angle_rad) { return angle_rad * 180 / kPi; }
+
 }  // namespace plotscan

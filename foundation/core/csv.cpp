@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/error.h"
 #include "core/internal/printable.h"
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -91,24 +91,19 @@ void CsvRow::fail(std::size_t column, const std::string& what) const {
 }
 
 double CsvRow::number(std::size_t column) const {
-  const std::string_view field = fields_[column];
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) fail(column, "is not a number");
-  if (!std::isfinite(value)) fail(column, "is not finite");
-  return value;
+  const auto value = parsed<double>(fields_[column]);
+  if (!value) fail(column, "is not a number");
+  if (!std::isfinite(*value)) fail(column, "is not finite");
+  return *value;
 }
 
 long long CsvRow::integer(std::size_t column, long long low, long long high) const {
-  const std::string_view field = fields_[column];
-  long long value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
-    fail(column, "is not a whole number");
-  if (value < low || value > high) {
+  const auto value = parsed<long long>(fields_[column]);
+  if (!value) fail(column, "is not a whole number");
+  if (*value < low || *value > high) {
     fail(column, "is not in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
   }
-  return value;
+  return *value;
 }
 
 void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,

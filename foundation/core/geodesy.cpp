@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include <GeographicLib/LocalCartesian.hpp>
@@ -12,6 +11,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace plotscan {
 namespace {
@@ -85,13 +85,11 @@ GeodeticPoint geodetic_from_utm(const UtmZone& zone, const Eigen::Vector3d& poin
 
 std::optional<UtmSystem> utm_system(const std::string& crs) {
   constexpr std::string_view kPrefix = "EPSG:";
-  int code = 0;
-  const char* end = crs.data() + crs.size();
   if (!crs.starts_with(kPrefix)) return std::nullopt;
-  const auto [stopped, error] = std::from_chars(crs.data() + kPrefix.size(), end, code);
-  if (error != std::errc() || stopped != end) return std::nullopt;
+  const auto code = parsed<int>(std::string_view(crs).substr(kPrefix.size()));
+  if (!code) return std::nullopt;
   for (const UtmCodes& codes : kUtmCodes) {
-    const int zone = codes.first_zone + code - codes.first_code;
+    const int zone = codes.first_zone + *code - codes.first_code;
     if (zone < codes.first_zone || zone > codes.last_zone) continue;
     return UtmSystem{.zone = {.number = zone, .north = codes.north}, .datum = codes.datum};
   }

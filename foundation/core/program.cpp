@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -28,6 +27,7 @@
 #include "core/internal/progress_display.h"
 #include "core/manifest.h"
 #include "core/nearest_name.h"
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -56,9 +56,7 @@ void say_error(const std::string& program, const std::string& message) {
 
 // Of a plain decimal: CLI11's own conversion takes what is too large for the largest seed.
 std::uint64_t seed_of(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (!text.empty() && error == std::errc() && end == text.data() + text.size()) return seed;
+  if (const auto seed = parsed<std::uint64_t>(text)) return *seed;
   throw CLI::ValidationError("--seed",
                              "\"" + text + "\" is not a whole number in [0, 18446744073709551615]");
 }

@@ -2,11 +2,11 @@
 #include "core/setting.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -14,11 +14,9 @@ namespace {
 
 template <class Number>
 Number number_of(const std::string& name, std::string_view text, const char* kind) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError(name + " \"" + std::string(text) + "\" is not " + kind);
-  return value;
+  const auto value = parsed<Number>(text);
+  if (!value) throw InputError(name + " \"" + std::string(text) + "\" is not " + kind);
+  return *value;
 }
 
 template <class Number>

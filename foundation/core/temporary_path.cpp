@@ -2,7 +2,6 @@
 #include "core/temporary_path.h"
 
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <fstream>
 #include <mutex>
@@ -16,6 +15,7 @@
 #include <unistd.h>
 
 #include "core/internal/raw_folder.h"
+#include "core/parse.h"
 
 namespace plotscan {
 namespace {
@@ -39,10 +39,8 @@ std::optional<pid_t> number_between(std::string_view name, std::string_view begi
   if (!framed) return {};
   name.remove_prefix(begin.size());
   name.remove_suffix(end.size());
-  pid_t number = 0;
-  const auto parsed = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size() || number <= 0) return {};
-  return number;
+  const auto number = parsed<pid_t>(name);
+  return number && *number > 0 ? number : std::nullopt;
 }
 
 // A process that has ended and that its parent has not asked after is gone, too.

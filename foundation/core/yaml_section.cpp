@@ -2,7 +2,6 @@
 #include "core/yaml_section.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include "core/format.h"
 #include "core/internal/printable.h"
 #include "core/nearest_name.h"
+#include "core/parse.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -28,14 +28,6 @@ std::vector<std::string> split_path(const std::string& path) {
     if (dot == std::string::npos) return steps;
     begin = dot + 1;
   }
-}
-
-template <class Number>
-std::optional<Number> parsed(const std::string& text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
 }
 
 // The node's child of that name or index; a map's child is made where it is missing.

@@ -2,8 +2,8 @@
 #include "report/shown_field.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "report/decimals.h"
 #include "report/internal/pack_cloud.h"
 #include "report/internal/packed.h"
@@ -22,7 +22,7 @@ json number(double value) {
 
 json packed(const PlotBox& box) {
   return {number(box.center.x()), number(box.center.y()), number(box.width_m), number(box.length_m),
-          decimals(box.heading_rad * 180 / std::numbers::pi, kDecimals)};
+          decimals(degrees(box.heading_rad), kDecimals)};
 }
 
 const char* name_of(PlotState state) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 
@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kFix_s = 0.1;
 constexpr double kPose_s = 0.01;
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // A number that errs with time: white noise at every fix and a Gauss-Markov drift, both linear from
 // fix to fix.

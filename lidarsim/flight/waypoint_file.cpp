@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flight/waypoint_file.h"
 
-#include <numbers>
-
+#include "core/angle.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::flight {
@@ -25,7 +24,7 @@ StatedWaypoint read_waypoint(const YamlSection& section) {
   if (section.has("speed_m_s"))
     waypoint.speed_m_s = section.number("speed_m_s", {kMinSpeed_m_s, Quadrotor().max_speed_m_s});
   if (section.has("heading_deg"))
-    waypoint.heading_rad = section.number("heading_deg", kHeading_deg) * std::numbers::pi / 180;
+    waypoint.heading_rad = radians(section.number("heading_deg", kHeading_deg));
   waypoint.hold_s = section.number("hold_s", kHold_s, 0.0);
   return stated;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/coordinate_units.h"
 #include "core/random.h"
 
@@ -58,7 +59,7 @@ class Component {
 
 // Columns: along the wind, to its left, up.
 Eigen::Matrix3d world_from_wind(double from_deg) {
-  const double from_rad = from_deg * std::numbers::pi / 180;
+  const double from_rad = radians(from_deg);
   const Eigen::Vector3d along(-std::sin(from_rad), -std::cos(from_rad), 0);
   Eigen::Matrix3d axes;
   axes << along, Eigen::Vector3d(-along.y(), along.x(), 0), Eigen::Vector3d::UnitZ();

@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
@@ -129,8 +129,7 @@ FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_f
   const flight::PoseErrors errors =
       flight::combined(flight::pose_error_preset(options.pose_error), options.pose_errors);
   const DroneFlight flight = fly_drone(site, scene, errors, options);
-  const Eigen::Isometry3d mount =
-      record::mount_pose(options.mount_rpy_deg * std::numbers::pi / 180);
+  const Eigen::Isometry3d mount = record::mount_pose(options.mount_rpy_deg.unaryExpr(&radians));
   const sensor::SpinJitter jitter = spin_jitter(sensor, options);
   const sensor::ShotPlan fired(sensor, spin_hz, flight::true_mount(mount, errors), flight.truth,
                                jitter);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "core/random.h"
 #include "lidar/internal/bent_stem.h"
 
@@ -116,8 +117,7 @@ Eigen::Vector2d Sway::lean_rad(const Motion& motion, double time_s) const {
   const Eigen::Vector2d gust_m_s = wind_.velocity_m_s(time_s - motion.delay_s).head<2>() - mean_m_s;
   const Eigen::Vector2d wind =
       (motion.wind_share * mean_m_s + kGustShare * gust_m_s) / kReferenceWind_m_s;
-  const Eigen::Vector2d steady =
-      options_.lean_deg_at_5m_s * std::numbers::pi / 180 * wind.norm() * wind;
+  const Eigen::Vector2d steady = radians(options_.lean_deg_at_5m_s) * wind.norm() * wind;
   const double along = options_.swing * std::sin(motion.turn_rad_s * time_s + motion.along_rad);
   const double across =
       kAcross * options_.swing * std::sin(motion.turn_rad_s * time_s + motion.across_rad);
@@ -131,7 +131,7 @@ double Sway::greatest_lean_rad(const Motion& motion) const {
   const double wind =
       (motion.wind_share * wind_.mean_m_s().norm() + kGustShare * greatest_gust_m_s_) /
       kReferenceWind_m_s;
-  const double steady = options_.lean_deg_at_5m_s * std::numbers::pi / 180 * wind * wind;
+  const double steady = radians(options_.lean_deg_at_5m_s) * wind * wind;
   return limited(steady * std::hypot(1 + options_.swing, kAcross * options_.swing));
 }
 

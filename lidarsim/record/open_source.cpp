@@ -2,8 +2,8 @@
 #include "record/open_source.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/utc_time.h"
 #include "record/scan_folder.h"
@@ -25,7 +25,7 @@ FlightRecord flight_record(const FlightOptions& options) {
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor.value_or("vlp16"));
   return {.sensor = sensor,
           .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
-          .body_from_lidar = mount_pose(options.mount_rpy_deg * std::numbers::pi / 180),
+          .body_from_lidar = mount_pose(options.mount_rpy_deg.unaryExpr(&radians)),
           .reported = scan::read_trajectory(*options.trajectory),
           .start = parsed_start(options.start_utc.value_or(kStart))};
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/scan_folder.h"
 
-#include <numbers>
-
 #include <nlohmann/json.hpp>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/manifest.h"
 
@@ -29,8 +28,8 @@ UtcTime start_of(const json& options) {
 
 Eigen::Isometry3d mount_of(const json& options) {
   const json& rpy_deg = options.at("mount_rpy_deg");
-  return mount_pose(Eigen::Vector3d(rpy_deg.at(0), rpy_deg.at(1), rpy_deg.at(2)) *
-                    std::numbers::pi / 180);
+  return mount_pose(
+      Eigen::Vector3d(rpy_deg.at(0), rpy_deg.at(1), rpy_deg.at(2)).unaryExpr(&radians));
 }
 
 ReturnMode returns_of(const json& options) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "core/text.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
@@ -235,14 +235,12 @@ void HeaderLines::fail(const std::string& what) const { throw InputError(file_, 
 
 std::uint64_t HeaderLines::whole_number(const std::string& word, std::uint64_t low,
                                         std::uint64_t high) const {
-  std::uint64_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stopped, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stopped != end || value < low || value > high) {
+  const auto value = parsed<std::uint64_t>(word);
+  if (!value || *value < low || *value > high) {
     fail("\"" + word + "\" must be a whole number in [" + std::to_string(low) + ", " +
          std::to_string(high) + "]");
   }
-  return value;
+  return *value;
 }
 
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout) {

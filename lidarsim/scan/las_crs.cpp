@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/las_crs.h"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/core.h>
 
 #include "core/coordinate_units.h"
+#include "core/parse.h"
 #include "scan/internal/wkt.h"
 
 namespace plotscan::scan {
@@ -19,11 +19,8 @@ std::optional<double> unit_of(const WktNode* node) {
     if (child.keyword == "AXIS" && unit_of(&child)) return unit_of(&child);
     if ((child.keyword != "UNIT" && child.keyword != "LENGTHUNIT") || child.values.size() < 2)
       continue;
-    const std::string& text = child.values[1];
-    double unit_m = 0;
-    const char* end = text.data() + text.size();
-    if (std::from_chars(text.data(), end, unit_m).ptr == end && unit_m > 0 && std::isfinite(unit_m))
-      return exact_unit(unit_m);
+    const auto unit_m = parsed<double>(child.values[1]);
+    if (unit_m && *unit_m > 0 && std::isfinite(*unit_m)) return exact_unit(*unit_m);
   }
   return std::nullopt;
 }

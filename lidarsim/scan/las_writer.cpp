@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "scan/internal/las_format.h"
@@ -21,7 +21,7 @@ constexpr int kPointFormat = 6;
 constexpr std::size_t kRing = 2;
 constexpr std::size_t kLabels = 4 + 4 + 1;
 constexpr std::size_t kLargestRecord = las::kFormatSizes[kPointFormat] + kRing + kLabels;
-constexpr double kScanAngleStep_rad = 0.006 * std::numbers::pi / 180;
+constexpr double kScanAngleStep_rad = radians(0.006);
 constexpr std::uint16_t kFlightLine = 1;
 constexpr int kMaxReturns = 15;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -9,6 +8,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/parse.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::scan {
@@ -29,13 +29,9 @@ StampedPose pose_from(const std::array<double, kColumns>& v) {
 }
 
 double parse_number(const std::filesystem::path& file, std::size_t line, const std::string& word) {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const char* begin = word.starts_with('+') ? word.data() + 1 : word.data();
-  const auto [stopped, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stopped != end)
-    throw InputError(file, line, "\"" + word + "\" is not a number");
-  return value;
+  const auto value = parsed<double>(without_plus(word));
+  if (!value) throw InputError(file, line, "\"" + word + "\" is not a number");
+  return *value;
 }
 
 std::vector<StampedPose> read_tum(const std::filesystem::path& file) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -39,8 +39,6 @@ constexpr int kMaxColumns = 1'000'000;
 // A Risley scanner's shots are worked on this many at once: enough to keep a processor's vectors
 // full, and so few that the drone turns little meanwhile.
 constexpr int kRisleyShots = 32;
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 // The lasers fire within the firing sequence, which takes at least so long.
 std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {

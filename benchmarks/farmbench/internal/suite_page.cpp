@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "core/angle.h"
 #include "core/output_file.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/farm_view.h"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -43,15 +43,13 @@ class Words {
   }
   // The next word, which must be a finite number.
   double number(const std::string& what) {
-    std::string_view word = next();
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+    const std::string_view word = without_plus(next());
+    const auto value = parsed<double>(word);
+    if (!value || !std::isfinite(*value)) {
       fail(what + (word.empty() ? " is missing"
                                 : " is '" + std::string(word.substr(0, 20)) + "', not a number"));
     }
-    return value;
+    return *value;
   }
   [[noreturn]] void fail(const std::string& what) const { throw InputError(path_, line_, what); }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/stage.h"
@@ -91,7 +91,7 @@ plots::Hints hints_of(const Options& options) {
                      .rows = options.rows,
                      .columns = options.columns,
                      .plots = options.plots};
-  if (options.heading_deg) hints.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  if (options.heading_deg) hints.heading_rad = radians(*options.heading_deg);
   return hints;
 }
 

@@ -5,6 +5,8 @@
 
 #include "sdfxml/elements.h"
 
+#include "core/angle.h"
+
 namespace plotscan::gazebo {
 namespace {
 
@@ -14,7 +16,7 @@ using sdfxml::XmlFile;
 // The VLP-16 as lidarsim has it (models/sensors/vlp16.yaml): at 10 Hz its 18,084 firing sequences a
 // second are 1,808 azimuths a turn.
 constexpr int kAzimuths = 1808;
-constexpr double kElevation_rad = 15 * std::numbers::pi / 180;
+constexpr double kElevation_rad = radians(15);
 constexpr double kMinRange_m = 0.4;
 constexpr double kMaxRange_m = 100;
 constexpr double kRangeStep_m = 0.002;

@@ -2,10 +2,10 @@
 #include "mesh/internal/mtl_comments.h"
 
 #include <cctype>
-#include <charconv>
 #include <fstream>
 
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace plotscan::mesh {
 namespace {
@@ -23,10 +23,8 @@ std::optional<float> share(const std::string& line, const char* key,
                            const std::filesystem::path& file, std::size_t number) {
   const auto text = behind(line, key);
   if (!text) return {};
-  float value = 0;
-  const auto parsed = std::from_chars(text->data(), text->data() + text->size(), value);
-  const bool whole = parsed.ec == std::errc() && parsed.ptr == text->data() + text->size();
-  if (whole && value >= 0 && value <= 1) return value;
+  const auto value = parsed<float>(*text);
+  if (value && *value >= 0 && *value <= 1) return value;
   throw InputError(file, number,
                    std::string(key) + ": \"" + *text + "\" is not a number in [0, 1]");
 }

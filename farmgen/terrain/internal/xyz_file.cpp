@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "terrain/internal/refine.h"
 
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -24,14 +24,13 @@ struct PointOnLine {
 };
 
 double number_of(std::string_view field, const std::filesystem::path& path, std::size_t line) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size())
+  const auto value = parsed<double>(field);
+  if (!value)
     throw InputError(path, line,
                      "\"" + std::string(field) + "\" is not a number; x y z are expected");
-  if (!std::isfinite(value))
+  if (!std::isfinite(*value))
     throw InputError(path, line, "\"" + std::string(field) + "\" is not finite");
-  return value;
+  return *value;
 }
 
 // The three numbers of a line; false when it holds nothing.

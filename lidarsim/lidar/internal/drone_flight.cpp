@@ -2,10 +2,10 @@
 #include "lidar/internal/drone_flight.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "flight/follow.h"
@@ -33,7 +33,7 @@ std::vector<flight::Waypoint> plan(const Site& site, const Scene& scene, const F
                            .spacing_m = options.spacing_m,
                            .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits),
                            .pattern = pattern_of(options)};
-  if (options.heading_deg) strips.heading_rad = *options.heading_deg * std::numbers::pi / 180;
+  if (options.heading_deg) strips.heading_rad = radians(*options.heading_deg);
   return flight::waypoints_at(plan_strips(site, scene, strips));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <cstring>
 
 #include "core/error.h"
+#include "core/parse.h"
 #include "scan/internal/rows.h"
 
 namespace plotscan::scan {
@@ -87,12 +87,10 @@ class Counts {
     if (read < promised_)
       lines.fail(std::to_string(promised_) + " points are promised before this line, " +
                  std::to_string(read) + " are there");
-    std::uint64_t count = 0;
-    const char* end = word.data() + word.size();
-    const auto [stopped, error] = std::from_chars(word.data(), end, count);
-    if (error != std::errc() || stopped != end || count > kMaxPoints)
+    const auto count = parsed<std::uint64_t>(word);
+    if (!count || *count > kMaxPoints)
       lines.fail("\"" + std::string(word) + "\" is neither a point nor a count of points");
-    promised_ = read + count;
+    promised_ = read + *count;
   }
   std::uint64_t promised() const { return promised_; }
 
@@ -133,11 +131,7 @@ void split_columns(std::string_view line, char separator, std::vector<std::strin
 }
 
 std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  return parsed<double>(without_plus(word));
 }
 
 void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 
 #include <vtkBrush.h>
@@ -24,6 +23,7 @@
 #include <vtkTextProperty.h>
 #include <vtkTextRenderer.h>
 
+#include "core/angle.h"
 #include "view/internal/window.h"
 
 namespace plotscan::view {
@@ -84,7 +84,7 @@ void style(vtkTextProperty& property, const Lettering& lettering, int samples) {
   property.SetColor(lettering.colour.red / 255.0, lettering.colour.green / 255.0,
                     lettering.colour.blue / 255.0);
   property.SetBold(lettering.bold ? 1 : 0);
-  property.SetOrientation(lettering.turn_rad * 180 / std::numbers::pi);
+  property.SetOrientation(degrees(lettering.turn_rad));
   property.SetJustification(static_cast<int>(lettering.across));
   property.SetVerticalJustification(static_cast<int>(lettering.upwards));
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/nearest_name.h"
+#include "core/parse.h"
 #include "core/plot_features.h"
 #include "estimate/height_properties.h"
 
@@ -64,11 +64,8 @@ bool is_absent(const std::string& cell) {
 }
 
 std::optional<double> number_of(const std::string& cell) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = parsed<double>(cell);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // Reasons with semicolons between them.

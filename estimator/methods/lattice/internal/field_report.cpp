@@ -2,23 +2,22 @@
 #include "methods/lattice/internal/field_report.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/core.h>
+
+#include "core/angle.h"
 
 namespace plotscan::methods::lattice {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kDegreesOfRadian = 180 / std::numbers::pi;
-
 json fit_json(const plots::FieldFit& fit) {
   const TrialLayout& layout = fit.layout;
   const double row_heading = std::atan2(layout.row_axis.y(), layout.row_axis.x());
-  json report = {{"heading_deg", layout.heading_rad() * kDegreesOfRadian},
-                 {"second_axis_deg", wrap_heading(row_heading) * kDegreesOfRadian},
-                 {"skew_deg", layout.skew_rad() * kDegreesOfRadian},
+  json report = {{"heading_deg", degrees(layout.heading_rad())},
+                 {"second_axis_deg", degrees(wrap_heading(row_heading))},
+                 {"skew_deg", degrees(layout.skew_rad())},
                  {"width_m", layout.width_m},
                  {"length_m", layout.length_m},
                  {"rows", layout.rows()},
@@ -64,7 +63,7 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
   const TrialLayout& layout = field.fit->layout;
   std::vector<std::string> lines = {
       fmt::format("plot size  {:.2f} x {:.2f} m, heading {:.2f} deg", layout.width_m,
-                  layout.length_m, layout.heading_rad() * kDegreesOfRadian),
+                  layout.length_m, degrees(layout.heading_rad())),
       fmt::format("lattice    {} rows, {} columns", layout.rows(), layout.columns())};
   if (const auto& sown = field.fit->sown_rows)
     lines.push_back(

@@ -2,8 +2,8 @@
 #include "record/velodyne/internal/position_packets.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "record/velodyne/encoder.h"
 
 namespace plotscan::record {
@@ -24,8 +24,7 @@ GpsFix gps_fix(const FlightRecord& flight, UtcTime second) {
       (to.position_m - from.position_m) / (to.time_s - from.time_s);
   fix.speed_m_s = velocity_m_s.head<2>().norm();
   const double track_rad = std::atan2(velocity_m_s.x(), velocity_m_s.y());
-  fix.track_deg =
-      (track_rad < 0 ? track_rad + 2 * std::numbers::pi : track_rad) * 180 / std::numbers::pi;
+  fix.track_deg = degrees(track_rad < 0 ? track_rad + 2 * kPi : track_rad);
   return fix;
 }
 
