@@ -13,9 +13,9 @@
 #include "core/text_file.h"
 #include "lidar/canopy_height.h"
 #include "lidar/fly.h"
-#include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
 #include "strata/position_file.h"
+#include "strata/thin.h"
 
 namespace plotscan::strata {
 namespace fs = std::filesystem;
@@ -41,27 +41,6 @@ void write_plan(const fs::path& folder, const json& plan) {
   file.close();
 }
 
-std::vector<Eigen::Vector3f> positions_of(const fs::path& cloud) {
-  std::vector<Eigen::Vector3f> points;
-  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
-    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
-  });
-  return points;
-}
-
-// So many of the points, drawn, in their order.
-void thin(std::vector<Eigen::Vector3f>& points, std::size_t most, std::uint64_t seed) {
-  if (points.size() <= most) return;
-  RandomStream random(seed, random_purpose("strata/thin"), 0);
-  std::size_t left = points.size();
-  std::size_t wanted = most;
-  std::erase_if(points, [&](const Eigen::Vector3f&) {
-    const bool kept = random.below(left--) < wanted;
-    wanted -= kept;
-    return !kept;
-  });
-}
-
 void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   const planting::FarmDescription description =
       description::load_description(plan.farm, plan.overrides);
@@ -75,7 +54,7 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   flight.threads = threads;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");
   lidar::fly(farm, scan.path(), flight, true);
-  std::vector<Eigen::Vector3f> points = positions_of(scan.path() / "cloud.pcd");
+  std::vector<Eigen::Vector3f> points = read_positions(scan.path() / "cloud.pcd");
   if (plan.most_points) thin(points, *plan.most_points, plan.seed);
   write_positions(field.cloud, points);
 }

@@ -14,6 +14,7 @@
 #include "strata/kept_field.h"
 #include "strata/measured_field.h"
 #include "strata/table.h"
+#include "strata/thin.h"
 
 namespace {
 
@@ -28,6 +29,7 @@ struct Arguments {
   std::string secret;
   int farms = 10;
   std::vector<std::string> strata;  // none: all
+  std::optional<double> density_per_m2;
   std::optional<fs::path> keep;
   fs::path source = ".";
 };
@@ -77,11 +79,13 @@ std::vector<Task> plan(const Program& program, const Arguments& arguments) {
 
 strata::MeasuredField measure(const Task& task, const Arguments& arguments, const fs::path& folder,
                               int threads) {
-  const strata::KeptField field =
+  strata::KeptField field =
       task.empty ? strata::keep_empty_field(arguments.secret, task.stratum, task.index, folder)
                  : strata::keep_farm(strata::plan_field(arguments.secret, task.stratum, task.index,
                                                         sources_of(arguments)),
                                      folder, threads);
+  if (arguments.density_per_m2)
+    field.cloud = strata::thinned_cloud(field.cloud, *arguments.density_per_m2, threads);
   return strata::measure_field(task.stratum, task.index, field, threads);
 }
 
@@ -128,6 +132,10 @@ int main(int argc, char** argv) {
       .add_option("--strata", arguments.strata,
                   "only these strata (a,b,c); " + joined(all_strata(), ", "))
       ->delimiter(',');
+  command
+      .add_option("--density", arguments.density_per_m2,
+                  "thin each cloud to so many returns in its median square metre")
+      ->check(CLI::Range(1.0, 1e6));
   command.add_option("--keep", arguments.keep,
                      "folder of fields, STRATUM-INDEX/{farm,scan}: those there are not made again");
   command.add_option("--source", arguments.source, "Plotscan's sources: benchmarks, worlds");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "scan/cloud_reader.h"
 
 namespace plotscan::strata {
 
@@ -23,6 +24,14 @@ void write_positions(const std::filesystem::path& file,
             static_cast<std::streamsize>(points.size() * sizeof(Eigen::Vector3f)));
   out.close();
   if (!out) throw WriteError(file);
+}
+
+std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud) {
+  std::vector<Eigen::Vector3f> points;
+  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
+  });
+  return points;
 }
 
 }  // namespace plotscan::strata

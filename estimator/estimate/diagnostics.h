@@ -76,6 +76,9 @@ struct Diagnostics {
   std::vector<std::string> lines = {};
 };
 
+// The member of the manifest's diagnostics that read_estimate reads again.
+inline constexpr const char* kWhyNoPlots = "why_no_plots";
+
 // As the manifest has them (docs/estimate-format.md).
 nlohmann::json to_json(const Diagnostics& diagnostics);
 

@@ -112,13 +112,19 @@ std::vector<std::string> stated_flags(const json& properties) {
   return flags;
 }
 
-// The method named by the folder's manifest, "" where there is none.
-std::string method_of(const fs::path& folder) {
-  if (!fs::exists(folder / "manifest.json")) return "";
-  const json options = read_manifest(folder).value("options", json::object());
-  const bool named =
-      options.is_object() && options.contains("method") && options["method"].is_string();
-  return named ? options["method"].get<std::string>() : "";
+// What stands at that place of the document; "" where there is no text.
+std::string text_at(const json& document, const json::json_pointer& place) {
+  const bool is_text = document.contains(place) && document[place].is_string();
+  return is_text ? document[place].get<std::string>() : "";
+}
+
+// Of the folder's manifest, where it has one.
+void read_made_by(const fs::path& folder, Estimate& estimate) {
+  if (!fs::exists(folder / "manifest.json")) return;
+  const json manifest = read_manifest(folder);
+  estimate.method = text_at(manifest, json::json_pointer("/options/method"));
+  estimate.diagnostics.why_no_plots =
+      text_at(manifest, json::json_pointer("/results/diagnostics") / kWhyNoPlots);
 }
 
 }  // namespace
@@ -168,7 +174,8 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
 Estimate read_estimate(const fs::path& path) {
   const bool is_folder = fs::is_directory(path);
   const fs::path file = is_folder ? path / "plots.geojson" : path;
-  Estimate estimate{.method = is_folder ? method_of(path) : ""};
+  Estimate estimate;
+  if (is_folder) read_made_by(path, estimate);
   const PlacedPlots placed = read_plot_features(file, "");
   estimate.units = placed.units;
   bool any_height = false;

@@ -25,11 +25,6 @@ estimate::Estimate read(const fs::path& path) {
   estimate::Estimate estimate = estimate::read_estimate(path);
   if (fs::exists(path / "ground.asc"))
     estimate.ground = estimate::read_ground(path, estimate.units.value_or(CoordinateUnits{}));
-  const nlohmann::json::json_pointer why_no_plots("/results/diagnostics/nothing");
-  if (fs::exists(path / "manifest.json")) {
-    const nlohmann::json why = read_manifest(path).value(why_no_plots, nlohmann::json());
-    if (why.is_string()) estimate.diagnostics.why_no_plots = why;
-  }
   return estimate;
 }
 

@@ -175,8 +175,8 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
 }  // namespace
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
-                     int threads) {
-  const FieldCanopy field(points, noise_m, threads);
+                     int threads, const GroundError& ground_error) {
+  const FieldCanopy field(points, noise_m, threads, ground_error);
   const CanopyRaster coarse =
       rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
   Look best{no_plots("no canopy stands out from the ground here")};

@@ -5,15 +5,17 @@
 
 #include <Eigen/Core>
 
+#include "plots/ground_error.h"
 #include "plots/hints.h"
 #include "plots/plot_field.h"
 
 namespace plotscan::plots {
 
 // Finds the plots of a field from its points as (x, y, height above the ground), metres; boxes are
-// in the frame of x and y. noise_m is the sigma of the heights. Without plots `why_none` of the
-// field says why. The same for any number of threads.
+// in the frame of x and y. noise_m is the sigma of the heights; with ground_error, ridges that the
+// ground may have cut off are no canopy. Without plots `why_none` of the field says why. The same
+// for any number of threads.
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
-                     int threads);
+                     int threads, const GroundError& ground_error = {});
 
 }  // namespace plotscan::plots

@@ -20,6 +20,7 @@
 #include "strata/scenery.h"
 #include "strata/table.h"
 #include "strata/tally.h"
+#include "strata/thin.h"
 
 namespace plotscan::strata {
 namespace {
@@ -215,6 +216,25 @@ TEST(Tally, PoolsTheFarmsOfAStratum) {
   EXPECT_DOUBLE_EQ(all.worst_unflagged_share, 0.5);
   EXPECT_DOUBLE_EQ(all.coverage95, 0.5);
   EXPECT_DOUBLE_EQ(all.seconds_per_million_points, 1.5);
+}
+
+// 400 returns in each square metre of 20 x 20 m.
+TEST(ThinnedCloud, HasTheDensityThatIsAskedFor) {
+  const TemporaryFolder folder;
+  RandomStream random(5, random_purpose("test/thinned"), 0);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 160'000; ++i)
+    points.emplace_back(static_cast<float>(i % 20 + random.uniform()),
+                        static_cast<float>(i / 20 % 20 + random.uniform()), 0.0F);
+  const auto cloud = folder.path() / "cloud.pcd";
+  write_positions(cloud, points);
+  EXPECT_EQ(thinned_cloud(cloud, 500, 1), cloud) << "it has no more";
+  const std::vector<Eigen::Vector3f> thinned = read_positions(thinned_cloud(cloud, 100, 1));
+  EXPECT_NEAR(static_cast<double>(thinned.size()), 40'000, 500);
+  int in_middle = 0;
+  for (const Eigen::Vector3f& point : thinned)
+    in_middle += (point.head<2>().array() - 10).abs().maxCoeff() < 5 ? 1 : 0;
+  EXPECT_NEAR(in_middle, 10'000, 400);
 }
 
 TEST(ConfidenceAuc, CountsEveryPairOfATrueAndAFalsePlot) {

@@ -102,7 +102,7 @@ std::string too_few(const std::string& for_what) {
 
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
-                                             double noise_m, const Options& options,
+                                             const ground::Surface& surface, const Options& options,
                                              estimate::Diagnostics& diagnostics) {
   if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
@@ -110,15 +110,16 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
     return {};
   }
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
-  if (noise_m > kMostNoise_m) {
+  if (surface.noise_m > kMostNoise_m) {
     diagnostics.why_no_plots = fmt::format(
         "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on",
-        noise_m);
+        surface.noise_m);
     return {};
   }
   Stage stage("plots");
-  const plots::PlotField field =
-      plots::find_plots(heights, noise_m, hints_of(options), options.threads);
+  const plots::PlotField field = plots::find_plots(
+      heights, surface.noise_m, hints_of(options), options.threads,
+      [&](const Eigen::Vector2d& place) { return surface.standard_error(place); });
   stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics.of_method["field"] = json_of(field);
   diagnostics.lines = lines_of(field);
@@ -251,7 +252,7 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
     throw NothingToMeasure(no_ground_because(cloud, *estimate.diagnostics.points));
   report(progress, kAbove);
   estimate.diagnostics.ground = facts_of(surface);
-  estimate.plots = plots_of(cloud, heights, surface.noise_m, options, estimate.diagnostics);
+  estimate.plots = plots_of(cloud, heights, surface, options, estimate.diagnostics);
   report(progress, kPlots);
   measure(estimate.plots, heights, surface, options, estimate.diagnostics);
   for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "plots/ground_error.h"
+
 namespace plotscan::plots {
 
 // Heights above the ground that count as no canopy and as full canopy; in between the share is
@@ -19,13 +21,15 @@ struct CanopyScale {
 };
 
 // A field's points as (x, y, height above the ground), metres. Left out are points that are not
-// finite, blocks of a survey's margin with less than a tenth of the field's density, and blocks
-// that a surface fills: canopy scatters heights by more than the sensor's noise, what does not is a
-// wall, a car's roof, a sheet, or ground that the ground's model missed.
+// finite, blocks of a survey's margin with less than a tenth of the field's density, blocks that a
+// surface fills: canopy scatters heights by more than the sensor's noise, what does not is a wall,
+// a car's roof, a sheet, or ground that the ground's model missed; and places whose ground is known
+// too badly to tell its ridges from canopy.
 class FieldCanopy {
  public:
   // Keeps a reference to the points. noise_m is the sigma of their heights.
-  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads);
+  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
+              const GroundError& ground_error = {});
 
   std::span<const Eigen::Vector3f> points() const { return points_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
@@ -41,13 +45,16 @@ class FieldCanopy {
   std::size_t lay_out_blocks();
   std::vector<Block> filled_blocks(std::size_t count, double canopy_m) const;
   std::size_t block_of(const Eigen::Vector3f& point) const;
+  std::size_t cell_of(const Eigen::Vector3f& point) const;
   void leave_out_surfaces();
+  void leave_out_unsure_ground(const GroundError& ground_error);
 
   std::span<const Eigen::Vector3f> points_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1;
   std::size_t blocks_along_y_ = 0;
   std::vector<std::uint8_t> left_out_, surface_, stands_out_;  // by block
+  std::vector<std::uint8_t> unsure_;                           // by cell of a block
   CanopyScale scale_;
 };
 

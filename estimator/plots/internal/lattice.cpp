@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -241,6 +242,21 @@ int begin_at_0(std::vector<Place>& places, int Place::*number) {
   return count;
 }
 
+// From each plot to that of the next number and the same line; that of the bands where no two
+// follow each other.
+double usual_pitch_m(const std::vector<TrialPlace>& places, int TrialPlace::*number,
+                     int TrialPlace::*line, Eigen::Index axis, double of_bands_m) {
+  std::map<std::pair<int, int>, double> position_m;
+  for (const TrialPlace& place : places)
+    position_m[{place.*line, place.*number}] = place.position_m[axis];
+  std::vector<double> steps;
+  for (const auto& [at, from_m] : position_m) {
+    const auto next = position_m.find({at.first, at.second + 1});
+    if (next != position_m.end()) steps.push_back(next->second - from_m);
+  }
+  return steps.empty() ? of_bands_m : usual_step(std::move(steps));
+}
+
 // Of the places that hold a plot. Columns of their own in each row lie a pitch from number to
 // number.
 void renumber(Lattice& lattice) {
@@ -302,9 +318,7 @@ TrialLayout layout_of(const Lattice& any) {
                      .row_axis = (view.c_axis() + lattice.r_per_c * view.r_axis()).normalized(),
                      .column_axis = (view.r_axis() + lattice.c_per_r * view.c_axis()).normalized(),
                      .width_m = lattice.c.size_m,
-                     .length_m = lattice.r.size_m,
-                     .column_pitch_m = lattice.c.pitch_m,
-                     .row_pitch_m = lattice.r.pitch_m};
+                     .length_m = lattice.r.size_m};
   Eigen::Matrix2d axes;
   axes << layout.row_axis, layout.column_axis;
   const Eigen::Matrix2d layout_from_world = axes.inverse();
@@ -314,6 +328,10 @@ TrialLayout layout_of(const Lattice& any) {
          .column = place.column + 1,
          .position_m = layout_from_world * (view.to_world(place.r_m, place.c_m) - layout.origin)});
   }
+  layout.column_pitch_m =
+      usual_pitch_m(layout.places, &TrialPlace::column, &TrialPlace::row, 0, lattice.c.pitch_m);
+  layout.row_pitch_m =
+      usual_pitch_m(layout.places, &TrialPlace::row, &TrialPlace::column, 1, lattice.r.pitch_m);
   return layout;
 }
 

@@ -51,7 +51,7 @@ TEST(Diagnostics, AreWrittenByTheKeysOfTheFormat) {
     "without_ground": 100, "area_m": [1.0, 2.0, 3.0, 4.0], "density_per_m2": 12.5,
     "ground": {"cell_m": 0.2, "nodes": 7, "seen_share": 0.5, "unknown_share": 0.25,
                "noise_m": 0.01},
-    "crops": {"wheat": 0.75}, "nothing": "a reason",
+    "crops": {"wheat": 0.75}, "why_no_plots": "a reason",
     "boxes": {"plots": 3, "id": "plot_id", "from_degrees": true},
     "names": {"plots": 2, "id": "name", "not_found": ["A", 7]}, "voxels": 9})"));
 }

@@ -187,8 +187,12 @@ TEST(Estimate, TabulatesFlagsOfGivenPlots) {
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {
   const TemporaryFolder folder;
   write_estimate(folder.path(), {.method = "lattice"});
-  folder.write("manifest.json", R"({"command":"estimator run","options":{"method":"lattice"}})");
-  EXPECT_TRUE(read_estimate(folder.path()).plots.empty());
+  folder.write("manifest.json", R"({"command":"estimator run","options":{"method":"lattice"},)"
+                                R"("results":{"diagnostics":{"why_no_plots":"a reason"}}})");
+  const Estimate read = read_estimate(folder.path());
+  EXPECT_TRUE(read.plots.empty());
+  EXPECT_EQ(read.method, "lattice");
+  EXPECT_EQ(read.diagnostics.why_no_plots, "a reason");
 }
 
 std::string geojson(const std::string& properties) {

@@ -14,7 +14,7 @@ constexpr double kNoise_m = 0.02;
 
 // 200 returns a square metre over 20 x 20 m of ground; `height` gives what stands there, or NaN.
 template <class Height>
-std::vector<Eigen::Vector3f> points_over(const Height& height) {
+std::vector<Eigen::Vector3f> points_over(const Height& height, double noise_m = kNoise_m) {
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 80000; ++i) {
     RandomStream random(5, random_purpose("test/canopy"), i);
@@ -22,7 +22,7 @@ std::vector<Eigen::Vector3f> points_over(const Height& height) {
     const double standing = height(x, y, random);
     const double z = std::isnan(standing) ? 0 : standing;
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(z + kNoise_m * random.normal()));
+                        static_cast<float>(z + noise_m * random.normal()));
   }
   return points;
 }
@@ -44,6 +44,24 @@ TEST(FieldCanopy, LeavesOutRoofsAndWallsButNoCanopy) {
   EXPECT_GT(FieldCanopy(roof, kNoise_m, 2).surface_share(places, 5), 0.9);
 }
 
+// Closed soybeans scatter by 7 cm about their top: more than the noise, if by less than twice as
+// much.
+TEST(FieldCanopy, TellsCanopyFromRoofsUnderNoiseToo) {
+  constexpr double kLoud_m = 0.045;
+  const Eigen::Vector3f middle(10, 10, 0.7F);
+  const auto canopy = points_over(
+      [](double x, double y, RandomStream& random) {
+        return in_middle(x, y) ? random.uniform(0.5, 0.8) : NAN;
+      },
+      kLoud_m);
+  const auto roof = points_over(
+      [](double x, double y, RandomStream&) { return in_middle(x, y) ? 0.7 : NAN; }, kLoud_m);
+  EXPECT_FALSE(FieldCanopy(canopy, kLoud_m, 2).leaves_out(middle));
+  EXPECT_TRUE(FieldCanopy(roof, kLoud_m, 2).leaves_out(middle));
+  // Straight below the drone the noise is larger than in the field's usual place.
+  EXPECT_TRUE(FieldCanopy(roof, kLoud_m / 1.25, 2).leaves_out(middle));
+}
+
 // A roof along the southern edge, a crop along the northern one.
 TEST(FieldCanopy, ARoofAtAnEdgeLeavesTheCanopyAtTheOtherEdge) {
   const auto points = points_over([](double, double y, RandomStream& random) {
@@ -55,6 +73,26 @@ TEST(FieldCanopy, ARoofAtAnEdgeLeavesTheCanopyAtTheOtherEdge) {
     EXPECT_TRUE(field.leaves_out({x, 0.1F, 1})) << x;
     EXPECT_FALSE(field.leaves_out({x, 19.9F, 0.5F})) << x;
   }
+}
+
+// A ridge of 0.4 m that the ground cut off, along x = 2.5, beside a crop.
+TEST(FieldCanopy, LeavesOutRidgesOverGroundThatIsUnsure) {
+  const auto points = points_over([](double x, double y, RandomStream& random) {
+    if (std::abs(x - 2.5) < 0.25) return 0.4 - 1.6 * std::abs(x - 2.5);
+    return in_middle(x, y) ? random.uniform(0, 0.4) : NAN;
+  });
+  const auto error_on_ridge = [](const Eigen::Vector2d& place) {
+    return std::abs(place.x() - 2.5) < 0.7 ? 0.04 : 0.002;
+  };
+  const Eigen::Vector3f crest(2.5F, 10, 0.4F), crop(10, 10, 0.3F), beside(4, 10, 0);
+  const FieldCanopy field(points, kNoise_m, 2, error_on_ridge);
+  EXPECT_TRUE(field.leaves_out(crest));
+  EXPECT_FALSE(field.leaves_out(crop));
+  EXPECT_FALSE(field.leaves_out(beside));
+  EXPECT_FALSE(FieldCanopy(points, kNoise_m, 2).leaves_out(crest)) << "nothing is known of it";
+  // In sparse clouds the ground is no better known under the crop.
+  const FieldCanopy sparse(points, kNoise_m, 2, [](const Eigen::Vector2d&) { return 0.04; });
+  EXPECT_FALSE(sparse.leaves_out(crop));
 }
 
 TEST(FieldCanopy, ScaleIsFromTheNoiseToTheCanopysTop) {

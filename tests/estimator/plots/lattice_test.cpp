@@ -46,6 +46,17 @@ TEST(Lattice, IsTheTrialThatTheBandsShow) {
   EXPECT_NEAR(found.skew_rad(), 0, 0.001);
 }
 
+// The raster's cells are 5 cm, bands begin at whole ones.
+TEST(Lattice, HasPitchesBetweenTheCells) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  for (TrialPlace& place : trial.places)
+    place.position_m += Eigen::Vector2d(0.022 * place.column, 0.018 * place.row);
+  const CanopyRaster raster = canopy_of(trial);
+  const TrialLayout found = layout_of(fit_lattice(bands_of(trial, raster), {}));
+  EXPECT_NEAR(found.column_pitch_m, 1.922, 0.004);
+  EXPECT_NEAR(found.row_pitch_m, 3.818, 0.004);
+}
+
 // Between others and at the end; not where no plot stands.
 TEST(Lattice, HasPlacesThatTheBandsLeftOut) {
   TrialLayout trial = known_trial({0, 0, 0});
