@@ -6,7 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "cloud/internal/field_finder.h"
+#include "cloud/field_density.h"
+#include "cloud/internal/field_hull.h"
 
 #include "core/csv.h"
 #include "core/error.h"
@@ -72,9 +73,9 @@ CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
     require_area(*area, "crop box");
     field = *area;
   } else {
-    FieldFinder finder;
-    record::read_positions(cloud, [&](auto points) { finder.add(points); });
-    field = finder.field();
+    TileCounter tiles;
+    record::read_positions(cloud, [&](auto points) { tiles.add(points); });
+    field = find_field(tiles.counts()).bounds();
     require_area(field, cloud.name() + ": the scanned field");
   }
   if (progress) progress(0.2);

@@ -50,8 +50,9 @@ class CloudMap {
   std::size_t points_read_ = 0;
 };
 
-// Streams a cloud into a map of the area; without one, of the field that
-// FieldFinder finds in a first pass over the file. Memory is bounded by the points inside the area.
+// Streams a cloud into a map of the area; without one, of the bounds of the densely scanned field
+// (FieldHull), found in a first pass over the files. Memory is bounded by the points inside the
+// area.
 // Throws InputError on a broken cloud or when no point lies in the area.
 CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
                   const ProgressReport& progress = {});

@@ -9,6 +9,7 @@
 #include "cloud/internal/field_hull.h"
 #include <fmt/core.h>
 
+#include "core/packed_pair.h"
 #include "core/statistics.h"
 
 namespace plotscan::cloud {
@@ -17,14 +18,6 @@ namespace {
 constexpr int kCoarsest_m = 256;
 constexpr double kTypicalCount = 16;
 constexpr double kMostSquares = 1e6;
-
-std::uint64_t tile_key(Tile tile) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(tile.x)) << 32 |
-         static_cast<std::uint32_t>(tile.y);
-}
-Tile tile_of(std::uint64_t key) {
-  return {static_cast<std::int32_t>(key >> 32), static_cast<std::int32_t>(key)};
-}
 
 // Points by square, numbered by its south-west corner over its edge.
 std::map<Tile, std::uint64_t> squares_of(std::span<const TileCount> counts, int edge_m) {
@@ -90,15 +83,18 @@ void TileCounter::add(std::span<const Eigen::Vector3d> points) {
   constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
   for (const Eigen::Vector3d& point : points) {
     if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) continue;
-    ++count_by_tile_[tile_key({static_cast<std::int32_t>(std::floor(point.x())),
-                               static_cast<std::int32_t>(std::floor(point.y()))})];
+    ++count_by_tile_[packed(static_cast<std::int32_t>(std::floor(point.x())),
+                            static_cast<std::int32_t>(std::floor(point.y())))];
   }
 }
 
 std::vector<TileCount> TileCounter::counts() const {
   std::vector<TileCount> counts;
   counts.reserve(count_by_tile_.size());
-  for (const auto& [key, points] : count_by_tile_) counts.push_back({tile_of(key), points});
+  for (const auto& [key, points] : count_by_tile_) {
+    const auto [x, y] = unpacked(key);
+    counts.push_back({{x, y}, points});
+  }
   std::ranges::sort(counts, {}, &TileCount::tile);
   return counts;
 }

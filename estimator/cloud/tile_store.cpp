@@ -6,15 +6,14 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/packed_pair.h"
+
 namespace plotscan::cloud {
 namespace {
 
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 
-std::uint64_t block_key(Tile tile, int bits) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(tile.y >> bits)) << 32 |
-         static_cast<std::uint32_t>(tile.x >> bits);
-}
+std::uint64_t block_key(Tile tile, int bits) { return packed(tile.y >> bits, tile.x >> bits); }
 
 struct Thinned {
   std::size_t kept = 0;

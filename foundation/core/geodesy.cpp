@@ -36,26 +36,17 @@ constexpr std::array<UtmCodes, 7> kUtmCodes = {{{"WGS 84", true, 32601, 1, 60},
                                                 {"GDA94", false, 28348, 48, 58},
                                                 {"GDA2020", false, 7846, 46, 59}}};
 
-GeographicLib::LocalCartesian frame_at(const Anchor& anchor) {
-  return {anchor.latitude_deg, anchor.longitude_deg, anchor.altitude_m};
-}
-
 }  // namespace
 
 GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& point) {
+  const GeographicLib::LocalCartesian frame(anchor.latitude_deg, anchor.longitude_deg,
+                                            anchor.altitude_m);
   GeodeticPoint geodetic;
-  frame_at(anchor).Reverse(point.x(), point.y(), point.z(), geodetic.latitude_deg,
-                           geodetic.longitude_deg, geodetic.altitude_m);
+  frame.Reverse(point.x(), point.y(), point.z(), geodetic.latitude_deg, geodetic.longitude_deg,
+                geodetic.altitude_m);
   geodetic.longitude_deg =
       anchor.longitude_deg + std::remainder(geodetic.longitude_deg - anchor.longitude_deg, 360.0);
   return geodetic;
-}
-
-Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& point) {
-  Eigen::Vector3d world;
-  frame_at(anchor).Forward(point.latitude_deg, point.longitude_deg, point.altitude_m, world.x(),
-                           world.y(), world.z());
-  return world;
 }
 
 UtmZone utm_zone(const GeodeticPoint& point) {

@@ -18,11 +18,10 @@ struct GeodeticPoint {
 // Where on Earth the world frame's origin lies; its x axis points east there, y north, z up.
 using Anchor = GeodeticPoint;
 
-// The world frame is the tangent frame at the anchor (east, north, up), through the Earth's centre
-// and back without approximation (GeographicLib::LocalCartesian). Longitudes are within 180 degrees
-// of the anchor's, so that a farm on the antimeridian stays in one piece.
+// The world frame is the tangent frame at the anchor (east, north, up), without approximation
+// (GeographicLib::LocalCartesian). Longitudes are within 180 degrees of the anchor's, so that a
+// farm on the antimeridian stays in one piece.
 GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& point);
-Eigen::Vector3d world_from_geodetic(const Anchor& anchor, const GeodeticPoint& point);
 
 // A zone of the Universal Transverse Mercator grid on WGS84.
 struct UtmZone {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gravity.h"
+
 namespace plotscan::flight {
 namespace {
 

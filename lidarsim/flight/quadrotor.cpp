@@ -6,6 +6,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/gravity.h"
 
 namespace plotscan::flight {
 

@@ -24,8 +24,6 @@ struct Quadrotor {
   MotionLimits turn = {.speed = 1.5, .acceleration = 3, .jerk = 12};  // of the nose, rad
 };
 
-inline constexpr double kGravity_m_s2 = 9.80665;
-
 // Attitude (world_from_body) that gives the acceleration at the velocity: body z along the thrust,
 // m a = thrust - m g z - drag |v| v, and the nose as near the heading as that allows (Mellinger and
 // Kumar, ICRA 2011, section III). World frame, m/s^2, m/s, rad from x.

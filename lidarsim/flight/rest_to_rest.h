@@ -26,7 +26,6 @@ class RestToRest {
   RestToRest(double distance, const MotionLimits& limits);
 
   double duration_s() const { return duration_s_; }
-  double top_speed() const { return top_speed_; }
   // At rest before 0 and after duration_s().
   State at(double time_s) const;
 

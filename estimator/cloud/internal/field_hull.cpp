@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "cloud/convex_hull.h"
+
 #include "core/error.h"
 
 namespace plotscan::cloud {
@@ -87,24 +89,6 @@ std::vector<Tile> largest_group(const std::vector<Tile>& squares) {
   return largest;
 }
 
-// Twice the area of the triangle a, b, c: positive when they turn left.
-double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-// Half of a hull: the points that turn left (Andrew, "Another efficient algorithm for convex hulls
-// in two dimensions", Information Processing Letters 9(5), 1979, 216-219).
-template <class Iterator>
-void append_chain(Iterator first, Iterator last, std::vector<Eigen::Vector2d>& hull) {
-  const std::size_t start = hull.size();
-  for (; first != last; ++first) {
-    while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), *first) <= 0)
-      hull.pop_back();
-    hull.push_back(*first);
-  }
-  hull.pop_back();  // begins the other chain
-}
-
 }  // namespace
 
 FieldHull::FieldHull(std::span<const Tile> tiles) {
@@ -113,9 +97,7 @@ FieldHull::FieldHull(std::span<const Tile> tiles) {
     for (const double dx : {0.0, 1.0})
       for (const double dy : {0.0, 1.0}) points.emplace_back(tile.x + dx, tile.y + dy);
   }
-  std::ranges::sort(points, {}, [](const Eigen::Vector2d& p) { return std::pair(p.x(), p.y()); });
-  append_chain(points.begin(), points.end(), corners_);
-  append_chain(points.rbegin(), points.rend(), corners_);
+  corners_ = convex_hull(std::move(points));
 }
 
 bool FieldHull::holds(Tile tile) const {

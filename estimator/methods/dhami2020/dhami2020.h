@@ -18,7 +18,7 @@ namespace plotscan::methods::dhami2020 {
 // where the paper or their tool gives them (docs/dhami2020.md).
 struct Options {
   int plots = 0;  // k of the k-means: how many plots lie in the crop box (or in learn_box)
-  std::optional<cloud::Area> crop_box = {};  // else the scanned field is found (FieldFinder)
+  std::optional<cloud::Area> crop_box = {};  // else the scanned field is found (cloud::read_map)
   std::optional<cloud::Area> learn_box =
       {};                           // learn box size and grid here, carry them over the crop box
   std::vector<PlotBox> boxes = {};  // given boxes: no detection, heights only

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud/cloud_map.h"
 
-#include "cloud/internal/field_finder.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/random.h"
 
 namespace plotscan::cloud {
 namespace {
@@ -50,27 +48,27 @@ TEST(CloudMap, RefusesAreasThatAreNone) {
   EXPECT_THROW(require_area({0, 0, 1, std::nan("")}, "crop box"), InputError);
 }
 
-// Density falls off around the field as it does around a flight.
-TEST(FieldFinder, FindsTheDenseCoreOfAScan) {
-  FieldFinder finder;
-  RandomStream random(1, random_purpose("test/field"), 0);
-  std::vector<Eigen::Vector3d> points;
-  for (int i = 0; i < 200000; ++i)
-    points.emplace_back(random.uniform(-30, 10), random.uniform(5, 25), 0);
-  for (int i = 0; i < 100000; ++i)  // surroundings, ten times thinner
-    points.emplace_back(random.uniform(-50, 50), random.uniform(-50, 50), 0);
-  for (int i = 0; i < 1000; ++i)  // a dense spot apart from the field
-    points.emplace_back(random.uniform(40, 41), random.uniform(40, 41), 0);
-  finder.add(points);
-  EXPECT_THAT(finder.field(), ElementsAre(-30, 5, 10, 25));
-}
-
-TEST(FieldFinder, HasNoFieldWithoutPoints) { EXPECT_THROW(FieldFinder().field(), InputError); }
-
 std::string pcd_of(const std::string& rows, int count) {
   return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
          std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
          std::to_string(count) + "\nDATA ascii\n" + rows;
+}
+
+// 20 points in each square metre of 6 x 4, one in each of a hundred around them.
+TEST(ReadMap, FindsTheDenselyScannedField) {
+  std::string rows;
+  int count = 0;
+  for (int x = 0; x < 16; ++x) {
+    for (int y = 0; y < 14; ++y) {
+      const bool dense = x >= 5 && x < 11 && y >= 5 && y < 9;
+      for (int i = 0; i < (dense ? 20 : 1); ++i, ++count)
+        rows += std::to_string(x + 0.04 * i + 0.1) + " " + std::to_string(y + 0.5) + " 0\n";
+    }
+  }
+  const plotscan::testing::TemporaryFolder folder;
+  const CloudMap map = read_map(folder.write("cloud.pcd", pcd_of(rows, count)), {});
+  EXPECT_THAT(map.area(), ElementsAre(4, 4, 12, 10));  // a square more on every side
+  EXPECT_EQ(map.points().size(), 6u * 4u * 20u + 8u * 6u - 6u * 4u);
 }
 
 TEST(ReadMap, ReadsACropBoxFromAFile) {

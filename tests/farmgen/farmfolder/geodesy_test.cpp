@@ -66,7 +66,6 @@ TEST(Geodesy, PointsLieWhereTheClosedFormThroughTheEarthsCentrePutsThem) {
       const GeodeticPoint geodetic = geodetic_from_world(anchor, point);
       const Eigen::Vector3d expected = earth_centred(anchor) + east_north_up(anchor) * point;
       EXPECT_LT((earth_centred(geodetic) - expected).norm(), 1e-7) << point.transpose();
-      EXPECT_LT((world_from_geodetic(anchor, geodetic) - point).norm(), 1e-7) << "there and back";
       EXPECT_LT(std::abs(geodetic.longitude_deg - anchor.longitude_deg), 1) << "in one piece";
     }
   }

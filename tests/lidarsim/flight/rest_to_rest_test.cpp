@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Distances, RestToRestOver, ::testing::Values(50.0, 3.0,
 
 TEST(RestToRest, UsesItsLimitsInFull) {
   const RestToRest motion(50, kLimits);
-  EXPECT_DOUBLE_EQ(motion.top_speed(), 3);
+  EXPECT_DOUBLE_EQ(motion.at(5).speed, 3);
   // From rest: 0.4 s of jerk, 1.1 s at 2 m/s^2, 0.4 s of jerk, on average at half the speed.
   EXPECT_NEAR(RestToRest::run_up(3, kLimits), 1.9 * 1.5, 1e-12);
   EXPECT_NEAR(motion.duration_s(), 50.0 / 3 + 1.9, 1e-12);

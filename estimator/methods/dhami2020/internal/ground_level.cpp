@@ -9,6 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/packed_pair.h"
+
 namespace plotscan::methods::dhami2020 {
 namespace {
 
@@ -25,9 +27,7 @@ std::vector<Eigen::Vector3d> lowest_by_cell(std::span<const Eigen::Vector3f> poi
   for (const Eigen::Vector3f& point : points) {
     const auto x = static_cast<std::int32_t>(std::floor(point.x() / kCell_m));
     const auto y = static_cast<std::int32_t>(std::floor(point.y() / kCell_m));
-    const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
-                              static_cast<std::uint32_t>(y);
-    const auto [found, is_new] = cell_index.emplace(key, lowest.size());
+    const auto [found, is_new] = cell_index.emplace(packed(x, y), lowest.size());
     if (is_new) {
       lowest.emplace_back(point.cast<double>());
     } else if (point.z() < lowest[found->second].z()) {

@@ -1,35 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/dhami2020/internal/oriented_box.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "cloud/convex_hull.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-bool lexicographic(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-}
-
-// Appends the chain of left turns through the points from `first` to `last`.
-template <class Iterator>
-void append_chain(Iterator first, Iterator last, std::vector<Eigen::Vector2d>& hull) {
-  const std::size_t start = hull.size();
-  for (; first != last; ++first) {
-    while (hull.size() >= start + 2 &&
-           cross(hull.back() - hull[hull.size() - 2], *first - hull.back()) <= 0) {
-      hull.pop_back();
-    }
-    hull.push_back(*first);
-  }
-  hull.pop_back();  // the other chain begins with it
-}
 
 // The box around the hull with one side in direction `heading_rad`.
 PlotBox box_along(const std::vector<Eigen::Vector2d>& hull, double heading_rad) {
@@ -54,18 +34,8 @@ PlotBox box_along(const std::vector<Eigen::Vector2d>& hull, double heading_rad) 
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), lexicographic);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Eigen::Vector2d> hull;
-  append_chain(points.begin(), points.end(), hull);
-  append_chain(points.rbegin(), points.rend(), hull);
-  return hull;
-}
-
 PlotBox minimum_area_box(std::vector<Eigen::Vector2d> points) {
-  const std::vector<Eigen::Vector2d> hull = convex_hull(std::move(points));
+  const std::vector<Eigen::Vector2d> hull = cloud::convex_hull(std::move(points));
   PlotBox best;
   double least_area = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < hull.size(); ++i) {

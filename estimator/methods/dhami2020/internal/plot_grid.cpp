@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/packed_pair.h"
 #include "core/statistics.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -39,9 +40,7 @@ std::map<Index, double> cover_by_index(const Lattice& lattice, const PlotBox& pl
     if (!is_known(lattice, index) || !box_at(lattice, plot, index).contains(position)) continue;
     const auto x = static_cast<std::int32_t>(std::floor(position.x() / cell_m));
     const auto y = static_cast<std::int32_t>(std::floor(position.y() / cell_m));
-    const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
-                              static_cast<std::uint32_t>(y);
-    if (seen.insert(key).second) ++squares[index];
+    if (seen.insert(packed(x, y)).second) ++squares[index];
   }
   std::map<Index, double> cover;
   for (const auto& [index, count] : squares) {

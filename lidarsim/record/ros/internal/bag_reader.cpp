@@ -16,7 +16,7 @@ constexpr std::uint8_t kMessage = 2, kFileHeader = 3, kIndex = 4, kChunk = 5, kC
 class HeaderFields {
  public:
   explicit HeaderFields(std::span<const char> bytes) {
-    for (ByteReader reader(bytes); !reader.empty();) {
+    for (RecordReader reader(bytes); !reader.empty();) {
       const std::string field = reader.text();
       const auto equals = field.find('=');
       if (equals == std::string::npos) throw InputError("is broken: a header field has no value");
@@ -38,7 +38,7 @@ class HeaderFields {
     const std::string bytes = text(name);
     if (bytes.size() != sizeof(Number))
       throw InputError("is broken: the header field \"" + name + "\" has a wrong size");
-    return ByteReader(bytes).number<Number>();
+    return RecordReader(bytes).number<Number>();
   }
 
  private:
@@ -78,7 +78,7 @@ class BagReader {
   }
 
   void read_chunk(const std::vector<char>& chunk) {
-    for (ByteReader reader(chunk); !reader.empty();) {
+    for (RecordReader reader(chunk); !reader.empty();) {
       const HeaderFields header(reader.read(reader.number<std::uint32_t>()));
       const auto data = reader.read(reader.number<std::uint32_t>());
       const auto op = header.number<std::uint8_t>("op");

@@ -102,9 +102,9 @@ class BinaryInput {
 };
 
 // Bytes read from their beginning to their end. Throws InputError where they end too early.
-class ByteReader {
+class RecordReader {
  public:
-  explicit ByteReader(std::span<const char> bytes) : bytes_(bytes) {}
+  explicit RecordReader(std::span<const char> bytes) : bytes_(bytes) {}
 
   bool empty() const { return bytes_.empty(); }
   std::size_t left() const { return bytes_.size(); }

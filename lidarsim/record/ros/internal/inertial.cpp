@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/gravity.h"
+
 namespace plotscan::record {
 namespace {
-
-constexpr double kGravity_m_s2 = 9.80665;
 
 using Eigen::Vector3d;
 

@@ -37,9 +37,9 @@ class McapReader {
       if (op == McapOp::data_end) in_summary_ = true;
       if (in_summary_) continue;
       if (op == McapOp::chunk)
-        read_chunk(ByteReader(content));
+        read_chunk(RecordReader(content));
       else
-        read_record(op, ByteReader(content));
+        read_record(op, RecordReader(content));
     }
     require_magic();
   }
@@ -51,7 +51,7 @@ class McapReader {
       throw InputError("is no MCAP file, or is truncated");
   }
 
-  void read_chunk(ByteReader content) {
+  void read_chunk(RecordReader content) {
     content.read(2 * sizeof(std::uint64_t));  // first and last time
     const auto size = content.number<std::uint64_t>();
     const auto crc = content.number<std::uint32_t>();
@@ -60,13 +60,13 @@ class McapReader {
         unpacked(compression, content.read(content.number<std::uint64_t>()), size);
     if (crc != 0 && crc != mcap_crc({records.data(), records.size()}))
       throw InputError("is broken: the checksum of a chunk does not fit");
-    for (ByteReader reader(records); !reader.empty();) {
+    for (RecordReader reader(records); !reader.empty();) {
       const auto op = reader.number<McapOp>();
-      read_record(op, ByteReader(reader.read(reader.number<std::uint64_t>())));
+      read_record(op, RecordReader(reader.read(reader.number<std::uint64_t>())));
     }
   }
 
-  void read_record(McapOp op, ByteReader content) {
+  void read_record(McapOp op, RecordReader content) {
     if (op == McapOp::schema) {
       const auto id = content.number<std::uint16_t>();
       types_[id] = ros1_name(content.text());
@@ -82,7 +82,7 @@ class McapReader {
   }
 
   // Messages that are neither of ROS 2 nor of ROS 1 are passed over.
-  void hand_on(ByteReader content) const {
+  void hand_on(RecordReader content) const {
     const auto channel = channels_.find(content.number<std::uint16_t>());
     if (channel == channels_.end()) throw InputError("is broken: a message of an unknown channel");
     content.number<std::uint32_t>();  // sequence

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/velodyne/internal/nmea.h"
 
-#include <charconv>
 #include <cmath>
-#include <vector>
 
 #include <fmt/core.h>
 
@@ -34,45 +32,6 @@ std::string position_text(const GpsFix& fix) {
          fmt::format(",{:05.1f},{:05.1f}", fix.speed_m_s / kKnot_m_s, track_deg);
 }
 
-std::vector<std::string_view> fields_of(std::string_view text) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = text.find(',');
-    fields.push_back(text.substr(0, comma));
-    if (comma == std::string_view::npos) return fields;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, value, std::chars_format::fixed);
-  if (text.empty() || parsed.ec != std::errc() || parsed.ptr != end || value < 0)
-    return std::nullopt;
-  return value;
-}
-
-std::optional<UtcTime> time_of(std::string_view clock, std::string_view date) {
-  if (clock.size() < 6 || date.size() != 6) return std::nullopt;
-  const auto part = [](std::string_view text, std::size_t at) {
-    return std::string(text.substr(at, 2));
-  };
-  // Two digits of the year: GPS began in 1980.
-  const char* century = part(date, 4) < "80" ? "20" : "19";
-  return parse_utc(century + part(date, 4) + "-" + part(date, 2) + "-" + part(date, 0) + "T" +
-                   part(clock, 0) + ":" + part(clock, 2) + ":" + part(clock, 4) +
-                   std::string(clock.substr(6)) + "Z");
-}
-
-std::optional<double> angle_of(std::string_view text, std::string_view side, char negative) {
-  const auto value = number(text);
-  if (!value || side.size() != 1) return std::nullopt;
-  const double degrees = std::floor(*value / 100);
-  const double angle_deg = degrees + (*value - 100 * degrees) / 60;
-  return side.front() == negative ? -angle_deg : angle_deg;
-}
-
 }  // namespace
 
 unsigned nmea_checksum(std::string_view characters) {
@@ -93,27 +52,6 @@ std::string gprmc(const GpsFix& fix) {
       two_digits(static_cast<unsigned>(date.month())) +
       two_digits(static_cast<int>(date.year()) % 100) + ",,," + (fix.position ? "A" : "N");
   return "$" + text + fmt::format("*{:02X}", nmea_checksum(text));
-}
-
-std::optional<GpsFix> parse_rmc(const std::string& sentence) {
-  const std::size_t star = sentence.find('*');
-  if (!(sentence.starts_with("$GPRMC,") || sentence.starts_with("$GNRMC,")) ||
-      star == std::string::npos)
-    return std::nullopt;
-  const std::string_view text = std::string_view(sentence).substr(1, star - 1);
-  if (sentence.substr(star + 1) != fmt::format("{:02X}", nmea_checksum(text))) return std::nullopt;
-  const auto fields = fields_of(text);
-  if (fields.size() < 10) return std::nullopt;
-  const auto time = time_of(fields[1], fields[9]);
-  if (!time) return std::nullopt;
-  GpsFix fix{.time = *time};
-  const auto latitude_deg = angle_of(fields[3], fields[4], 'S');
-  const auto longitude_deg = angle_of(fields[5], fields[6], 'W');
-  if (fields[2] == "A" && latitude_deg && longitude_deg)
-    fix.position = {.latitude_deg = *latitude_deg, .longitude_deg = *longitude_deg};
-  fix.speed_m_s = number(fields[7]).value_or(0) * kKnot_m_s;
-  fix.track_deg = number(fields[8]).value_or(0);
-  return fix;
 }
 
 }  // namespace plotscan::record

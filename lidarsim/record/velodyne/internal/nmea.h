@@ -23,10 +23,6 @@ struct GpsFix {
 // position, speed and track are empty.
 std::string gprmc(const GpsFix& fix);
 
-// Time (and position where the status is A) of a GPRMC or GNRMC sentence of any version; nothing
-// where it is none, or its checksum is wrong.
-std::optional<GpsFix> parse_rmc(const std::string& sentence);
-
 // The exclusive or of the characters between '$' and '*'.
 unsigned nmea_checksum(std::string_view characters);
 

@@ -87,10 +87,5 @@ TEST(MinimumAreaBox, StandsDegenerateClusters) {
   EXPECT_NEAR(segment.width_m, 0, 1e-12);
 }
 
-TEST(ConvexHull, LeavesOutInnerAndEdgePoints) {
-  const auto hull = convex_hull({{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}, {1, 0}, {2, 1}, {0, 0}});
-  EXPECT_EQ(hull.size(), 4u);
-}
-
 }  // namespace
 }  // namespace plotscan::methods::dhami2020
