@@ -5,14 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Core>
+
 #include "plots/internal/depth_profile.h"
 
 namespace plotscan::plots {
 namespace {
 
 constexpr double kMostShift_m = 0.3, kShiftStep_m = 0.02;
-constexpr double kEdge_m = 0.12;   // width of the edges' filter
-constexpr double kBeyond_m = 0.6;  // of a plot's edge that takes part
+constexpr double kEdge_m = 0.12;        // width of the edges' filter
+constexpr double kBeyond_m = 0.6;       // of a plot's edge that takes part
+constexpr double kMostInside_m = 1.02;  // half a spacing on either side: maize, rows 40 in apart
+constexpr double kLeastOfSize = 0.3;    // chosen
 
 struct Neighbour {
   double at_m = 0;  // from the plot's centre
@@ -47,13 +51,14 @@ double edge_weight(double inside_m) {
 struct OwnCover {
   std::vector<double> x_m, cover;
 
-  // Height of both edges of a box of size_m about at_m.
-  double edges(double at_m, double size_m) const {
-    double height = 0;
+  // Heights of the edges of a box of size_m about at_m: before and after it.
+  Eigen::Array2d edges(double at_m, double size_m) const {
+    Eigen::Array2d heights(0, 0);
     for (std::size_t i = 0; i < cover.size(); ++i) {
-      height += cover[i] * edge_weight(size_m / 2 - std::abs(x_m[i] - at_m));
+      const double off_m = x_m[i] - at_m;
+      heights[off_m < 0 ? 0 : 1] += cover[i] * edge_weight(size_m / 2 - std::abs(off_m));
     }
-    return height;
+    return heights;
   }
 };
 
@@ -68,15 +73,17 @@ OwnCover own_cover(const DepthProfile& profile, const std::vector<Neighbour>& ne
   return own;
 }
 
-// The size whose edges are steepest over all plots: leaves lean out over the sown area, and a box
-// of another size would move towards the blunter one of a plot's edges.
+// The size whose edges are steepest over all plots: leaves lean out over the sown area, or the
+// outer rows end half a spacing within it, and a box of another size would move towards the blunter
+// one of a plot's edges. Both count: one edge alone is another plot's.
 double steepest_size(const std::vector<OwnCover>& covers, double size_m) {
-  double best = -1, best_size_m = size_m;
-  for (const double wider : steps_between(-0.1, 0.4, 0.02)) {
-    double height = 0;
-    for (const OwnCover& own : covers) height += own.edges(0, size_m + wider);
-    if (height <= best) continue;
-    best = height;
+  double best = 0, best_size_m = size_m;
+  for (const double wider : steps_between(-kMostInside_m, 0.4, 0.02)) {
+    if (size_m + wider < kLeastOfSize * size_m) continue;
+    Eigen::Array2d heights(0, 0);
+    for (const OwnCover& own : covers) heights += own.edges(0, size_m + wider);
+    if (heights.minCoeff() <= best) continue;
+    best = heights.minCoeff();
     best_size_m = size_m + wider;
   }
   return best_size_m;
@@ -87,7 +94,7 @@ std::optional<double> shift_of(const OwnCover& own, double size_m) {
   const int steps = static_cast<int>(std::lround(kMostShift_m / kShiftStep_m));
   std::vector<double> gains;
   for (int step = -steps; step <= steps; ++step) {
-    gains.push_back(own.edges(step * kShiftStep_m, size_m));
+    gains.push_back(own.edges(step * kShiftStep_m, size_m).sum());
   }
   const auto best = static_cast<std::size_t>(std::ranges::max_element(gains) - gains.begin());
   if (best == 0 || best + 1 == gains.size()) return std::nullopt;

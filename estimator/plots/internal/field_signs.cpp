@@ -24,7 +24,6 @@ constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops u
 constexpr double kLeastRoughness =
     0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
-constexpr double kMostAspect = 12;        // plots are sown and harvested one by one: no long rows
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;

@@ -44,6 +44,7 @@ Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_f
   layout.aligned = c_fit.begins.size() == 1;
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
   layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
+  layout.drilled = c_fit.drilled;
   const std::vector<Band> rows = bands_of(r_fit, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     layout.rows.push_back({rows[i], bands_of(c_fit, i)});
@@ -169,6 +170,27 @@ void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
   layouts = std::move(left);
 }
 
+// Whether the layout's plots are one by one the drill rows that another's consist of.
+bool are_rows_of(const Layout& layout, const Layout& drilled) {
+  constexpr double kAlike = 1.5;
+  constexpr double kLeastAspect = kMostAspect / 2;  // leaves make a row wider
+  if (!drilled.drilled) return false;
+  double width = layout.r_shape.size, length = layout.c_shape.size;
+  if (layout.view.swapped == drilled.view.swapped) std::swap(width, length);
+  const double row = drilled.c_seen.shape.size;
+  return length > kLeastAspect * width && width < kAlike * row && row < kAlike * width;
+}
+
+// Where rows of plots have offsets of their own, their drill rows may lie in columns through the
+// whole field by chance: they are no plots where groups of them are.
+void leave_out_drill_rows(std::vector<Layout>& layouts) {
+  const std::vector<Layout> all = layouts;
+  std::erase_if(layouts, [&](const Layout& layout) {
+    return std::ranges::any_of(all,
+                               [&](const Layout& other) { return are_rows_of(layout, other); });
+  });
+}
+
 // Median over a row's plots of how far the nearest of another row lies, cells.
 double shift_between(const Row& row, const Row& other) {
   std::vector<double> shifts;
@@ -197,6 +219,7 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
   const RowView view{.raster = &raster};
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
   std::vector<Layout> layouts = layouts_in(view, hints);
+  leave_out_drill_rows(layouts);
   leave_best_aligned(view, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   const double without = criterion({.view = view});

@@ -10,6 +10,10 @@
 
 namespace plotscan::plots {
 
+// Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
+// a crop.
+inline constexpr double kMostAspect = 12;
+
 struct Row {
   Band band;                     // across the row
   std::vector<Band> plots = {};  // along it
@@ -20,6 +24,7 @@ struct Layout {
   RowView view;
   BandShape r_shape = {}, c_shape = {};   // of a plot along r and along c
   Segmentation r_seen = {}, c_seen = {};  // the bands that show: drill rows, or the plots
+  bool drilled = false;                   // plots put together from drill rows along c
   std::vector<Row> rows = {};
   bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy

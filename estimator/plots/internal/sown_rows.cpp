@@ -70,37 +70,14 @@ Eigen::VectorXd depth_of(const DepthProfile& profile) {
                                            static_cast<Eigen::Index>(profile.depth.size()));
 }
 
-// What the best even canopy leaves.
-double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& near, double size_m) {
-  double least = std::numeric_limits<double>::infinity();
-  Eigen::MatrixXd curves(static_cast<Eigen::Index>(profile.x_m.size()), 2);
-  curves.col(1).setOnes();
-  const double smallest_m = std::max(0.2, size_m - kMostOff_m);
-  const auto steps = static_cast<int>((size_m + kMostOff_m - smallest_m) / kCoarse_m);
-  for (int step = 0; step <= steps; ++step) {
-    for (const double blur_m : kBlurs_m) {
-      curves.col(0) = curve_of(profile, near, BlurredBox(smallest_m + step * kCoarse_m, blur_m));
-      least = std::min(least, Curves(curves, depth_of(profile)).squares_left(std::array{0, 1}));
-    }
-  }
-  return least;
-}
-
-// What rows at equal steps leave, whatever the shape of their leaves.
-double squares_of_rows(const DepthProfile& profile, const Neighbours& near, const SownRows& rows) {
+// What a canopy leaves of which `canopy(blur_m)` is the shape that leaves of one spread make: the
+// best two of them together, over a level.
+template <class Canopy>
+double squares_of(const DepthProfile& profile, const Neighbours& near, const Canopy& canopy) {
   constexpr auto kBlurs = static_cast<int>(kBlurs_m.size());
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(profile.x_m.size()), kBlurs + 1);
-  for (int blur = 0; blur < kBlurs; ++blur) {
-    const double blur_m = kBlurs_m[static_cast<std::size_t>(blur)];
-    curves.col(blur) = curve_of(profile, near, [&](double x_m) {
-      double canopy = 0;
-      for (int row = 0; row < rows.rows; ++row) {
-        const double off = (x_m - (row - 0.5 * (rows.rows - 1)) * rows.spacing_m) / blur_m;
-        if (std::abs(off) < 4) canopy += std::exp(-0.5 * off * off);
-      }
-      return canopy;
-    });
-  }
+  for (int blur = 0; blur < kBlurs; ++blur)
+    curves.col(blur) = curve_of(profile, near, canopy(kBlurs_m[static_cast<std::size_t>(blur)]));
   curves.col(kBlurs).setOnes();
   const Curves fit(curves, depth_of(profile));
   double least = std::numeric_limits<double>::infinity();
@@ -113,6 +90,34 @@ double squares_of_rows(const DepthProfile& profile, const Neighbours& near, cons
     }
   }
   return least;
+}
+
+// What the best even canopy leaves, its edges as free as the rows' are.
+double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& near, double size_m) {
+  double least = std::numeric_limits<double>::infinity();
+  const double smallest_m = std::max(0.2, size_m - kMostOff_m);
+  const auto steps = static_cast<int>((size_m + kMostOff_m - smallest_m) / kCoarse_m);
+  for (int step = 0; step <= steps; ++step) {
+    const auto canopy = [&](double blur_m) {
+      return BlurredBox(smallest_m + step * kCoarse_m, blur_m);
+    };
+    least = std::min(least, squares_of(profile, near, canopy));
+  }
+  return least;
+}
+
+// What rows at equal steps leave, whatever the shape of their leaves.
+double squares_of_rows(const DepthProfile& profile, const Neighbours& near, const SownRows& rows) {
+  return squares_of(profile, near, [&](double blur_m) {
+    return [&, blur_m](double x_m) {
+      double canopy = 0;
+      for (int row = 0; row < rows.rows; ++row) {
+        const double off = (x_m - (row - 0.5 * (rows.rows - 1)) * rows.spacing_m) / blur_m;
+        if (std::abs(off) < 4) canopy += std::exp(-0.5 * off * off);
+      }
+      return canopy;
+    };
+  });
 }
 
 struct RowsFit {

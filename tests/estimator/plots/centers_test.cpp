@@ -9,11 +9,8 @@
 namespace plotscan::plots {
 namespace {
 
-// The places are moved off the plots by up to 10 cm either way; the canopy tells by how much.
-TEST(MeasuredShifts, AreByHowMuchThePlacesWereMoved) {
-  const TrialLayout trial = known_trial({0, 0, 0});
-  const CanopyRaster raster = canopy_of(trial);
-  Lattice lattice = lattice_of(trial, raster);
+// Moves the places off the plots by up to 10 cm either way; the canopy tells by how much.
+void expect_shifts(Lattice lattice) {
   std::vector<Eigen::Vector2d> moved_m;
   for (Place& place : lattice.places) {
     RandomStream random(5, random_purpose("test/shift"), moved_m.size());
@@ -28,6 +25,22 @@ TEST(MeasuredShifts, AreByHowMuchThePlacesWereMoved) {
     EXPECT_NEAR(*r[i], -moved_m[i].x(), 0.015);
     EXPECT_NEAR(*c[i], -moved_m[i].y(), 0.015);
   }
+}
+
+TEST(MeasuredShifts, AreByHowMuchThePlacesWereMoved) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  expect_shifts(lattice_of(trial, raster));
+}
+
+// Young plants in two rows 1 m apart: nothing stands at the sides, half a metre from them.
+TEST(MeasuredShifts, AreThoseOfRowsFarWithinThePlot) {
+  TrialLayout trial = known_trial({0, 0, 0}, 4);
+  trial.width_m = 2;
+  trial.column_pitch_m = 2.9;
+  for (TrialPlace& place : trial.places) place.position_m.x() += place.column - 1;
+  const CanopyRaster raster = sown_canopy(trial, 2, 0.05, 0.09);
+  expect_shifts(lattice_of(trial, raster));
 }
 
 // Leaves of the only neighbour close half the gap of 10 cm: a plot's own canopy stays where it is.

@@ -65,6 +65,12 @@ bool in_five_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
   return off_m < 0.15 || (off_m > 0.24 && off_m < 0.68);
 }
 
+// Three rows 0.43 m apart, as young soybeans'.
+bool in_three_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
+  const double off_m = std::abs(from_center.y());
+  return off_m < 0.09 || std::abs(off_m - 0.43) < 0.09;
+}
+
 // A number of its own for each plot.
 std::uint64_t number_of(const PlotBox& box) {
   return static_cast<std::uint64_t>(std::llround(1000 * std::abs(box.center.sum())));
@@ -147,6 +153,11 @@ TEST(FindPlots, PutsTheWidestDrillRowsTogether) {
 }
 TEST(FindPlots, PutsPairsOfDrillRowsWithARowBetweenThemTogether) {
   expect_found({.gap_m = 0.36}, in_five_drill_rows, 0.85);
+}
+// The gaps are two rows wide and the offsets some rows, so that rows run through the whole field.
+TEST(FindPlots, PutsDrillRowsTogetherThatRunThroughAllRowsOfPlots) {
+  expect_found({.gap_m = 0.86, .offsets_m = {0.86, -0.43, 0}, .width_m = 1.29},
+               in_three_drill_rows);
 }
 TEST(FindPlots, FindsPlotsOfSingleClumps) { expect_found({}, in_one_of_three_clumps, 0.8); }
 

@@ -70,6 +70,29 @@ inline CanopyRaster canopy_of(const TrialLayout& trial, double depth = 1.5, doub
   });
 }
 
+// Stems near their row and blades farther off, of an optical depth that adds up between rows.
+inline double leaves(double off_m, double stems_m, double blades_m) {
+  return 1.2 * std::exp(-0.5 * std::pow(off_m / stems_m, 2)) +
+         0.8 * std::exp(-0.5 * std::pow(off_m / blades_m, 2));
+}
+
+// The trial's plots sown in rows along their length, evenly spaced across the width.
+inline CanopyRaster sown_canopy(const TrialLayout& trial, int rows, double stems_m,
+                                double blades_m) {
+  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
+  const double spacing_m = trial.width_m / rows;
+  return raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
+    double depth = 0;
+    for (const TrialPlace& place : trial.places) {
+      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
+      if (std::abs(off.x()) > 0.5 * trial.length_m) continue;
+      for (int row = 0; row < rows; ++row)
+        depth += leaves(off.y() - (row + 0.5) * spacing_m + 0.5 * trial.width_m, stems_m, blades_m);
+    }
+    return 1 - std::exp(-depth);
+  });
+}
+
 // The trial as a lattice on the raster, rows along r.
 inline Lattice lattice_of(const TrialLayout& trial, const CanopyRaster& raster) {
   Lattice lattice{

@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/internal/sown_rows.h"
 
-#include <cmath>
-
 #include "known_trial.h"
 #include <gtest/gtest.h>
 
 namespace plotscan::plots {
 namespace {
-
-// Stems near their row and blades farther off, of an optical depth that adds up between rows.
-double leaves(double off_m, double stems_m, double blades_m) {
-  return 1.2 * std::exp(-0.5 * std::pow(off_m / stems_m, 2)) +
-         0.8 * std::exp(-0.5 * std::pow(off_m / blades_m, 2));
-}
-
-// The trial's plots sown in rows along their length, evenly spaced across the width.
-CanopyRaster sown_canopy(const TrialLayout& trial, int rows, double stems_m, double blades_m) {
-  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
-  const double spacing_m = trial.width_m / rows;
-  return raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
-    double depth = 0;
-    for (const TrialPlace& place : trial.places) {
-      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
-      if (std::abs(off.x()) > 0.5 * trial.length_m) continue;
-      for (int row = 0; row < rows; ++row)
-        depth += leaves(off.y() - (row + 0.5) * spacing_m + 0.5 * trial.width_m, stems_m, blades_m);
-    }
-    return 1 - std::exp(-depth);
-  });
-}
 
 struct SownField {
   int rows;
@@ -50,6 +26,23 @@ TEST(SownRows, AreFoundWithTheirSpacing) {
     EXPECT_NEAR(found->extent_m(), trial.width_m, 0.03) << rows << " rows, blades " << blades_m;
     EXPECT_FALSE(sown_rows_along(lattice)) << rows;  // along the rows the canopy is even
   }
+}
+
+// Edges that are steep where stems end and drawn out by blades: no one blur of a box is so.
+TEST(SownRows, AreNoneInAnEvenCanopyWithTwoKindsOfEdges) {
+  const TrialLayout trial = known_trial({0, 0});
+  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
+  const CanopyRaster raster = raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
+    double depth = 0;
+    for (const TrialPlace& place : trial.places) {
+      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
+      if (std::abs(off.x()) > 0.5 * trial.length_m) continue;
+      depth += 0.9 * blurred_box(off.y(), trial.width_m, 0.04) +
+               0.9 * blurred_box(off.y(), trial.width_m, 0.3);
+    }
+    return 1 - std::exp(-depth);
+  });
+  EXPECT_FALSE(sown_rows_along(lattice_of(trial, raster).turned()));
 }
 
 TEST(SownRows, AreNoneInAnEvenCanopy) {
