@@ -24,15 +24,16 @@ struct Steps {
   double spacing = 0;  // mean of those within
 };
 
-// Where the sorted steps jump by the greatest factors, with a tenth of them on either side at
-// least: from row to row and from plot to plot, or from plot to plot and over missing plots.
+// Where the sorted steps jump by the greatest factors, with enough of them on either side: from row
+// to row and from plot to plot, or from plot to plot and over missing plots. Of a few plots of many
+// rows few steps lead from plot to plot.
 std::vector<Steps> steps_of(const Lines& middles) {
   constexpr std::size_t kTried = 4;
   std::vector<double> steps;
   for (const std::vector<double>& line : middles)
     for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(line[i] - line[i - 1]);
   std::ranges::sort(steps);
-  const std::size_t few = std::max<std::size_t>(1, steps.size() / 10);
+  const std::size_t few = std::max<std::size_t>(1, steps.size() / (2 * kMostRows));
   std::vector<Steps> found;
   double sum = 0;
   for (std::size_t i = 0; i + few <= steps.size(); ++i) {

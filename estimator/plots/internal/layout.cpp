@@ -191,7 +191,8 @@ void leave_out_drill_rows(std::vector<Layout>& layouts) {
   });
 }
 
-// Median over a row's plots of how far the nearest of another row lies, cells.
+// Median over a row's plots of how far the nearest of another row lies, cells: the lower one, as of
+// two plots one may be missing in the other row.
 double shift_between(const Row& row, const Row& other) {
   std::vector<double> shifts;
   for (const Band& plot : row.plots) {
@@ -202,18 +203,17 @@ double shift_between(const Row& row, const Row& other) {
       nearest = std::min<double>(nearest, plot.begin - std::prev(after)->begin);
     shifts.push_back(nearest);
   }
-  return quantile(std::move(shifts), 0.5);
+  return selected(std::span(shifts), (shifts.size() - 1) / 2);
 }
 
-// Whether plots that were sought row by row go on from row to row all the same.
+}  // namespace
+
 bool is_in_columns(const Layout& layout) {
   const double most = kSameColumn_m / layout.view.cell_m();
   for (std::size_t i = 1; i < layout.rows.size(); ++i)
     if (shift_between(layout.rows[i - 1], layout.rows[i]) > most) return false;
   return true;
 }
-
-}  // namespace
 
 Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
   const RowView view{.raster = &raster};

@@ -30,6 +30,9 @@ struct Layout {
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy
 };
 
+// Whether plots that were sought row by row go on from row to row all the same.
+bool is_in_columns(const Layout& layout);
+
 // The layout that explains the canopy along both axes best, for its number of parameters: bands
 // over the whole field along either axis, or over the whole field along one and in each row by
 // itself along the other. Without rows where nothing stands out, or nothing that is as the hints

@@ -33,6 +33,14 @@ TEST(DrilledPlots, AreAsWideAsTheirRowsTimesTheSpacing) {
   }
 }
 
+// Two of 35 steps lead from plot to plot.
+TEST(DrilledPlots, MayBeFewOfManyRows) {
+  const auto plots = drilled_plots({rows_of(3, 12, 8, 20)}, 22, 3);
+  ASSERT_TRUE(plots);
+  EXPECT_EQ(plots->rows, 12);
+  EXPECT_EQ(plots->begins.front().size(), 3U);
+}
+
 TEST(DrilledPlots, StandWhereARowWasNotSeen) {
   std::vector<double> middles = rows_of(6, 4, 8, 10);
   middles.erase(middles.begin() + 9);  // an inner row of the third plot

@@ -46,6 +46,20 @@ TEST(BestLayout, FollowsRowsThatStartAtOffsets) {
   EXPECT_FALSE(found.aligned);
 }
 
+// Rows of three plots, of which one lacks the first and the next the last.
+TEST(IsInColumns, WhereRowsOfFewPlotsLackSome) {
+  const CanopyRaster raster = canopy_of(known_trial({0}));
+  const auto rows_at = [&](int offset) {
+    Layout layout{.view = {.raster = &raster}};
+    layout.rows = {{{0, 30}, {{0, 90}, {140, 230}, {245, 335}}},
+                   {{40, 70}, {{140, 230}, {246, 336}}},
+                   {{80, 110}, {{0 + offset, 90 + offset}, {139 + offset, 229 + offset}}}};
+    return layout;
+  };
+  EXPECT_TRUE(is_in_columns(rows_at(0)));
+  EXPECT_FALSE(is_in_columns(rows_at(20)));
+}
+
 TEST(BestLayout, LeavesOutThePlotThatIsMissing) {
   TrialLayout trial = known_trial({0, 0, 0});
   trial.places.erase(trial.places.begin() + 7);
