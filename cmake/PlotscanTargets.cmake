@@ -102,13 +102,18 @@ function(plotscan_test_program name)
   plotscan_precompile(${name} common_test_headers)
 endfunction()
 
+# Sets the variable to a test's time limit: under a sanitizer programs take up to ten times as long.
+function(plotscan_time_limit variable seconds)
+  if(PLOTSCAN_SANITIZE)
+    math(EXPR seconds "10 * ${seconds}")
+  endif()
+  set(${variable} ${seconds} PARENT_SCOPE)
+endfunction()
+
 # plotscan_test(NAME SOURCES ... LIBRARIES ...): the same, its cases found by CTest.
 function(plotscan_test name)
   plotscan_test_program(${name} ${ARGN})
-  set(seconds 300)
-  if(PLOTSCAN_SANITIZE)
-    set(seconds 3000)  # under which programs take up to ten times as long
-  endif()
+  plotscan_time_limit(seconds 300)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${seconds})
 endfunction()
 include(GoogleTest)
