@@ -83,8 +83,8 @@ void TileCounter::add(std::span<const Eigen::Vector3d> points) {
   constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
   for (const Eigen::Vector3d& point : points) {
     if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) continue;
-    ++count_by_tile_[packed(static_cast<std::int32_t>(std::floor(point.x())),
-                            static_cast<std::int32_t>(std::floor(point.y())))];
+    ++count_by_tile_[packed_pair(static_cast<std::int32_t>(std::floor(point.x())),
+                                 static_cast<std::int32_t>(std::floor(point.y())))];
   }
 }
 
@@ -92,7 +92,7 @@ std::vector<TileCount> TileCounter::counts() const {
   std::vector<TileCount> counts;
   counts.reserve(count_by_tile_.size());
   for (const auto& [key, points] : count_by_tile_) {
-    const auto [x, y] = unpacked(key);
+    const auto [x, y] = unpacked_pair(key);
     counts.push_back({{x, y}, points});
   }
   std::ranges::sort(counts, {}, &TileCount::tile);

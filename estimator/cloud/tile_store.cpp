@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kNoSlot = 0xffffffff;
 
-std::uint64_t block_key(Tile tile, int bits) { return packed(tile.y >> bits, tile.x >> bits); }
+std::uint64_t block_key(Tile tile, int bits) { return packed_pair(tile.y >> bits, tile.x >> bits); }
 
 struct Thinned {
   std::size_t kept = 0;

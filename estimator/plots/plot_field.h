@@ -26,6 +26,7 @@ struct FieldSigns {
   double filled_share = 0;   // of the rows' places from their first plot to their last
   double surface_share = 0;  // of what stands on the field, that is smooth as walls and roofs are
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
+  double straightness = 0;   // the same of all canopy in and around them (squareness.h)
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
   double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
   double mean_unevenness = 0;  // the same of the plots' mean

@@ -53,7 +53,7 @@ TEST_F(Recordings, GiveThePlotsOfTheScan) {
             << file << ' ' << i << ' ' << side;
       }
       // Heights that are rounded have other ranks, and other pairs of them are compared.
-      const double most_height_m = std::max(most_m, 0.005);
+      const double most_height_m = std::max(most_m, 0.01);
       for (const char* height : {"height_max_m", "height_mean_m", "canopy_p95_m"}) {
         EXPECT_NEAR(plots[i]["properties"][height].get<double>(),
                     truth[i]["properties"][height].get<double>(), most_height_m)

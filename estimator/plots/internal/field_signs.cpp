@@ -12,19 +12,19 @@
 
 #include "core/statistics.h"
 #include "plots/internal/roughness.h"
+#include "plots/internal/squareness.h"
 
 namespace plotscan::plots {
 namespace {
 
-// Of a plot, that takes part in its outline: half the gap to the next one.
-constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
 constexpr double kCanopyPiece_m = 1;  // of a plot, in which canopy is taken
 constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked for
 constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kLeastRoughness =
     0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
-constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more
+constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
+constexpr double kStraight = 2;           // or this of the canopy: crowns and mounds up to 1.2
 // So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
 constexpr std::size_t kFewPlots = 4;
 constexpr double kLeastSquarenessOfFew = 1.05;
@@ -42,77 +42,6 @@ constexpr double kLeastConfidence = 0.05;
 double canopy_in(const RowView& view, const CellBox& box) {
   return view.cover(box.r0, box.r1, box.c0, box.c1) *
          view.seen_cells(box.r0, box.r1, box.c0, box.c1);
-}
-
-// The plots' mean canopy by place in a plot, x and y in its half sizes.
-struct MeanPlot {
-  int r_cells = 0, c_cells = 0;
-  std::vector<double> canopy = {}, seen = {};
-};
-
-MeanPlot pooled(const Lattice& lattice, double around_m) {
-  const double cell_m = lattice.view.cell_m();
-  MeanPlot plot{.r_cells = static_cast<int>((lattice.r.size_m + 2 * around_m) / cell_m),
-                .c_cells = static_cast<int>((lattice.c.size_m + 2 * around_m) / cell_m)};
-  plot.canopy.assign(
-      static_cast<std::size_t>(plot.r_cells) * static_cast<std::size_t>(plot.c_cells), 0);
-  plot.seen = plot.canopy;
-  for (const Place& place : lattice.places) {
-    const CellBox box = cells_about(lattice, place, around_m);
-    std::size_t at = 0;
-    for (int r = box.r0; r < box.r0 + plot.r_cells; ++r) {
-      for (int c = box.c0; c < box.c0 + plot.c_cells; ++c, ++at) {
-        if (lattice.view.seen_cells(r, r + 1, c, c + 1) == 0) continue;
-        plot.canopy[at] += lattice.view.cover(r, r + 1, c, c + 1);
-        plot.seen[at] += 1;
-      }
-    }
-  }
-  return plot;
-}
-
-// Squares about one level within an outline and one beyond it, the least over the outline's size.
-template <class Inside>
-double best_misfit(const MeanPlot& plot, const Inside& inside) {
-  double best = std::numeric_limits<double>::infinity();
-  constexpr int kScales = 17;
-  const auto scale_of = [](int step) { return 0.6 + 0.05 * step; };
-  for (int i = 0; i < kScales; ++i) {
-    for (int k = 0; k < kScales; ++k) {
-      const double r_scale = scale_of(i), c_scale = scale_of(k);
-      double n[2] = {}, sum[2] = {}, squares = 0;
-      std::size_t at = 0;
-      for (int r = 0; r < plot.r_cells; ++r) {
-        const double y = (2 * (r + 0.5) / plot.r_cells - 1) / r_scale;
-        for (int c = 0; c < plot.c_cells; ++c, ++at) {
-          if (plot.seen[at] == 0) continue;
-          const double x = (2 * (c + 0.5) / plot.c_cells - 1) / c_scale;
-          const double canopy = plot.canopy[at] / plot.seen[at];
-          const int in = inside(x, y) ? 1 : 0;
-          n[in] += 1;
-          sum[in] += canopy;
-          squares += canopy * canopy;
-        }
-      }
-      best = std::min(best, squares - sum[0] * sum[0] / std::max(1.0, n[0]) -
-                                sum[1] * sum[1] / std::max(1.0, n[1]));
-    }
-  }
-  return best;
-}
-
-double squareness_of(const Lattice& lattice) {
-  const auto half_gap = [](double pitch_m, double size_m) {
-    return pitch_m > 0 ? std::max(0.0, (pitch_m - size_m) / 2) : kAround_m;
-  };
-  const double around_m = std::clamp(std::min(half_gap(lattice.r.pitch_m, lattice.r.size_m),
-                                              half_gap(lattice.c.pitch_m, lattice.c.size_m)),
-                                     kLeastAround_m, kAround_m);
-  const MeanPlot plot = pooled(lattice, around_m);
-  const double of_ellipse = best_misfit(plot, [](double x, double y) { return x * x + y * y < 1; });
-  const double of_rectangle =
-      best_misfit(plot, [](double x, double y) { return std::max(std::abs(x), std::abs(y)) < 1; });
-  return of_ellipse / std::max(1e-9, of_rectangle);
 }
 
 double least_gap_m(const Lattice& lattice) {
@@ -198,11 +127,13 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
                     double evidence) {
   const RowView& view = lattice.view;
   const Pieces pieces(lattice);
+  const Squareness squareness = squareness_of(lattice);
   const double sides = std::hypot(lattice.r.size_m, lattice.c.size_m);
   FieldSigns signs{.plots = lattice.places.size(),
                    .filled_share = filled_share(lattice),
                    .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
-                   .squareness = squareness_of(lattice),
+                   .squareness = squareness.of_outline,
+                   .straightness = squareness.of_canopy,
                    .roughness = roughness(lattice, field.points(), noise_m),
                    .unevenness = unevenness_of(lattice, pieces),
                    .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
@@ -222,7 +153,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
-  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness))
+  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness) &&
+      signs.straightness < kStraight)
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
   if (signs.mean_unevenness > kMostUneven ||
       (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
@@ -237,7 +169,10 @@ double field_confidence(const FieldSigns& signs) {
   const auto share = [](double value, double none, double all) {
     return std::clamp((value - none) / (all - none), 0.0, 1.0);
   };
-  return share(signs.held_share, kLeastHeld, 1) * share(signs.squareness, kLeastSquareness, 1.3) *
+  const double squareness =
+      std::max(share(signs.squareness, kLeastSquareness, 1.3),
+               share(std::log(signs.straightness), std::log(kStraight), std::log(2 * kStraight)));
+  return share(signs.held_share, kLeastHeld, 1) * squareness *
          share(std::log(signs.evidence), std::log(kLeastEvidence), std::log(4 * kLeastEvidence));
 }
 

@@ -27,7 +27,7 @@ std::vector<Eigen::Vector3d> lowest_by_cell(std::span<const Eigen::Vector3f> poi
   for (const Eigen::Vector3f& point : points) {
     const auto x = static_cast<std::int32_t>(std::floor(point.x() / kCell_m));
     const auto y = static_cast<std::int32_t>(std::floor(point.y() / kCell_m));
-    const auto [found, is_new] = cell_index.emplace(packed(x, y), lowest.size());
+    const auto [found, is_new] = cell_index.emplace(packed_pair(x, y), lowest.size());
     if (is_new) {
       lowest.emplace_back(point.cast<double>());
     } else if (point.z() < lowest[found->second].z()) {

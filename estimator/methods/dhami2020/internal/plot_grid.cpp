@@ -40,7 +40,7 @@ std::map<Index, double> cover_by_index(const Lattice& lattice, const PlotBox& pl
     if (!is_known(lattice, index) || !box_at(lattice, plot, index).contains(position)) continue;
     const auto x = static_cast<std::int32_t>(std::floor(position.x() / cell_m));
     const auto y = static_cast<std::int32_t>(std::floor(position.y() / cell_m));
-    if (seen.insert(packed(x, y)).second) ++squares[index];
+    if (seen.insert(packed_pair(x, y)).second) ++squares[index];
   }
   std::map<Index, double> cover;
   for (const auto& [index, count] : squares) {

@@ -41,6 +41,7 @@ json signs_json(const plots::FieldSigns& signs) {
           {"filled_share", signs.filled_share},
           {"surface_share", signs.surface_share},
           {"squareness", signs.squareness},
+          {"straightness", signs.straightness},
           {"aspect", signs.aspect},
           {"roughness", signs.roughness},
           {"unevenness", signs.unevenness},
