@@ -33,7 +33,7 @@ std::vector<Steps> steps_of(const Lines& middles) {
   for (const std::vector<double>& line : middles)
     for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(line[i] - line[i - 1]);
   std::ranges::sort(steps);
-  const std::size_t few = std::max<std::size_t>(1, steps.size() / (2 * kMostRows));
+  const std::size_t few = std::max<std::size_t>(1, steps.size() / (std::size_t{2} * kMostRows));
   std::vector<Steps> found;
   double sum = 0;
   for (std::size_t i = 0; i + few <= steps.size(); ++i) {

@@ -13,9 +13,9 @@ namespace {
 
 // Of a plot, that takes part in its outline: half the gap to the next one.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
-constexpr int kRounds = 20;         // of least squares in turn; on tried fields 5 do
-constexpr double kMostStretch = 2;  // of ellipses, from the plots' own sides
-constexpr double kStretchStep = 1.07;
+constexpr int kRounds = 20;         // of least squares in turn
+constexpr double kMostStretch = 2;  // of ellipses, from the ratio of the plots' own sides,
+constexpr int kStretches = 10;      // in so many steps up and down
 constexpr double kNone = 1e-12;
 
 // The plots' mean canopy by cell along r and c, and whether anything was seen there, 1 or 0.
@@ -125,8 +125,9 @@ double squares_of_rings(const MeanPlot& plot, double stretch) {
 
 double squares_of_ellipses(const MeanPlot& plot) {
   double least = std::numeric_limits<double>::infinity();
-  for (double stretch = 1 / kMostStretch; stretch <= kMostStretch; stretch *= kStretchStep)
-    least = std::min(least, squares_of_rings(plot, stretch));
+  for (int step = -kStretches; step <= kStretches; ++step)
+    least =
+        std::min(least, squares_of_rings(plot, std::pow(kMostStretch, 1.0 * step / kStretches)));
   return least;
 }
 
