@@ -42,17 +42,37 @@ double outline_contrast(const Lattice& lattice, const Place& place) {
          4;
 }
 
+struct Column {
+  double c_m = 0;
+  std::size_t plots = 0;
+};
+
+// Plots do not overlap: of two columns nearer to each other than a plot's side that of fewer plots
+// is none, but plots that lean over or are seen in part.
+void leave_out_overlapping(std::vector<Column>& columns, double size_m) {
+  for (std::size_t i = 1; i < columns.size();) {
+    if (columns[i].c_m - columns[i - 1].c_m >= size_m) {
+      ++i;
+    } else {
+      const bool first = columns[i - 1].plots < columns[i].plots;
+      columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(first ? i - 1 : i));
+      i = std::max<std::size_t>(1, i - 1);
+    }
+  }
+}
+
 // The columns that run through all rows: positions that lie together; none where they do not.
-std::vector<double> columns_of(std::vector<double> positions, double pitch_m) {
+std::vector<Column> columns_of(std::vector<double> positions, double pitch_m, double size_m) {
   std::ranges::sort(positions);
-  std::vector<double> columns;
+  std::vector<Column> columns;
   std::size_t begin = 0;
   for (std::size_t i = 1; i <= positions.size(); ++i) {
     if (i < positions.size() && positions[i] - positions[i - 1] < 0.35 * pitch_m) continue;
     if (positions[i - 1] - positions[begin] > 0.5 * pitch_m) return {};
-    columns.push_back((positions[begin] + positions[i - 1]) / 2);
+    columns.push_back({(positions[begin] + positions[i - 1]) / 2, i - begin});
     begin = i;
   }
+  leave_out_overlapping(columns, size_m);
   return columns;
 }
 
@@ -76,10 +96,10 @@ void place_plots(const Layout& layout, Lattice& lattice) {
 }
 
 // Every place has the nearest of the columns that run through all rows.
-void number_columns(const std::vector<double>& columns, Lattice& lattice) {
+void number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   for (Place& place : lattice.places) {
     const auto nearest = std::ranges::min_element(
-        columns, {}, [&](double column) { return std::abs(column - place.c_m); });
+        columns, {}, [&](const Column& column) { return std::abs(column.c_m - place.c_m); });
     place.column = static_cast<int>(nearest - columns.begin());
   }
   lattice.columns = static_cast<int>(columns.size());
@@ -123,8 +143,8 @@ void number(const Layout& layout, Lattice& lattice) {
   const double pitch_m = lattice.c.pitch_m > 0 ? lattice.c.pitch_m : lattice.c.size_m * 1.2;
   std::vector<double> positions;
   for (const Place& place : lattice.places) positions.push_back(place.c_m);
-  const std::vector<double> columns =
-      layout.aligned ? columns_of(std::move(positions), pitch_m) : std::vector<double>{};
+  std::vector<Column> columns;
+  if (layout.aligned) columns = columns_of(std::move(positions), pitch_m, lattice.c.size_m);
   lattice.aligned = !columns.empty();
   if (lattice.aligned) {
     number_columns(columns, lattice);

@@ -90,6 +90,18 @@ TEST(Lattice, LeavesOutBandsWithoutCanopy) {
   expect_places(layout_of(fit_lattice(bands_of(bands, raster), {})), trial);
 }
 
+// A lodged plot is seen 0.85 m beside the other two of its column, where no column has room.
+TEST(Lattice, HasNoColumnOfAPlotThatLeansOver) {
+  TrialLayout trial = known_trial({0, 0, 0}, 6);
+  trial.places.erase(trial.places.begin() + 10);  // its neighbour is missing
+  trial.places[9].position_m.x() += 0.85;
+  const CanopyRaster raster = canopy_of(trial);
+  const Lattice lattice = fit_lattice(bands_of(trial, raster), {});
+  EXPECT_EQ(lattice.columns, 6);
+  for (std::size_t i = 0; i < lattice.places.size(); ++i)
+    EXPECT_EQ(lattice.places[i].column + 1, trial.places[i].column) << i;
+}
+
 // A patch as large as a plot, ten columns beyond the second row.
 TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
   const TrialLayout trial = known_trial({0, 0, 0});
