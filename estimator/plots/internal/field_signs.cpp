@@ -153,8 +153,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
-  if (signs.squareness < (few ? kLeastSquarenessOfFew : kLeastSquareness) &&
-      signs.straightness < kStraight)
+  const bool square = signs.squareness >= (few ? kLeastSquarenessOfFew : kLeastSquareness);
+  if (!square && (few || signs.straightness < kStraight))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
   if (signs.mean_unevenness > kMostUneven ||
       (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))

@@ -55,18 +55,25 @@ inline double blurred_box(double x_m, double size_m, double blur_m) {
   return 0.5 * (std::erf((x_m + size_m / 2) * scale) - std::erf((x_m - size_m / 2) * scale));
 }
 
-// Canopies of the given optical depth in the trial's plots, blurred over their edges: Beer-Lambert.
-inline CanopyRaster canopy_of(const TrialLayout& trial, double depth = 1.5, double blur_m = 0.08) {
+// What the optical depths that `depth_at(off)` gives at a place from a plot's centre, along its
+// length and its width, add up to: Beer-Lambert.
+template <class Depth>
+CanopyRaster canopy_in_plots(const TrialLayout& trial, const Depth& depth_at) {
   const Eigen::Vector2d far = trial.box(trial.places.back()).center;
   return raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
-    double sum = 0;
-    for (const TrialPlace& place : trial.places) {
-      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
-      if (std::abs(off.x()) > 2.5 || std::abs(off.y()) > 1.75) continue;
-      sum += depth * blurred_box(off.x(), trial.length_m, blur_m) *
-             blurred_box(off.y(), trial.width_m, blur_m);
-    }
-    return 1 - std::exp(-sum);
+    double depth = 0;
+    for (const TrialPlace& place : trial.places)
+      depth += depth_at(Eigen::Vector2d(trial.box(place).box_from_world({x, y})));
+    return 1 - std::exp(-depth);
+  });
+}
+
+// Canopies of the given optical depth in the trial's plots, blurred over their edges.
+inline CanopyRaster canopy_of(const TrialLayout& trial, double depth = 1.5, double blur_m = 0.08) {
+  return canopy_in_plots(trial, [&](const Eigen::Vector2d& off) {
+    if (std::abs(off.x()) > 2.5 || std::abs(off.y()) > 1.75) return 0.0;
+    return depth * blurred_box(off.x(), trial.length_m, blur_m) *
+           blurred_box(off.y(), trial.width_m, blur_m);
   });
 }
 
@@ -79,17 +86,13 @@ inline double leaves(double off_m, double stems_m, double blades_m) {
 // The trial's plots sown in rows along their length, evenly spaced across the width.
 inline CanopyRaster sown_canopy(const TrialLayout& trial, int rows, double stems_m,
                                 double blades_m) {
-  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
   const double spacing_m = trial.width_m / rows;
-  return raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
+  return canopy_in_plots(trial, [&](const Eigen::Vector2d& off) {
     double depth = 0;
-    for (const TrialPlace& place : trial.places) {
-      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
-      if (std::abs(off.x()) > 0.5 * trial.length_m) continue;
-      for (int row = 0; row < rows; ++row)
-        depth += leaves(off.y() - (row + 0.5) * spacing_m + 0.5 * trial.width_m, stems_m, blades_m);
-    }
-    return 1 - std::exp(-depth);
+    if (std::abs(off.x()) > 0.5 * trial.length_m) return depth;
+    for (int row = 0; row < rows; ++row)
+      depth += leaves(off.y() - (row + 0.5) * spacing_m + 0.5 * trial.width_m, stems_m, blades_m);
+    return depth;
   });
 }
 

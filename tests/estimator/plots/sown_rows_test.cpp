@@ -31,16 +31,10 @@ TEST(SownRows, AreFoundWithTheirSpacing) {
 // Edges that are steep where stems end and drawn out by blades: no one blur of a box is so.
 TEST(SownRows, AreNoneInAnEvenCanopyWithTwoKindsOfEdges) {
   const TrialLayout trial = known_trial({0, 0});
-  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
-  const CanopyRaster raster = raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
-    double depth = 0;
-    for (const TrialPlace& place : trial.places) {
-      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
-      if (std::abs(off.x()) > 0.5 * trial.length_m) continue;
-      depth += 0.9 * blurred_box(off.y(), trial.width_m, 0.04) +
-               0.9 * blurred_box(off.y(), trial.width_m, 0.3);
-    }
-    return 1 - std::exp(-depth);
+  const CanopyRaster raster = canopy_in_plots(trial, [&](const Eigen::Vector2d& off) {
+    if (std::abs(off.x()) > 0.5 * trial.length_m) return 0.0;
+    return 0.9 * blurred_box(off.y(), trial.width_m, 0.04) +
+           0.9 * blurred_box(off.y(), trial.width_m, 0.3);
   });
   EXPECT_FALSE(sown_rows_along(lattice_of(trial, raster).turned()));
 }

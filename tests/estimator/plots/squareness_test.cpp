@@ -9,18 +9,12 @@
 namespace plotscan::plots {
 namespace {
 
-// Of a canopy in every plot that depends on the place in it, x and y in its half sides.
-template <class Canopy>
-Squareness squareness_with(const Canopy& canopy) {
+// Of an optical depth in every plot that depends on the place in it, x and y in its half sides.
+template <class Depth>
+Squareness squareness_with(const Depth& depth) {
   const TrialLayout trial = known_trial({0, 0});
-  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
-  const CanopyRaster raster = raster_of(far.x() + 3, far.y() + 2.5, [&](double x, double y) {
-    double sum = 0;
-    for (const TrialPlace& place : trial.places) {
-      const Eigen::Vector2d off = trial.box(place).box_from_world({x, y});
-      sum += canopy(2 * off.x() / trial.length_m, 2 * off.y() / trial.width_m);
-    }
-    return std::min(1.0, sum);
+  const CanopyRaster raster = canopy_in_plots(trial, [&](const Eigen::Vector2d& off) {
+    return depth(2 * off.x() / trial.length_m, 2 * off.y() / trial.width_m);
   });
   return squareness_of(lattice_of(trial, raster));
 }

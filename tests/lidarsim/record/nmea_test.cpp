@@ -25,6 +25,15 @@ TEST(Nmea, ChecksumsAreThoseOfKnownSentences) {
   }
 }
 
+// The exclusive or of what lies between '$' and '*', as two hexadecimal digits behind the latter.
+void expect_checksum(const std::string& sentence) {
+  const auto star = sentence.find('*');
+  ASSERT_EQ(star + 3, sentence.size()) << sentence;
+  int sum = 0;
+  for (std::size_t i = 1; i < star; ++i) sum ^= sentence[i];
+  EXPECT_EQ(std::stoi(sentence.substr(star + 1), nullptr, 16), sum) << sentence;
+}
+
 TEST(Nmea, WritesTheRecommendedMinimum) {
   const std::string sentence =
       gprmc({.time = *parse_utc("2026-06-01T09:08:07Z"),
@@ -33,6 +42,7 @@ TEST(Nmea, WritesTheRecommendedMinimum) {
              .track_deg = 359.97});
   EXPECT_EQ(sentence.substr(0, sentence.find('*')),
             "$GPRMC,090807,A,3712.0000000,S,08030.0000750,W,003.9,000.0,010626,,,A");
+  expect_checksum(sentence);
 }
 
 TEST(Nmea, NoSentenceSaysSixtyMinutes) {
@@ -45,6 +55,7 @@ TEST(Nmea, NoSentenceSaysSixtyMinutes) {
 TEST(Nmea, WithoutAPositionOnlyTheTimeIsSaid) {
   const std::string sentence = gprmc({.time = *parse_utc("2026-12-31T23:59:59Z")});
   EXPECT_TRUE(sentence.starts_with("$GPRMC,235959,V,,,,,,,311226,,,N*")) << sentence;
+  expect_checksum(sentence);
 }
 
 }  // namespace
