@@ -13,7 +13,7 @@ namespace {
 
 // Of a plot, that takes part in its outline: half the gap to the next one.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
-constexpr int kRounds = 20;         // of least squares in turn
+constexpr int kFitRounds = 20;      // of least squares in turn
 constexpr double kMostStretch = 2;  // of ellipses, from the ratio of the plots' own sides,
 constexpr int kStretches = 10;      // in so many steps up and down
 constexpr double kNone = 1e-12;
@@ -81,7 +81,7 @@ double squares_of_product(const MeanPlot& plot) {
   Eigen::ArrayXd along = Eigen::ArrayXd::Ones(plot.canopy.rows());
   Eigen::ArrayXd across = Eigen::ArrayXd::Ones(plot.canopy.cols());
   double level = 0, squares = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     const Eigen::ArrayXXd above = (plot.canopy - level) * plot.seen;
     const auto weights = plot.seen.matrix();
     along = (above.matrix() * across.matrix()).array() /
