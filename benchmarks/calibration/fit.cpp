@@ -108,8 +108,9 @@ heights::CalibrationFarm farm_of(const MeasuredField& field,
           .features = heights::field_features(features),
           .ratios = heights::field_features(ratios),
           .within = {},
-          .surprise_given_crop = {},
-          .surprise_told_crop = {}};
+          .from_libraries = {},
+          .from_crops = {},
+          .surprise_given_crop = {}};
 }
 
 void scale_features(heights::Calibration& calibration) {
@@ -123,17 +124,45 @@ void scale_features(heights::Calibration& calibration) {
   calibration.scale = (centred.array().square().colwise().mean().sqrt()).max(kLeastScale);
 }
 
-// Under which the crops of the farms, each told by the others, are likeliest.
+// Certainly its own.
+Eigen::VectorXd own_crop(const heights::Calibration& calibration,
+                         const heights::CalibrationFarm& farm) {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
+                               static_cast<Eigen::Index>(calibration.index_of(farm.crop)));
+}
+
+const std::string& name_of(const heights::CalibrationFarm& farm, Group group) {
+  return group == Group::crop ? farm.crop : farm.library;
+}
+
+// The farms' numbers in groups.
+std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
+                                                Group group) {
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
+    by_name[group == Group::farm ? std::to_string(i) : name_of(calibration.farms[i], group)]
+        .push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(by_name.size());
+  for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
+  return groups;
+}
+
+// Under which the crops of the farms, each told by the farms of other libraries, are likeliest.
 double likeliest_sharpness(const heights::Calibration& calibration) {
   std::vector<Eigen::VectorXd> scores(calibration.farms.size());
-  tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t i) {
-    scores[i] = heights::CropModel(calibration.without({&i, 1}))
-                    .scores(calibration.scaled(calibration.farms[i].features));
+  const std::vector<std::vector<std::size_t>> libraries = groups_of(calibration, Group::library);
+  tbb::parallel_for(std::size_t{0}, libraries.size(), [&](std::size_t g) {
+    const heights::CropModel others(calibration.without(libraries[g]));
+    for (const std::size_t i : libraries[g])
+      scores[i] = others.scores(calibration.scaled(calibration.farms[i].features));
   });
   double best = 1, most = -INFINITY;
-  constexpr int kTried = 42;
+  constexpr double kLeast = 0.1, kStep = 1.05;
+  constexpr int kTried = 95;  // up to 10
   for (int step = 0; step < kTried; ++step) {
-    const double sharpness = std::pow(1.1, step);
+    const double sharpness = kLeast * std::pow(kStep, step);
     double likelihood = 0;
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const auto own = static_cast<Eigen::Index>(calibration.index_of(calibration.farms[i].crop));
@@ -144,25 +173,6 @@ double likeliest_sharpness(const heights::Calibration& calibration) {
     best = sharpness;
   }
   return best;
-}
-
-// Certainly its own.
-Eigen::VectorXd own_crop(const heights::Calibration& calibration,
-                         const heights::CalibrationFarm& farm) {
-  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
-                               static_cast<Eigen::Index>(calibration.index_of(farm.crop)));
-}
-
-// The farms' numbers in groups.
-std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
-                                                Group group) {
-  std::map<std::string, std::vector<std::size_t>> by_name;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
-    by_name[group == Group::farm ? std::to_string(i) : calibration.farms[i].library].push_back(i);
-  std::vector<std::vector<std::size_t>> groups;
-  groups.reserve(by_name.size());
-  for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));
-  return groups;
 }
 
 // How little is known of each farm's canopy by the others.
@@ -177,22 +187,42 @@ void find_unlikeness(heights::Calibration& calibration) {
   });
 }
 
-// Each farm's ratios by the farms of other libraries: a user's plants are of none.
-void find_surprises(heights::Calibration& calibration) {
+// Errors over standard deviations.
+Eigen::VectorXd surprise(const heights::CalibrationFarm& farm,
+                         const heights::Prediction& prediction) {
+  return (farm.ratios - prediction.values).cwiseQuotient(prediction.sds);
+}
+
+// The crops that the others have: the farm's own is none of them where it was left out.
+Eigen::VectorXd known_crops(const heights::Calibration& others, Eigen::VectorXd probabilities) {
+  for (std::size_t i = 0; i < others.crops.size(); ++i) {
+    if (std::ranges::none_of(others.farms, [&](const heights::CalibrationFarm& farm) {
+          return farm.crop == others.crops[i];
+        }))
+      probabilities(static_cast<Eigen::Index>(i)) = 0;
+  }
+  return probabilities / probabilities.sum();
+}
+
+// Each farm's ratios by the farms of other libraries or other crops: a user's plants are of none.
+void find_surprises(heights::Calibration& calibration, Group group) {
   const heights::Calibration all = calibration;
-  const std::vector<std::vector<std::size_t>> libraries = groups_of(all, Group::library);
-  tbb::parallel_for(std::size_t{0}, libraries.size(), [&](std::size_t g) {
-    const heights::Calibration others = all.without(libraries[g]);
+  const std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    const heights::Calibration others = all.without(groups[g]);
     const heights::RatioModel model(others);
     const heights::CropModel crops(others);
-    for (const std::size_t i : libraries[g]) {
+    for (const std::size_t i : groups[g]) {
       heights::CalibrationFarm& farm = calibration.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
-      const heights::Prediction told =
-          model.mixture(scaled, farm.top_m, crops.probabilities(scaled));
-      const heights::Prediction given = model.mixture(scaled, farm.top_m, own_crop(others, farm));
-      farm.surprise_told_crop = (farm.ratios - told.values).cwiseQuotient(told.sds);
-      farm.surprise_given_crop = (farm.ratios - given.values).cwiseQuotient(given.sds);
+      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
+      (group == Group::crop ? farm.from_crops : farm.from_libraries) = {
+          .unlike = crops.unlike(scaled),
+          .surprise = surprise(farm, model.mixture(scaled, farm.top_m, told))};
+      if (group == Group::library) {
+        farm.surprise_given_crop =
+            surprise(farm, model.mixture(scaled, farm.top_m, own_crop(others, farm)));
+      }
     }
   });
 }
@@ -319,7 +349,8 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   calibration.like_ratios = fit_likeness(calibration.features_and_crops_of_farms(),
                                          calibration.ratios(), calibration.noise());
   find_unlikeness(calibration);
-  find_surprises(calibration);
+  find_surprises(calibration, Group::library);
+  find_surprises(calibration, Group::crop);
   fit_within(fields, calibration);
   return calibration;
 }
@@ -334,8 +365,9 @@ std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group gr
     for (const std::size_t i : left_out[g]) {
       const heights::CalibrationFarm& farm = calibration.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
-      predictions[i] = {.told = model.at(scaled, farm.top_m, crops.probabilities(scaled), true),
-                        .given = model.at(scaled, farm.top_m, own_crop(others, farm), false)};
+      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
+      predictions[i] = {.told = model.at(scaled, farm.top_m, told, crops.unlike(scaled)),
+                        .given = model.at(scaled, farm.top_m, own_crop(others, farm), {})};
     }
   });
   return table_of(calibration, predictions);

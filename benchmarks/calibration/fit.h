@@ -44,7 +44,7 @@ struct Errors {
   double inside = 0;  // share of the truths in the 95 % interval
 };
 
-// How well a height is predicted where a farm, or all farms of its library, are left out: of all
+// How well a height is predicted where a farm, or all farms of its group, are left out: of all
 // farms of a kind.
 struct LeftOut {
   std::string name;  // of the kind
@@ -54,7 +54,7 @@ struct LeftOut {
   Errors given;  // the crop given
 };
 
-enum class Group { farm, library };
+enum class Group { farm, library, crop };
 
 std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group group);
 

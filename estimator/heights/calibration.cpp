@@ -33,6 +33,14 @@ Likeness likeness_of(const json& document) {
           .covariance = {.linear = document.at("linear"), .noise = document.at("noise")}};
 }
 
+json from_others_json(const FromOthers& from) {
+  return {{"unlike", from.unlike}, {"surprise", numbers_of(from.surprise)}};
+}
+
+FromOthers from_others_of(const json& document) {
+  return {.unlike = document.at("unlike"), .surprise = vector_of(document.at("surprise"))};
+}
+
 }  // namespace
 
 Eigen::VectorXd Calibration::scaled(const Eigen::VectorXd& values) const {
@@ -103,8 +111,9 @@ json json_of(const Calibration& calibration) {
                      {"features", numbers_of(farm.features)},
                      {"ratios", numbers_of(farm.ratios)},
                      {"within", numbers_of(farm.within)},
+                     {"from_libraries", from_others_json(farm.from_libraries)},
+                     {"from_crops", from_others_json(farm.from_crops)},
                      {"surprise_given_crop", numbers_of(farm.surprise_given_crop)},
-                     {"surprise_told_crop", numbers_of(farm.surprise_told_crop)},
                      {"unlike", farm.unlike}});
   }
   json within = json::array();
@@ -142,8 +151,9 @@ Calibration calibration_of(const json& document) {
                                  .features = vector_of(farm.at("features")),
                                  .ratios = vector_of(farm.at("ratios")),
                                  .within = vector_of(farm.at("within")),
+                                 .from_libraries = from_others_of(farm.at("from_libraries")),
+                                 .from_crops = from_others_of(farm.at("from_crops")),
                                  .surprise_given_crop = vector_of(farm.at("surprise_given_crop")),
-                                 .surprise_told_crop = vector_of(farm.at("surprise_told_crop")),
                                  .unlike = farm.at("unlike")});
   }
   return calibration;

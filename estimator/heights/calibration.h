@@ -14,6 +14,13 @@
 
 namespace plotscan::heights {
 
+// What was told of a farm from others that are less like it: farms of other plant libraries, or of
+// other crops.
+struct FromOthers {
+  double unlike = 0;         // how little they know of its canopy (CropModel::unlike)
+  Eigen::VectorXd surprise;  // errors over standard deviations, the crop told from the canopy
+};
+
 // A farm that the calibration was fitted on. Vectors of heights are in the calibration's order.
 struct CalibrationFarm {
   std::string library;  // of its plants
@@ -22,10 +29,9 @@ struct CalibrationFarm {
   Eigen::VectorXd features;
   Eigen::VectorXd ratios;  // true heights over the canopy's top, the same
   Eigen::VectorXd within;  // sd of its plots' ratios about what is predicted
-  // Errors over standard deviations where the ratios are predicted from the other farms: with its
-  // crop given, and told from its canopy.
-  Eigen::VectorXd surprise_given_crop, surprise_told_crop;
-  double unlike = 0;  // Prediction::unlike by the other farms
+  FromOthers from_libraries, from_crops;
+  Eigen::VectorXd surprise_given_crop;  // from_libraries' with its crop given
+  double unlike = 0;                    // Prediction::unlike by the other farms
 };
 
 // How like two fields are: the weights of what is compared, and the covariance over the places that

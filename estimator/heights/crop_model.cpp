@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/crop_model.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace plotscan::heights {
@@ -28,11 +29,16 @@ CropModel::CropModel(const Calibration& calibration)
                   calibration.like_crops.covariance) {}
 
 Eigen::VectorXd CropModel::scores(const Eigen::VectorXd& scaled) const {
-  return indicators_.values_at(scaled.cwiseProduct(weights_));
+  return indicators_.values_at(scaled.cwiseProduct(weights_)) / unlike(scaled);
 }
 
 Eigen::VectorXd CropModel::probabilities(const Eigen::VectorXd& scaled) const {
   return softmax(scores(scaled), sharpness_);
+}
+
+double CropModel::unlike(const Eigen::VectorXd& scaled) const {
+  constexpr double kLeast = 0.1;
+  return std::max(kLeast, indicators_.unlike(scaled.cwiseProduct(weights_)));
 }
 
 }  // namespace plotscan::heights

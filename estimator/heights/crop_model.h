@@ -10,17 +10,22 @@ namespace plotscan::heights {
 
 // Which crop a canopy is of, by the calibration's farms: indicators of the crops (1 for farms of
 // it, 0 for others) are kriged, as categorical indicator kriging does (Goovaerts, "Geostatistics
-// for Natural Resources Evaluation", 1997; the book was not at hand). The scores become
-// probabilities by a softmax, our choice, of the sharpness that was the likeliest for farms left
-// out.
+// for Natural Resources Evaluation", 1997; the book was not at hand). What is kriged counts the
+// less the less is known of such canopies: the scores are in its standard deviations, and become
+// probabilities by a softmax, our choice, of the sharpness that was the likeliest for farms whose
+// whole library was left out.
 class CropModel {
  public:
   explicit CropModel(const Calibration& calibration);
 
-  // By crop, in the calibration's order, of a field's scaled features: near 1 for its crop and near
-  // 0 for the others.
+  // By crop, in the calibration's order, of a field's scaled features: the kriged indicator (near 1
+  // for its crop and near 0 for the others) over its standard deviation, up to a scale that the
+  // crops share (Prediction::unlike). All are small for a canopy like none that is known.
   Eigen::VectorXd scores(const Eigen::VectorXd& scaled) const;
   Eigen::VectorXd probabilities(const Eigen::VectorXd& scaled) const;
+  // How little is known of such a canopy (Prediction::unlike), at least 0.1: nothing is beyond all
+  // doubt.
+  double unlike(const Eigen::VectorXd& scaled) const;
 
  private:
   Eigen::VectorXd weights_;

@@ -58,9 +58,12 @@ Kriging::Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vec
 
 double Kriging::noise_variance(double noise) const { return square(noise * covariance_.noise); }
 
+Eigen::VectorXd Kriging::squared_distances(const Eigen::VectorXd& place) const {
+  return (places_.rowwise() - place.transpose()).rowwise().squaredNorm();
+}
+
 Eigen::VectorXd Kriging::covariances(const Eigen::VectorXd& place) const {
-  const Eigen::VectorXd distances = (places_.rowwise() - place.transpose()).rowwise().squaredNorm();
-  return ((-0.5 * distances.array()).exp() +
+  return ((-0.5 * squared_distances(place).array()).exp() +
           square(covariance_.linear) * (places_ * place).array() + kLevelVariance)
       .matrix();
 }
@@ -79,18 +82,6 @@ Prediction Kriging::at(const Eigen::VectorXd& place, double noise) const {
   Prediction prediction{.values = values_at(place), .sds = {}, .unlike = unlike(place)};
   prediction.sds = scales_ * std::sqrt(square(prediction.unlike) + noise_variance(noise));
   return prediction;
-}
-
-std::vector<std::size_t> Kriging::nearest(const Eigen::VectorXd& place, std::size_t count) const {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (Eigen::Index i = 0; i < places_.rows(); ++i)
-    order.emplace_back((places_.row(i).transpose() - place).squaredNorm(),
-                       static_cast<std::size_t>(i));
-  std::ranges::sort(order);
-  std::vector<std::size_t> nearest;
-  for (std::size_t k = 0; k < std::min(order.size(), count); ++k)
-    nearest.push_back(order[k].second);
-  return nearest;
 }
 
 }  // namespace plotscan::heights

@@ -39,8 +39,8 @@ class Kriging {
   Prediction at(const Eigen::VectorXd& place, double noise) const;
   // Of the noiseless value alone: Prediction::unlike.
   double unlike(const Eigen::VectorXd& place) const;
-  // The known places nearest to this one, at most `count`.
-  std::vector<std::size_t> nearest(const Eigen::VectorXd& place, std::size_t count) const;
+  // Of this place to each known one.
+  Eigen::VectorXd squared_distances(const Eigen::VectorXd& place) const;
 
  private:
   Eigen::VectorXd covariances(const Eigen::VectorXd& place) const;

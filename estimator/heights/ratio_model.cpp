@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/ratio_model.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/statistics.h"
@@ -15,13 +18,48 @@ constexpr std::size_t kNeighbours = 25;
 // Crops less likely than this are left out of a mixture.
 constexpr double kLeastLikely = 1e-3;
 
-// Root mean square over some farms of one of their vectors.
-Eigen::VectorXd spread_of(const Calibration& calibration, const std::vector<std::size_t>& farms,
+// Numbers of a farm, and how far it is from a place.
+struct Neighbour {
+  double squared_distance;
+  const Eigen::VectorXd* numbers;
+};
+
+// Root mean square of the nearest ones' numbers.
+Eigen::VectorXd spread_of(std::vector<Neighbour> farms) {
+  const std::size_t count = std::min(farms.size(), kNeighbours);
+  std::ranges::partial_sort(farms, farms.begin() + static_cast<std::ptrdiff_t>(count), {},
+                            &Neighbour::squared_distance);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(farms.front().numbers->size());
+  for (std::size_t i = 0; i < count; ++i) squares += farms[i].numbers->cwiseAbs2();
+  return (squares / static_cast<double>(count)).cwiseSqrt();
+}
+
+Eigen::VectorXd spread_of(const Calibration& calibration, const Eigen::VectorXd& squared_distances,
                           Eigen::VectorXd CalibrationFarm::*numbers) {
-  Eigen::VectorXd squares =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(calibration.heights.size()));
-  for (const std::size_t farm : farms) squares += (calibration.farms[farm].*numbers).cwiseAbs2();
-  return (squares / static_cast<double>(farms.size())).cwiseSqrt();
+  std::vector<Neighbour> farms;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    farms.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)),
+                     .numbers = &(calibration.farms[i].*numbers)});
+  return spread_of(std::move(farms));
+}
+
+// What predictions from others missed by, of canopies that were as little known. A user's plants
+// are of no library, and may be as unlike all of them as one crop is unlike the others: how little
+// is known of them says how much of each.
+Eigen::VectorXd surprise_from_others(const Calibration& calibration,
+                                     const Eigen::VectorXd& squared_distances, double unlike) {
+  constexpr double kWeight = 0.1;  // a factor e of `unlike` is as far as 0.3 in features
+  std::vector<Neighbour> predictions;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
+    const CalibrationFarm& farm = calibration.farms[i];
+    for (const FromOthers* from : {&farm.from_libraries, &farm.from_crops}) {
+      const double factor = std::log(unlike / from->unlike);
+      predictions.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)) +
+                                                 kWeight * factor * factor,
+                             .numbers = &from->surprise});
+    }
+  }
+  return spread_of(std::move(predictions));
 }
 
 }  // namespace
@@ -68,16 +106,15 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
 }
 
 FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
-                           const Eigen::VectorXd& crops, bool told) const {
+                           const Eigen::VectorXd& crops, std::optional<double> unlike) const {
   const Prediction ratios = mixture(scaled, top_m, crops);
-  const std::vector<std::size_t> farms =
-      kriging_.nearest(likeliest_place(scaled, crops), kNeighbours);
-  const Eigen::VectorXd surprise = spread_of(
-      calibration_, farms,
-      told ? &CalibrationFarm::surprise_told_crop : &CalibrationFarm::surprise_given_crop);
+  const Eigen::VectorXd distances = kriging_.squared_distances(likeliest_place(scaled, crops));
+  const Eigen::VectorXd surprise =
+      unlike ? surprise_from_others(calibration_, distances, *unlike)
+             : spread_of(calibration_, distances, &CalibrationFarm::surprise_given_crop);
   return {.values = ratios.values,
           .field_sds = ratios.sds.cwiseProduct(surprise),
-          .within_sds = spread_of(calibration_, farms, &CalibrationFarm::within)};
+          .within_sds = spread_of(calibration_, distances, &CalibrationFarm::within)};
 }
 
 double RatioModel::unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {

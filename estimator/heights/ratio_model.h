@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "heights/calibration.h"
@@ -24,9 +26,10 @@ class RatioModel {
   explicit RatioModel(const Calibration& calibration);
 
   // Of a field's scaled features (Calibration::scaled), its canopy's top, and how likely it is of
-  // each crop. `told` is false where the crop was given.
+  // each crop. `unlike` is how little is known of the canopy (CropModel::unlike) where that was
+  // told from it; none where the crop was given.
   FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const Eigen::VectorXd& crops,
-                 bool told) const;
+                 std::optional<double> unlike) const;
   // The same as the regression alone has it: a mixture over the crops that it may be.
   Prediction mixture(const Eigen::VectorXd& scaled, double top_m,
                      const Eigen::VectorXd& crops) const;

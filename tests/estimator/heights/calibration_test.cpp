@@ -64,8 +64,8 @@ Unseen of_unseen(const std::vector<std::string>& libraries) {
       const CalibrationFarm& farm = shipped.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       const Eigen::VectorXd probabilities = crops.probabilities(scaled);
-      const FieldRatios told = model.at(scaled, farm.top_m, probabilities, true);
-      const FieldRatios given = model.at(scaled, farm.top_m, certainly(shipped, farm.crop), false);
+      const FieldRatios told = model.at(scaled, farm.top_m, probabilities, crops.unlike(scaled));
+      const FieldRatios given = model.at(scaled, farm.top_m, certainly(shipped, farm.crop), {});
       const double error = told.values(mean) - farm.ratios(mean);
       ++unseen.farms;
       unseen.inside += std::abs(error) < 2.064 * told.field_sds(mean) ? 1 : 0;
@@ -88,6 +88,60 @@ TEST(Calibration, HoldsForPlantsThatWereLeftOut) {
   EXPECT_GT(static_cast<double>(unseen.inside), 0.86 * farms);
   EXPECT_LT(static_cast<double>(unseen.inside), 0.995 * farms);
   EXPECT_GT(static_cast<double>(unseen.of_its_crop), 0.85 * farms);
+}
+
+// Of farms whose whole library was left out: as many are of the crop that they are told to be as
+// the probabilities say, and hardly any of those that are told with 95 % and more is of another.
+TEST(Calibration, KnowsHowSurelyItTellsTheCrop) {
+  const Calibration& shipped = shipped_calibration();
+  std::set<std::string> libraries;
+  for (const CalibrationFarm& farm : shipped.farms) libraries.insert(farm.library);
+  double said = 0;
+  std::size_t right = 0, sure = 0, surely_wrong = 0;
+  for (const std::string& library : libraries) {
+    const std::vector<std::size_t> farms = farms_of(shipped, library);
+    const CropModel others(shipped.without(farms));
+    for (const std::size_t i : farms) {
+      Eigen::Index told = 0;
+      const double probability =
+          others.probabilities(shipped.scaled(shipped.farms[i].features)).maxCoeff(&told);
+      const bool is_right = shipped.crops[static_cast<std::size_t>(told)] == shipped.farms[i].crop;
+      said += probability;
+      right += is_right ? 1 : 0;
+      sure += probability > 0.95 ? 1 : 0;
+      surely_wrong += probability > 0.95 && !is_right ? 1 : 0;
+    }
+  }
+  const auto count = static_cast<double>(shipped.farms.size());
+  EXPECT_NEAR(said / count, static_cast<double>(right) / count, 0.02);
+  EXPECT_GT(static_cast<double>(sure), 0.7 * count);
+  EXPECT_LT(static_cast<double>(surely_wrong), 0.01 * static_cast<double>(sure));
+}
+
+// Where a crop is left out with all of its farms, the others' intervals hold most of its heights
+// all the same: they are as wide as what so little is known of asks for.
+TEST(Calibration, KnowsHowLittleItKnowsOfACropThatWasLeftOut) {
+  const Calibration& shipped = shipped_calibration();
+  for (const std::string& crop : shipped.crops) {
+    std::vector<std::size_t> farms;
+    for (std::size_t i = 0; i < shipped.farms.size(); ++i)
+      if (shipped.farms[i].crop == crop) farms.push_back(i);
+    const Calibration others = shipped.without(farms);
+    const RatioModel model(others);
+    const CropModel crops(others);
+    double inside = 0;
+    for (const std::size_t i : farms) {
+      const CalibrationFarm& farm = shipped.farms[i];
+      const Eigen::VectorXd scaled = others.scaled(farm.features);
+      Eigen::VectorXd told = crops.probabilities(scaled);
+      told(static_cast<Eigen::Index>(shipped.index_of(crop))) = 0;
+      const FieldRatios ratios =
+          model.at(scaled, farm.top_m, told / told.sum(), crops.unlike(scaled));
+      const Eigen::ArrayXd errors = (ratios.values - farm.ratios).cwiseQuotient(ratios.field_sds);
+      inside += (errors.abs() < 2.064).cast<double>().mean();
+    }
+    EXPECT_GT(inside, 0.65 * static_cast<double>(farms.size())) << crop;
+  }
 }
 
 std::vector<std::string> soybean_libraries() {
