@@ -124,13 +124,6 @@ void scale_features(heights::Calibration& calibration) {
   calibration.scale = (centred.array().square().colwise().mean().sqrt()).max(kLeastScale);
 }
 
-// Certainly its own.
-Eigen::VectorXd own_crop(const heights::Calibration& calibration,
-                         const heights::CalibrationFarm& farm) {
-  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
-                               static_cast<Eigen::Index>(calibration.index_of(farm.crop)));
-}
-
 const std::string& name_of(const heights::CalibrationFarm& farm, Group group) {
   return group == Group::crop ? farm.crop : farm.library;
 }
@@ -181,9 +174,10 @@ void find_unlikeness(heights::Calibration& calibration) {
   tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
     heights::CalibrationFarm& farm = calibration.farms[i];
     const heights::Calibration others = all.without({&i, 1});
-    farm.unlike = heights::RatioModel(others)
-                      .mixture(others.scaled(farm.features), farm.top_m, own_crop(others, farm))
-                      .unlike;
+    farm.unlike =
+        heights::RatioModel(others)
+            .mixture(others.scaled(farm.features), farm.top_m, others.indicators_of(farm.crop))
+            .unlike;
   });
 }
 
@@ -221,7 +215,7 @@ void find_surprises(heights::Calibration& calibration, Group group) {
           .surprise = surprise(farm, model.mixture(scaled, farm.top_m, told))};
       if (group == Group::library) {
         farm.surprise_given_crop =
-            surprise(farm, model.mixture(scaled, farm.top_m, own_crop(others, farm)));
+            surprise(farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));
       }
     }
   });
@@ -365,9 +359,13 @@ std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group gr
     for (const std::size_t i : left_out[g]) {
       const heights::CalibrationFarm& farm = calibration.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
-      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
-      predictions[i] = {.told = model.at(scaled, farm.top_m, told, crops.unlike(scaled)),
-                        .given = model.at(scaled, farm.top_m, own_crop(others, farm), {})};
+      const auto ratios = [&](const Eigen::VectorXd& probabilities, bool given) {
+        return model.at(
+            scaled, farm.top_m,
+            {.probabilities = probabilities, .unlike = crops.unlike(scaled), .given = given});
+      };
+      predictions[i] = {.told = ratios(known_crops(others, crops.probabilities(scaled)), false),
+                        .given = ratios(others.indicators_of(farm.crop), true)};
     }
   });
   return table_of(calibration, predictions);

@@ -56,6 +56,11 @@ std::size_t Calibration::index_of(const std::string& crop) const {
   return static_cast<std::size_t>(known - crops.begin());
 }
 
+Eigen::VectorXd Calibration::indicators_of(const std::string& crop) const {
+  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(crops.size()),
+                               static_cast<Eigen::Index>(index_of(crop)));
+}
+
 Eigen::VectorXd Calibration::with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const {
   Eigen::VectorXd values(scaled.size() + static_cast<Eigen::Index>(crops.size()));
   values << scaled, Eigen::VectorXd::Constant(static_cast<Eigen::Index>(crops.size()), -1);

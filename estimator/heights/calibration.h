@@ -60,6 +60,8 @@ struct Calibration {
   Eigen::VectorXd scaled(const Eigen::VectorXd& values) const;
   // The crop's place in `crops`. Throws InputError on one that is not there.
   std::size_t index_of(const std::string& crop) const;
+  // In the order of `crops`: 1 for this one, 0 for the others. Throws as index_of does.
+  Eigen::VectorXd indicators_of(const std::string& crop) const;
   // The scaled features of a field or plot, then 1 for its crop and -1 for each other.
   Eigen::VectorXd with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const;
   // A row a farm: its scaled features, the same with its crop, and its ratios.

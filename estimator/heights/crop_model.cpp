@@ -12,12 +12,11 @@ Eigen::VectorXd softmax(const Eigen::VectorXd& scores, double sharpness) {
 }
 
 Eigen::MatrixXd crop_indicators(const Calibration& calibration) {
-  Eigen::MatrixXd indicators =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(calibration.farms.size()),
-                            static_cast<Eigen::Index>(calibration.crops.size()));
+  Eigen::MatrixXd indicators(static_cast<Eigen::Index>(calibration.farms.size()),
+                             static_cast<Eigen::Index>(calibration.crops.size()));
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
-    indicators(static_cast<Eigen::Index>(i),
-               static_cast<Eigen::Index>(calibration.index_of(calibration.farms[i].crop))) = 1;
+    indicators.row(static_cast<Eigen::Index>(i)) =
+        calibration.indicators_of(calibration.farms[i].crop);
   return indicators;
 }
 

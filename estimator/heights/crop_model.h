@@ -8,6 +8,13 @@
 
 namespace plotscan::heights {
 
+// Which crop a field is of.
+struct CropEvidence {
+  Eigen::VectorXd probabilities;  // in the order of the calibration's crops
+  double unlike = 0;              // how little is known of such a canopy (CropModel::unlike)
+  bool given = false;             // the crop was, and not told from the canopy
+};
+
 // Which crop a canopy is of, by the calibration's farms: indicators of the crops (1 for farms of
 // it, 0 for others) are kriged, as categorical indicator kriging does (Goovaerts, "Geostatistics
 // for Natural Resources Evaluation", 1997; the book was not at hand). What is kriged counts the

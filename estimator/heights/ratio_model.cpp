@@ -25,41 +25,46 @@ struct Neighbour {
 };
 
 // Root mean square of the nearest ones' numbers.
-Eigen::VectorXd spread_of(std::vector<Neighbour> farms) {
-  const std::size_t count = std::min(farms.size(), kNeighbours);
-  std::ranges::partial_sort(farms, farms.begin() + static_cast<std::ptrdiff_t>(count), {},
+Eigen::VectorXd spread_of(std::vector<Neighbour> neighbours) {
+  const std::size_t count = std::min(neighbours.size(), kNeighbours);
+  std::ranges::partial_sort(neighbours, neighbours.begin() + static_cast<std::ptrdiff_t>(count), {},
                             &Neighbour::squared_distance);
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(farms.front().numbers->size());
-  for (std::size_t i = 0; i < count; ++i) squares += farms[i].numbers->cwiseAbs2();
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(neighbours.front().numbers->size());
+  for (std::size_t i = 0; i < count; ++i) squares += neighbours[i].numbers->cwiseAbs2();
   return (squares / static_cast<double>(count)).cwiseSqrt();
 }
 
-Eigen::VectorXd spread_of(const Calibration& calibration, const Eigen::VectorXd& squared_distances,
-                          Eigen::VectorXd CalibrationFarm::*numbers) {
-  std::vector<Neighbour> farms;
+// What is left within the farms at these distances.
+Eigen::VectorXd spread_within(const Calibration& calibration,
+                              const Eigen::VectorXd& squared_distances) {
+  std::vector<Neighbour> neighbours;
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
-    farms.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)),
-                     .numbers = &(calibration.farms[i].*numbers)});
-  return spread_of(std::move(farms));
+    neighbours.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)),
+                          .numbers = &calibration.farms[i].within});
+  return spread_of(std::move(neighbours));
 }
 
-// What predictions from others missed by, of canopies that were as little known. A user's plants
+// What predictions from others missed by, of canopies of which as little was known. A user's plants
 // are of no library, and may be as unlike all of them as one crop is unlike the others: how little
 // is known of them says how much of each.
 Eigen::VectorXd surprise_from_others(const Calibration& calibration,
-                                     const Eigen::VectorXd& squared_distances, double unlike) {
+                                     const Eigen::VectorXd& squared_distances,
+                                     const CropEvidence& crop) {
   constexpr double kWeight = 0.1;  // a factor e of `unlike` is as far as 0.3 in features
-  std::vector<Neighbour> predictions;
+  std::vector<Neighbour> neighbours;
   for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
     const CalibrationFarm& farm = calibration.farms[i];
-    for (const FromOthers* from : {&farm.from_libraries, &farm.from_crops}) {
-      const double factor = std::log(unlike / from->unlike);
-      predictions.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)) +
-                                                 kWeight * factor * factor,
-                             .numbers = &from->surprise});
-    }
+    const auto add = [&](double unlike, const Eigen::VectorXd& surprise) {
+      const double factor = std::log(crop.unlike / unlike);
+      neighbours.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)) +
+                                                kWeight * factor * factor,
+                            .numbers = &surprise});
+    };
+    add(farm.from_libraries.unlike,
+        crop.given ? farm.surprise_given_crop : farm.from_libraries.surprise);
+    add(farm.from_crops.unlike, farm.from_crops.surprise);
   }
-  return spread_of(std::move(predictions));
+  return spread_of(std::move(neighbours));
 }
 
 }  // namespace
@@ -106,15 +111,14 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
 }
 
 FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
-                           const Eigen::VectorXd& crops, std::optional<double> unlike) const {
-  const Prediction ratios = mixture(scaled, top_m, crops);
-  const Eigen::VectorXd distances = kriging_.squared_distances(likeliest_place(scaled, crops));
-  const Eigen::VectorXd surprise =
-      unlike ? surprise_from_others(calibration_, distances, *unlike)
-             : spread_of(calibration_, distances, &CalibrationFarm::surprise_given_crop);
+                           const CropEvidence& crop) const {
+  const Prediction ratios = mixture(scaled, top_m, crop.probabilities);
+  const Eigen::VectorXd distances =
+      kriging_.squared_distances(likeliest_place(scaled, crop.probabilities));
+  const Eigen::VectorXd surprise = surprise_from_others(calibration_, distances, crop);
   return {.values = ratios.values,
           .field_sds = ratios.sds.cwiseProduct(surprise),
-          .within_sds = spread_of(calibration_, distances, &CalibrationFarm::within)};
+          .within_sds = spread_within(calibration_, distances)};
 }
 
 double RatioModel::unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
 
 #include "heights/calibration.h"
+#include "heights/crop_model.h"
 #include "heights/kriging.h"
 
 namespace plotscan::heights {
@@ -25,11 +24,8 @@ class RatioModel {
   // Keeps a reference to the calibration.
   explicit RatioModel(const Calibration& calibration);
 
-  // Of a field's scaled features (Calibration::scaled), its canopy's top, and how likely it is of
-  // each crop. `unlike` is how little is known of the canopy (CropModel::unlike) where that was
-  // told from it; none where the crop was given.
-  FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const Eigen::VectorXd& crops,
-                 std::optional<double> unlike) const;
+  // Of a field's scaled features (Calibration::scaled), its canopy's top, and its crop.
+  FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const CropEvidence& crop) const;
   // The same as the regression alone has it: a mixture over the crops that it may be.
   Prediction mixture(const Eigen::VectorXd& scaled, double top_m,
                      const Eigen::VectorXd& crops) const;

@@ -58,23 +58,12 @@ void put_in_order(std::map<std::string, Height>& heights) {
   mean = height_of(std::min(mean.value_m, heights.at("max").value_m), mean.standard_error_m);
 }
 
-// How likely a field is of each crop, and how little is known of its canopy where that was told
-// from it.
-struct CropEvidence {
-  Eigen::VectorXd crops;
-  std::optional<double> unlike;
-};
-
-// Certainly that one.
-CropEvidence given(const Calibration& calibration, const std::string& crop) {
-  return {.crops = Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
-                                         static_cast<Eigen::Index>(calibration.index_of(crop))),
-          .unlike = {}};
-}
-
-CropEvidence told(const Calibration& calibration, const Eigen::VectorXd& scaled) {
+CropEvidence crop_evidence(const Calibration& calibration, const Eigen::VectorXd& scaled,
+                           const std::optional<std::string>& crop) {
   const CropModel model(calibration);
-  return {.crops = model.probabilities(scaled), .unlike = model.unlike(scaled)};
+  return {.probabilities = crop ? calibration.indicators_of(*crop) : model.probabilities(scaled),
+          .unlike = model.unlike(scaled),
+          .given = crop.has_value()};
 }
 
 double middle_top_m(std::span<const PlotCanopy> field) {
@@ -118,19 +107,19 @@ FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibrat
   std::vector<Eigen::VectorXd> features;
   for (const PlotCanopy& plot : field) features.push_back(plot.features);
   const Eigen::VectorXd middle = calibration.scaled(field_features(features));
-  const CropEvidence seen = crop ? given(calibration, *crop) : told(calibration, middle);
+  const CropEvidence crops = crop_evidence(calibration, middle, crop);
   for (std::size_t i = 0; i < calibration.crops.size(); ++i)
-    plants.crops[calibration.crops[i]] = seen.crops(static_cast<Eigen::Index>(i));
+    plants.crops[calibration.crops[i]] = crops.probabilities(static_cast<Eigen::Index>(i));
   const RatioModel model(calibration);
-  const FieldRatios ratios = model.at(middle, middle_top_m(field), seen.crops, seen.unlike);
+  const FieldRatios ratios = model.at(middle, middle_top_m(field), crops);
   for (std::size_t i = 0; i < field.size(); ++i) {
     const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
     const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
     Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
     PlantHeights& plot = plants.plots[i];
-    plot.unlike = model.unlike(scaled, seen.crops);
+    plot.unlike = model.unlike(scaled, crops.probabilities);
     if (plot.unlike > 1) {
-      const FieldRatios own = model.at(scaled, field[i].top_m, seen.crops, seen.unlike);
+      const FieldRatios own = model.at(scaled, field[i].top_m, crops);
       sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
     }
     for (std::size_t k = 0; k < calibration.heights.size(); ++k) {

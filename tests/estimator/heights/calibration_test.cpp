@@ -32,11 +32,6 @@ TEST(Calibration, ReadsBackAsItWasWritten) {
   EXPECT_EQ(json_of(read), json_of(shipped));
 }
 
-Eigen::VectorXd certainly(const Calibration& calibration, const std::string& crop) {
-  return Eigen::VectorXd::Unit(static_cast<Eigen::Index>(calibration.crops.size()),
-                               static_cast<Eigen::Index>(calibration.index_of(crop)));
-}
-
 std::vector<std::size_t> farms_of(const Calibration& calibration, const std::string& library) {
   std::vector<std::size_t> farms;
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
@@ -64,8 +59,12 @@ Unseen of_unseen(const std::vector<std::string>& libraries) {
       const CalibrationFarm& farm = shipped.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       const Eigen::VectorXd probabilities = crops.probabilities(scaled);
-      const FieldRatios told = model.at(scaled, farm.top_m, probabilities, crops.unlike(scaled));
-      const FieldRatios given = model.at(scaled, farm.top_m, certainly(shipped, farm.crop), {});
+      const auto ratios = [&](const Eigen::VectorXd& crop, bool is_given) {
+        return model.at(scaled, farm.top_m,
+                        {.probabilities = crop, .unlike = crops.unlike(scaled), .given = is_given});
+      };
+      const FieldRatios told = ratios(probabilities, false);
+      const FieldRatios given = ratios(shipped.indicators_of(farm.crop), true);
       const double error = told.values(mean) - farm.ratios(mean);
       ++unseen.farms;
       unseen.inside += std::abs(error) < 2.064 * told.field_sds(mean) ? 1 : 0;
@@ -135,8 +134,9 @@ TEST(Calibration, KnowsHowLittleItKnowsOfACropThatWasLeftOut) {
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       Eigen::VectorXd told = crops.probabilities(scaled);
       told(static_cast<Eigen::Index>(shipped.index_of(crop))) = 0;
-      const FieldRatios ratios =
-          model.at(scaled, farm.top_m, told / told.sum(), crops.unlike(scaled));
+      const FieldRatios ratios = model.at(
+          scaled, farm.top_m,
+          {.probabilities = told / told.sum(), .unlike = crops.unlike(scaled), .given = false});
       const Eigen::ArrayXd errors = (ratios.values - farm.ratios).cwiseQuotient(ratios.field_sds);
       inside += (errors.abs() < 2.064).cast<double>().mean();
     }
@@ -173,11 +173,11 @@ TEST(Calibration, MixesTheCropsThatItMayBe) {
   const RatioModel model(shipped);
   const Eigen::VectorXd scaled = shipped.scaled(shipped.farms.front().features);
   const auto of = [&](const std::string& crop) {
-    return model.mixture(scaled, 0.8, certainly(shipped, crop));
+    return model.mixture(scaled, 0.8, shipped.indicators_of(crop));
   };
   const Prediction maize = of("maize"), wheat = of("wheat");
   const Prediction both = model.mixture(
-      scaled, 0.8, 0.25 * certainly(shipped, "maize") + 0.75 * certainly(shipped, "wheat"));
+      scaled, 0.8, 0.25 * shipped.indicators_of("maize") + 0.75 * shipped.indicators_of("wheat"));
   const double value = 0.25 * maize.values(0) + 0.75 * wheat.values(0);
   const double apart = maize.values(0) - wheat.values(0);
   EXPECT_NEAR(both.values(0), value, 1e-12);
@@ -192,13 +192,13 @@ TEST(Calibration, FewFarmsAreUnlikeWhatIsKnown) {
   const RatioModel model(shipped);
   int unlike = 0;
   for (const CalibrationFarm& farm : shipped.farms)
-    unlike += model.unlike(shipped.scaled(farm.features), certainly(shipped, farm.crop)) > 1;
+    unlike += model.unlike(shipped.scaled(farm.features), shipped.indicators_of(farm.crop)) > 1;
   EXPECT_LT(unlike, 0.03 * static_cast<double>(shipped.farms.size()));
   // A field of glass plates on stilts: all features as far from the middle as they can be, by
   // turns.
   Eigen::VectorXd far = Eigen::VectorXd::Constant(shipped.center.size(), 4);
   for (Eigen::Index k = 0; k < far.size(); k += 2) far(k) = -4;
-  EXPECT_GT(model.unlike(far, certainly(shipped, "maize")), 1);
+  EXPECT_GT(model.unlike(far, shipped.indicators_of("maize")), 1);
 }
 
 }  // namespace
