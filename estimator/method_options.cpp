@@ -24,6 +24,11 @@ template <class Options>
 CLI::Option* shaped(CLI::Option* option, const OptionalSetting<Options>& setting) {
   return option->type_name("FLOAT in " + setting.range.text());
 }
+template <class Options>
+CLI::Option* shaped(CLI::Option* option, const WholeSetting<Options>& setting) {
+  return option->type_name("INT in " + setting.range.text())
+      ->default_str(std::to_string(value_of(setting, Options{})));
+}
 template <class Options, class Value>
 CLI::Option* shaped(CLI::Option* option, const RangedSetting<Options, Value>& setting) {
   return option->type_name("INT in " + setting.range.text());

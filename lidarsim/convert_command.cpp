@@ -9,7 +9,9 @@
 
 #include <fmt/core.h>
 
+#include "core/text.h"
 #include "record/convert.h"
+#include "record/formats.h"
 
 namespace plotscan {
 namespace {
@@ -64,6 +66,25 @@ void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
                          "of a bare cloud: when its time 0 was, UTC; else as it says itself")};
 }
 
+std::string readable_recordings() {
+  return joined(record::extensions_of([](const record::Format& format) {
+                  return format.open != nullptr && format.is_recording;
+                }),
+                ", ");
+}
+
+// "of a PCD cloud: binary (default), compressed or ascii; of ..."
+std::string encodings_of_formats() {
+  std::vector<std::string> texts;
+  for (const record::Format& format : record::formats()) {
+    std::vector<std::string> encodings = format.encodings;
+    if (encodings.empty()) continue;
+    encodings.front() += " (default)";
+    texts.push_back("of a " + format.name + ": " + alternatives(encodings));
+  }
+  return joined(texts, "; ");
+}
+
 }  // namespace
 
 void declare_convert(Program& program) {
@@ -72,10 +93,9 @@ void declare_convert(Program& program) {
       program.command("convert", "Convert scans, clouds, recordings and trajectories.",
                       [&program, arguments] { run_convert(program, *arguments); });
   convert
-      .add_option(
-          "IN", arguments->in,
-          "scan folder, cloud (PCD, PLY, LAS, text), recording (pcap, bag, MCAP), or trajectory "
-          "(TUM text, trajectory.csv)")
+      .add_option("IN", arguments->in,
+                  "scan folder, cloud (" + record::readable_clouds() + "), recording (" +
+                      readable_recordings() + "), or trajectory (TUM text, trajectory.csv)")
       ->required();
   convert
       .add_option("OUT", arguments->out,
@@ -85,8 +105,7 @@ void declare_convert(Program& program) {
                      "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or "
                      "the only one)");
   convert.add_option("--encoding", arguments->options.write.encoding,
-                     "of PCD: binary (default), compressed (keeps the whole cloud in memory) or "
-                     "ascii; of PLY: binary or ascii");
+                     encodings_of_formats() + "; compressing keeps the whole cloud in memory");
   convert.add_option("--crs", arguments->options.write.crs,
                      "of LAS: local (default), the world frame, or utm, the UTM zone of a farm "
                      "with an anchor");

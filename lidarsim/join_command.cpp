@@ -8,7 +8,9 @@
 
 #include <fmt/core.h>
 
+#include "core/text.h"
 #include "record/join_scans.h"
+#include "record/scan_formats.h"
 
 namespace plotscan {
 namespace {
@@ -40,9 +42,10 @@ void declare_join(Program& program) {
                       [&program, arguments] { run_join(program, *arguments); });
   join.add_option("PART", arguments->parts, "scan folders of all parts, in any order")->required();
   join.add_option("-o,--output", arguments->scan, "scan folder to write")->required();
-  join.add_option("--format", arguments->options.formats,
-                  "also write the scan as fly --format does: ply, las, laz, pcap, bag or mcap; "
-                  "separated by commas, or repeated")
+  join.add_option(
+          "--format", arguments->options.formats,
+          "also write the scan as fly --format does: " + alternatives(record::further_formats()) +
+              "; separated by commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);
   join.add_flag("--force", arguments->options.replace, "replace an existing scan folder");

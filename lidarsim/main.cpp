@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "lidar/fly_place.h"
 #include "lidar/fly_settings.h"
+#include "record/scan_formats.h"
 
 namespace {
 
@@ -133,9 +134,8 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                         ->excludes(flight);
   add_settings(fly, options, *flight, *waypoints);
   fly.add_option("--format", options.formats,
-                 "also write the scan as ply, las, laz (with LASzip), pcap, bag or mcap "
-                 "(docs/formats.md) beside "
-                 "cloud.pcd; separated by commas, or repeated")
+                 "also write the scan as " + alternatives(record::further_formats()) +
+                     " (docs/formats.md) beside cloud.pcd; separated by commas, or repeated")
       ->delimiter(',')
       ->allow_extra_args(false);
   fly.add_option("--part", arguments.part,

@@ -4,9 +4,12 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include <fmt/core.h>
 
+#include "core/text.h"
+#include "record/formats.h"
 #include "scanpage/scan_page.h"
 
 namespace plotscan {
@@ -32,6 +35,13 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
   program.say("Open it in a browser; it needs no network.");
 }
 
+std::string recordings_with_poses() {
+  return joined(record::extensions_of([](const record::Format& format) {
+                  return format.is_recording && format.has_topics;
+                }),
+                ", ");
+}
+
 }  // namespace
 
 void declare_view(Program& program) {
@@ -40,8 +50,8 @@ void declare_view(Program& program) {
       program.command("view", "Make a page of a scan, to open in a browser (HTML).",
                       [&program, options] { view_scan(program, *options); }, {.threads = true});
   view.add_option("SCAN", options->scan,
-                  "scan folder, cloud (PCD, PLY, LAS, text) or recording that knows its poses "
-                  "(bag, MCAP)")
+                  "scan folder, cloud (" + record::readable_clouds() +
+                      ") or recording that knows its poses (" + recordings_with_poses() + ")")
       ->required();
   view.add_option("-o,--output", options->html, "page to write (.html)")->required();
   view.add_option("--plots", options->plots,

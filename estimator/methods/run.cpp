@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 
 #include "cloud/field_density.h"
 
@@ -67,24 +68,26 @@ json options_json(const RunOptions& options) {
   return document;
 }
 
-// What every method is told, beside what is its own.
+// What every method is told, beside what is its own; the seed where it draws random numbers.
 template <class Options>
 Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
   options.crop_box = run.crop_box;
   options.threads = run.threads;
   options.boxes.clear();
   for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
+  if constexpr (requires { options.seed; }) options.seed = run.seed;
   return options;
 }
 
 estimate::Estimate run_method(const CloudFiles& cloud, const RunOptions& run,
                               const std::vector<PlotFeature>& boxes,
                               const ProgressReport& progress) {
-  if (run.method == "lattice")
-    return lattice::estimate_plots(cloud, completed(run.lattice, run, boxes), progress);
-  dhami2020::Options options = completed(run.dhami2020, run, boxes);
-  options.seed = run.seed;
-  return dhami2020::estimate_plots(cloud, options, progress);
+  std::optional<estimate::Estimate> estimate;
+  for_each_method(run, [&](const std::string& name, const auto&, const auto& own) {
+    if (name == run.method) estimate = estimate_plots(cloud, completed(own, run, boxes), progress);
+  });
+  check(estimate.has_value(), "require_sound has refused an unknown method");
+  return std::move(*estimate);
 }
 
 void require_sound(const RunOptions& options) {

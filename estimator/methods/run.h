@@ -36,7 +36,7 @@ struct RunOptions {
 };
 
 // Calls `use` with each method's name, its settings and its own options in `run`, the default
-// method first.
+// method first. `run` finds a method's estimate_plots by the type of these options.
 template <class Run, class Use>
 void for_each_method(Run& run, Use&& use) {
   use("lattice", lattice::settings(), run.lattice);

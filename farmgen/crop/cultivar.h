@@ -56,7 +56,8 @@ struct Cultivar {
   const Stage& stage(const std::string& name) const;
 };
 
-// Reads a crop's whole file from its text; `file` names it in errors.
+// Reads a crop's whole file, CROP.yaml, from its text; `file` names it in errors. Throws
+// InputError, where it names another crop too.
 Cultivar parse_cultivar(const std::string& text, const std::filesystem::path& file);
 // A user's file of the same format, in which all but `crop` may be left out, over the crop's own.
 // Parameters and stages must be the crop's, ranges within the crop's. Throws InputError.

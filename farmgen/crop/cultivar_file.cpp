@@ -24,9 +24,8 @@ class CultivarFile {
 
   Cultivar read() {
     const std::string crop = file_.text("crop");
-    if (!complete_ && crop != cultivar_.crop) {
-      file_.fail("crop", "is " + crop + ", but the plant is a " + cultivar_.crop);
-    }
+    const std::string wanted = complete_ ? file_.file().stem().string() : cultivar_.crop;
+    if (crop != wanted) file_.fail("crop", "is " + crop + ", but the plant is a " + wanted);
     cultivar_.crop = crop;
     cultivar_.species = text(file_, "species", cultivar_.species);
     if (given("sources")) sources_ = file_.section("sources").keys();

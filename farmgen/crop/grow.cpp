@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "crop/internal/crop_files.h"
+#include "crop/internal/form.h"
 #include "crop/internal/maize.h"
 #include "crop/internal/soybean.h"
 #include "crop/internal/textures.h"
@@ -14,14 +15,14 @@ namespace {
 
 struct Crop {
   const char* name;  // its file is models/NAME/NAME.yaml
-  void (*grow)(const Traits& traits, std::uint64_t seed, PlantBuilder& plant);
+  Form form;
 };
 
 const std::vector<Crop>& known_crops() {
   static const std::vector<Crop> kCrops = {
-      {.name = "soybean", .grow = grow_soybean},
-      {.name = "wheat", .grow = grow_wheat},
-      {.name = "maize", .grow = grow_maize},
+      {.name = "soybean", .form = Form::soybean},
+      {.name = "wheat", .form = Form::wheat},
+      {.name = "maize", .form = Form::maize},
   };
   return kCrops;
 }
@@ -31,6 +32,17 @@ const Crop& crop_named(const std::string& name) {
     if (name == crop.name) return crop;
   }
   throw InputError("crop " + name + " is not known; known are " + joined(crops(), ", "));
+}
+
+void grow_organs(Form form, const Traits& traits, std::uint64_t seed, PlantBuilder& plant) {
+  switch (form) {
+    case Form::soybean:
+      return grow_soybean(traits, seed, plant);
+    case Form::wheat:
+      return grow_wheat(traits, seed, plant);
+    case Form::maize:
+      return grow_maize(traits, seed, plant);
+  }
 }
 
 }  // namespace
@@ -65,9 +77,9 @@ mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {
   const Cultivar described = cultivar(options.crop, options.cultivar_file);
   const Traits traits(described, described.stage(options.stage), options.assignments);
   PlantBuilder plant(options.detail, described.colours);
-  crop.grow(traits, seed, plant);
+  grow_organs(crop.form, traits, seed, plant);
   mesh::Mesh mesh = plant.take(options.textured);
-  if (options.textured) add_textures(mesh, options.crop);
+  if (options.textured) add_textures(mesh, crop.form, options.crop);
   for (mesh::Material& material : mesh.materials) {
     const auto stated = described.reflectance.find(material.name);
     if (stated != described.reflectance.end()) material.reflectance = stated->second;

@@ -11,15 +11,16 @@
 #include <unistd.h>
 
 #include "core/internal/disk_error.h"
+#include "core/temporary_path.h"
 
 namespace plotscan {
 
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
-    : InputError(file.string() + ": " + message) {}
+    : InputError(shown_path(file).string() + ": " + message) {}
 
 InputError::InputError(const std::filesystem::path& file, std::size_t line,
                        const std::string& message)
-    : InputError(file.string() + ":" + std::to_string(line) + ": " + message) {}
+    : InputError(shown_path(file).string() + ":" + std::to_string(line) + ": " + message) {}
 
 namespace {
 
@@ -40,8 +41,9 @@ int obstacle(const std::filesystem::path& file) {
 }
 
 std::string write_message(const std::filesystem::path& file, int error) {
-  if (is_full(error)) return "no space left on " + file.string();
-  return file.string() + ": cannot be written" +
+  const std::string name = shown_path(file).string();
+  if (is_full(error)) return "no space left on " + name;
+  return name + ": cannot be written" +
          (error != 0 ? ": " + std::generic_category().message(error) : "");
 }
 

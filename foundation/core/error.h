@@ -13,7 +13,7 @@ namespace plotscan {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  // "file: message"
+  // "file: message"; of a file that is being written, the name that it will have
   InputError(const std::filesystem::path& file, const std::string& message);
   // "file:line: message", lines counted from 1
   InputError(const std::filesystem::path& file, std::size_t line, const std::string& message);
@@ -27,7 +27,7 @@ class NothingToMeasure : public InputError {
 };
 
 // Output that cannot be written: "no space left on FILE", or "FILE: cannot be written" with the
-// reason. Programs end with exit code 1.
+// reason; FILE as in InputError. Programs end with exit code 1.
 class WriteError : public std::runtime_error {
  public:
   // Finds the reason by writing once more; the file is lost anyway.

@@ -69,6 +69,18 @@ void sweep(const std::filesystem::path& path) {
   }
 }
 
+// What partial_path puts between a name and its extension.
+std::string own_mark() { return ".partial-" + std::to_string(getpid()); }
+
+// The name that is final, of a partial one; any other stays.
+std::string shown_name(const std::string& name) {
+  const std::string mark = own_mark();
+  const std::size_t at = name.find(mark, 1);
+  if (!name.starts_with('.') || at == std::string::npos) return name;
+  const std::string end = name.substr(at + mark.size());
+  return end.empty() || end.starts_with('.') ? name.substr(1, at - 1) + end : name;
+}
+
 }  // namespace
 
 TemporaryPath::TemporaryPath(std::filesystem::path path) : path_(std::move(path)) {
@@ -91,8 +103,15 @@ void TemporaryPath::remove_all(void (*halt)()) {
 }
 
 std::filesystem::path partial_path(const std::filesystem::path& final_path) {
-  return final_path.parent_path() / ("." + final_path.stem().string() + ".partial-" +
-                                     std::to_string(getpid()) + final_path.extension().string());
+  return final_path.parent_path() /
+         ("." + final_path.stem().string() + own_mark() + final_path.extension().string());
+}
+
+std::filesystem::path shown_path(const std::filesystem::path& path) {
+  if (path.string().find(own_mark()) == std::string::npos) return path;
+  std::filesystem::path shown;
+  for (const std::filesystem::path& part : path) shown /= shown_name(part.string());
+  return shown;
 }
 
 }  // namespace plotscan

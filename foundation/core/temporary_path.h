@@ -31,4 +31,8 @@ class TemporaryPath {
 // Where this process writes what becomes `final_path`: hidden, beside it, with its extension.
 std::filesystem::path partial_path(const std::filesystem::path& final_path);
 
+// The way back, for a partial path of this process and what lies in it; other paths stay. Errors
+// name files so: who writes one knows its partial path alone, and the user only the final one.
+std::filesystem::path shown_path(const std::filesystem::path& path);
+
 }  // namespace plotscan

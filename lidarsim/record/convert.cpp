@@ -20,10 +20,8 @@ bool is_trajectory(const fs::path& file) {
 }
 
 std::string writable_extensions() {
-  std::vector<std::string> extensions;
-  for (const Format& format : formats())
-    if (format.create)
-      extensions.insert(extensions.end(), format.extensions.begin(), format.extensions.end());
+  std::vector<std::string> extensions =
+      extensions_of([](const Format& format) { return format.create != nullptr; });
   extensions.insert(extensions.end(), {".tum", ".txt", ".csv"});
   return joined(extensions, ", ");
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/text.h"
 #include "record/internal/las_file.h"
 #include "record/ros/points.h"
 #include "record/ros/recorder.h"
@@ -111,6 +112,23 @@ const std::vector<Format>& formats() {
       ros_format("ROS 2 MCAP", ".mcap", ros::create_mcap),
   };
   return all;
+}
+
+std::vector<std::string> extensions_of(bool (*wanted)(const Format&)) {
+  std::vector<std::string> extensions;
+  for (const Format& format : formats()) {
+    if (wanted(format))
+      extensions.insert(extensions.end(), format.extensions.begin(), format.extensions.end());
+  }
+  return extensions;
+}
+
+std::string readable_clouds() {
+  return joined(extensions_of([](const Format& format) {
+                  return format.open != nullptr && !format.is_recording;
+                }),
+                ", ") +
+         ", text";
 }
 
 const Format* find_format(const path& file) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/scan_formats.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "record/convert.h"
@@ -10,16 +12,23 @@ namespace plotscan::record {
 namespace {
 
 const Format& format_of(const std::string& name) {
-  std::vector<std::string> names;
   for (const Format& format : formats()) {
-    if (!format.create) continue;
-    if (format.extensions.front() == "." + name) return format;
-    names.push_back(format.extensions.front().substr(1));
+    if (format.create && std::ranges::count(format.extensions, "." + name) > 0) return format;
   }
-  throw InputError("--format \"" + name + "\" must be one of " + joined(names, ", "));
+  throw InputError("--format \"" + name + "\" must be one of pcd, " +
+                   joined(further_formats(), ", "));
 }
 
 }  // namespace
+
+std::vector<std::string> further_formats() {
+  std::vector<std::string> names;
+  for (const std::string& extension :
+       extensions_of([](const Format& format) { return format.create != nullptr; })) {
+    if (extension != ".pcd") names.push_back(extension.substr(1));
+  }
+  return names;
+}
 
 void require_formats(const std::vector<std::string>& formats, const sensor::Sensor& sensor) {
   for (const std::string& name : formats) {

@@ -13,6 +13,9 @@ namespace plotscan::record {
 // the dot: "ply" and "las" as cloud.EXTENSION, "pcap", "bag" and "mcap" as flight.EXTENSION; "pcd"
 // is there anyway.
 
+// What there is but "pcd", in the order of formats().
+std::vector<std::string> further_formats();
+
 // Throws InputError where one of them is no format, or records packets that the sensor does not
 // send.
 void require_formats(const std::vector<std::string>& formats, const sensor::Sensor& sensor);

@@ -156,8 +156,9 @@ double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz) {
                    "] Hz for sensor " + sensor.name);
 }
 
-Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
-  const YamlSection root = YamlSection::parse(description, file);
+namespace {
+
+Sensor read_sensor(const YamlSection& root, const std::string& description) {
   const bool is_risley = root.choice("kind", {"spinning", "risley"}) == 1;
   Sensor sensor{.name = root.text("name"),
                 .title = root.text("title"),
@@ -184,9 +185,23 @@ Sensor parse_sensor(const std::string& description, const std::filesystem::path&
   return sensor;
 }
 
+}  // namespace
+
+Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
+  return read_sensor(YamlSection::parse(description, file), description);
+}
+
+Sensor parse_shipped_sensor(const std::string& description, const std::string& name) {
+  const YamlSection root = YamlSection::parse(description, "models/sensors/" + name + ".yaml");
+  Sensor sensor = read_sensor(root, description);
+  if (sensor.name != name)
+    root.fail("name", "is " + sensor.name + ", but the file is " + name + "'s");
+  return sensor;
+}
+
 Sensor load_sensor(const std::string& name_or_file) {
   if (std::ranges::count(sensor_names(), name_or_file) > 0)
-    return parse_sensor(sensor_file(name_or_file), "models/sensors/" + name_or_file + ".yaml");
+    return parse_shipped_sensor(sensor_file(name_or_file), name_or_file);
   if (!name_or_file.ends_with(".yaml")) {
     throw InputError("sensor \"" + name_or_file + "\" is unknown; there are " +
                      joined(sensor_names(), ", ") + ", or give a sensor's own file, NAME.yaml");

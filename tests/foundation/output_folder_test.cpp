@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/output_folder.h"
 
+#include <cerrno>
+
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -173,6 +175,20 @@ TEST(TemporaryPath, SweepsWhatAProcessLeftThatNobodyHasAskedAfter) {
   { const OutputFolder output(folder.path() / "out", false, "farmgen generate"); }
   EXPECT_EQ(entries(folder.path()), 0u);
   waitpid(process, nullptr, 0);
+}
+
+TEST(TemporaryPath, ErrorsNameTheFileThatItBecomes) {
+  const testing::TemporaryFolder folder;
+  const OutputFile file(folder.path() / "cloud.las", false);
+  const OutputFolder scan(folder.path() / "scan.1", false, "lidarsim fly");
+  const auto named = [&](const fs::path& path) { return (folder.path() / path).string(); };
+  EXPECT_EQ(InputError(file.path(), "is broken").what(), named("cloud.las") + ": is broken");
+  EXPECT_EQ(InputError(scan.path() / "poses.csv", 3, "is broken").what(),
+            named("scan.1/poses.csv") + ":3: is broken");
+  EXPECT_EQ(WriteError(scan.path(), ENOSPC).what(), "no space left on " + named("scan.1"));
+  const std::string own = ".partial-" + std::to_string(getpid());
+  for (const std::string& other : {"a/" + own, ".cloud" + own + "0.las", "cloud" + own + ".las"})
+    EXPECT_EQ(shown_path(other), other);
 }
 
 TEST(OutputFile, AppearsWholeOrNotAtAll) {

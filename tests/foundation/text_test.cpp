@@ -11,5 +11,12 @@ TEST(Joined, PutsTheSeparatorBetween) {
   EXPECT_EQ(joined({}, ", "), "");
 }
 
+TEST(Alternatives, EndWithTheWordOr) {
+  EXPECT_EQ(alternatives({"a", "b", "c"}), "a, b or c");
+  EXPECT_EQ(alternatives({"a", "b"}), "a or b");
+  EXPECT_EQ(alternatives({"a"}), "a");
+  EXPECT_EQ(alternatives({}), "");
+}
+
 }  // namespace
 }  // namespace plotscan

@@ -147,12 +147,12 @@ Size size_of(Pattern pattern) {
   }
 }
 
-Shading shading_of(Pattern pattern, const std::string& crop) {
+Shading shading_of(Pattern pattern, Form form) {
   switch (pattern) {
     case Pattern::net_veins:
       return net_veins();
     case Pattern::parallel_veins:
-      return parallel_veins(crop == "maize" ? 0.10 : 0.06);
+      return parallel_veins(form == Form::maize ? 0.10 : 0.06);
     case Pattern::spikelets:
       return spikelets();
     case Pattern::pod:
@@ -201,28 +201,28 @@ std::string hex_of(const Eigen::Vector3f& colour) {
 
 }  // namespace
 
-Pattern pattern_of(const std::string& crop, const std::string& material) {
+Pattern pattern_of(Form form, const std::string& material) {
   const auto has = [&](const char* word) { return material.find(word) != std::string::npos; };
-  if (crop == "soybean" && (has("leaf") || has("cotyledon"))) return Pattern::net_veins;
-  if (crop == "soybean" && has("pod")) return Pattern::pod;
-  if (crop == "wheat" && has("ear")) return Pattern::spikelets;
+  if (form == Form::soybean && (has("leaf") || has("cotyledon"))) return Pattern::net_veins;
+  if (form == Form::soybean && has("pod")) return Pattern::pod;
+  if (form == Form::wheat && has("ear")) return Pattern::spikelets;
   return has("leaf") || has("dry") ? Pattern::parallel_veins : Pattern::fibres;
 }
 
-std::shared_ptr<const mesh::Image> organ_texture(const std::string& crop,
+std::shared_ptr<const mesh::Image> organ_texture(Form form, const std::string& crop,
                                                  const std::string& material,
                                                  const Eigen::Vector3f& colour) {
-  const Pattern pattern = pattern_of(crop, material);
+  const Pattern pattern = pattern_of(form, material);
   return std::make_shared<const mesh::Image>(mesh::Image{
       .name = crop + "_" + material + "_" + hex_of(colour) + ".png",
-      .bytes = png_of(drawn(size_of(pattern), shading_of(pattern, crop)), palette_about(colour))});
+      .bytes = png_of(drawn(size_of(pattern), shading_of(pattern, form)), palette_about(colour))});
 }
 
-void add_textures(mesh::Mesh& mesh, const std::string& crop) {
+void add_textures(mesh::Mesh& mesh, Form form, const std::string& crop) {
   check(mesh.texture_coordinates.size() == mesh.vertices.size(),
         "a mesh to be textured has texture coordinates");
   for (mesh::Material& material : mesh.materials) {
-    material.texture = organ_texture(crop, material.name, material.colour);
+    material.texture = organ_texture(form, crop, material.name, material.colour);
     material.colour = Eigen::Vector3f::Ones();
   }
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "crop/internal/form.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::crop {
@@ -19,20 +20,20 @@ enum class Pattern {
   pod,             // a downy skin over a row of seeds
 };
 
-// The pattern of a crop's material by its name: "leaf" of "soybean". Materials of other names are
+// The pattern of a form's material by its name: "leaf" of soybean. Materials of other names are
 // fibres.
-Pattern pattern_of(const std::string& crop, const std::string& material);
+Pattern pattern_of(Form form, const std::string& material);
 
 // A PNG drawn about `colour` (red, green, blue in [0, 1]), which is also
 // about its mean, for texture coordinates as PlantBuilder gives them: u across the organ, v from
-// its base to its tip. The name states the colour: "soybean_leaf_3f7d2a.png". The same arguments
-// give the same bytes (with the same zlib).
-std::shared_ptr<const mesh::Image> organ_texture(const std::string& crop,
+// its base to its tip. The name states crop and colour: "soybean_leaf_3f7d2a.png". The same
+// arguments give the same bytes (with the same zlib).
+std::shared_ptr<const mesh::Image> organ_texture(Form form, const std::string& crop,
                                                  const std::string& material,
                                                  const Eigen::Vector3f& colour);
 
 // Gives every material of the mesh the texture of its name and colour. The colours become white,
 // since a texture is multiplied with them. The mesh must have texture coordinates.
-void add_textures(mesh::Mesh& mesh, const std::string& crop);
+void add_textures(mesh::Mesh& mesh, Form form, const std::string& crop);
 
 }  // namespace plotscan::crop

@@ -96,6 +96,8 @@ TEST(Cultivar, ACropsOwnFileIsWholeAndNamesItsSources) {
   const auto message = [](const std::string& from, const std::string& to) {
     return message_of<InputError>([&] { parse_cultivar(replaced(kReed, from, to), "reed.yaml"); });
   };
+  EXPECT_THAT(message("crop: reed", "crop: wheat"),
+              HasSubstr("reed.yaml:1: crop is wheat, but the plant is a reed"));
   EXPECT_THAT(message("source: chosen", "source: rumour"),
               HasSubstr("\"rumour\" is not one of the file's sources, which are book, chosen"));
   EXPECT_THAT(message("values: {nodes: 4}, ", ""), HasSubstr("values is missing"));

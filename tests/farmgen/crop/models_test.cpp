@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The meshes that ship in models/CROP, against their description.yaml.
+// The meshes that ship in models/CROP, where some do, against their description.yaml.
 #include <algorithm>
 #include <filesystem>
 
@@ -21,9 +21,20 @@ using plotscan::testing::TemporaryFolder;
 
 constexpr std::size_t kMostBytes = 300'000;
 
+fs::path folder_of(const std::string& crop) {
+  return fs::path(PLOTSCAN_SOURCE_DIR) / "models" / crop;
+}
+
+std::vector<std::string> crops_with_meshes() {
+  std::vector<std::string> with = crops();
+  std::erase_if(with,
+                [](const auto& crop) { return !fs::exists(folder_of(crop) / "description.yaml"); });
+  return with;
+}
+
 class ShippedModels : public ::testing::TestWithParam<std::string> {
  protected:
-  static fs::path folder() { return fs::path(PLOTSCAN_SOURCE_DIR) / "models" / GetParam(); }
+  static fs::path folder() { return folder_of(GetParam()); }
   static YAML::Node description() {
     return YAML::LoadFile((folder() / "description.yaml").string());
   }
@@ -80,7 +91,7 @@ TEST_P(ShippedModels, StandWithinThePublishedHeights) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Crops, ShippedModels, ::testing::ValuesIn(crops()),
+INSTANTIATE_TEST_SUITE_P(Crops, ShippedModels, ::testing::ValuesIn(crops_with_meshes()),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -58,38 +58,42 @@ Eigen::Vector3f mean_of(const Pixels& pixels) {
   return sum / static_cast<float>(pixels.width * pixels.height);
 }
 
+std::shared_ptr<const mesh::Image> leaf_texture(Form form, const Eigen::Vector3f& colour) {
+  return organ_texture(form, "reed", "leaf", colour);
+}
+
 TEST(Textures, HaveTheOrgansColourOnTheWhole) {
-  for (const auto& [crop, material] :
-       std::vector<std::pair<std::string, std::string>>{{"soybean", "leaf"},
-                                                        {"soybean", "stem"},
-                                                        {"soybean", "pod"},
-                                                        {"wheat", "leaf"},
-                                                        {"wheat", "ear"},
-                                                        {"maize", "leaf"},
-                                                        {"maize", "husk"},
-                                                        {"maize", "tassel"}}) {
-    const auto image = organ_texture(crop, material, kGreen);
+  for (const auto& [form, material] :
+       std::vector<std::pair<Form, std::string>>{{Form::soybean, "leaf"},
+                                                 {Form::soybean, "stem"},
+                                                 {Form::soybean, "pod"},
+                                                 {Form::wheat, "leaf"},
+                                                 {Form::wheat, "ear"},
+                                                 {Form::maize, "leaf"},
+                                                 {Form::maize, "husk"},
+                                                 {Form::maize, "tassel"}}) {
+    const auto image = organ_texture(form, "reed", material, kGreen);
     const Pixels pixels = decoded(*image);
-    EXPECT_LT((mean_of(pixels) - kGreen).cwiseAbs().maxCoeff(), 0.06F) << crop << " " << material;
-    EXPECT_LT(image->bytes.size(), 40'000u) << crop << " " << material;
-    EXPECT_EQ(image->name, crop + "_" + material + "_407a29.png");
+    EXPECT_LT((mean_of(pixels) - kGreen).cwiseAbs().maxCoeff(), 0.06F) << material;
+    EXPECT_LT(image->bytes.size(), 40'000u) << material;
+    EXPECT_EQ(image->name, "reed_" + material + "_407a29.png");
   }
 }
 
 TEST(Textures, AreTheSameBytesEveryTimeAndOthersForOtherColours) {
-  EXPECT_EQ(organ_texture("soybean", "leaf", kGreen)->bytes,
-            organ_texture("soybean", "leaf", kGreen)->bytes);
-  const auto yellow = organ_texture("soybean", "leaf", {0.7F, 0.65F, 0.2F});
-  EXPECT_NE(yellow->name, organ_texture("soybean", "leaf", kGreen)->name);
-  EXPECT_NE(yellow->bytes, organ_texture("soybean", "leaf", kGreen)->bytes);
+  EXPECT_EQ(leaf_texture(Form::soybean, kGreen)->bytes, leaf_texture(Form::soybean, kGreen)->bytes);
+  const auto yellow = leaf_texture(Form::soybean, {0.7F, 0.65F, 0.2F});
+  EXPECT_NE(yellow->name, leaf_texture(Form::soybean, kGreen)->name);
+  EXPECT_NE(yellow->bytes, leaf_texture(Form::soybean, kGreen)->bytes);
   EXPECT_EQ(yellow->bytes.find("tIME"), std::string::npos);
 }
 
 TEST(Textures, AMidribIsLighterThanTheLeaf) {
-  for (const char* crop : {"soybean", "wheat", "maize"}) {
-    const Pixels pixels = decoded(*organ_texture(crop, "leaf", kGreen));
-    EXPECT_GT(pixels.column(0.5, 0.3, 1), pixels.column(0.3, 0.3, 1) + 0.1) << crop;
-    EXPECT_GT(pixels.column(0.5, 0.3, 1), pixels.column(0.7, 0.3, 1) + 0.1) << crop;
+  for (const Form form : {Form::soybean, Form::wheat, Form::maize}) {
+    const Pixels pixels = decoded(*leaf_texture(form, kGreen));
+    const int place = static_cast<int>(form);
+    EXPECT_GT(pixels.column(0.5, 0.3, 1), pixels.column(0.3, 0.3, 1) + 0.1) << place;
+    EXPECT_GT(pixels.column(0.5, 0.3, 1), pixels.column(0.7, 0.3, 1) + 0.1) << place;
   }
 }
 
@@ -107,10 +111,21 @@ std::pair<double, double> steps(const Pixels& pixels) {
 }
 
 TEST(Textures, VeinsRunAlongGrassBladesAndAsideInSoybeanLeaflets) {
-  const auto [across_grass, along_grass] = steps(decoded(*organ_texture("maize", "leaf", kGreen)));
+  const auto [across_grass, along_grass] = steps(decoded(*leaf_texture(Form::maize, kGreen)));
   EXPECT_GT(across_grass, 4 * along_grass);
-  const auto [across_bean, along_bean] = steps(decoded(*organ_texture("soybean", "leaf", kGreen)));
+  const auto [across_bean, along_bean] = steps(decoded(*leaf_texture(Form::soybean, kGreen)));
   EXPECT_LT(across_bean, 2 * along_bean);
+}
+
+TEST(Textures, GoByTheFormThatDrawsTheCrop) {
+  EXPECT_EQ(pattern_of(Form::wheat, "ripe_ear"), Pattern::spikelets);
+  EXPECT_EQ(pattern_of(Form::soybean, "yellow_leaf"), Pattern::net_veins);
+  EXPECT_EQ(pattern_of(Form::soybean, "pod"), Pattern::pod);
+  for (const Form grass : {Form::wheat, Form::maize})
+    EXPECT_EQ(pattern_of(grass, "leaf"), Pattern::parallel_veins);
+  const auto barley = organ_texture(Form::wheat, "barley", "ear", kGreen);
+  EXPECT_EQ(barley->bytes, organ_texture(Form::wheat, "wheat", "ear", kGreen)->bytes);
+  EXPECT_EQ(barley->name, "barley_ear_407a29.png");
 }
 
 TEST(Textures, APlantKeepsThemInItsFile) {
@@ -121,7 +136,7 @@ TEST(Textures, APlantKeepsThemInItsFile) {
                .across = {{0, 1, 0}}},
               "leaf");
   mesh::Mesh mesh = plant.take(true);
-  add_textures(mesh, "soybean");
+  add_textures(mesh, Form::soybean, "soybean");
   const testing::TemporaryFolder folder;
   mesh::write_obj(folder.path() / "plant.obj", mesh);
   const mesh::Mesh read = mesh::import_mesh(folder.path() / "plant.obj");

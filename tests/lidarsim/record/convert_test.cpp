@@ -187,6 +187,8 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
     EXPECT_THAT(refusal(scan_, "out.laz"), HasSubstr("liblaszip-dev"));
   }
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag"), HasSubstr("/out.bag: a ROS 1 bag needs"));
+  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.las", {.write = {.crs = "utm"}}),
+              HasSubstr("/out.las: --crs utm needs the farm's place on Earth"));
   EXPECT_THAT(refusal(scan_, "taken.pcd"), HasSubstr("--force"));
   EXPECT_THAT(refusal(scan_, "none/out.pcd"), HasSubstr("no such folder"));
   EXPECT_THAT(refusal(folder_.path() / "absent.pcd", "out.pcd"), HasSubstr("no such file"));

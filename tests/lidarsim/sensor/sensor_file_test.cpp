@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "sensor/internal/sensor_files.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::sensor {
@@ -99,6 +100,14 @@ TEST(SensorFile, IsLoadedByItsPath) {
               HasSubstr("sensor \"mine\" is unknown; there are vlp16, "));
   EXPECT_THAT(message_of<InputError>([&] { load_sensor(folder.write("e.yaml", "").string()); }),
               HasSubstr("e.yaml:1"));
+}
+
+TEST(SensorFile, AShippedOneHasTheNameOfItsFile) {
+  EXPECT_EQ(parse_shipped_sensor(kSpinning, "mine").name, "mine");
+  EXPECT_THAT(message_of<InputError>([] { parse_shipped_sensor(kSpinning, "yours"); }),
+              HasSubstr("models/sensors/yours.yaml:1: name is mine, but the file is yours's"));
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_sensor(folder.write("yours.yaml", kSpinning).string()).name, "mine");
 }
 
 TEST(SensorFile, BrokenYamlIsRefused) {
