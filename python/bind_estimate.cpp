@@ -32,6 +32,12 @@ void bind_plots(py::module_& module) {
       .def_readwrite("width_m", &Box::width_m)
       .def_readwrite("length_m", &Box::length_m)
       .def_readwrite("heading_deg", &Box::heading_deg);
+  py::class_<BoxError>(module, "BoxError")
+      .def_readonly("along_m", &BoxError::along_m)
+      .def_readonly("across_m", &BoxError::across_m)
+      .def_readonly("width_m", &BoxError::width_m)
+      .def_readonly("length_m", &BoxError::length_m)
+      .def_readonly("heading_deg", &BoxError::heading_deg);
   py::class_<Height>(module, "Height")
       .def_readonly("value_m", &Height::value_m)
       .def_readonly("standard_error_m", &Height::standard_error_m)
@@ -42,6 +48,7 @@ void bind_plots(py::module_& module) {
       .def_readonly("row", &Plot::row)
       .def_readonly("column", &Plot::column)
       .def_readonly("box", &Plot::box)
+      .def_readonly("box_error", &Plot::box_error)
       .def_readonly("points", &Plot::points)
       .def_readonly("heights", &Plot::heights)
       .def_readonly("confidence", &Plot::confidence)

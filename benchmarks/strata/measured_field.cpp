@@ -1,14 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strata/measured_field.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "methods/lattice/lattice.h"
 
 #include "core/error.h"
 
 namespace plotscan::strata {
+
+namespace {
+
+// Ends of a normal distribution's 95 %.
+constexpr double kSigmas95 = 1.96;
+
+void count_box_figures(const PlotBox& truth, const estimate::PlotEstimate& plot,
+                       MeasuredField& field) {
+  if (!plot.box_error) return;
+  const PlotBoxError& error = *plot.box_error;
+  const Eigen::Vector2d off = truth.box_from_world(plot.box.center);
+  const std::array figures = {std::pair{off.x(), error.along_m}, std::pair{off.y(), error.across_m},
+                              std::pair{plot.box.length_m - truth.length_m, error.length_m},
+                              std::pair{plot.box.width_m - truth.width_m, error.width_m}};
+  for (const auto& [off_m, standard_error_m] : figures) {
+    ++field.box_figures;
+    field.box_figures_inside += std::abs(off_m) <= kSigmas95 * standard_error_m ? 1 : 0;
+  }
+}
+
+}  // namespace
 
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
                             int threads) {
@@ -31,6 +56,12 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
     if (!plot.confidence) continue;
     (extra.contains(plot.id) ? measured.false_confidences : measured.true_confidences)
         .push_back(*plot.confidence);
+  }
+  for (const score::PlotScore& plot : measured.score.plots) {
+    if (!plot.found) continue;
+    const auto found =
+        std::ranges::find(estimate.plots, plot.found->estimate, &estimate::PlotEstimate::id);
+    count_box_figures(plot.truth.box, *found, measured);
   }
   return measured;
 }

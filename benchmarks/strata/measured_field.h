@@ -19,6 +19,9 @@ struct MeasuredField {
   // nothing of are in neither.
   std::vector<double> true_confidences = {};
   std::vector<double> false_confidences = {};
+  // Of the found plots' boxes: centres along both axes, widths and lengths of which the estimator
+  // says how sure it is, and those within 1.96 of its standard errors of the true ones.
+  std::size_t box_figures = 0, box_figures_inside = 0;
   std::size_t points = 0;  // of the cloud
   double seconds = 0;      // from the cloud's file to the heights
   std::string failure;     // why the estimator gave up; "" when it did not

@@ -36,8 +36,9 @@ std::string stratum_line(const StratumTally& tally) {
     line += fmt::format("  {:21}", height_cell(tally, height));
   const std::string unflagged =
       number("{:.1f}", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
-  return line + fmt::format("  {:15} {:>6} {:>6}", unflagged,
+  return line + fmt::format("  {:15} {:>6} {:>6} {:>6}", unflagged,
                             number("{:.1f}", 100 * tally.coverage95),
+                            number("{:.1f}", 100 * tally.box_coverage95),
                             number("{:.2f}", tally.seconds_per_million_points));
 }
 
@@ -50,8 +51,8 @@ std::vector<std::string> farm_lines(std::span<const MeasuredField> farms) {
       "5: "
       "% of the plots with an error over 5 cm",
       "and no flag, of the worst of all heights; in 95: % of truths in the 95 % intervals of all "
-      "heights; s/M: seconds per million points",
-      heading + fmt::format("  {:15} {:>6} {:>6}", "over 5", "in 95", "s/M")};
+      "heights; box 95: of the boxes' centres and sides; s/M: seconds per million points",
+      heading + fmt::format("  {:15} {:>6} {:>6} {:>6}", "over 5", "in 95", "box 95", "s/M")};
   for (const StratumTally& one : tally_strata(farms)) lines.push_back(stratum_line(one));
   return lines;
 }
@@ -98,6 +99,7 @@ json json_of(const StratumTally& tally) {
           {"worst_height", tally.worst_height},
           {"over_5cm_unflagged_share", tally.worst_unflagged_share},
           {"coverage95", tally.coverage95},
+          {"box_coverage95", tally.box_coverage95},
           {"seconds_per_million_points", tally.seconds_per_million_points}};
 }
 

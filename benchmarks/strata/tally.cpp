@@ -44,15 +44,18 @@ void set_heights(StratumTally& tally, std::span<const MeasuredField> fields) {
 StratumTally tally(const std::string& stratum, std::span<const MeasuredField> fields) {
   StratumTally tally{.stratum = stratum, .farms = fields.size(), .boxes = {}};
   std::vector<score::FieldScore> scores;
-  double seconds = 0, points = 0;
+  double seconds = 0, points = 0, box_figures = 0, box_figures_inside = 0;
   for (const MeasuredField& field : fields) {
     scores.push_back(field.score);
+    box_figures += static_cast<double>(field.box_figures);
+    box_figures_inside += static_cast<double>(field.box_figures_inside);
     tally.failures += !field.failure.empty();
     if (!field.failure.empty()) continue;
     seconds += field.seconds;
     points += static_cast<double>(field.points);
   }
   tally.boxes = score::score_boxes(scores);
+  tally.box_coverage95 = ratio(box_figures_inside, box_figures);
   tally.seconds_per_million_points = ratio(1e6 * seconds, points);
   set_heights(tally, fields);
   return tally;

@@ -32,6 +32,7 @@ struct StratumTally {
   std::string worst_height = {};     // the one with the most large errors without a flag
   double worst_unflagged_share = 0;  // of its plots; NaN without heights
   double coverage95 = 0;             // of all heights' intervals together
+  double box_coverage95 = 0;         // of the boxes' centres and sides together
   double seconds_per_million_points = 0;
 };
 

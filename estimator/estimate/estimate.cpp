@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/manifest.h"
@@ -24,20 +25,32 @@ using nlohmann::json;
 constexpr std::array<const char*, 4> kPlane = {"ground_z_m", "ground_slope_x", "ground_slope_y",
                                                "ground_tolerance_m"};
 
+// Of a box's standard errors (PlotBoxError).
+constexpr std::array<const char*, 5> kBoxErrors = {"se_center_along_m", "se_center_across_m",
+                                                   "se_width_m", "se_length_m", "se_heading_deg"};
+
 // Whether a property is one of those that an estimate gives its plots.
 bool is_measured(std::string property) {
   if (property == "points" || property == "confidence" || property == "flags") return true;
   if (std::ranges::count(kPlane, property) > 0) return true;
+  if (std::ranges::count(kBoxErrors, property) > 0) return true;
   for (const std::string_view before : {kError, kLow, kHigh}) {
     if (property.starts_with(before)) property.erase(0, before.size());
   }
   return !height_of(property).empty();
 }
 
+void add_box_error(const PlotBoxError& error, json& properties) {
+  const std::array values = {error.along_m, error.across_m, error.width_m, error.length_m,
+                             error.heading_rad / kDegrees};
+  for (std::size_t i = 0; i < values.size(); ++i) properties[kBoxErrors[i]] = values[i];
+}
+
 PlotFeature feature_of(const PlotEstimate& plot, const std::string& id_property) {
   PlotFeature feature{.box = plot.box, .properties = plot.attributes, .id = plot.id};
   if (!feature.properties.contains(id_property)) feature.properties[id_property] = plot.id.json();
   feature.properties["points"] = plot.points;
+  if (plot.box_error) add_box_error(*plot.box_error, feature.properties);
   if (plot.row > 0) feature.properties["row_number"] = plot.row;
   if (plot.column > 0) feature.properties["col_number"] = plot.column;
   for (const auto& [name, height_m] : plot.heights_m) {
@@ -77,14 +90,19 @@ PlotId id_of(const PlotFeature& feature, std::size_t number) {
   return PlotId::from(*found).value_or(number);
 }
 
+// NaN where there is none.
+double number_in(const json& properties, const std::string& name) {
+  const auto found = properties.find(name);
+  return found != properties.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
 // The standard errors and intervals that stand beside the heights.
 std::map<std::string, HeightError> errors_of(const json& properties,
                                              const std::map<std::string, double>& heights_m) {
   std::map<std::string, HeightError> errors;
   for (const auto& [name, height_m] : heights_m) {
     const auto number = [&properties, &name = name](std::string_view before) {
-      const auto found = properties.find(property_of(name, before));
-      return found != properties.end() && found->is_number() ? found->get<double>() : std::nan("");
+      return number_in(properties, property_of(name, before));
     };
     const HeightError error{number(kError), number(kLow), number(kHigh)};
     if (std::isfinite(error.low95_m) && std::isfinite(error.high95_m)) errors[name] = error;
@@ -92,14 +110,30 @@ std::map<std::string, HeightError> errors_of(const json& properties,
   return errors;
 }
 
-std::optional<PlotGround> ground_of(const json& properties) {
-  std::array<double, kPlane.size()> values = {};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto found = properties.find(kPlane[i]);
-    if (found == properties.end() || !found->is_number()) return std::nullopt;
-    values[i] = found->get<double>();
+// Numbers in properties; none where one of them lacks.
+template <std::size_t Count>
+std::optional<std::array<double, Count>> numbers_in(const json& properties,
+                                                    const std::array<const char*, Count>& names) {
+  std::array<double, Count> values = {};
+  for (std::size_t i = 0; i < Count; ++i) {
+    values[i] = number_in(properties, names[i]);
+    if (std::isnan(values[i])) return std::nullopt;
   }
-  return PlotGround{.z_m = values[0], .slope = {values[1], values[2]}, .tolerance_m = values[3]};
+  return values;
+}
+
+std::optional<PlotGround> ground_of(const json& properties) {
+  const auto values = numbers_in(properties, kPlane);
+  if (!values) return std::nullopt;
+  const auto& [z_m, slope_x, slope_y, tolerance_m] = *values;
+  return PlotGround{.z_m = z_m, .slope = {slope_x, slope_y}, .tolerance_m = tolerance_m};
+}
+
+std::optional<PlotBoxError> box_error_of(const json& properties) {
+  const auto values = numbers_in(properties, kBoxErrors);
+  if (!values) return std::nullopt;
+  const auto& [along_m, across_m, width_m, length_m, heading_deg] = *values;
+  return PlotBoxError{along_m, across_m, width_m, length_m, heading_deg * kDegrees};
 }
 
 std::vector<std::string> stated_flags(const json& properties) {
@@ -206,6 +240,7 @@ PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
     const std::string name = height_of(property);
     if (!name.empty() && value.is_number()) plot.heights_m[name] = value.get<double>();
   }
+  plot.box_error = box_error_of(feature.properties);
   plot.errors = errors_of(feature.properties, plot.heights_m);
   plot.flags = stated_flags(feature.properties);
   plot.ground = ground_of(feature.properties);

@@ -38,7 +38,8 @@ struct PlotEstimate {
   int row = 0;     // from 1; 0 when the method has no grid
   int column = 0;  // from 1; 0 when the method has no grid
   PlotBox box;
-  std::size_t points = 0;  // cloud points the heights were taken from
+  std::optional<PlotBoxError> box_error = std::nullopt;  // of a method that says how sure boxes are
+  std::size_t points = 0;                                // cloud points the heights were taken from
   std::map<std::string, double> heights_m =
       {};  // by name, e.g. "raw-p99"; absent where it could not be measured
   std::map<std::string, HeightError> errors = {};   // of heights_m, by the same names

@@ -100,6 +100,22 @@ void add_place(std::vector<Column>& columns, const std::string& without) {
                      }});
 }
 
+// The boxes' standard errors, where any plot has them.
+void add_box_errors(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
+  if (std::ranges::none_of(plots, [](const auto& plot) { return plot.box_error.has_value(); }))
+    return;
+  const auto add = [&](const char* name, double PlotBoxError::*error, double unit) {
+    columns.push_back({name, [error, unit](const PlotEstimate& plot) {
+                         return plot.box_error ? format_number(*plot.box_error.*error / unit) : "";
+                       }});
+  };
+  add("se_center_along_m", &PlotBoxError::along_m, 1);
+  add("se_center_across_m", &PlotBoxError::across_m, 1);
+  add("se_width_m", &PlotBoxError::width_m, 1);
+  add("se_length_m", &PlotBoxError::length_m, 1);
+  add("se_heading_deg", &PlotBoxError::heading_rad, kDegrees);
+}
+
 std::vector<Column> columns_of(const Estimate& estimate) {
   const std::vector<PlotEstimate>& plots = estimate.plots;
   std::vector<Column> columns = {
@@ -115,6 +131,7 @@ std::vector<Column> columns_of(const Estimate& estimate) {
       {"points", [](const auto& plot) { return std::to_string(plot.points); }}};
   columns.insert(columns.end(), box.begin(), box.end());
   add_heights(plots, columns);
+  add_box_errors(plots, columns);
   if (std::ranges::any_of(plots, [](const auto& plot) { return plot.confidence.has_value(); })) {
     columns.push_back({"confidence", [](const auto& plot) {
                          return plot.confidence ? format_number(*plot.confidence) : "";

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <tbb/task_arena.h>
 
+#include "plots/internal/box_errors.h"
 #include "plots/internal/canopy_raster.h"
 #include "plots/internal/field_signs.h"
 #include "plots/internal/heading.h"
@@ -93,8 +94,9 @@ std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
 }
 
 PlotField plots_on(const Lattice& lattice, const std::optional<SownRows>& sown_rows,
-                   double field_confidence) {
+                   double field_confidence, const Hints& hints) {
   PlotField field{.fit = fit_of(lattice, sown_rows)};
+  const PlotBoxError error = box_error(lattice, hints);
   const TrialLayout& layout = field.fit->layout;
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     const Place& place = lattice.places[i];
@@ -102,6 +104,7 @@ PlotField plots_on(const Lattice& lattice, const std::optional<SownRows>& sown_r
     field.plots.push_back({.row = layout.places[i].row,
                            .column = layout.places[i].column,
                            .box = layout.box(layout.places[i]),
+                           .box_error = error,
                            .confidence = field_confidence * clearness,
                            .cut_off = is_cut_off(lattice, place)});
   }
@@ -165,7 +168,8 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
   lattice.view.raster = &cover;
   const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
-  Look look{because.empty() ? plots_on(lattice, rows, field_confidence(signs)) : no_plots(because)};
+  Look look{because.empty() ? plots_on(lattice, rows, field_confidence(signs), hints)
+                            : no_plots(because)};
   if (because.empty()) look.evidence = layout.evidence;
   look.field.signs = signs;
   look.field.rival = rival;

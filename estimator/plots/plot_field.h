@@ -12,9 +12,10 @@
 namespace plotscan::plots {
 
 struct FoundPlot {
-  int row = 0;            // from 1: rows follow each other along the plots' length
-  int column = 0;         // from 1: columns follow each other along their width
-  PlotBox box = {};       // in the points' frame
+  int row = 0;       // from 1: rows follow each other along the plots' length
+  int column = 0;    // from 1: columns follow each other along their width
+  PlotBox box = {};  // in the points' frame
+  PlotBoxError box_error = {};
   double confidence = 0;  // 0 to 1
   bool cut_off = false;   // the box reaches over the edge of what was scanned
 };

@@ -26,6 +26,16 @@ struct PlotBox {
   std::array<Eigen::Vector2d, 4> corners() const;
 };
 
+// Standard errors of a box, each along the box's own axes and independent of the others: in that
+// frame its covariance is diagonal.
+struct PlotBoxError {
+  double along_m = 0;   // of the centre, along the length
+  double across_m = 0;  // of the centre, along the width
+  double width_m = 0;
+  double length_m = 0;
+  double heading_rad = 0;
+};
+
 // Heading brought into [0, pi).
 double wrap_heading(double heading_rad);
 // Smallest angle between two box axes, in [0, pi / 2].

@@ -15,10 +15,12 @@ Plot outer_plot(const estimate::PlotEstimate& plot) {
             .row = plot.row,
             .column = plot.column,
             .box = outer(plot.box),
+            .box_error = {},
             .points = plot.points,
             .heights = {},
             .confidence = plot.confidence,
             .flags = plot.flags};
+  if (plot.box_error) made.box_error = outer(*plot.box_error);
   for (const auto& [name, value_m] : plot.heights_m) made.heights[name].value_m = value_m;
   for (const auto& [name, error] : plot.errors) {
     made.heights[name].standard_error_m = error.standard_error_m;
@@ -34,6 +36,7 @@ estimate::PlotEstimate inner_plot(const Plot& plot) {
                               .column = plot.column,
                               .box = inner(plot.box),
                               .points = plot.points};
+  if (plot.box_error) made.box_error = inner(*plot.box_error);
   for (const auto& [name, height] : plot.heights) {
     made.heights_m[name] = height.value_m;
     if (std::isnan(height.low95_m) || std::isnan(height.high95_m)) continue;

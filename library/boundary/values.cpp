@@ -23,6 +23,22 @@ Box outer(const PlotBox& box) {
           .heading_deg = wrap_heading(box.heading_rad) / kDegrees};
 }
 
+PlotBoxError inner(const BoxError& error) {
+  return {.along_m = error.along_m,
+          .across_m = error.across_m,
+          .width_m = error.width_m,
+          .length_m = error.length_m,
+          .heading_rad = radians(error.heading_deg)};
+}
+
+BoxError outer(const PlotBoxError& error) {
+  return {.along_m = error.along_m,
+          .across_m = error.across_m,
+          .width_m = error.width_m,
+          .length_m = error.length_m,
+          .heading_deg = error.heading_rad / kDegrees};
+}
+
 int threads_of(int threads) {
   if (threads != 0) return threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -19,6 +19,15 @@ struct Box {
   double heading_deg = 0;  // of the length axis, counter-clockwise from x, [0, 180)
 };
 
+// Standard errors of a box, along its own axes and independent of each other; metres and degrees.
+struct BoxError {
+  double along_m = 0;   // of the centre, along the length
+  double across_m = 0;  // of the centre, along the width
+  double width_m = 0;
+  double length_m = 0;
+  double heading_deg = 0;
+};
+
 // A measured height, metres, and how sure it is; NaN where the method does not say.
 struct Height {
   double value_m = NAN;
@@ -33,10 +42,11 @@ struct Plot {
   int row = 0;     // from 1; 0 where the method has no grid
   int column = 0;  // from 1; 0 where the method has no grid
   Box box = {};
-  std::size_t points = 0;                 // that the heights were taken from
-  std::map<std::string, Height> heights;  // by name, "max", "canopy_p95"; absent: not measured
-  std::optional<double> confidence = {};  // that this is a plot, 0 to 1
-  std::vector<std::string> flags = {};    // why not to trust the heights; none: they may be
+  std::optional<BoxError> box_error = {};  // absent where the method does not say, or was given it
+  std::size_t points = 0;                  // that the heights were taken from
+  std::map<std::string, Height> heights;   // by name, "max", "canopy_p95"; absent: not measured
+  std::optional<double> confidence = {};   // that this is a plot, 0 to 1
+  std::vector<std::string> flags = {};     // why not to trust the heights; none: they may be
 };
 
 // One plot as it is.

@@ -20,6 +20,7 @@ from . import _plotscan
 from ._plotscan import (
     BadInput,
     Box,
+    BoxError,
     Cloud,
     FarmSummary,
     FieldEstimate,
@@ -36,7 +37,7 @@ from ._plotscan import (
 )
 
 __all__ = [
-    "BadInput", "Box", "Cloud", "FarmSummary", "FieldEstimate", "FlightSummary", "GroundGrid",
+    "BadInput", "Box", "BoxError", "Cloud", "FarmSummary", "FieldEstimate", "FlightSummary", "GroundGrid",
     "Height", "HeightScore", "NothingMeasured", "Plot", "Scores", "Setting", "TruePlot", "convert_cloud", "data_folder",
     "estimate_field", "estimate_files", "estimate_settings", "flight_settings", "fly", "generate_farm", "plot_table", "point_dtype",
     "read_cloud", "read_truth", "score_estimate", "write_cloud",
@@ -292,7 +293,8 @@ def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:
     """The plots as columns, arrays (plots,), from which pandas and polars make a table.
 
     id, row, column, center_x_m, center_y_m, width_m, length_m, heading_deg, points, and for each height by
-    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known.
+    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known. The box's
+    standard errors are in each plot's box_error.
     """
     box_columns = ("center_x_m", "center_y_m", "width_m", "length_m", "heading_deg")
     table = {name: numpy.array([getattr(plot, name) for plot in plots]) for name in ("id", "row", "column")}

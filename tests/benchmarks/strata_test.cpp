@@ -204,8 +204,10 @@ MeasuredField field(const std::vector<double>& errors_cm, const std::vector<doub
 }
 
 TEST(Tally, PoolsTheFarmsOfAStratum) {
-  const std::vector<MeasuredField> fields = {field({1, 3}, {1, 1}, {}),
-                                             field({-6, 6}, {1, 1}, {0.5})};
+  std::vector<MeasuredField> fields = {field({1, 3}, {1, 1}, {}), field({-6, 6}, {1, 1}, {0.5})};
+  fields[0].box_figures = fields[0].box_figures_inside = 8;
+  fields[1].box_figures = 8;
+  fields[1].box_figures_inside = 4;
   const StratumTally all = tally("s", fields);
   EXPECT_EQ(all.farms, 2U);
   EXPECT_EQ(all.boxes.found, 4U);
@@ -215,6 +217,7 @@ TEST(Tally, PoolsTheFarmsOfAStratum) {
   EXPECT_EQ(all.worst_height, "max");
   EXPECT_DOUBLE_EQ(all.worst_unflagged_share, 0.5);
   EXPECT_DOUBLE_EQ(all.coverage95, 0.5);
+  EXPECT_DOUBLE_EQ(all.box_coverage95, 0.75);
   EXPECT_DOUBLE_EQ(all.seconds_per_million_points, 1.5);
 }
 

@@ -65,6 +65,8 @@ TEST_F(EstimateField, SaysWhatTheProgramSaysOfTheSamePoints) {
     EXPECT_EQ(plot.id, std::to_string(said["plot_number"].get<int>()));
     EXPECT_EQ(plot.heights.at("max").value_m, said["height_max_m"].get<double>());
     EXPECT_EQ(plot.heights.at("max").low95_m, said["low95_height_max_m"].get<double>());
+    EXPECT_EQ(plot.box_error.value().across_m, said["se_center_across_m"].get<double>());
+    EXPECT_EQ(plot.box_error.value().length_m, said["se_length_m"].get<double>());
     EXPECT_NEAR(plot.box.heading_deg, said["heading_deg"].get<double>(), 1e-9);
   }
 }

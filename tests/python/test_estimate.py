@@ -21,6 +21,14 @@ class Estimate(ExampleScan):
         rmse = {(s.height, s.truth): s.rmse_m for s in scores.heights}
         self.assertLess(rmse["max", "height_max_m"], 0.06)
 
+    def test_boxes_have_standard_errors(self):
+        said = self.field.geojson["features"][0]["properties"]
+        error = self.field.plots[0].box_error
+        self.assertEqual((error.along_m, error.width_m), (said["se_center_along_m"], said["se_width_m"]))
+        self.assertTrue(0 < error.width_m < 0.3)
+        given = plotscan.estimate_field(self.cloud, boxes=[plot.box for plot in self.field.plots])
+        self.assertIsNone(given.plots[0].box_error)
+
     def test_memory_gives_what_files_give(self):
         files = plotscan.estimate_files(self.scan, self.folder / "files")
         self.assertEqual(files.geojson, self.field.geojson)

@@ -131,7 +131,8 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
                      .row = plot.row,
                      .column = plot.column,
-                     .box = plot.box});
+                     .box = plot.box,
+                     .box_error = plot.box_error});
     found.back().confidence = plot.confidence;
     if (!field.rival.empty())
       found.back().flags.push_back("the canopy shows " + field.rival + " more clearly");

@@ -22,21 +22,23 @@ struct Place {
 
 // What the plots have in common along one of the view's axes, metres.
 struct Side {
-  double size_m = 0;    // of a plot
-  double band_m = 0;    // of the layout's bands
-  double blur_m = 0.1;  // sigma of the leaves' spread over the edges
-  double pitch_m = 0;   // 0 where there is one row or one column only
-  double rms_m = 0;     // plots' centres about the lattice
+  double size_m = 0;      // of a plot
+  double band_m = 0;      // of the layout's bands
+  double blur_m = 0.1;    // sigma of the leaves' spread over the edges
+  double pitch_m = 0;     // 0 where there is one row or one column only
+  double rms_m = 0;       // plots' centres about the lattice
+  double parameters = 0;  // of the lattice, that the centres were fitted by
 };
 
 struct Lattice {
   RowView view;
   Side r, c;
   int rows = 0, columns = 0;
-  bool aligned = true;  // columns run through all rows; else every row has its own offset
-  double r_per_c = 0;   // how far a row's plots move along r for every metre along c
-  double c_per_r = 0;   // how far a column's plots move along c for every metre along r
-  double contrast = 0;  // median of the plots' sides
+  bool aligned = true;        // columns run through all rows; else every row has its own offset
+  double r_per_c = 0;         // how far a row's plots move along r for every metre along c
+  double c_per_r = 0;         // how far a column's plots move along c for every metre along r
+  double contrast = 0;        // median of the plots' sides
+  double turn_error_rad = 0;  // standard error of the rows' and columns' direction
   std::vector<Place> places = {};
 
   // The same with r and c exchanged, for what is measured along either axis alike.

@@ -91,12 +91,19 @@ LinesOfGroups fit_lines(const PlotGroups& groups, const std::vector<double>& x,
   return lines;
 }
 
+// Where rows or columns lie, and by how many parameters that was fitted.
+struct Positions {
+  std::vector<double> at;
+  double parameters = 0;
+};
+
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
 // steps, but for those alleys that clearly differ.
-std::vector<double> with_equal_steps(const std::vector<double>& positions,
-                                     const std::vector<double>& counts, double sigma_m) {
+Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
+                           double sigma_m) {
   const auto size = static_cast<Eigen::Index>(positions.size());
-  if (size < 3) return positions;
+  const Positions as_they_are{positions, static_cast<double>(size)};
+  if (size < 3) return as_they_are;
   std::vector<double> steps;
   for (std::size_t i = 1; i < positions.size(); ++i)
     steps.push_back(positions[i] - positions[i - 1]);
@@ -107,7 +114,7 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
     if (std::abs(steps[i] - step_m) > std::max(0.06, 4 * error_m)) alleys.push_back(i);
   }
   const auto unknowns = static_cast<Eigen::Index>(2 + alleys.size());
-  if (unknowns >= size) return positions;
+  if (unknowns >= size) return as_they_are;
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, unknowns);
   Eigen::VectorXd right(size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -121,9 +128,9 @@ std::vector<double> with_equal_steps(const std::vector<double>& positions,
     right(i) = weight * positions[at];
   }
   const Eigen::VectorXd fitted = design.colPivHouseholderQr().solve(right);
-  std::vector<double> smooth;
+  Positions smooth{.at = {}, .parameters = static_cast<double>(unknowns)};
   for (Eigen::Index i = 0; i < size; ++i) {
-    smooth.push_back(design.row(i).dot(fitted) / design(i, 0));
+    smooth.at.push_back(design.row(i).dot(fitted) / design(i, 0));
   }
   return smooth;
 }
@@ -153,12 +160,13 @@ Centers measured_centers(const Lattice& lattice) {
 
 // c of a plot = its column's place + its row's offset.
 struct Columns {
-  std::vector<double> column_at, row_offset;
+  Positions column;
+  std::vector<double> row_offset;
   double rms_m = 0;
 };
 
 // Of plots whose rows' offsets were taken out of c.
-std::vector<double> columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
+Positions columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
   if (aligned) {
     std::vector<double> at = centers.column.means(c);
     const double error_m = rms_of(centers.column.less(c, at), centers.column);
@@ -169,7 +177,7 @@ std::vector<double> columns_at(bool aligned, const Centers& centers, const std::
     numbers[column] = static_cast<double>(column);
   const double pitch_m = fit_lines(centers.row, centers.column.spread_out(numbers), c).slope;
   for (double& number : numbers) number *= pitch_m;
-  return numbers;
+  return {std::move(numbers), 1};
 }
 
 // Columns and rows' offsets in turn.
@@ -178,8 +186,8 @@ Columns fit_columns(const Centers& centers, bool aligned) {
   Columns fit;
   fit.row_offset.assign(centers.row.count(), 0);
   for (int round = 0; round < kRounds; ++round) {
-    fit.column_at = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
-    const std::vector<double> rest = centers.column.less(centers.c, fit.column_at);
+    fit.column = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
+    const std::vector<double> rest = centers.column.less(centers.c, fit.column.at);
     fit.row_offset = centers.row.means(rest);
     fit.rms_m = rms_of(centers.row.less(rest, fit.row_offset), centers.row);
   }
@@ -211,6 +219,7 @@ Skew fit_skew(const Centers& centers, const std::vector<double>& row_at, const C
 // How rows and columns run: slopes to the view's axes.
 struct Directions {
   double r_per_c = 0, c_per_r = 0;
+  double error = 0;               // standard error of either slope
   bool columns_straight = false;  // the rows' offsets are those of straight columns
 };
 
@@ -230,11 +239,12 @@ Directions directions_of(const Centers& centers, const LinesOfGroups& rows, cons
                       (centers.row.count() >= 3 || std::abs(off) <= 0.01);
   const bool straight = columns_tell && (skewed || right_angle);
   const double by_columns = -(between + skew.c_per_r) / (1 + between * skew.c_per_r);
-  if (!rows_tell) return {by_columns, skew.c_per_r, straight};
-  if (skewed) return {rows.slope, skew.c_per_r, straight};
-  if (!straight) return {rows.slope, skew.c_per_r - off, straight};
+  if (!rows_tell) return {by_columns, skew.c_per_r, skew.error, straight};
+  if (skewed) return {rows.slope, skew.c_per_r, std::max(row_error, skew.error), straight};
+  if (!straight) return {rows.slope, skew.c_per_r - off, row_error, straight};
   const double share = skew.error * skew.error / (error * error);
-  return {rows.slope - (1 - share) * off, skew.c_per_r - share * off, straight};
+  return {rows.slope - (1 - share) * off, skew.c_per_r - share * off,
+          row_error * skew.error / error, straight};
 }
 
 // The rows' offsets on one line along the columns.
@@ -260,22 +270,27 @@ void straighten(Lattice& lattice) {
       directions_of(centers, rows, skew, lattice.view.r_axis().dot(lattice.view.c_axis()));
   lattice.r_per_c = directions.r_per_c;
   lattice.c_per_r = directions.c_per_r;
+  lattice.turn_error_rad = directions.error;
   lattice.r.rms_m = rows.rms_m;
   lattice.c.rms_m = columns.rms_m;
 
   std::vector<double> r_at_0 = centers.r;
   for (std::size_t i = 0; i < r_at_0.size(); ++i) r_at_0[i] -= lattice.r_per_c * centers.c[i];
-  const std::vector<double> row_at =
+  const Positions row =
       with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r.rms_m);
   if (directions.columns_straight)
     columns.row_offset = offsets_on_line(centers, columns, lattice.c_per_r);
+  lattice.r.parameters = row.parameters + 1;  // the rows' slope
+  lattice.c.parameters =
+      columns.column.parameters +
+      (directions.columns_straight ? 1 : static_cast<double>(centers.row.count() - 1));
   const std::vector<double> row_middle = centers.row.means(centers.r);
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     Place& place = lattice.places[i];
-    const std::size_t row = centers.row.of(i);
-    const double c_m = columns.column_at[centers.column.of(i)] + columns.row_offset[row];
-    place.r_m = row_at[row] + lattice.r_per_c * c_m;
-    place.c_m = c_m + lattice.c_per_r * (place.r_m - row_middle[row]);
+    const std::size_t of_row = centers.row.of(i);
+    const double c_m = columns.column.at[centers.column.of(i)] + columns.row_offset[of_row];
+    place.r_m = row.at[of_row] + lattice.r_per_c * c_m;
+    place.c_m = c_m + lattice.c_per_r * (place.r_m - row_middle[of_row]);
   }
 }
 

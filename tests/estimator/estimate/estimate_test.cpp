@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::estimate {
@@ -136,6 +137,8 @@ Estimate with_intervals() {
   PlotEstimate& plot = estimate.plots[0];
   plot.heights_m = {{"canopy_p95", 0.7}, {"max", 0.8125}};
   plot.errors = {{"canopy_p95", {0.01, 0.68, 0.72}}, {"max", {0.02, 0.77, 0.86}}};
+  plot.box_error = {.along_m = 0.03, .across_m = 0.02, .width_m = 0.05, .length_m = 0.06};
+  plot.box_error->heading_rad = 0.1 * kDegrees;
   plot.confidence = 0.75;
   plot.flags = {"few returns", "no ground within reach"};
   estimate.plots[1].confidence = 1;
@@ -154,6 +157,13 @@ TEST(Estimate, ReadsErrorsConfidenceAndFlags) {
   EXPECT_EQ(plot.errors.at("max").low95_m, 0.77);
   EXPECT_EQ(plot.errors.at("canopy_p95").high95_m, 0.72);
   EXPECT_EQ(plot.confidence, 0.75);
+  ASSERT_TRUE(plot.box_error.has_value());
+  EXPECT_EQ(plot.box_error->along_m, 0.03);
+  EXPECT_EQ(plot.box_error->across_m, 0.02);
+  EXPECT_EQ(plot.box_error->width_m, 0.05);
+  EXPECT_EQ(plot.box_error->length_m, 0.06);
+  EXPECT_NEAR(plot.box_error->heading_rad, 0.1 * kDegrees, 1e-12);
+  EXPECT_FALSE(read.plots[1].box_error.has_value());
   EXPECT_THAT(plot.flags, ::testing::ElementsAre("few returns", "no ground within reach"));
   EXPECT_TRUE(read.plots[1].errors.empty());
   EXPECT_TRUE(read.plots[1].flags.empty());
@@ -166,10 +176,12 @@ TEST(Estimate, TabulatesErrorsBesideTheirHeights) {
       read_text(folder.path() / "heights.csv"),
       "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
       "canopy_p95_m,se_canopy_p95_m,low95_canopy_p95_m,high95_canopy_p95_m,"
-      "height_max_m,se_height_max_m,low95_height_max_m,high95_height_max_m,confidence,flags\n"
+      "height_max_m,se_height_max_m,low95_height_max_m,high95_height_max_m,"
+      "se_center_along_m,se_center_across_m,se_width_m,se_length_m,se_heading_deg,confidence,"
+      "flags\n"
       "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.7,0.01,0.68,0.72,0.8125,0.02,0.77,0.86,"
-      "0.75,\"few returns; no ground within reach\"\n"
-      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,1,\n");
+      "0.03,0.02,0.05,0.06,0.1,0.75,\"few returns; no ground within reach\"\n"
+      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,,,,,,1,\n");
 }
 
 // Of given boxes: nothing was searched, so there is no confidence.
