@@ -20,19 +20,6 @@ DepthProfile profile_of(const Lattice& lattice, const Place& place, double reach
 // The same from the mean cover of all plots.
 DepthProfile pooled_profile(const Lattice& lattice, double reach_m);
 
-// The plots one pitch before and after a plot along r, whose leaves hang over into its profile.
-struct Neighbours {
-  double pitch_m = 0;  // 0 where there are none
-  double share = 0;    // of the plots that have one
-
-  // What canopies like `canopy` about the neighbours' centres add at x_m.
-  template <class Canopy>
-  double beside(const Canopy& canopy, double x_m) const {
-    return pitch_m > 0 ? canopy(x_m - pitch_m) + canopy(x_m + pitch_m) : 0;
-  }
-};
-Neighbours neighbours_of(const Lattice& lattice);
-
 // The mean of all plots along r, as far as the middle of the gaps beside them.
 DepthProfile profile_with_gaps(const Lattice& lattice);
 

@@ -75,20 +75,6 @@ Groups groups_of(const std::vector<double>& line, double widest_step) {
   return groups;
 }
 
-// Pieces of a plot, of which rows were not seen, become one: their outer rows are a plot's.
-void join_pieces(Groups& ends, const std::vector<double>& line, double span, double spacing) {
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t k = i + 1; k < ends.size(); ++k) {
-      const double length = line[ends[k].second] - line[ends[i].first];
-      if (std::abs(length - span) > 0.3 * spacing) continue;
-      ends[i].second = ends[k].second;
-      ends.erase(ends.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                 ends.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-      break;
-    }
-  }
-}
-
 // Places at equal steps between others: plots of which not all rows were seen.
 void fill_in(std::vector<double>& places) {
   constexpr double kTolerance = 0.15;  // of a step
@@ -128,7 +114,6 @@ std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
   double all = 0, whole = 0, length = 0;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     const std::vector<double>& line = middles[i];
-    join_pieces(groups[i], line, span, steps.spacing);
     plots.begins.emplace_back();
     for (const auto& [first, last] : groups[i]) {
       ++all;

@@ -15,9 +15,7 @@ namespace plotscan::plots {
 namespace {
 
 constexpr int kAngles = 180;
-constexpr double kLongBlock_m = 1000;  // whole lines: alleys through the field
-constexpr double kShortBlock_m = 6;    // lines through few plots, whose rows may be offset
-constexpr int kMostSkew_deg = 15;      // of the axes, off the right angle
+constexpr int kMostSkew_deg = 15;  // of the axes, off the right angle
 constexpr double kSkewDoubt = 0.25;
 constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: one is tilted
 constexpr double kHintReach_rad = 5 * kDegrees;
@@ -53,16 +51,10 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
   return cells;
 }
 
-// How wide a line is, and how long a block of lines, of which each has steps of its own.
-struct LineSize {
-  double bin_m;
-  double block_m;
-};
-
-// The cells in bins across lines of one direction, for each block along them.
+// The cells in bins across lines of one direction.
 class LineFamily {
  public:
-  LineFamily(const std::vector<Cell>& cells, double angle_rad, const LineSize& size)
+  LineFamily(const std::vector<Cell>& cells, double angle_rad, double bin_m)
       : c_(static_cast<float>(std::cos(angle_rad))), s_(static_cast<float>(std::sin(angle_rad))) {
     float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
     for (const Cell& cell : cells) {
@@ -71,77 +63,67 @@ class LineFamily {
       low_across = std::min(low_across, across(cell));
       high_across = std::max(high_across, across(cell));
     }
-    const auto per_bin = static_cast<float>(1 / size.bin_m);
-    const auto per_block = static_cast<float>(1 / size.block_m);
-    length_m_ = high_along - low_along;
+    const auto per_bin = static_cast<float>(1 / bin_m);
+    least_cells_ = 0.25F * (high_along - low_along) * per_bin;
     bins_ = static_cast<std::size_t>((high_across - low_across) * per_bin) + 3;
-    blocks_ = static_cast<std::size_t>(length_m_ * per_block) + 1;
-    sums_.assign(2 * bins_ * blocks_, 0);
-    for (const Cell& cell : cells)
-      add(cell, (across(cell) - low_across) * per_bin, (along(cell) - low_along) * per_block);
+    sums_.assign(2 * bins_, 0);
+    for (const Cell& cell : cells) add(cell, (across(cell) - low_across) * per_bin);
   }
 
   // Sum of the squared steps of mean cover from line to line. Two bins on either side: single ones
-  // would be sharper where lines run along the cells. Bins of fewer cells tell nothing.
-  double steps(double least_cells) const {
+  // would be sharper where lines run along the cells. Bins of a quarter of a line's cells or fewer
+  // tell nothing.
+  double sharpness() const {
     double total = 0;
-    for (std::size_t block = 0; block < blocks_; ++block) {
-      for (std::size_t bin = 3; bin < bins_; ++bin) {
-        const float* at = &sums_[2 * (block * bins_ + bin - 3)];
-        const double low = at[1] + at[3], high = at[5] + at[7];
-        if (std::min(low, high) < 2 * least_cells) continue;
-        const double step = (at[4] + at[6]) / high - (at[0] + at[2]) / low;
-        total += std::min(low, high) * step * step;
-      }
+    for (std::size_t bin = 3; bin < bins_; ++bin) {
+      const float* at = &sums_[2 * (bin - 3)];
+      const double low = at[1] + at[3], high = at[5] + at[7];
+      if (std::min(low, high) < 2 * least_cells_) continue;
+      const double step = (at[4] + at[6]) / high - (at[0] + at[2]) / low;
+      total += std::min(low, high) * step * step;
     }
     return total;
   }
-  float length_m() const { return length_m_; }
 
  private:
   float along(const Cell& cell) const { return c_ * cell.x + s_ * cell.y; }
   float across(const Cell& cell) const { return c_ * cell.y - s_ * cell.x; }
   // Cloud in cell.
-  void add(const Cell& cell, float bin_across, float block_along) {
+  void add(const Cell& cell, float bin_across) {
     const auto bin = static_cast<std::size_t>(bin_across);
     const float share = bin_across - static_cast<float>(bin);
-    float* at = &sums_[2 * (static_cast<std::size_t>(block_along) * bins_ + bin)];
+    float* at = &sums_[2 * bin];
     at[0] += (1 - share) * cell.cover;
     at[1] += 1 - share;
     at[2] += share * cell.cover;
     at[3] += share;
   }
 
-  float c_, s_, length_m_ = 0;
-  std::size_t bins_ = 0, blocks_ = 0;
+  float c_, s_, least_cells_ = 0;
+  std::size_t bins_ = 0;
   std::vector<float> sums_;  // cover and cells, by bin
 };
 
-// Of the lines in direction angle_rad.
-double sharpness(const std::vector<Cell>& cells, double angle_rad, const LineSize& size) {
-  const LineFamily lines(cells, angle_rad, size);
-  const double length_m = std::min(size.block_m, static_cast<double>(lines.length_m()));
-  return lines.steps(0.25 * length_m / size.bin_m);
-}
-
+// Of the lines in each direction.
 std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vector<double>& angles,
-                                const LineSize& size, int threads) {
+                                double bin_m, int threads) {
   std::vector<double> values(angles.size());
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, angles.size(),
-                      [&](std::size_t i) { values[i] = sharpness(cells, angles[i], size); });
+    tbb::parallel_for(std::size_t{0}, angles.size(), [&](std::size_t i) {
+      values[i] = LineFamily(cells, angles[i], bin_m).sharpness();
+    });
   });
   return values;
 }
 
 // The sharpest direction within reach_rad of a guess, tried in steps, and the parabola's top.
 double refined(const std::vector<Cell>& cells, double guess_rad, double reach_rad, double step_rad,
-               const LineSize& size, int threads) {
+               double bin_m, int threads) {
   std::vector<double> angles;
   const int steps = static_cast<int>(std::lround(reach_rad / step_rad));
   for (int i = -steps; i <= steps; ++i) angles.push_back(guess_rad + i * step_rad);
-  const std::vector<double> values = sharpnesses(cells, angles, size, threads);
+  const std::vector<double> values = sharpnesses(cells, angles, bin_m, threads);
   const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   if (best == 0 || best + 1 == values.size()) return angles[best];
   const double left = values[best - 1], top = values[best], right = values[best + 1];
@@ -180,20 +162,13 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   const std::vector<Cell> cells = cells_of(raster);
   if (cells.empty()) return {};
   const double bin_m = raster.cell_m();
-  std::vector<double> angles, values;
+  std::vector<double> angles;
+  angles.reserve(kAngles);
   for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegrees);
-  for (const double block_m : {kLongBlock_m, kShortBlock_m}) {
-    std::vector<double> sharp = sharpnesses(cells, angles, {bin_m, block_m}, threads);
-    const double usual = quantile(sharp, 0.5);
-    values.resize(sharp.size());
-    for (std::size_t i = 0; i < sharp.size(); ++i)
-      values[i] = std::max(values[i], sharp[i] / std::max(1e-9, usual));
-  }
-  const LineSize long_lines{bin_m, kLongBlock_m};
+  const std::vector<double> values = sharpnesses(cells, angles, bin_m, threads);
   const auto fine = [&](double guess_rad) {
-    const double closer =
-        refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, long_lines, threads);
-    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, long_lines, threads);
+    const double closer = refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, bin_m, threads);
+    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, bin_m, threads);
   };
   const Pair pair = best_pair(values, hint_rad);
   FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
@@ -201,9 +176,9 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   // One rigid pair, as either family has it: offsets of rows can tilt the lines of one.
   const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
   const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
-  const double sharp_first = sharpness(cells, axes.first_rad, long_lines);
-  const double sharp_second = sharpness(cells, axes.second_rad, long_lines);
   if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};
+  const double sharp_first = LineFamily(cells, axes.first_rad, bin_m).sharpness();
+  const double sharp_second = LineFamily(cells, axes.second_rad, bin_m).sharpness();
   return {sharp_first >= sharp_second ? of_first : of_second};
 }
 

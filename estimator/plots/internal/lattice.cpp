@@ -105,25 +105,6 @@ void number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   lattice.columns = static_cast<int>(columns.size());
 }
 
-// Columns that run through all rows get numbers that count pitches, so that one is left for a
-// column that no band shows.
-void leave_numbers_between_columns(Lattice& lattice) {
-  if (!lattice.aligned || lattice.c.pitch_m <= 0) return;
-  std::vector<double> at_m(static_cast<std::size_t>(lattice.columns)), count(at_m);
-  for (const Place& place : lattice.places) {
-    at_m[static_cast<std::size_t>(place.column)] += place.c_m;
-    ++count[static_cast<std::size_t>(place.column)];
-  }
-  std::vector<int> numbers = {0};
-  for (std::size_t i = 1; i < at_m.size(); ++i) {
-    const double step_m = at_m[i] / count[i] - at_m[i - 1] / count[i - 1];
-    const int pitches = static_cast<int>(std::lround(step_m / lattice.c.pitch_m));
-    numbers.push_back(numbers.back() + std::max(1, pitches));
-  }
-  for (Place& place : lattice.places)
-    place.column = numbers[static_cast<std::size_t>(place.column)];
-}
-
 // Every row by itself, from the place nearest to the first of all plots.
 void number_each_row(double pitch_m, Lattice& lattice) {
   const double start_m = std::ranges::min(lattice.places, {}, &Place::c_m).c_m;
@@ -153,67 +134,6 @@ void number(const Layout& layout, Lattice& lattice) {
   }
 }
 
-// Places where a row may hold more plots.
-class MorePlaces {
- public:
-  MorePlaces(const Lattice& lattice, int row) : lattice_(lattice) {
-    std::ranges::copy_if(lattice.places, std::back_inserter(present_),
-                         [&](const Place& place) { return place.row == row; });
-    std::ranges::sort(present_, {}, &Place::c_m);
-  }
-
-  void between_plots() {
-    for (std::size_t i = 1; i < present_.size(); ++i) {
-      const double gap_m = present_[i].c_m - present_[i - 1].c_m;
-      const int steps = static_cast<int>(std::lround(gap_m / lattice_.c.pitch_m));
-      for (int k = 1; k < steps; ++k)
-        add(present_[i - 1].c_m + gap_m * k / steps, present_[i - 1].column + k);
-    }
-  }
-  void in_columns_of_other_rows() {
-    for (const Place& other : lattice_.places) add(other.c_m, other.column);
-  }
-  void beyond_ends() {
-    if (present_.empty()) return;
-    add(present_.front().c_m - lattice_.c.pitch_m, present_.front().column - 1);
-    add(present_.back().c_m + lattice_.c.pitch_m, present_.back().column + 1);
-  }
-  const std::vector<Place>& added() const { return added_; }
-
- private:
-  void add(double c_m, int column) {
-    const auto near = [&](const Place& place) {
-      return std::abs(place.c_m - c_m) < lattice_.c.size_m;
-    };
-    if (present_.empty() || std::ranges::any_of(present_, near) ||
-        std::ranges::any_of(added_, near))
-      return;
-    Place place = present_.front();
-    place.c_m = c_m;
-    place.column = column;
-    place.full = false;
-    added_.push_back(place);
-  }
-
-  const Lattice& lattice_;
-  std::vector<Place> present_, added_;
-};
-
-// Places between a row's plots, in columns that other rows have and, unless their number was told,
-// beyond its ends.
-void add_places(Lattice& lattice, bool beyond_ends) {
-  if (lattice.c.pitch_m <= 0) return;
-  std::vector<Place> added;
-  for (int row = 0; row < lattice.rows; ++row) {
-    MorePlaces more(lattice, row);
-    more.between_plots();
-    if (lattice.aligned) more.in_columns_of_other_rows();
-    if (beyond_ends) more.beyond_ends();
-    added.insert(added.end(), more.added().begin(), more.added().end());
-  }
-  lattice.places.insert(lattice.places.end(), added.begin(), added.end());
-}
-
 void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
@@ -239,21 +159,6 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (Place& place : lattice.places) places.push_back(&place);
   std::ranges::stable_sort(places, std::greater(), &Place::share);
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
-}
-
-// A single place three pitches away from every other holds something else: a ridge, a bush.
-void leave_out_strays(Lattice& lattice) {
-  constexpr double kPitches = 3;
-  constexpr int kLeastPlots = 4;  // tell a pitch
-  const double far_m = kPitches * std::max(lattice.r.pitch_m, lattice.c.pitch_m);
-  const auto stands_alone = [&](const Place& place) {
-    return std::ranges::none_of(lattice.places, [&](const Place& other) {
-      return other.full && &other != &place &&
-             std::hypot(place.r_m - other.r_m, place.c_m - other.c_m) < far_m;
-    });
-  };
-  if (std::ranges::count_if(lattice.places, &Place::full) < kLeastPlots) return;
-  for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
 }
 
 // Numbers from 0, without those that no plot has.
@@ -323,14 +228,8 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
                   .c = {.size_m = c_m, .band_m = c_m}};
   number(layout, lattice);
   straighten(lattice);
-  leave_numbers_between_columns(lattice);
-  add_places(lattice, !hints.rows && !hints.columns);
   test_places(lattice);
-  if (hints.plots) {
-    take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
-  } else {
-    leave_out_strays(lattice);
-  }
+  if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   renumber(lattice);
   straighten(lattice);
   straighten(lattice);

@@ -53,9 +53,8 @@ struct CellBox {
 // Those of a place's plot, and so much around it.
 CellBox cells_about(const Lattice& lattice, const Place& place, double around_m);
 
-// The lattice through a layout's plots: places between them and beyond their ends are tested for
-// canopy, and so are the layout's plots. Where their number was told, the places with the most
-// canopy are plots.
+// The lattice through those of a layout's plots that hold canopy; where their number was told,
+// through those with the most.
 Lattice fit_lattice(const Layout& layout, const Hints& hints);
 
 // The same as a layout of plots, their length the longer side.

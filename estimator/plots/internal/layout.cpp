@@ -60,28 +60,19 @@ struct ViewHints {
 // Rows over the whole field, then what lies along them: the same columns in all, or each row's own.
 std::vector<Layout> layouts_with_rows(const RowView& view, const ViewHints& hints) {
   const RowView along = view.turned();
-  Line r_line = line_of(view, {whole(view.c_cells())}, hints.r);
+  const Line r_line = line_of(view, {whole(view.c_cells())}, hints.r);
   AxisFit r_fit = fit_axis(r_line, true);
   if (!std::isfinite(r_fit.misfit)) return {};
-  std::vector<Band> rows = bands_of(put_together(r_line, r_fit), 0);
-  Line c_line = line_of(along, {rows}, hints.c);
-  AxisFit columns = fit_axis(c_line, true);
-  std::vector<Layout> layouts;
+  r_fit = put_together(r_line, std::move(r_fit));
+  const std::vector<Band> rows = bands_of(r_fit, 0);
   const Line each = line_of(along, each_alone(rows), hints.c);
-  const AxisFit own = fit_axis(each, false);
-  if (std::isfinite(own.misfit))
-    layouts.push_back(layout_from(view, put_together(r_line, r_fit), put_together(each, own)));
-  if (!std::isfinite(columns.misfit)) return layouts;
-  // Without the alleys between the columns the rows show more clearly, and the columns then.
-  r_line = line_of(view, {bands_of(put_together(c_line, columns), 0)}, hints.r);
-  r_fit = fit_axis(r_line, true);
-  if (!std::isfinite(r_fit.misfit)) return layouts;
-  rows = bands_of(put_together(r_line, r_fit), 0);
-  c_line = line_of(along, {rows}, hints.c);
-  columns = fit_axis(c_line, true);
-  if (std::isfinite(columns.misfit))
-    layouts.push_back(
-        layout_from(view, put_together(r_line, r_fit), put_together(c_line, columns)));
+  const Line all = line_of(along, {rows}, hints.c);
+  std::vector<Layout> layouts;
+  for (const auto& [line, shared] : {std::pair{&each, false}, std::pair{&all, true}}) {
+    AxisFit c_fit = fit_axis(*line, shared);
+    if (std::isfinite(c_fit.misfit))
+      layouts.push_back(layout_from(view, r_fit, put_together(*line, std::move(c_fit))));
+  }
   return layouts;
 }
 

@@ -41,16 +41,6 @@ TEST(DrilledPlots, MayBeFewOfManyRows) {
   EXPECT_EQ(plots->begins.front().size(), 3U);
 }
 
-TEST(DrilledPlots, StandWhereARowWasNotSeen) {
-  std::vector<double> middles = rows_of(6, 4, 8, 10);
-  middles.erase(middles.begin() + 9);  // an inner row of the third plot
-  const auto plots = drilled_plots({middles}, 22, 3);
-  ASSERT_TRUE(plots);
-  EXPECT_EQ(plots->rows, 4);
-  ASSERT_EQ(plots->begins.front().size(), 6U);
-  EXPECT_NEAR(plots->begins.front()[2], 10 + 2 * 42, 1e-9);
-}
-
 TEST(DrilledPlots, AreFilledInWhereTwoRowsWereNotSeen) {
   std::vector<double> middles = rows_of(6, 3, 8, 10);
   middles.erase(middles.begin() + 7, middles.begin() + 9);

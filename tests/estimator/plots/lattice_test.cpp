@@ -57,21 +57,6 @@ TEST(Lattice, HasPitchesBetweenTheCells) {
   EXPECT_NEAR(found.row_pitch_m, 3.818, 0.004);
 }
 
-// Between others and at the end; not where no plot stands.
-TEST(Lattice, HasPlacesThatTheBandsLeftOut) {
-  TrialLayout trial = known_trial({0, 0, 0});
-  trial.places.erase(trial.places.begin() + 7);
-  const CanopyRaster raster = canopy_of(trial);
-  expect_places(layout_of(fit_lattice(bands_of(trial, raster, {{1, 2}, {3, 5}}), {})), trial);
-}
-
-TEST(Lattice, HasAColumnThatNoBandShows) {
-  const TrialLayout trial = known_trial({0, 0, 0});
-  const CanopyRaster raster = canopy_of(trial);
-  expect_places(layout_of(fit_lattice(bands_of(trial, raster, {{1, 3}, {2, 3}, {3, 3}}), {})),
-                trial);
-}
-
 // Nothing stands in the alley, and what lies beyond it stays in its place.
 TEST(Lattice, KeepsAnAlleyBetweenColumns) {
   TrialLayout trial = known_trial({0, 0, 0, 0}, 9);
@@ -100,17 +85,6 @@ TEST(Lattice, HasNoColumnOfAPlotThatLeansOver) {
   EXPECT_EQ(lattice.columns, 6);
   for (std::size_t i = 0; i < lattice.places.size(); ++i)
     EXPECT_EQ(lattice.places[i].column + 1, trial.places[i].column) << i;
-}
-
-// A patch as large as a plot, ten columns beyond the second row.
-TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
-  const TrialLayout trial = known_trial({0, 0, 0});
-  TrialLayout with_patch = trial;
-  with_patch.places.push_back(trial.places[9]);
-  with_patch.places.back().column = 15;
-  with_patch.places.back().position_m.x() += 10 * trial.column_pitch_m;
-  const CanopyRaster raster = canopy_of(with_patch);
-  expect_places(layout_of(fit_lattice(bands_of(with_patch, raster), {})), trial);
 }
 
 TEST(Lattice, HoldsTheNumberOfPlotsThatWasTold) {
