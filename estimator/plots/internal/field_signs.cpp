@@ -159,8 +159,7 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.mean_unevenness > kMostUneven ||
       (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
     return "single bushes or trees stand here, not plots that are covered by a crop";
-  if (signs.held_share < kLeastHeld || signs.filled_share < kLeastFilled ||
-      signs.evidence < kLeastEvidence || field_confidence(signs) < kLeastConfidence)
+  if (signs.filled_share < kLeastFilled || field_confidence(signs) < kLeastConfidence)
     return "canopy lies here, but not in plots of one size at equal steps";
   return "";
 }
