@@ -11,6 +11,7 @@
 #include "cloud/internal/outliers.h"
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include "core/error.h"
 #include "core/stage.h"
@@ -112,14 +113,40 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
+// Adds points to a store while whoever brings them fetches the next ones.
+class AddingBehind {
+ public:
+  AddingBehind(TileStore& store, int threads) : store_(store), arena_(threads) {}
+  ~AddingBehind() { finish(); }
+  AddingBehind(const AddingBehind&) = delete;
+  AddingBehind& operator=(const AddingBehind&) = delete;
+
+  void add(std::span<const Eigen::Vector3d> points) {
+    finish();
+    points_.assign(points.begin(), points.end());
+    arena_.execute([&] { adding_.run([&] { store_.add(points_); }); });
+  }
+  // Until all points are in the store.
+  void finish() {
+    arena_.execute([&] { adding_.wait(); });
+  }
+
+ private:
+  TileStore& store_;
+  std::vector<Eigen::Vector3d> points_;
+  tbb::task_arena arena_;
+  tbb::task_group adding_;
+};
+
 // Reports up to `done` of the whole work.
-scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, double done,
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int threads, double done,
                              const ProgressReport& progress) {
   const Stage stage("reading");
   const double expected = record::expected_points(cloud);
+  AddingBehind adding(store, threads);
   double read = 0;
   const auto add = [&](std::span<const Eigen::Vector3d> points) {
-    store.add(points);
+    adding.add(points);
     read += static_cast<double>(points.size());
     if (progress) progress(done * std::min(1.0, read / expected));
   };
@@ -133,7 +160,7 @@ FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
   if (options.area) require_area(*options.area, options.area_name);
   TileStore store({.points_per_cell = options.points_per_cell, .threads = options.threads});
   constexpr double kRead = 0.5;  // of the time
-  const scan::CloudSummary summary = read_into(store, cloud, kRead, progress);
+  const scan::CloudSummary summary = read_into(store, cloud, options.threads, kRead, progress);
   const std::string name =
       cloud.only_classes.empty() ? cloud.name() : cloud.name() + ", points of the given classes";
   FieldCloud field = take_field(store, options, name);

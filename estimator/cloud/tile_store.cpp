@@ -2,6 +2,8 @@
 #include "cloud/tile_store.h"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -20,12 +22,31 @@ struct Thinned {
   std::size_t repeated = 0;
 };
 
+// Sorts keys into about as many buckets by their upper bits, and then each of these: the keys of a
+// cell are as good as drawn by lot, so that a bucket has few.
+void sort_keys(std::span<std::uint64_t> keys) {
+  const int bits = std::clamp<int>(std::bit_width(keys.size()), 1, 16);
+  const auto bucket_of = [shift = 64 - bits](std::uint64_t key) { return key >> shift; };
+  std::vector<std::uint32_t> end((std::size_t{1} << bits) + 1, 0);
+  for (const std::uint64_t key : keys) ++end[bucket_of(key) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  const std::vector<std::uint64_t> unsorted(keys.begin(), keys.end());
+  for (const std::uint64_t key : unsorted) keys[end[bucket_of(key)]++] = key;
+  auto first = keys.begin();
+  for (const std::uint32_t last : end) {
+    const auto next = keys.begin() + last;
+    if (next - first > 1) std::sort(first, next);
+    first = next;
+  }
+}
+
 // Sorts a tile's keys, of which the first `sorted` are in order, and moves those to keep to the
 // front.
 Thinned thin(std::span<std::uint64_t> keys, std::size_t sorted, std::size_t points_per_cell) {
-  const auto middle = keys.begin() + static_cast<std::ptrdiff_t>(sorted);
-  std::sort(middle, keys.end());
-  std::inplace_merge(keys.begin(), middle, keys.end());
+  sort_keys(keys.subspan(sorted));
+  if (sorted > 0)
+    std::inplace_merge(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(sorted),
+                       keys.end());
   Thinned result;
   std::size_t in_cell = 0;
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -47,7 +68,8 @@ TileStore::TileStore(const TileStoreOptions& options) : options_(options) {}
 TileStore::Slot TileStore::slot_of(Tile tile) {
   const std::uint64_t key = block_key(tile, kBlockBits);
   if (blocks_.empty() || key != last_block_key_) {
-    const auto [found, is_new] = block_of_.emplace(key, static_cast<std::uint32_t>(blocks_.size()));
+    const auto [found, is_new] =
+        block_of_.try_emplace(key, static_cast<std::uint32_t>(blocks_.size()));
     if (is_new) blocks_.emplace_back().fill(kNoSlot);
     last_block_key_ = key;
     last_block_ = found->second;
@@ -64,6 +86,8 @@ TileStore::Slot TileStore::slot_of(Tile tile) {
 
 void TileStore::add(std::span<const Eigen::Vector3d> points) {
   counts_.added += points.size();
+  new_keys_.reserve(options_.buffered_points);  // takes no memory before it is filled
+  new_slots_.reserve(options_.buffered_points);
   for (const Eigen::Vector3d& point : points) {
     const std::optional<PlacedKey> placed = key_of(point);
     if (!placed) {

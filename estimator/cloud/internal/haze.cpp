@@ -23,60 +23,81 @@ constexpr std::ptrdiff_t kOutwards = 12;  // slabs, that crops of 3 m fill half 
 constexpr std::int32_t kBlock = 8;        // tiles to each side
 constexpr double kMostVoxelsAMetre = 10;
 
-using Marks = std::vector<std::vector<char>>;  // by tile, of its points
-using Profile = std::vector<std::uint32_t>;    // by slab
+using Profile = std::vector<std::uint32_t>;  // by slab
 using Block = std::pair<std::int32_t, std::int32_t>;
 
 // Counts in voxels over a tile and one voxel around it: 9 of them side by side, and 3 high, are a
-// point's cube. Counts end at 255.
+// point's cube. Counts end at 255. Floats hold a point's place in a tile exactly.
 class Voxels {
  public:
-  Voxels(const Eigen::Vector3d& corner, double height_m, int a_metre)
-      : a_metre_(a_metre),
+  Voxels(const Eigen::Vector3f& corner, double height_m, int a_metre)
+      : a_metre_(static_cast<float>(a_metre)),
         corner_(corner),
-        low_((corner.head<2>().array() - 1.5 / a_metre).cast<float>()),
-        high_((corner.head<2>().array() + 1 + 1.5 / a_metre).cast<float>()),
+        low_(corner.head<2>().array() - 1.5f / a_metre_),
+        high_(corner.head<2>().array() + 1 + 1.5f / a_metre_),
         across_(a_metre + 2),
         up_(static_cast<int>(std::ceil(height_m * a_metre)) + 2),
-        counts_(static_cast<std::size_t>(across_ * across_ * up_), 0) {}
+        counts_(static_cast<std::size_t>(across_) * across_ * up_, 0) {}
 
-  void add(const Eigen::Vector3f& point) {
-    const bool far = point.x() < low_.x() || point.x() > high_.x() || point.y() < low_.y() ||
-                     point.y() > high_.y();
-    if (far) return;  // most points of the tiles around, at little cost
-    const Eigen::Array3i at = voxel_of(point);
-    const Eigen::Array3i size(across_, across_, up_);
-    if ((at < 0).any() || (at >= size).any()) return;
-    std::uint8_t& count = counts_[index_of(at)];
-    if (count < 255) ++count;
+  // Most points of the tiles around lie beyond the voxels.
+  bool may_hold(const Eigen::Vector3f& point) const {
+    return point.x() >= low_.x() && point.x() <= high_.x() && point.y() >= low_.y() &&
+           point.y() <= high_.y();
   }
 
-  // Of the cube around a point of the tile, up to `most` and then any number above it.
-  std::size_t around(const Eigen::Vector3f& point, std::size_t most) const {
-    const Eigen::Array3i size(across_, across_, up_);
-    const Eigen::Array3i at = voxel_of(point).max(1).min(size - 2);
-    std::size_t count = counts_[index_of(at)];
-    for (int dy = -1; dy <= 1 && count <= most; ++dy)
-      for (int dx = -1; dx <= 1; ++dx)
-        for (int dz = -1; dz <= 1; ++dz)
-          if (dx != 0 || dy != 0 || dz != 0)
-            count += counts_[index_of(at + Eigen::Array3i(dx, dy, dz))];
+  void add(const Eigen::Vector3f& point) {
+    const Place at = place_of(point);
+    const bool inside =
+        at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < across_ && at.y < across_ && at.z < up_;
+    if (!inside) return;
+    std::uint8_t& count = counts_[index_of(at)];
+    count += count < 255;
+  }
+
+  // The middle voxel of the cube around a point of the tile.
+  std::uint32_t middle_of(const Eigen::Vector3f& point) const {
+    const Place at = place_of(point);
+    return static_cast<std::uint32_t>(index_of({.x = std::clamp(at.x, 1, across_ - 2),
+                                                .y = std::clamp(at.y, 1, across_ - 2),
+                                                .z = std::clamp(at.z, 1, up_ - 2)}));
+  }
+
+  // Of the cube around a voxel, up to `most` and then any number above it.
+  std::size_t around(std::uint32_t middle, std::size_t most) const {
+    std::size_t count = counts_[middle];
+    for (int dy = -1; dy <= 1 && count <= most; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const std::uint8_t* const voxel = &counts_[middle] + (dy * across_ + dx) * up_;
+        count += voxel[-1] + voxel[1] + (dx != 0 || dy != 0 ? voxel[0] : 0);
+      }
+    }
     return count;
   }
 
  private:
-  Eigen::Array3i voxel_of(const Eigen::Vector3f& point) const {
-    const Eigen::Array3d at = (point.cast<double>() - corner_).array() * a_metre_;
-    return at.max(-9.0).min(1e6).floor().cast<int>() + 1;
+  struct Place {
+    int x, y, z;
+  };
+
+  Place place_of(const Eigen::Vector3f& point) const {
+    return {.x = voxel_of(point.x() - corner_.x()),
+            .y = voxel_of(point.y() - corner_.y()),
+            .z = voxel_of(point.z() - corner_.z())};
   }
 
-  std::size_t index_of(const Eigen::Array3i& at) const {
-    const Eigen::Index column = Eigen::Index{at.y()} * across_ + at.x();
-    return static_cast<std::size_t>(column * up_ + at.z());
+  // Rounded down, by a shift to where truncation does that; of the voxel around, 0.
+  int voxel_of(float offset_m) const {
+    constexpr float kShift = 16, kBeyond = 1e6f;
+    const float at = std::clamp(offset_m * a_metre_ + (kShift + 1), 0.0f, kBeyond);
+    return static_cast<int>(at) - static_cast<int>(kShift);
   }
 
-  int a_metre_;
-  Eigen::Vector3d corner_;
+  std::size_t index_of(const Place& at) const {
+    return static_cast<std::size_t>((at.y * across_ + at.x) * up_ + at.z);
+  }
+
+  float a_metre_;
+  Eigen::Vector3f corner_;
   Eigen::Array2f low_, high_;  // beyond the voxels
   int across_;
   int up_;
@@ -111,31 +132,30 @@ class Air {
     return {(at.x - west_) / kBlock, (at.y - cloud_.tiles.front().y) / kBlock};
   }
 
-  // Of the tile's points: which are alone in their cubes.
-  std::vector<char> alone(std::size_t tile) const {
-    std::vector<char> result(cloud_.size(tile), 0);
+  // Of the tile's points: those that are alone in their cubes.
+  Marked alone(std::size_t tile) const {
     const auto density_m2 = static_cast<double>(cloud_.size(tile));
     const double voxels_m = std::round(3 * std::sqrt(density_m2 / options_.column_points));
     const int a_metre = static_cast<int>(std::clamp(voxels_m, 1.0, kMostVoxelsAMetre));
-    if (9 * density_m2 / (a_metre * a_metre) < options_.column_points / 2) return result;
+    if (9 * density_m2 / (a_metre * a_metre) < options_.column_points / 2) return {};
     Voxels voxels(corner_of(tile), static_cast<double>(slabs_) * kHazeSlab_m, a_metre);
     rows_.visit_around(tile, 1, [&](std::size_t other) {
-      for (std::size_t i = cloud_.begin[other]; i < cloud_.begin[other + 1]; ++i)
-        voxels.add(cloud_.points[i]);
+      for (const Eigen::Vector3f& point : cloud_.of(other))
+        if (voxels.may_hold(point)) voxels.add(point);
     });
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] =
-          voxels.around(cloud_.points[cloud_.begin[tile] + i], options_.alone) <= options_.alone;
+    Marked result;
+    for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i)
+      if (voxels.around(voxels.middle_of(cloud_.points[i]), options_.alone) <= options_.alone)
+        result.push_back(i);
     return result;
   }
 
  private:
   // In the points' own frame, at the bottom of the tile's air.
-  Eigen::Vector3d corner_of(std::size_t tile) const {
+  Eigen::Vector3f corner_of(std::size_t tile) const {
     Eigen::Vector3f low = cloud_.points[cloud_.begin[tile]];
-    for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i)
-      low = low.cwiseMin(cloud_.points[i]);
-    return {std::floor(low.x()), std::floor(low.y()), bottom_m_[tile]};
+    for (const Eigen::Vector3f& point : cloud_.of(tile)) low = low.cwiseMin(point);
+    return {std::floor(low.x()), std::floor(low.y()), static_cast<float>(bottom_m_[tile])};
   }
 
   const TiledPoints& cloud_;
@@ -147,12 +167,13 @@ class Air {
 };
 
 // Of each block that has any: how many points are alone, in it and the 8 around it.
-std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air, const Marks& alone) {
+std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air,
+                                     const std::vector<Marked>& alone) {
   std::map<Block, Profile> own;
   for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile) {
-    for (std::size_t i = 0; i < alone[tile].size(); ++i) {
-      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[cloud.begin[tile] + i]);
-      if (!alone[tile][i] || !air.holds(slab)) continue;
+    for (const std::size_t i : alone[tile]) {
+      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[i]);
+      if (!air.holds(slab)) continue;
       Profile& profile = own[air.block_of(tile)];
       profile.resize(static_cast<std::size_t>(air.slabs()));
       ++profile[static_cast<std::size_t>(slab)];
@@ -207,23 +228,23 @@ std::vector<char> hazy_slabs(const Profile& alone) {
 std::size_t drop_haze(TiledPoints& cloud, const HazeOptions& options) {
   if (cloud.points.empty()) return 0;
   const Air air(cloud, options);
-  Marks marks(cloud.tiles.size());
+  std::vector<Marked> marked(cloud.tiles.size());
   tbb::task_arena arena(options.threads);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, marks.size(),
-                      [&](std::size_t tile) { marks[tile] = air.alone(tile); });
+    tbb::parallel_for(std::size_t{0}, marked.size(),
+                      [&](std::size_t tile) { marked[tile] = air.alone(tile); });
   });
   std::map<Block, std::vector<char>> hazy;
-  for (const auto& [block, alone] : profiles_of(cloud, air, marks)) hazy[block] = hazy_slabs(alone);
-  for (std::size_t tile = 0; tile < marks.size(); ++tile) {
+  for (const auto& [block, alone] : profiles_of(cloud, air, marked))
+    hazy[block] = hazy_slabs(alone);
+  for (std::size_t tile = 0; tile < marked.size(); ++tile) {
     const auto slabs = hazy.find(air.block_of(tile));
-    for (std::size_t i = 0; i < marks[tile].size(); ++i) {
-      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[cloud.begin[tile] + i]);
-      marks[tile][i] =
-          marks[tile][i] && air.holds(slab) && slabs->second[static_cast<std::size_t>(slab)];
-    }
+    std::erase_if(marked[tile], [&](std::size_t i) {
+      const std::ptrdiff_t slab = air.slab_of(tile, cloud.points[i]);
+      return !air.holds(slab) || !slabs->second[static_cast<std::size_t>(slab)];
+    });
   }
-  return take_out(cloud, marks);
+  return take_out(cloud, marked);
 }
 
 }  // namespace plotscan::cloud

@@ -31,19 +31,19 @@ class Columns {
     count_slabs();
   }
 
-  // Of the tile's points, in their order: whether each is an outlier.
-  std::vector<char> outliers(std::size_t tile) const {
-    std::vector<char> result;
-    std::vector<signed char> lonely(slabs_, -1);  // by slab; -1: not looked at
-    std::optional<Extent> extent;
+  // Of the tile's points: those that are outliers.
+  Marked outliers(std::size_t tile) const {
+    const std::vector<char> lonely = lonely_slabs(tile);
+    const bool any_lonely = std::ranges::find(lonely, 1) != lonely.end();
+    if (!any_lonely && within_[tile] == cloud_.size(tile)) return {};
+    const Extent extent = any_lonely ? extent_around(tile) : Extent{};
+    const double low_m = extent.low_m - options_.lonely_margin_m;
+    const double high_m = extent.high_m + options_.lonely_margin_m;
+    Marked result;
     for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i) {
-      const double z = cloud_.points[i].z();
-      const std::optional<std::size_t> slab = slab_in(tile, z);
-      if (slab && lonely[*slab] < 0) lonely[*slab] = is_lonely(tile, *slab);
-      if (slab && lonely[*slab] && !extent) extent = extent_around(tile);
-      const double margin = options_.lonely_margin_m;
-      result.push_back(
-          !slab || (lonely[*slab] && (z < extent->low_m - margin || z > extent->high_m + margin)));
+      const double z_m = cloud_.points[i].z();
+      const std::optional<std::size_t> slab = slab_in(tile, z_m);
+      if (!slab || (lonely[*slab] && (z_m < low_m || z_m > high_m))) result.push_back(i);
     }
     return result;
   }
@@ -70,12 +70,23 @@ class Columns {
   void count_slabs() {
     slabs_ = static_cast<std::size_t>(std::ceil(2 * options_.farthest_m / kSlab_m)) + 1;
     counts_.assign(slabs_ * cloud_.tiles.size(), 0);
+    within_.assign(cloud_.tiles.size(), 0);
     for_each([&](std::size_t tile) {
-      for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i) {
-        const auto slab = slab_in(tile, cloud_.points[i].z());
-        if (slab) ++counts_[tile * slabs_ + *slab];
+      for (const Eigen::Vector3f& point : cloud_.of(tile)) {
+        const auto slab = slab_in(tile, point.z());
+        if (!slab) continue;
+        ++counts_[tile * slabs_ + *slab];
+        ++within_[tile];
       }
     });
+  }
+
+  // By slab: whether the tile has points there, and all of them are lonely.
+  std::vector<char> lonely_slabs(std::size_t tile) const {
+    std::vector<char> result(slabs_, 0);
+    for (std::size_t slab = 0; slab < slabs_; ++slab)
+      result[slab] = counts_[tile * slabs_ + slab] > 0 && is_lonely(tile, slab);
+    return result;
   }
 
   bool is_lonely(std::size_t tile, std::size_t slab) const {
@@ -119,13 +130,14 @@ class Columns {
   std::vector<int> first_slab_;  // of each tile's column
   std::size_t slabs_ = 0;        // of a column
   std::vector<std::uint32_t> counts_;
+  std::vector<std::size_t> within_;  // of each tile's points: how many lie in a slab
 };
 
 }  // namespace
 
 std::size_t drop_outliers(TiledPoints& cloud, const OutlierOptions& options) {
   if (cloud.points.empty()) return 0;
-  std::vector<std::vector<char>> outliers(cloud.tiles.size());
+  std::vector<Marked> outliers(cloud.tiles.size());
   {
     const Columns columns(cloud, options);
     columns.for_each([&](std::size_t tile) { outliers[tile] = columns.outliers(tile); });

@@ -45,14 +45,22 @@ std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, 
   return result;
 }
 
-std::size_t take_out(TiledPoints& cloud, const std::vector<std::vector<char>>& marked) {
+std::size_t take_out(TiledPoints& cloud, const std::vector<Marked>& marked) {
+  const auto unmarked = [](const Marked& of_tile) { return of_tile.empty(); };
+  if (std::ranges::all_of(marked, unmarked)) return 0;
+  Eigen::Vector3f* const points = cloud.points.data();
   std::size_t kept = 0;
   std::size_t tiles = 0;
   for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile) {
-    const std::size_t first = cloud.begin[tile];
     const std::size_t begin = kept;
-    for (std::size_t i = 0; i < marked[tile].size(); ++i)
-      if (!marked[tile][i]) cloud.points[kept++] = cloud.points[first + i];
+    std::size_t next = cloud.begin[tile];
+    const auto keep_until = [&](std::size_t end) {
+      if (kept != next) std::copy(points + next, points + end, points + kept);
+      kept += end - next;
+      next = end + 1;
+    };
+    std::ranges::for_each(marked[tile], keep_until);
+    keep_until(cloud.begin[tile + 1]);
     if (kept == begin) continue;
     cloud.tiles[tiles] = cloud.tiles[tile];
     cloud.begin[tiles++] = begin;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "cloud/point_key.h"
@@ -17,7 +18,13 @@ struct TiledPoints {
   std::vector<Eigen::Vector3f> points = {};  // z up, metres
 
   std::size_t size(std::size_t tile) const { return begin[tile + 1] - begin[tile]; }
+  std::span<const Eigen::Vector3f> of(std::size_t tile) const {
+    return std::span(points).subspan(begin[tile], size(tile));
+  }
 };
+
+// Places of points, ascending.
+using Marked = std::vector<std::size_t>;
 
 // Finds the tiles around a tile. The tiles must outlive it, and be one at least.
 class TileRows {
@@ -48,8 +55,8 @@ class TileRows {
 // that of a sample of its points.
 std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads);
 
-// Takes out the points that are marked, of each tile in their order, and tiles without any other.
+// Takes out the points that are marked, of each tile those of it, and tiles without any other.
 // Returns how many points.
-std::size_t take_out(TiledPoints& cloud, const std::vector<std::vector<char>>& marked);
+std::size_t take_out(TiledPoints& cloud, const std::vector<Marked>& marked);
 
 }  // namespace plotscan::cloud
