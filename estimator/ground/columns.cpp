@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Dense>
+#include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "core/statistics.h"
@@ -183,32 +185,52 @@ Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> step
           .rows = static_cast<int>(nodes.y())};
 }
 
-Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid) {
-  Columns columns{.grid = grid, .base = base_of(points, grid)};
+namespace {
+
+// The node that each point lies nearest to.
+std::vector<std::uint32_t> nodes_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   std::vector<std::uint32_t> nodes(points.size());
   constexpr std::size_t kChunk = 1 << 16;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kChunk),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
                         nodes[i] = node_at(place_of(points[i], grid), grid);
-                      }
                     });
+  return nodes;
+}
+
+// Nodes between which as many returns lie for each task; one more at the end.
+std::vector<std::uint32_t> even_bands(const std::vector<std::uint32_t>& first, std::size_t bands) {
+  std::vector<std::uint32_t> ends;
+  for (std::size_t band = 0; band < bands; ++band) {
+    const std::size_t returns = first.back() * band / bands;
+    ends.push_back(
+        static_cast<std::uint32_t>(std::ranges::lower_bound(first, returns) - first.begin()));
+  }
+  ends.push_back(static_cast<std::uint32_t>(first.size()) - 1);
+  return ends;
+}
+
+}  // namespace
+
+Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid) {
+  Columns columns{.grid = grid, .base = base_of(points, grid)};
+  const std::vector<std::uint32_t> nodes = nodes_of(points, grid);
   columns.first.assign(grid.nodes() + 1, 0);
   for (const std::uint32_t node : nodes) {
     if (node != kOutside) ++columns.first[node + 1];
   }
   for (std::size_t i = 0; i < grid.nodes(); ++i) columns.first[i + 1] += columns.first[i];
   columns.returns.resize(columns.first.back());
-  // Each task writes the returns of its own band of nodes, in the order of the points.
-  constexpr std::size_t kBands = 8;
+  // Each task looks through all points, and writes the returns of its own band in their order.
+  const auto bands = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::vector<std::uint32_t> band_ends = even_bands(columns.first, bands);
   std::vector<std::uint32_t> next(columns.first.begin(), columns.first.end() - 1);
   const Eigen::Vector2f slope = (grid.cell_m * columns.base.slope).cast<float>();
-  tbb::parallel_for(std::size_t{0}, kBands, [&](std::size_t band) {
-    const std::size_t begin = band * grid.nodes() / kBands;
-    const std::size_t end = (band + 1) * grid.nodes() / kBands;
+  tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::uint32_t node = nodes[i];
-      if (node < begin || node >= end) continue;
+      if (node < band_ends[band] || node >= band_ends[band + 1]) continue;
       const Eigen::Vector2f place = place_of(points[i], grid);
       const std::uint32_t row = node / grid.columns, column = node % grid.columns;
       const float base = static_cast<float>(columns.base.z_m) + slope.dot(place);
@@ -222,65 +244,66 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
 
 namespace {
 
-// The returns of a column that may tell of the ground.
-void keep_low(std::span<const Return> returns, float reach_m, std::vector<Return>& kept) {
-  if (returns.empty()) return;
-  std::vector<float> z;
+// Moves the returns of a column that may tell of the ground to its front. Gives how many.
+std::size_t keep_low(std::span<Return> returns, float reach_m, std::vector<float>& z) {
+  if (returns.empty()) return 0;
+  z.clear();
   for (const Return& r : returns) z.push_back(r.z_m);
-  const float highest = selected<float>(z, z.size() / 100) + reach_m;
-  for (const Return& r : returns) {
-    if (r.z_m <= highest) kept.push_back(r);
-  }
-  const bool bare = kept.size() == returns.size();
-  const std::size_t every = bare ? std::max<std::size_t>(1, kept.size() / kEnoughBare) : 1;
+  const float highest = selected_low<float>(z, z.size() / 100) + reach_m;
+  const auto high = [&](const Return& r) { return r.z_m > highest; };
+  const auto kept = static_cast<std::size_t>(std::remove_if(returns.begin(), returns.end(), high) -
+                                             returns.begin());
+  const bool bare = kept == returns.size();
+  const std::size_t every = bare ? std::max<std::size_t>(1, kept / kEnoughBare) : 1;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < kept.size(); i += every) kept[count++] = kept[i];
-  kept.resize(count);
+  for (std::size_t i = 0; i < kept; i += every) returns[count++] = returns[i];
+  return count;
 }
 
-// The returns of each column that keep(node, returns, kept) leaves.
+// The columns with as many returns of each as keep(node, returns, scratch) leaves at its front.
 template <class Keep>
-Columns part_of(const Columns& columns, const Keep& keep) {
+Columns part_of(Columns columns, const Keep& keep) {
   const Grid& grid = columns.grid;
-  std::vector<std::vector<Return>> rows(grid.rows);
-  Columns part{.grid = grid, .base = columns.base};
-  part.first.assign(grid.nodes() + 1, 0);
+  std::vector<std::uint32_t> kept(grid.nodes());
   for_rows(grid, [&](int row) {
-    std::vector<Return> kept;
-    for (int column = 0; column < grid.columns; ++column) {
-      const std::size_t i = grid.index(column, row);
-      kept.clear();
-      keep(i, columns.at(i), kept);
-      rows[row].insert(rows[row].end(), kept.begin(), kept.end());
-      part.first[i + 1] = static_cast<std::uint32_t>(kept.size());
+    std::vector<float> scratch;
+    for (std::size_t i = grid.index(0, row); i < grid.index(0, row + 1); ++i) {
+      const auto returns = std::span(columns.returns)
+                               .subspan(columns.first[i], columns.first[i + 1] - columns.first[i]);
+      kept[i] = static_cast<std::uint32_t>(keep(i, returns, scratch));
     }
   });
-  for (std::size_t i = 0; i < grid.nodes(); ++i) part.first[i + 1] += part.first[i];
-  part.returns.resize(part.first.back());
-  for_rows(grid, [&](int row) {
-    std::copy(rows[row].begin(), rows[row].end(),
-              part.returns.begin() + part.first[grid.index(0, row)]);
-  });
-  return part;
+  std::uint32_t end = 0;
+  for (std::size_t i = 0; i < grid.nodes(); ++i) {
+    const auto from = columns.returns.begin() + columns.first[i];
+    if (end < columns.first[i]) std::copy_n(from, kept[i], columns.returns.begin() + end);
+    columns.first[i] = end;
+    end += kept[i];
+  }
+  columns.first.back() = end;
+  columns.returns.resize(end);
+  return columns;
 }
 
 }  // namespace
 
-Columns low_part(const Columns& columns, float reach_m) {
-  return part_of(columns, [&](std::size_t, std::span<const Return> returns,
-                              std::vector<Return>& kept) { keep_low(returns, reach_m, kept); });
+Columns low_part(Columns columns, float reach_m) {
+  return part_of(std::move(columns),
+                 [&](std::size_t, std::span<Return> returns, std::vector<float>& scratch) {
+                   return keep_low(returns, reach_m, scratch);
+                 });
 }
 
-Columns near_part(const Columns& columns, const Field& surface, float low_m, float high_m,
+Columns near_part(Columns columns, const Field& surface, float low_m, float high_m,
                   const std::vector<std::uint8_t>& whole) {
-  return part_of(columns,
-                 [&](std::size_t node, std::span<const Return> returns, std::vector<Return>& kept) {
-                   const float z = surface[node];
-                   for (const Return& r : returns) {
-                     if (whole[node] || (r.z_m > z + low_m && r.z_m < z + high_m))
-                       kept.push_back(r);
-                   }
-                 });
+  return part_of(std::move(columns), [&](std::size_t node, std::span<Return> returns,
+                                         std::vector<float>&) {
+    if (whole[node]) return returns.size();
+    const float z = surface[node];
+    const auto far = [&](const Return& r) { return !(r.z_m > z + low_m && r.z_m < z + high_m); };
+    return static_cast<std::size_t>(std::remove_if(returns.begin(), returns.end(), far) -
+                                    returns.begin());
+  });
 }
 
 }  // namespace plotscan::ground

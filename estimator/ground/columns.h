@@ -54,11 +54,11 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
 
 // What is needed of the columns to find the ground: returns no higher than reach_m over the lowest
 // hundredth of their column; where all are as low, not more than settle it.
-Columns low_part(const Columns& columns, float reach_m);
+Columns low_part(Columns columns, float reach_m);
 
 // The returns that lie within (low_m, high_m) of a surface; all of them at nodes of which `whole`
 // is not 0.
-Columns near_part(const Columns& columns, const Field& surface, float low_m, float high_m,
+Columns near_part(Columns columns, const Field& surface, float low_m, float high_m,
                   const std::vector<std::uint8_t>& whole);
 
 }  // namespace plotscan::ground

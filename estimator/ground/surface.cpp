@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <tbb/task_arena.h>
 
@@ -140,11 +141,12 @@ class Steps {
   int done_ = 0;
 };
 
-Ground find_ground(const Columns& low, double noise_m, Steps& steps) {
-  const Grid& grid = low.grid;
-  Ground ground{.z_m = lower_surface(low, noise_m), .evidence = {}, .layer = {}};
+Ground find_ground(Columns low, double noise_m, Steps& steps) {
+  const Grid grid = low.grid;
+  const Layer upright = upright_layer(low, noise_m);
+  Ground ground{.z_m = lower_surface(low, upright, noise_m), .evidence = {}, .layer = {}};
   steps.done();
-  LayerSurface layers = layer_surface(low, noise_m);
+  LayerSurface layers = layer_surface(low, upright, noise_m);
   steps.done();
   const Evidence by_layers = weigh(low, layers.z_m, noise_m);
   for (int round = 0; round < kFirstRounds; ++round) {
@@ -154,7 +156,7 @@ Ground find_ground(const Columns& low, double noise_m, Steps& steps) {
     steps.done();
   }
   const auto noise = static_cast<float>(noise_m);
-  const Columns near = near_part(low, ground.z_m, -kCountedBelow * noise,
+  const Columns near = near_part(std::move(low), ground.z_m, -kCountedBelow * noise,
                                  kCountedAbove * noise + 0.1f, poorly_supported(ground.evidence));
   for (int round = 0; round < kRounds; ++round) {
     ground.evidence = weigh(near, ground.z_m, noise_m);
@@ -179,20 +181,21 @@ struct LowReturns {
 };
 
 LowReturns low_returns(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  const Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
+  Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
   const double noise_m =
       options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
   const double spread_m = std::max(noise_m, kLeastSpread_m);
-  return {.columns = low_part(columns, static_cast<float>(0.4 + 6 * spread_m)),
+  return {.columns = low_part(std::move(columns), static_cast<float>(0.4 + 6 * spread_m)),
           .noise_m = noise_m,
           .spread_m = spread_m};
 }
 
 Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  const auto [low, noise_m, spread_m] = low_returns(points, options);
+  auto [low, noise_m, spread_m] = low_returns(points, options);
   Steps steps(options.progress);
-  const Ground ground = find_ground(low, spread_m, steps);
-  const Grid& grid = low.grid;
+  const Grid grid = low.grid;
+  const BasePlane base = low.base;
+  const Ground ground = find_ground(std::move(low), spread_m, steps);
   Surface surface{.origin = grid.origin,
                   .cell_m = grid.cell_m,
                   .columns = grid.columns,
@@ -211,7 +214,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
     surface.sd_m[i] = std::hypot(surface.sd_m[i], surface.misfit_m[i]);
     const std::size_t row = i / grid.columns, column = i % grid.columns;
     const Eigen::Vector2d place(static_cast<double>(column), static_cast<double>(row));
-    surface.z_m[i] += static_cast<float>(low.base.z_m + grid.cell_m * low.base.slope.dot(place));
+    surface.z_m[i] += static_cast<float>(base.z_m + grid.cell_m * base.slope.dot(place));
     surface.seen[i] = ground.evidence.support[i] > 0.5f && ground.evidence.data[i] > 0;
   }
   forget_beyond_reach(grid, ground.evidence.data,

@@ -24,6 +24,14 @@ Value selected(std::span<Value> values, std::size_t place) {
   return *at;
 }
 
+// The same for a place near the least, at hardly more than a comparison a value.
+template <class Value>
+Value selected_low(std::span<Value> values, std::size_t place) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::partial_sort(values.begin(), at + 1, values.end());
+  return *at;
+}
+
 // NaN of a whole that is none.
 inline double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
 

@@ -27,6 +27,9 @@ TEST(Selected, IsTheValueAtThePlaceOfTheSorted) {
     std::vector<float> values{5, 0, 7, -2, 1, 0};
     EXPECT_EQ(selected<float>(values, place), sorted[place]) << place;
     EXPECT_TRUE(std::ranges::is_permutation(values, sorted));
+    values = {5, 0, 7, -2, 1, 0};
+    EXPECT_EQ(selected_low<float>(values, place), sorted[place]) << place;
+    EXPECT_TRUE(std::ranges::is_permutation(values, sorted));
   }
 }
 

@@ -196,7 +196,7 @@ std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air,
 double quartile(const Profile& alone, std::ptrdiff_t first) {
   std::array<std::uint32_t, kOutwards> outwards{};
   std::copy_n(alone.begin() + first, kOutwards, outwards.begin());
-  return selected<std::uint32_t>(outwards, kOutwards / 4);
+  return selected_low<std::uint32_t>(outwards, kOutwards / 4);
 }
 
 // Whether strays, so many expected, may be most of what is alone.

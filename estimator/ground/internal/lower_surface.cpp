@@ -28,8 +28,11 @@ struct OneLayer {
 // The height that one in a hundred lies under; changes the order.
 float lowest_hundredth(std::vector<float>& z) {
   const std::size_t low = z.size() / 100;
-  if (low == 0) return *std::ranges::min_element(z);
-  return selected<float>(z, low);
+  if (low > 0) return selected<float>(z, low);
+  float least = kNone;
+#pragma omp simd reduction(min : least)
+  for (std::size_t k = 0; k < z.size(); ++k) least = std::min(least, z[k]);
+  return least;
 }
 
 // The mean of what is no further from the middle than the reach; the middle where nothing is.
@@ -121,7 +124,7 @@ void drop_strays(const Grid& grid, float noise, Layer& layer) {
       }
       const std::size_t i = grid.index(column, row);
       if (count < 3) continue;
-      if (layer.z_m[i] < selected(std::span(around.data(), count), 2) - deepest) {
+      if (layer.z_m[i] < selected_low(std::span(around.data(), count), 2) - deepest) {
         kept.z_m[i] = kNone;
         kept.weight[i] = 0;
       }
@@ -240,7 +243,11 @@ Field slope_limited(const Grid& grid, const Field& z, double slope) {
   return s;
 }
 
-Field lower_surface(const Columns& columns, double noise_m) {
+Layer upright_layer(const Columns& columns, double noise_m) {
+  return lowest_layer(columns, Field(columns.grid.nodes(), 0), static_cast<float>(noise_m));
+}
+
+Field lower_surface(const Columns& columns, const Layer& upright, double noise_m) {
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
   Field surface(grid.nodes(), 0);
@@ -248,7 +255,7 @@ Field lower_surface(const Columns& columns, double noise_m) {
     float length_cells, scale_m;
   };
   for (int round = 0; round < 2; ++round) {
-    Layer layer = lowest_layer(columns, surface, noise);
+    Layer layer = round == 0 ? upright : lowest_layer(columns, surface, noise);
     drop_strays(grid, noise, layer);
     if (round == 0) surface = first_lower_surface(grid, layer.z_m);
     const std::vector<Stage> stages =
@@ -264,11 +271,11 @@ Field lower_surface(const Columns& columns, double noise_m) {
   return surface;
 }
 
-LayerSurface layer_surface(const Columns& columns, double noise_m) {
+LayerSurface layer_surface(const Columns& columns, const Layer& upright, double noise_m) {
   const Grid& grid = columns.grid;
   const auto noise = static_cast<float>(noise_m);
-  Layer layer = lowest_layer(columns, Field(grid.nodes(), 0), noise);
-  Field surface = median_around(grid, layer.z_m);
+  Field surface = median_around(grid, upright.z_m);
+  Layer layer;
   for (const float stiffness : {0.3f, 0.1f, 0.03f}) {
     layer = lowest_layer(columns, surface, noise);
     drop_strays(grid, noise, layer);

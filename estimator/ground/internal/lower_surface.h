@@ -10,10 +10,6 @@ namespace plotscan::ground {
 // sweeps of a chamfer distance (Borgefors, 1986).
 Field slope_limited(const Grid& grid, const Field& z, double slope);
 
-// A first surface that keeps to the lowest returns, within a few sigma of the ground where ground
-// is seen (docs/ground.md, step 2). Metres above the columns' base.
-Field lower_surface(const Columns& columns, double noise_m);
-
 // The lowest layer of returns in each column.
 struct Layer {
   Field z_m;      // its height at the node; infinite where there is no return
@@ -22,12 +18,19 @@ struct Layer {
   Field scatter;  // mean square of their distances from it, m^2
 };
 
+// That of columns that stand upright on their base, before any surface tells how they tilt.
+Layer upright_layer(const Columns& columns, double noise_m);
+
+// A first surface that keeps to the lowest returns, within a few sigma of the ground where ground
+// is seen (docs/ground.md, step 2). Metres above the columns' base.
+Field lower_surface(const Columns& columns, const Layer& upright, double noise_m);
+
 // A surface through the lowest layers wherever these are, canopy or ground: it follows ridges that
 // the lower surface cuts off, and climbs canopies that are closed.
 struct LayerSurface {
   Field z_m;
   Layer layer;  // that it goes through; without strays below
 };
-LayerSurface layer_surface(const Columns& columns, double noise_m);
+LayerSurface layer_surface(const Columns& columns, const Layer& upright, double noise_m);
 
 }  // namespace plotscan::ground

@@ -144,6 +144,17 @@ float agreement(float found, float expected) {
   return std::clamp((found / expected - 0.1f) / 0.3f, 0.0f, 1.0f);
 }
 
+// Those where ground may be, in their order. No branch: heights come in any order.
+void keep_near(std::vector<float>& heights) {
+  constexpr float kFarthest = 4;
+  std::size_t count = 0;
+  for (const float x : heights) {
+    heights[count] = x;
+    count += static_cast<std::size_t>(std::abs(x) <= kFarthest);
+  }
+  heights.resize(count);
+}
+
 }  // namespace
 
 Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
@@ -164,9 +175,9 @@ Evidence weigh(const Columns& columns, const Field& surface, double noise_m) {
       if (shares.support <= 0) continue;
       const float floor = 0.002f * shares.ground;
       Patch(grid, surface, column, row).above(columns.at(i), noise, heights);
+      keep_near(heights);
       float sum = 0, moment = 0, missing = 0;
       for (const float x : heights) {
-        if (std::abs(x) > 4) continue;
         const float ground = shares.ground * kNormal.density(x);
         const float canopy =
             std::max(0.0f, shares.canopy + shares.canopy_growth * x) * kNormal.share_below(x);
