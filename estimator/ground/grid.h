@@ -37,14 +37,4 @@ void for_rows(const Grid& grid, const Body& body) {
                     });
 }
 
-// Sum of body(row) over the rows, added in their order whatever the number of threads.
-template <class Body>
-double sum_over_rows(const Grid& grid, const Body& body) {
-  std::vector<double> sums(grid.rows);
-  for_rows(grid, [&](int row) { sums[row] = body(row); });
-  double sum = 0;
-  for (const double of_row : sums) sum += of_row;
-  return sum;
-}
-
 }  // namespace plotscan::ground
