@@ -16,13 +16,15 @@ class VoxelGrid {
  public:
   explicit VoxelGrid(double voxel_m) : voxel_m_(voxel_m), slots_(1 << 16, kFree) {}
 
-  void add(const Eigen::Vector3f& point) {
-    const Eigen::Array3d cell =
-        (point.cast<double>().array() / voxel_m_).floor().max(-kHalfAxis).min(kHalfAxis - 1);
-    Voxel& voxel = voxel_of(cell);
-    // Offsets from the cell's corner are small: float32 sums of them stay exact enough.
-    voxel.offset_sum += (point.cast<double>().array() - cell * voxel_m_).matrix().cast<float>();
-    ++voxel.count;
+  // A table larger than the caches: what the next points need is fetched before their turn, their
+  // slots first and then their voxels.
+  void add(std::span<const Eigen::Vector3f> points) {
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i + 2 * kAhead < points.size()) fetch_slot(points[i + 2 * kAhead]);
+      if (i + kAhead < points.size()) fetch_voxel(points[i + kAhead]);
+      add(points[i]);
+    }
   }
 
   std::vector<Eigen::Vector3f> centroids() const {
@@ -42,6 +44,26 @@ class VoxelGrid {
     std::uint32_t count = 0;
   };
   static constexpr std::uint32_t kFree = 0xffffffff;
+
+  Eigen::Array3d cell_of(const Eigen::Vector3f& point) const {
+    return (point.cast<double>().array() / voxel_m_).floor().max(-kHalfAxis).min(kHalfAxis - 1);
+  }
+
+  void fetch_slot(const Eigen::Vector3f& point) const {
+    __builtin_prefetch(&slots_[first_slot(key_of(cell_of(point)))]);
+  }
+  void fetch_voxel(const Eigen::Vector3f& point) const {
+    const std::uint32_t voxel = slots_[first_slot(key_of(cell_of(point)))];
+    if (voxel != kFree) __builtin_prefetch(&voxels_[voxel]);
+  }
+
+  void add(const Eigen::Vector3f& point) {
+    const Eigen::Array3d cell = cell_of(point);
+    Voxel& voxel = voxel_of(cell);
+    // Offsets from the cell's corner are small: float32 sums of them stay exact enough.
+    voxel.offset_sum += (point.cast<double>().array() - cell * voxel_m_).matrix().cast<float>();
+    ++voxel.count;
+  }
 
   static std::uint64_t key_of(const Eigen::Array3d& cell) {
     const Eigen::Array3d index = cell + kHalfAxis;
@@ -93,7 +115,7 @@ class VoxelGrid {
 
 std::vector<Eigen::Vector3f> voxel_filter(std::span<const Eigen::Vector3f> points, double voxel_m) {
   VoxelGrid grid(voxel_m);
-  for (const Eigen::Vector3f& point : points) grid.add(point);
+  grid.add(points);
   return grid.centroids();
 }
 
