@@ -22,6 +22,9 @@ constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked fo
 constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kLeastRoughness =
     0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
+// Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
+// a crop. Plots of drawn trials: up to 8.6; vine rows, whole or in equal parts: 10.7 and more.
+constexpr double kMostAspect = 10;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
 constexpr double kStraight = 2;           // or this of the canopy: crowns and mounds up to 1.2

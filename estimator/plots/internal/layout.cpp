@@ -164,7 +164,7 @@ void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
 // Whether the layout's plots are one by one the drill rows that another's consist of.
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
   constexpr double kAlike = 1.5;
-  constexpr double kLeastAspect = kMostAspect / 2;  // leaves make a row wider
+  constexpr double kLeastAspect = 6;  // of a drill row; chosen
   if (!drilled.drilled) return false;
   double width = layout.r_shape.size, length = layout.c_shape.size;
   if (layout.view.swapped == drilled.view.swapped) std::swap(width, length);

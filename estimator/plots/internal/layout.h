@@ -10,10 +10,6 @@
 
 namespace plotscan::plots {
 
-// Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
-// a crop.
-inline constexpr double kMostAspect = 12;
-
 struct Row {
   Band band;                     // across the row
   std::vector<Band> plots = {};  // along it
