@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +16,8 @@
 #include <tbb/task_arena.h>
 
 #include "core/statistics.h"
+#include "lidar/internal/canopy_ceiling.h"
+#include "lidar/internal/ray_grid.h"
 #include "lidar/scene.h"
 
 namespace plotscan::lidar {
@@ -20,39 +25,8 @@ namespace {
 
 // Rays start so far above everything.
 constexpr float kAbove_m = 1;
-
-// Rays over a plot's box, line by line; each line runs along its width.
-struct RayGrid {
-  const PlotBox& box;
-  std::size_t lines = 1;
-  std::size_t rays_a_line = 1;
-
-  RayGrid(const PlotBox& plot_box, double step_m)
-      : box(plot_box),
-        lines(cells(plot_box.length_m, step_m)),
-        rays_a_line(cells(plot_box.width_m, step_m)),
-        length_axis_(plot_box.length_axis()),
-        width_axis_(plot_box.width_axis()) {}
-
-  Eigen::Vector2d place(std::size_t line, std::size_t ray) const {
-    return box.center + middle(line, lines) * box.length_m * length_axis_ +
-           middle(ray, rays_a_line) * box.width_m * width_axis_;
-  }
-
- private:
-  static std::size_t cells(double side_m, double step_m) {
-    constexpr double kRounding =
-        1e-9;  // 1.5 m are 150 steps of 0.01 m, whatever doubles make of it
-    return std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::ceil(side_m / step_m * (1 - kRounding))));
-  }
-  // Of a cell, as a share of the side, from its middle.
-  static double middle(std::size_t cell, std::size_t count) {
-    return (static_cast<double>(cell) + 0.5) / static_cast<double>(count) - 0.5;
-  }
-
-  Eigen::Vector2d length_axis_, width_axis_;
-};
+// The lowest percentile that is asked for.
+constexpr double kLowestShare = 0.95;
 
 double step_of(const farm::Farm& farm) {
   double area_m2 = 0;
@@ -70,33 +44,101 @@ double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit&
   return ground_m ? std::max(0.0, top_m - static_cast<double>(hit.range_m) - *ground_m) : kNone;
 }
 
-// Heights of what a line's rays hit.
-void measure_line(const Scene& scene, const terrain::Terrain& terrain, const RayGrid& grid,
-                  std::size_t line, double* heights_m) {
-  const float top_m = scene.top_m() + kAbove_m;
-  std::vector<Ray> rays;
-  rays.reserve(grid.rays_a_line);
-  for (std::size_t i = 0; i < grid.rays_a_line; ++i) {
-    const Eigen::Vector2f place = grid.place(line, i).cast<float>();
-    rays.push_back({.origin_m = {place.x(), place.y(), top_m}, .direction = {0, 0, -1}});
+// Casts rays of a grid straight down, those of each task together.
+class Caster {
+ public:
+  Caster(const Scene& scene, const terrain::Terrain& terrain, const RayGrid& grid)
+      : scene_(scene), terrain_(terrain), grid_(grid) {}
+
+  // Sets the heights of what the rays hit, each at the ray's own place.
+  void measure(std::span<const std::uint32_t> rays, std::vector<double>& heights_m) const {
+    constexpr std::size_t kTogether = 512;
+    tbb::parallel_for(
+        std::size_t{0}, (rays.size() + kTogether - 1) / kTogether, [&](std::size_t i) {
+          const std::size_t begin = i * kTogether;
+          measure_together(rays.subspan(begin, std::min(kTogether, rays.size() - begin)),
+                           heights_m);
+        });
   }
-  std::vector<Hit> hits(rays.size());
-  scene.cast_bundles(rays, rays.size(), top_m - scene.bottom_m() + kAbove_m, hits);
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    heights_m[i] =
-        height_of(scene, terrain, hits[i], static_cast<double>(top_m), grid.place(line, i));
+
+ private:
+  void measure_together(std::span<const std::uint32_t> which,
+                        std::vector<double>& heights_m) const {
+    const float top_m = scene_.top_m() + kAbove_m;
+    std::vector<Ray> rays;
+    rays.reserve(which.size());
+    for (const std::uint32_t i : which) {
+      const Eigen::Vector2f place = grid_.place(i).cast<float>();
+      rays.push_back({.origin_m = {place.x(), place.y(), top_m}, .direction = {0, 0, -1}});
+    }
+    std::vector<Hit> hits(rays.size());
+    scene_.cast_bundles(rays, rays.size(), top_m - scene_.bottom_m() + kAbove_m, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      heights_m[which[i]] =
+          height_of(scene_, terrain_, hits[i], static_cast<double>(top_m), grid_.place(which[i]));
+  }
+
+  const Scene& scene_;
+  const terrain::Terrain& terrain_;
+  const RayGrid& grid_;
+};
+
+// Moves those rays of `waiting` to the end of `cast` that have the highest ceilings.
+void take_highest(std::vector<std::uint32_t>& waiting, const std::vector<float>& ceiling_m,
+                  std::size_t count, std::vector<std::uint32_t>& cast) {
+  const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting.size()));
+  if (end != waiting.end()) {
+    std::nth_element(waiting.begin(), end, waiting.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return ceiling_m[a] > ceiling_m[b]; });
+  }
+  std::sort(waiting.begin(), end);  // neighbours are cast together
+  cast.insert(cast.end(), waiting.begin(), end);
+  waiting.erase(waiting.begin(), end);
 }
 
-farm::CanopyHeights canopy_of(const Scene& scene, const terrain::Terrain& terrain,
-                              const PlotBox& box, double step_m) {
-  const RayGrid grid(box, step_m);
-  std::vector<double> heights_m(grid.lines * grid.rays_a_line);
-  tbb::parallel_for(std::size_t{0}, grid.lines, [&](std::size_t line) {
-    measure_line(scene, terrain, grid, line, heights_m.data() + line * grid.rays_a_line);
-  });
+// The heights of the grid's rays; of those that do not count for the percentiles from kLowestShare
+// on, a height that is too low.
+std::vector<double> upper_heights(const Caster& caster, const std::vector<float>& ceiling_m) {
+  const std::size_t rays = ceiling_m.size();
+  const std::size_t wanted =
+      rays - static_cast<std::size_t>(std::floor(kLowestShare * static_cast<double>(rays - 1)));
+  std::vector<double> heights_m(rays, 0);
+  std::vector<std::uint32_t> waiting, cast;
+  for (std::uint32_t i = 0; i < rays; ++i)
+    if (ceiling_m[i] > 0) waiting.push_back(i);
+  std::vector<double> found_m;
+  for (std::size_t count = wanted; !waiting.empty(); count *= 2) {
+    const std::size_t known = cast.size();
+    take_highest(waiting, ceiling_m, count, cast);
+    caster.measure(std::span(cast).subspan(known), heights_m);
+    for (const std::uint32_t ray : std::span(cast).subspan(known))
+      found_m.push_back(-std::max(0.0, heights_m[ray]));
+    if (found_m.size() < wanted) break;
+    // The lowest that counts so far: what cannot exceed it cannot change it.
+    const double least_m = -selected<double>(found_m, wanted - 1);
+    std::erase_if(
+        waiting, [&](std::uint32_t ray) { return static_cast<double>(ceiling_m[ray]) <= least_m; });
+  }
+  return heights_m;
+}
+
+std::vector<double> all_heights(const Caster& caster, const RayGrid& grid) {
+  std::vector<std::uint32_t> rays(grid.rays());
+  std::iota(rays.begin(), rays.end(), 0U);
+  std::vector<double> heights_m(rays.size());
+  caster.measure(rays, heights_m);
+  return heights_m;
+}
+
+farm::CanopyHeights canopy_of(const Scene& scene, const CanopyCeiling& ceiling,
+                              const terrain::Terrain& terrain, const RayGrid& grid) {
+  const Caster caster(scene, terrain, grid);
+  const std::optional<std::vector<float>> ceiling_m = ceiling.over(grid);
+  std::vector<double> heights_m =
+      ceiling_m ? upper_heights(caster, *ceiling_m) : all_heights(caster, grid);
   std::erase_if(heights_m, [](double height_m) { return std::isnan(height_m); });
   if (heights_m.empty()) return {};
-  const double p95 = quantile(heights_m, 0.95);
+  const double p95 = quantile(heights_m, kLowestShare);
   return {.p95 = p95, .p99 = quantile(std::move(heights_m), 0.99)};
 }
 
@@ -105,11 +147,14 @@ farm::CanopyHeights canopy_of(const Scene& scene, const terrain::Terrain& terrai
 void measure_canopies(farm::Farm& farm, int threads) {
   if (farm.plots.empty()) return;
   const Scene scene(scene_content(farm));
+  const CanopyCeiling ceiling(farm);
   const double step_m = step_of(farm);
   tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] {
-    for (farm::Plot& plot : farm.plots)
-      plot.canopy = canopy_of(scene, farm.terrain, plot.box, step_m);
+    tbb::parallel_for(std::size_t{0}, farm.plots.size(), [&](std::size_t i) {
+      farm::Plot& plot = farm.plots[i];
+      plot.canopy = canopy_of(scene, ceiling, farm.terrain, RayGrid(plot.box, step_m));
+    });
   });
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "terrain/terrain.h"
+#include <Eigen/Geometry>
+
+namespace plotscan::terrain {
+
+// A terrain's outline and those of its holes: the edges that have a triangle on one side alone.
+class Border {
+ public:
+  explicit Border(const Terrain& terrain);
+
+  // False where none of it meets the rectangle: the terrain then lies under all of the rectangle or
+  // under none of it. May be true of a rectangle near an edge that is askew.
+  bool may_meet(const Eigen::AlignedBox2d& rectangle) const;
+
+ private:
+  std::vector<Eigen::AlignedBox2d> edges_;
+};
+
+}  // namespace plotscan::terrain

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library.
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "mesh/mesh.h"
+
+namespace plotscan::lidar {
+
+// A height for each cell of a grid over a mesh's ground plane that nothing of the mesh exceeds
+// within the cell, nor within `margin` of it.
+class CeilingMap {
+ public:
+  static constexpr float kNothing = -std::numeric_limits<float>::infinity();
+
+  CeilingMap(const mesh::Mesh& mesh, double margin);
+  // Of the mesh turned about its origin in any way.
+  static CeilingMap of_any_turn(const mesh::Mesh& mesh, double margin);
+
+  // kNothing where there is nothing.
+  float at(const Eigen::Vector2d& place) const {
+    const Eigen::Vector2d cell = cells_per_metre_ * (place - low_);
+    // Written so that NaN is outside.
+    const bool inside = cell.x() >= 0 && cell.y() >= 0 && cell.x() < columns_ && cell.y() < rows_;
+    if (!inside) return kNothing;
+    return ceilings_[static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(columns_) +
+                     static_cast<std::size_t>(cell.x())];
+  }
+  // Nothing is farther from the origin along the ground, nor within `margin` of being so.
+  double reach() const { return reach_; }
+
+ private:
+  CeilingMap(const Eigen::AlignedBox2d& box, double cells, double margin);
+  void raise(const Eigen::AlignedBox3d& triangle, const Eigen::Vector3d& on_plane,
+             const Eigen::Vector2d& gradient);
+
+  double margin_;
+  Eigen::Vector2d low_;
+  double cells_per_metre_;
+  double columns_, rows_;  // whole numbers
+  double reach_ = 0;
+  std::vector<float> ceilings_;  // row by row
+};
+
+}  // namespace plotscan::lidar
