@@ -23,8 +23,11 @@ struct Thinned {
 };
 
 // Sorts keys into about as many buckets by their upper bits, and then each of these: the keys of a
-// cell are as good as drawn by lot, so that a bucket has few.
+// cell are as good as drawn by lot, so that a bucket has few. Very many are sorted in their place,
+// as buckets take as much memory again.
 void sort_keys(std::span<std::uint64_t> keys) {
+  constexpr std::size_t kMostInBuckets = 1 << 20;
+  if (keys.size() > kMostInBuckets) return std::sort(keys.begin(), keys.end());
   const int bits = std::clamp<int>(std::bit_width(keys.size()), 1, 16);
   const auto bucket_of = [shift = 64 - bits](std::uint64_t key) { return key >> shift; };
   std::vector<std::uint32_t> end((std::size_t{1} << bits) + 1, 0);

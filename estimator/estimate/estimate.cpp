@@ -25,10 +25,6 @@ using nlohmann::json;
 constexpr std::array<const char*, 4> kPlane = {"ground_z_m", "ground_slope_x", "ground_slope_y",
                                                "ground_tolerance_m"};
 
-// Of a box's standard errors (PlotBoxError).
-constexpr std::array<const char*, 5> kBoxErrors = {"se_center_along_m", "se_center_across_m",
-                                                   "se_width_m", "se_length_m", "se_heading_deg"};
-
 // Whether a property is one of those that an estimate gives its plots.
 bool is_measured(std::string property) {
   if (property == "points" || property == "confidence" || property == "flags") return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,10 @@ inline constexpr std::string_view kLow = "low95_";
 inline constexpr std::string_view kHigh = "high95_";
 inline constexpr std::string_view kCanopy = "canopy_";
 inline constexpr std::string_view kSuffix = "_m";
+
+// The standard errors of a box (PlotBoxError), in its order.
+inline constexpr std::array<const char*, 5> kBoxErrors = {
+    "se_center_along_m", "se_center_across_m", "se_width_m", "se_length_m", "se_heading_deg"};
 
 // The property of a height, and of what belongs to it ("se_", "low95_", "high95_"): the truth's own
 // names, height_p95_m and canopy_p95_m.

@@ -109,11 +109,11 @@ void add_box_errors(const std::vector<PlotEstimate>& plots, std::vector<Column>&
                          return plot.box_error ? format_number(*plot.box_error.*error / unit) : "";
                        }});
   };
-  add("se_center_along_m", &PlotBoxError::along_m, 1);
-  add("se_center_across_m", &PlotBoxError::across_m, 1);
-  add("se_width_m", &PlotBoxError::width_m, 1);
-  add("se_length_m", &PlotBoxError::length_m, 1);
-  add("se_heading_deg", &PlotBoxError::heading_rad, kDegrees);
+  add(kBoxErrors[0], &PlotBoxError::along_m, 1);
+  add(kBoxErrors[1], &PlotBoxError::across_m, 1);
+  add(kBoxErrors[2], &PlotBoxError::width_m, 1);
+  add(kBoxErrors[3], &PlotBoxError::length_m, 1);
+  add(kBoxErrors[4], &PlotBoxError::heading_rad, kDegrees);
 }
 
 std::vector<Column> columns_of(const Estimate& estimate) {

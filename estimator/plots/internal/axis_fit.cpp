@@ -19,10 +19,12 @@ constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot, or of a dr
 // Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
 // tenth.
 constexpr double kMostSpacing_m = 1.12;
-constexpr double kLeastGap_m = 0.15;   // between plots
-constexpr double kSizeStep = 1.05;     // from one size that is tried to the next
-constexpr std::size_t kRefined = 4;    // best shapes of which others like them are tried
-constexpr std::size_t kRowsTried = 3;  // in each of which all shapes are tried
+constexpr double kLeastGap_m = 0.15;     // between plots
+constexpr double kMostIrregular = 0.34;  // of the steps from plot to plot,
+constexpr double kAlleys = 1;            // but one at least
+constexpr double kSizeStep = 1.05;       // from one size that is tried to the next
+constexpr std::size_t kRefined = 4;      // best shapes of which others like them are tried
+constexpr std::size_t kRowsTried = 3;    // in each of which all shapes are tried
 
 int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
@@ -96,6 +98,17 @@ std::vector<BandShape> shapes_like(const BandShape& shape) {
   return shapes;
 }
 
+// Whether most steps are one pitch, but for an alley: bands that a canopy's texture suggests lie
+// anywhere.
+bool is_regular(const Line& line, const AxisFit& fit) {
+  double irregular = 0, steps = 0;
+  for (const std::vector<int>& begins : fit.begins) {
+    irregular += irregular_steps(begins, fit.shape, line.cell_m);
+    steps += static_cast<double>(begins.size()) - 1;
+  }
+  return irregular <= std::max(kAlleys, kMostIrregular * steps);
+}
+
 // As many bands as the user said that plots follow each other; rows with offsets of their own may
 // lack some.
 bool has_told_count(const Line& line, const AxisFit& fit) {
@@ -103,14 +116,16 @@ bool has_told_count(const Line& line, const AxisFit& fit) {
   return line.hint.count && most == static_cast<std::size_t>(*line.hint.count);
 }
 
-// The best of those that have as many plots as were told, if any number was.
+// The best of those that are plots, or drill rows of plots.
 AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
   std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
-  const auto best = std::ranges::find_if(fits, [&](const AxisFit& fit) {
-    return std::isfinite(fit.misfit) &&
-           (!line.hint.count || has_told_count(line, put_together(line, fit)));
-  });
-  return best == fits.end() ? AxisFit{} : *best;
+  for (const AxisFit& fit : fits) {
+    if (!std::isfinite(fit.misfit)) break;
+    const AxisFit plots = put_together(line, fit);
+    const bool is_one = plots.drilled || is_regular(line, fit);
+    if (line.hint.count ? has_told_count(line, plots) : is_one) return fit;
+  }
+  return line.hint.count || fits.empty() ? AxisFit{} : fits.front();
 }
 
 std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,
@@ -148,9 +163,9 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
   for (const std::vector<Band>& across : strips) {
     const CanopyProfile profile = profile_along_r(view, across);
     line.profiles.emplace_back(profile);
-    line.seen += profile.seen;
+    line.independent += profile.independent;
   }
-  line.price = std::log(std::max(2.0, line.seen));
+  line.price = std::log(std::max(2.0, line.independent));
   return line;
 }
 

@@ -36,7 +36,7 @@ struct Line {
   AxisHint hint = {};
   std::vector<ProfileSums> profiles = {};
   double price = 0;
-  double seen = 0;  // cells
+  double independent = 0;
 };
 
 // A profile along the view's r for each list of bands of c.

@@ -41,6 +41,23 @@ std::vector<double> noise_of(const std::vector<double>& block, const std::vector
   return noise;
 }
 
+// Ratio of the variance of sums over near cells to what independent ones would have.
+double likeness(const std::vector<std::vector<double>>& noises, int near) {
+  double single = 0, together = 0;
+  for (const std::vector<double>& noise : noises) {
+    for (std::size_t i = 0; i + static_cast<std::size_t>(near) <= noise.size();
+         i += static_cast<std::size_t>(near)) {
+      double sum = 0;
+      for (std::size_t k = i; k < i + static_cast<std::size_t>(near); ++k) {
+        sum += noise[k];
+        single += noise[k] * noise[k];
+      }
+      together += sum * sum;
+    }
+  }
+  return single > 0 ? std::max(1.0, together / single) : 1;
+}
+
 // Canopy along the line in strips as wide as plants.
 struct Blocks {
   std::vector<std::vector<double>> canopy, seen;  // by strip, then by cell
@@ -77,22 +94,24 @@ CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across)
   const auto in_cells = [&](double length_m) {
     return std::max(1, static_cast<int>(std::lround(length_m / view.cell_m())));
   };
-  const Blocks blocks = blocks_of(view, across, in_cells(kBlock_m));
+  Blocks blocks = blocks_of(view, across, in_cells(kBlock_m));
   const std::size_t cells = blocks.sum.size();
   CanopyProfile profile{.mean = blocks.sum, .weight = std::vector<double>(cells)};
   for (std::size_t i = 0; i < cells; ++i) profile.mean[i] /= std::max(1.0, blocks.count[i]);
   std::vector<double> variance(cells);
   for (std::size_t k = 0; k < blocks.canopy.size(); ++k) {
-    const std::vector<double> noise =
-        noise_of(blocks.canopy[k], blocks.seen[k], profile.mean, in_cells(kTrend_m));
-    for (std::size_t i = 0; i < cells; ++i) variance[i] += noise[i] * noise[i];
+    blocks.canopy[k] = noise_of(blocks.canopy[k], blocks.seen[k], profile.mean, in_cells(kTrend_m));
+    for (std::size_t i = 0; i < cells; ++i)
+      variance[i] += blocks.canopy[k][i] * blocks.canopy[k][i];
   }
   variance = smoothed(variance, blocks.count, in_cells(kLeaf_m));
+  const double alike = likeness(blocks.canopy, in_cells(kLeaf_m));
   const double least = cells > 0 ? kLeastError * *std::ranges::max_element(profile.mean) : 0;
   for (std::size_t i = 0; i < cells; ++i) {
     if (blocks.count[i] == 0) continue;
-    profile.weight[i] = 1 / (variance[i] / blocks.count[i] + std::max(1e-12, least * least));
-    profile.seen += 1;
+    profile.weight[i] =
+        1 / (alike * (variance[i] / blocks.count[i] + std::max(1e-12, least * least)));
+    profile.independent += 1 / alike;
   }
   return profile;
 }

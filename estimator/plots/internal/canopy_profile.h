@@ -11,10 +11,11 @@
 namespace plotscan::plots {
 
 // Mean canopy by cell along a view's r, over the cells across it. Weights are inverse variances of
-// the means, from how the blocks across differ, less their own trend.
+// the means, from how the blocks across differ, less their own trend; neighbouring cells see the
+// same leaves, and weigh so much the less.
 struct CanopyProfile {
   std::vector<double> mean, weight;
-  double seen = 0;  // cells of which anything is seen
+  double independent = 0;  // how many independent cells the profile is worth
 };
 
 // Over the given bands of c only.

@@ -27,7 +27,7 @@ TEST(LineOf, AParameterCostsWhatSchwarzAsks) {
   const RowView view{.raster = &raster};
   const std::vector<Band> whole = {{0, view.c_cells()}};
   const Line line = line_along(raster);
-  EXPECT_NEAR(line.price, std::log(profile_along_r(view, whole).seen), 1e-12);
+  EXPECT_NEAR(line.price, std::log(profile_along_r(view, whole).independent), 1e-12);
 }
 
 TEST(FitAxis, FindsBandsOfOneSize) {

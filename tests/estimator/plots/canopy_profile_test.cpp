@@ -10,10 +10,10 @@
 namespace plotscan::plots {
 namespace {
 
-// 30 x 10 m of canopy drawn evenly from 0 to 1.
-CanopyRaster noise_raster() {
+// 30 x 10 m of canopy drawn evenly from 0 to 1, for stretches of so many cells along r.
+CanopyRaster noise_raster(int stretch) {
   return raster_of(30, 10, [&](double a_m, double b_m) {
-    const auto a = static_cast<std::uint64_t>(a_m / 0.05);
+    const auto a = static_cast<std::uint64_t>(a_m / 0.05) / static_cast<std::uint64_t>(stretch);
     const auto b = static_cast<std::uint64_t>(b_m / 0.05);
     return RandomStream(4, random_purpose("test/profile"), 1000 * a + b).uniform();
   });
@@ -25,7 +25,7 @@ CanopyProfile profile_of(const CanopyRaster& raster) {
 }
 
 TEST(CanopyProfile, IsTheMeanAcrossTheLine) {
-  const CanopyRaster raster = noise_raster();
+  const CanopyRaster raster = noise_raster(1);
   const CanopyProfile profile = profile_of(raster);
   ASSERT_EQ(profile.mean.size(), 600U);
   for (const int a : {0, 17, 599}) {
@@ -38,10 +38,15 @@ TEST(CanopyProfile, IsTheMeanAcrossTheLine) {
 // A mean of 200 numbers drawn evenly has the variance 1 / 12 / 200; no mean is taken to be better
 // than 2 % of the greatest.
 TEST(CanopyProfile, WeighsByTheVarianceOfAMean) {
-  const CanopyProfile profile = profile_of(noise_raster());
+  const CanopyProfile profile = profile_of(noise_raster(1));
   const double least = 0.02 * *std::ranges::max_element(profile.mean);
   EXPECT_NEAR(mean(profile.weight) * (1 / 12.0 / 200 + least * least), 1, 0.15);
-  EXPECT_EQ(profile.seen, 600);
+  EXPECT_NEAR(profile.independent, 600, 60);
+}
+
+// Where six cells in a row are alike, six are worth one.
+TEST(CanopyProfile, CountsCellsOfOneLeafOnce) {
+  EXPECT_NEAR(profile_of(noise_raster(6)).independent, 100, 15);
 }
 
 TEST(CanopyProfile, GivesUnseenCellsNoWeight) {
@@ -50,7 +55,6 @@ TEST(CanopyProfile, GivesUnseenCellsNoWeight) {
   const CanopyProfile profile = profile_of({{}, 0.05, 40, 30, returns});
   EXPECT_EQ(profile.weight[20], 0);
   EXPECT_GT(profile.weight[19], 0);
-  EXPECT_EQ(profile.seen, 39);
 }
 
 // A triangle's middle lies at two thirds of its length.

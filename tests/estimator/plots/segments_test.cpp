@@ -24,7 +24,7 @@ CanopyProfile profile_with(const std::vector<int>& begins, int size, int cells,
     profile.mean.push_back(canopy);
     profile.weight.push_back(1 / (0.05 * 0.05));
   }
-  profile.seen = cells;
+  profile.independent = cells;
   return profile;
 }
 

@@ -39,7 +39,9 @@ const std::vector<std::string>& other_columns() {
 }
 
 void require_known_column(const std::string& column, const fs::path& file, Problems& problems) {
-  if (is_height_column(column) || std::ranges::count(other_columns(), column) > 0) return;
+  if (is_height_column(column) || std::ranges::count(other_columns(), column) > 0 ||
+      std::ranges::count(estimate::kBoxErrors, column) > 0)
+    return;
   std::vector<std::string> names = other_columns();
   for (const char* height : {"mean", "max", "p50", "p90", "p95", "p99", "canopy_p95", "canopy_p99"})
     for (const std::string_view before : {std::string_view(), estimate::kLow, estimate::kHigh})
