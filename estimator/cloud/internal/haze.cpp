@@ -67,7 +67,8 @@ class Voxels {
     std::size_t count = counts_[middle];
     for (int dy = -1; dy <= 1 && count <= most; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const std::uint8_t* const voxel = &counts_[middle] + (dy * across_ + dx) * up_;
+        const std::uint8_t* const voxel =
+            &counts_[middle] + std::ptrdiff_t{dy * across_ + dx} * up_;
         count += voxel[-1] + voxel[1] + (dx != 0 || dy != 0 ? voxel[0] : 0);
       }
     }
@@ -93,7 +94,8 @@ class Voxels {
   }
 
   std::size_t index_of(const Place& at) const {
-    return static_cast<std::size_t>((at.y * across_ + at.x) * up_ + at.z);
+    const std::ptrdiff_t column = std::ptrdiff_t{at.y} * across_ + at.x;
+    return static_cast<std::size_t>(column * up_ + at.z);
   }
 
   float a_metre_;

@@ -102,7 +102,7 @@ struct Positions {
 Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
                            double sigma_m) {
   const auto size = static_cast<Eigen::Index>(positions.size());
-  const Positions as_they_are{positions, static_cast<double>(size)};
+  Positions as_they_are{positions, static_cast<double>(size)};
   if (size < 3) return as_they_are;
   std::vector<double> steps;
   for (std::size_t i = 1; i < positions.size(); ++i)
