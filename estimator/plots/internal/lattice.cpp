@@ -161,6 +161,21 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
+// A single place three pitches away from every other holds something else: a ridge, a bush.
+void leave_out_strays(Lattice& lattice) {
+  constexpr double kPitches = 3;
+  constexpr int kLeastPlots = 4;  // tell a pitch
+  const double far_m = kPitches * std::max(lattice.r.pitch_m, lattice.c.pitch_m);
+  const auto stands_alone = [&](const Place& place) {
+    return std::ranges::none_of(lattice.places, [&](const Place& other) {
+      return other.full && &other != &place &&
+             std::hypot(place.r_m - other.r_m, place.c_m - other.c_m) < far_m;
+    });
+  };
+  if (std::ranges::count_if(lattice.places, &Place::full) < kLeastPlots) return;
+  for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
+}
+
 // Numbers from 0, without those that no plot has.
 int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;
@@ -229,7 +244,11 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   number(layout, lattice);
   straighten(lattice);
   test_places(lattice);
-  if (hints.plots) take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
+  if (hints.plots) {
+    take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
+  } else {
+    leave_out_strays(lattice);
+  }
   renumber(lattice);
   straighten(lattice);
   straighten(lattice);

@@ -87,6 +87,17 @@ TEST(Lattice, HasNoColumnOfAPlotThatLeansOver) {
     EXPECT_EQ(lattice.places[i].column + 1, trial.places[i].column) << i;
 }
 
+// A patch as large as a plot, ten columns beyond the second row.
+TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  TrialLayout with_patch = trial;
+  with_patch.places.push_back(trial.places[9]);
+  with_patch.places.back().column = 15;
+  with_patch.places.back().position_m.x() += 10 * trial.column_pitch_m;
+  const CanopyRaster raster = canopy_of(with_patch);
+  expect_places(layout_of(fit_lattice(bands_of(with_patch, raster), {})), trial);
+}
+
 TEST(Lattice, HoldsTheNumberOfPlotsThatWasTold) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const CanopyRaster raster = canopy_of(trial);
