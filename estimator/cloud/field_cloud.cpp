@@ -117,7 +117,13 @@ namespace {
 class AddingBehind {
  public:
   AddingBehind(TileStore& store, int threads) : store_(store), arena_(threads) {}
-  ~AddingBehind() { finish(); }
+  // What fails in adding is thrown by add() and finish(); here the reading has failed already.
+  ~AddingBehind() {
+    try {
+      finish();
+    } catch (...) {
+    }
+  }
   AddingBehind(const AddingBehind&) = delete;
   AddingBehind& operator=(const AddingBehind&) = delete;
 
@@ -126,7 +132,7 @@ class AddingBehind {
     points_.assign(points.begin(), points.end());
     arena_.execute([&] { adding_.run([&] { store_.add(points_); }); });
   }
-  // Until all points are in the store.
+  // Waits until all points are in the store.
   void finish() {
     arena_.execute([&] { adding_.wait(); });
   }
@@ -150,7 +156,9 @@ scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int thre
     read += static_cast<double>(points.size());
     if (progress) progress(done * std::min(1.0, read / expected));
   };
-  return record::read_positions(cloud, add, {.leave_out_marked = true});
+  const scan::CloudSummary summary = record::read_positions(cloud, add, {.leave_out_marked = true});
+  adding.finish();
+  return summary;
 }
 
 }  // namespace
