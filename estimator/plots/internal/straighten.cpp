@@ -97,6 +97,33 @@ struct Positions {
   double parameters = 0;
 };
 
+// Whether steps differ from the usual one, beyond their errors: -1 narrower, 1 wider, 0 neither.
+std::vector<int> unusual_steps(const std::vector<double>& positions,
+                               const std::vector<double>& counts, double sigma_m) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < positions.size(); ++i)
+    steps.push_back(positions[i] - positions[i - 1]);
+  const double step_m = quantile(steps, 0.5);
+  std::vector<int> unusual;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double error_m = sigma_m * std::sqrt(1 / counts[i] + 1 / counts[i + 1]);
+    const double off_m = steps[i] - step_m;
+    const bool clear = std::abs(off_m) > std::max(0.06, 4 * error_m);
+    unusual.push_back(clear ? (off_m > 0 ? 1 : -1) : 0);
+  }
+  return unusual;
+}
+
+// Between a step that is too wide and one that is too narrow, while the next steps are as usual: its
+// plots are lodged, or their leaves were taken for them. (Where wide and narrow steps alternate, it was
+// sown so.)
+bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
+  if (row == 0 || row == unusual.size() || unusual[row - 1] * unusual[row] != -1) return false;
+  const bool alone_before = row < 2 || unusual[row - 2] == 0;
+  const bool alone_behind = row + 1 >= unusual.size() || unusual[row + 1] == 0;
+  return alone_before && alone_behind;
+}
+
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
 // steps, but for those alleys that clearly differ.
 Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
@@ -104,35 +131,31 @@ Positions with_equal_steps(const std::vector<double>& positions, const std::vect
   const auto size = static_cast<Eigen::Index>(positions.size());
   Positions as_they_are{positions, static_cast<double>(size)};
   if (size < 3) return as_they_are;
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < positions.size(); ++i)
-    steps.push_back(positions[i] - positions[i - 1]);
-  const double step_m = quantile(steps, 0.5);
+  const std::vector<int> unusual = unusual_steps(positions, counts, sigma_m);
+  std::vector<double> weights;
+  for (std::size_t row = 0; row < positions.size(); ++row)
+    weights.push_back(is_out_of_place(row, unusual) ? 0 : std::sqrt(counts[row]));
   std::vector<std::size_t> alleys;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double error_m = sigma_m * std::sqrt(1 / counts[i] + 1 / counts[i + 1]);
-    if (std::abs(steps[i] - step_m) > std::max(0.06, 4 * error_m)) alleys.push_back(i);
-  }
+  for (std::size_t i = 0; i < unusual.size(); ++i)
+    if (unusual[i] != 0 && weights[i] > 0 && weights[i + 1] > 0) alleys.push_back(i);
   const auto unknowns = static_cast<Eigen::Index>(2 + alleys.size());
-  if (unknowns >= size) return as_they_are;
-  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, unknowns);
+  if (unknowns >= size - std::ranges::count(weights, 0.0)) return as_they_are;
+  Eigen::MatrixXd design(size, unknowns);
   Eigen::VectorXd right(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const double weight = std::sqrt(counts[at]);
-    design(i, 0) = weight;
-    design(i, 1) = weight * static_cast<double>(i);
-    for (std::size_t k = 0; k < alleys.size(); ++k) {
-      design(i, static_cast<Eigen::Index>(2 + k)) = at > alleys[k] ? weight : 0;
-    }
-    right(i) = weight * positions[at];
+    design(i, 0) = 1;
+    design(i, 1) = static_cast<double>(i);
+    for (std::size_t k = 0; k < alleys.size(); ++k)
+      design(i, static_cast<Eigen::Index>(2 + k)) = at > alleys[k] ? 1 : 0;
+    right(i) = positions[at];
   }
-  const Eigen::VectorXd fitted = design.colPivHouseholderQr().solve(right);
-  Positions smooth{.at = {}, .parameters = static_cast<double>(unknowns)};
-  for (Eigen::Index i = 0; i < size; ++i) {
-    smooth.at.push_back(design.row(i).dot(fitted) / design(i, 0));
-  }
-  return smooth;
+  const Eigen::Map<const Eigen::VectorXd> weight(weights.data(), size);
+  const Eigen::VectorXd fitted = (weight.asDiagonal() * design)
+                                     .colPivHouseholderQr()
+                                     .solve(weight.asDiagonal() * right);
+  const Eigen::VectorXd smooth = design * fitted;
+  return {.at = {smooth.begin(), smooth.end()}, .parameters = static_cast<double>(unknowns)};
 }
 
 // Centres as measured, and their rows and columns.

@@ -42,6 +42,28 @@ TEST(Straighten, KeepsAnAlleyThatIsWider) {
   expect_straightened(trial, true);
 }
 
+// As a planter that sows two plots a pass leaves them.
+TEST(Straighten, KeepsWideAndNarrowGapsInTurn) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  for (TrialPlace& place : trial.places)
+    if (place.column % 2 == 0) place.position_m.x() += 0.12;
+  expect_straightened(trial, true);
+}
+
+// Lodged plots, whose canopy leans towards the next ones.
+TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
+  const TrialLayout sown = known_trial({0, 0, 0}, 6);
+  TrialLayout leaning = sown;
+  for (TrialPlace& place : leaning.places)
+    if (place.column == 3) place.position_m.x() += 0.25;
+  const CanopyRaster raster = canopy_of(leaning);
+  Lattice lattice = lattice_of(leaning, raster);
+  lattice.aligned = true;
+  straighten(lattice);
+  for (std::size_t i = 0; i < sown.places.size(); ++i)
+    EXPECT_NEAR(lattice.places[i].r_m, sown.box(sown.places[i]).center.x(), 0.02) << i;
+}
+
 // Plots that are turned by 0.01 about the view's axes.
 TEST(Straighten, MeasuresHowTheRowsRun) {
   constexpr double kTurn = 0.01;
