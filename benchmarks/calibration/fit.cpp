@@ -210,9 +210,9 @@ void find_surprises(heights::Calibration& calibration, Group group) {
       heights::CalibrationFarm& farm = calibration.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
-      (group == Group::crop ? farm.from_crops : farm.from_libraries) = {
-          .unlike = crops.unlike(scaled),
-          .surprise = surprise(farm, model.mixture(scaled, farm.top_m, told))};
+      auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
+      from_others.unlike = crops.unlike(scaled);
+      from_others.surprise = surprise(farm, model.mixture(scaled, farm.top_m, told));
       if (group == Group::library) {
         farm.surprise_given_crop =
             surprise(farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));

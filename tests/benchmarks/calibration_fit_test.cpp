@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/fit.h"
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "heights/features.h"
+
+namespace plotscan::calibration {
+namespace {
+
+constexpr double kSlope = 0.05;  // of the ratio, by the second feature
+
+// The first feature tells the crops apart, the second one how tall plants are over the canopy's
+// top; the others tell nothing, and a fifth of that is left to chance. Plots of a field differ by a
+// tenth.
+MeasuredField known_field(const std::string& library, int crop, std::uint64_t number) {
+  RandomStream random(number, random_purpose("test/calibration_fit"), 0);
+  const auto features = static_cast<Eigen::Index>(heights::feature_names().size());
+  Eigen::VectorXd field(features);
+  for (double& feature : field) feature = random.normal();
+  field(0) = 4 * crop + 0.3 * random.normal();
+  const double unknown = 0.01 * random.normal();
+  MeasuredField known{.library = library, .plots = {}};
+  for (int i = 0; i < 4; ++i) {
+    MeasuredPlot plot{.top_m = 1, .features = field, .truth = {}};
+    for (double& feature : plot.features) feature += 0.1 * random.normal();
+    const double ratio = 0.8 + kSlope * plot.features(1) + unknown;
+    plot.truth = {{"max", ratio + 0.1}, {"mean", ratio}};
+    known.plots.push_back(plot);
+  }
+  return known;
+}
+
+std::vector<MeasuredField> known_fields() {
+  std::vector<MeasuredField> fields;
+  std::uint64_t number = 0;
+  for (const std::string crop : {"maize", "soybean"}) {
+    for (const std::string library : {"-a", "-b", "-c"}) {
+      for (int farm = 0; farm < 20; ++farm)
+        fields.push_back(known_field(crop + library, crop == "maize" ? 0 : 1, ++number));
+    }
+  }
+  return fields;
+}
+
+TEST(CalibrationFit, FindsTheFeatureThatTellsTheHeights) {
+  const heights::Calibration fitted = fit(known_fields());
+  for (const heights::CalibrationFarm& farm : fitted.farms) {
+    EXPECT_TRUE(farm.from_libraries.surprise.allFinite());
+    EXPECT_TRUE(farm.from_crops.surprise.allFinite());
+    EXPECT_EQ(farm.from_crops.surprise.size(), 2);
+    EXPECT_GT(farm.from_crops.unlike, farm.from_libraries.unlike) << "no other crop is as like";
+  }
+  for (const Group group : {Group::farm, Group::library}) {
+    for (const LeftOut& row : leave_out(fitted, group)) {
+      EXPECT_LT(row.told.rmse_m, kSlope / 2) << row.name << " " << row.height;
+      if (row.name == "all") {
+        EXPECT_GT(row.told.inside, 0.9) << row.height;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plotscan::calibration
