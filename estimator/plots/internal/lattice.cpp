@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -134,6 +135,30 @@ void number(const Layout& layout, Lattice& lattice) {
   }
 }
 
+// The place of a row or column that is nearest to it along `other`.
+const Place& nearest_of(const std::vector<Place>& places, int Place::*line, int at,
+                        int Place::*other, int other_at) {
+  return *std::ranges::min_element(places, {}, [&](const Place& place) {
+    return place.*line == at ? std::abs(place.*other - other_at) : std::numeric_limits<int>::max();
+  });
+}
+
+// Where each column crosses each row a plot may stand that no band shows. Columns of each row's own
+// lie a pitch from number to number.
+void add_crossings(Lattice& lattice) {
+  const std::vector<Place> shown = lattice.places;
+  for (int row = 0; row < lattice.rows; ++row) {
+    for (int column = 0; column < lattice.columns; ++column) {
+      const Place& of_row = nearest_of(shown, &Place::row, row, &Place::column, column);
+      if (of_row.column == column) continue;
+      const double c_m = lattice.aligned
+                             ? nearest_of(shown, &Place::column, column, &Place::row, row).c_m
+                             : of_row.c_m + (column - of_row.column) * lattice.c.pitch_m;
+      lattice.places.push_back({.row = row, .column = column, .r_m = of_row.r_m, .c_m = c_m});
+    }
+  }
+}
+
 void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
@@ -243,6 +268,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
                   .c = {.size_m = c_m, .band_m = c_m}};
   number(layout, lattice);
   straighten(lattice);
+  add_crossings(lattice);
   test_places(lattice);
   if (hints.plots) {
     take_fullest(lattice, static_cast<std::size_t>(*hints.plots));

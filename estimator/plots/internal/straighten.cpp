@@ -114,9 +114,9 @@ std::vector<int> unusual_steps(const std::vector<double>& positions,
   return unusual;
 }
 
-// Between a step that is too wide and one that is too narrow, while the next steps are as usual: its
-// plots are lodged, or their leaves were taken for them. (Where wide and narrow steps alternate, it was
-// sown so.)
+// Between a step that is too wide and one that is too narrow, while the next steps are as usual:
+// its plots are lodged, or their leaves were taken for them. (Where wide and narrow steps
+// alternate, it was sown so.)
 bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
   if (row == 0 || row == unusual.size() || unusual[row - 1] * unusual[row] != -1) return false;
   const bool alone_before = row < 2 || unusual[row - 2] == 0;
@@ -151,9 +151,8 @@ Positions with_equal_steps(const std::vector<double>& positions, const std::vect
     right(i) = positions[at];
   }
   const Eigen::Map<const Eigen::VectorXd> weight(weights.data(), size);
-  const Eigen::VectorXd fitted = (weight.asDiagonal() * design)
-                                     .colPivHouseholderQr()
-                                     .solve(weight.asDiagonal() * right);
+  const Eigen::VectorXd fitted =
+      (weight.asDiagonal() * design).colPivHouseholderQr().solve(weight.asDiagonal() * right);
   const Eigen::VectorXd smooth = design * fitted;
   return {.at = {smooth.begin(), smooth.end()}, .parameters = static_cast<double>(unknowns)};
 }

@@ -67,6 +67,18 @@ TEST(Lattice, KeepsAnAlleyBetweenColumns) {
   expect_places(layout_of(fit_lattice(bands_of(trial, raster), {})), trial);
 }
 
+// Of a row whose gap is closed no band may show a plot; nothing stands at another crossing.
+TEST(Lattice, HasPlotsThatNoBandShows) {
+  for (const double offset_m : {0.0, 0.9}) {
+    TrialLayout trial = known_trial({0, offset_m, 0});
+    trial.places.erase(trial.places.begin() + 12);
+    const CanopyRaster raster = canopy_of(trial);
+    Layout layout = bands_of(trial, raster, {{1, 3}, {2, 2}});
+    layout.aligned = offset_m == 0;
+    expect_places(layout_of(fit_lattice(layout, {})), trial);
+  }
+}
+
 TEST(Lattice, LeavesOutBandsWithoutCanopy) {
   const TrialLayout bands = known_trial({0, 0, 0});
   TrialLayout trial = bands;
