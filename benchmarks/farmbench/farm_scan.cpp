@@ -20,7 +20,8 @@ farm::Farm make_farm(const FarmPlace& place) {
   farmfolder::write_farm(made, folder / "farm", true,
                          {.command = "farmbench run",
                           .options = {{"set", suite_case.overrides}},
-                          .inputs = planting::input_files(description)});
+                          .inputs = planting::input_files(description)},
+                         {}, threads);
   return made;
 }
 

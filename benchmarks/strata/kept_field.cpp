@@ -49,7 +49,8 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   farmfolder::write_farm(farm, field.farm, true,
                          {.command = "measure_plots run",
                           .options = {{"set", plan.overrides}},
-                          .inputs = planting::input_files(description)});
+                          .inputs = planting::input_files(description)},
+                         {}, threads);
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");

@@ -58,12 +58,12 @@ void write_models(const fs::path& folder, const farm::Farm& farm) {
   }
 }
 
-void write_truth(const fs::path& folder, const farm::Farm& farm) {
+void write_truth(const fs::path& folder, const farm::Farm& farm, int threads) {
   fs::create_directories(folder);
   write_plots(folder / "plots.geojson", farm.plots);
   if (farm.anchor) write_plots_wgs84(folder / "plots_wgs84.geojson", farm.plots, *farm.anchor);
   write_trial_layout(folder / "plots.csv", farm.name, farm.plots);
-  write_plants(folder / "plants.csv", farm);
+  write_plants(folder / "plants.csv", farm, threads);
   write_terrain(folder / "terrain.ply", farm.terrain);
 }
 
@@ -96,15 +96,15 @@ nlohmann::json results_of(const farm::Farm& farm) {
 }  // namespace
 
 void write_farm(const farm::Farm& farm, const fs::path& folder, bool replace, Manifest origin,
-                const ProgressReport& progress) {
+                const ProgressReport& progress, int threads) {
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
   OutputFolder output(folder, replace, origin.command, origin.inputs);
   write_models(output.path(), farm);
-  write_truth(output.path() / "truth", farm);
+  write_truth(output.path() / "truth", farm, threads);
   report(kTruthShare);
-  write_world(output.path() / "world.sdf", farm,
+  write_world(output.path() / "world.sdf", farm, threads,
               [&](double share) { report(kTruthShare + (kWorldShare - kTruthShare) * share); });
   origin.seed = farm.seed;
   origin.results = results_of(farm);

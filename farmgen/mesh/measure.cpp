@@ -40,16 +40,20 @@ void ScaledArea::add(const Mesh& mesh, const std::array<std::uint32_t, 3>& trian
   const Eigen::Vector3d a = mesh.vertices[triangle[0]].cast<double>();
   const Eigen::Vector3d ab = mesh.vertices[triangle[1]].cast<double>() - a;
   const Eigen::Vector3d ac = mesh.vertices[triangle[2]].cast<double>() - a;
-  cross_squares_.push_back(ab.cross(ac).array().square());
+  const Eigen::Array3d squares = ab.cross(ac).array().square();
+  for (int axis = 0; axis < 3; ++axis)
+    cross_squares_[static_cast<std::size_t>(axis)].push_back(squares[axis]);
 }
 
 double ScaledArea::at(const Eigen::Vector3d& scale) const {
   // The cross product of scaled edges is the cross product scaled by the other two axes.
   const Eigen::Array3d factor(scale.y() * scale.z(), scale.z() * scale.x(), scale.x() * scale.y());
-  const Eigen::Array3d squares = factor.square();
-  double twice = 0;
-  for (const Eigen::Array3d& cross : cross_squares_) twice += std::sqrt((squares * cross).sum());
-  return twice / 2;
+  const auto squares = [&](std::size_t axis) {
+    const std::vector<double>& all = cross_squares_[axis];
+    const double by = factor.square()[static_cast<Eigen::Index>(axis)];
+    return by * Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  };
+  return (squares(0) + squares(1) + squares(2)).sqrt().sum() / 2;
 }
 
 }  // namespace plotscan::mesh

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "mesh/mesh.h"
@@ -26,8 +29,8 @@ class ScaledArea {
   ScaledArea() = default;
   void add(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
-  // Of each triangle: the squares of the coordinates of the cross product of its edges.
-  std::vector<Eigen::Array3d> cross_squares_;
+  // Of each triangle, by axis: the squares of the coordinates of the cross product of its edges.
+  std::array<std::vector<double>, 3> cross_squares_;
 };
 
 }  // namespace plotscan::mesh

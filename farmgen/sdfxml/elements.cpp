@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/csv.h"
+#include "core/text_file.h"
 
 namespace plotscan::sdfxml {
 
@@ -14,8 +14,10 @@ std::string plant_element_name(std::uint32_t plant) { return "plant_" + std::to_
 
 std::string sdf_numbers(std::initializer_list<double> values) {
   std::string text;
-  // Adding zero turns -0 into 0.
-  for (const double value : values) text += (text.empty() ? "" : " ") + format_number(value + 0.0);
+  for (const double value : values) {
+    if (!text.empty()) text += ' ';
+    append_number(text, value + 0.0);  // adding zero turns -0 into 0
+  }
   return text;
 }
 
@@ -37,7 +39,7 @@ std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& 
   return sdf_numbers({position.x(), position.y(), position.z(), rpy.x(), rpy.y(), rpy.z()});
 }
 
-void write_mesh_geometry(XmlFile& xml, const std::string& uri, const Eigen::Vector3d& scale) {
+void write_mesh_geometry(XmlWriter& xml, const std::string& uri, const Eigen::Vector3d& scale) {
   xml.open("geometry");
   xml.open("mesh");
   xml.text("uri", uri);
@@ -48,11 +50,11 @@ void write_mesh_geometry(XmlFile& xml, const std::string& uri, const Eigen::Vect
   xml.close();
 }
 
-void write_class(XmlFile& xml, farm::SurfaceClass label) {
+void write_class(XmlWriter& xml, farm::SurfaceClass label) {
   xml.text("laser_retro", std::to_string(static_cast<int>(label)));
 }
 
-void write_sun(XmlFile& xml) {
+void write_sun(XmlWriter& xml) {
   xml.open("light", "sun");
   xml.attribute("type", "directional");
   xml.text("cast_shadows", "true");
@@ -63,13 +65,13 @@ void write_sun(XmlFile& xml) {
   xml.close();
 }
 
-void open_static_model(XmlFile& xml, const std::string& name) {
+void open_static_model(XmlWriter& xml, const std::string& name) {
   xml.open("model", name);
   xml.text("static", "true");
   xml.open("link", "link");
 }
 
-void close_static_model(XmlFile& xml) {
+void close_static_model(XmlWriter& xml) {
   xml.close();
   xml.close();
 }

@@ -32,18 +32,18 @@ Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& rotation);
 std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation);
 
 // <geometry><mesh>, with the scale where it is not 1.
-void write_mesh_geometry(XmlFile& xml, const std::string& uri,
+void write_mesh_geometry(XmlWriter& xml, const std::string& uri,
                          const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 // <laser_retro>: the class of what a ray meets.
-void write_class(XmlFile& xml, farm::SurfaceClass label);
+void write_class(XmlWriter& xml, farm::SurfaceClass label);
 
 // A directional light from the south-east, high up.
-void write_sun(XmlFile& xml);
+void write_sun(XmlWriter& xml);
 
 // <model><static>true</static><link name="link">, to be closed by close_static_model.
-void open_static_model(XmlFile& xml, const std::string& name);
-void close_static_model(XmlFile& xml);
+void open_static_model(XmlWriter& xml, const std::string& name);
+void close_static_model(XmlWriter& xml);
 
 // models/NAME/model.config of a model in SDF of that version.
 void write_model_config(const std::filesystem::path& file, const std::string& name,

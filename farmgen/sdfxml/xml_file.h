@@ -6,19 +6,13 @@
 #include <memory>
 #include <string>
 
-namespace tinyxml2 {
-class XMLPrinter;
-}
-
 namespace plotscan::sdfxml {
 
-// An XML file written element by element, so that memory does not grow with the farm.
-class XmlFile {
+// XML written element by element.
+class XmlWriter {
  public:
-  // Throws WriteError when the file cannot be written.
-  explicit XmlFile(const std::filesystem::path& path);
-  ~XmlFile();
-  XmlFile(XmlFile&&) noexcept;
+  ~XmlWriter();
+  XmlWriter(XmlWriter&&) noexcept;
 
   void open(const char* element);
   void open(const char* element, const std::string& name);  // with the attribute name="..."
@@ -28,13 +22,40 @@ class XmlFile {
   // <element>value</element>
   void text(const char* element, const std::string& value);
 
+ protected:
+  class Printer;
+  explicit XmlWriter(std::unique_ptr<Printer> printer);
+  Printer& printer() { return *printer_; }
+
+ private:
+  std::unique_ptr<Printer> printer_;
+};
+
+// An XML file, so that memory does not grow with the farm.
+class XmlFile : public XmlWriter {
+ public:
+  // Throws WriteError when the file cannot be written.
+  explicit XmlFile(const std::filesystem::path& path);
+
+  // Whole elements, as XmlElements prints them for so many open ones as there are.
+  void append(const std::string& elements);
+
   // Throws WriteError when anything could not be written.
   void finish();
 
  private:
+  XmlFile(const std::filesystem::path& path, std::FILE* file);
+
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::unique_ptr<tinyxml2::XMLPrinter> printer_;
+};
+
+// Elements in memory, for a file in which `depth` elements are open.
+class XmlElements : public XmlWriter {
+ public:
+  explicit XmlElements(int depth);
+
+  std::string printed();
 };
 
 }  // namespace plotscan::sdfxml

@@ -6,11 +6,21 @@
 #include <concepts>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "core/error.h"
 
 namespace plotscan {
+
+// The shortest text that reads back as the same number.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number>
+void append_number(std::string& text, Number value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  text.append(buffer.data(), end);
+}
 
 // A text file being written, its numbers as the shortest text that reads back as the same number.
 class TextFile {

@@ -21,7 +21,7 @@ farm::Farm make_farm(const std::filesystem::path& description, const std::filesy
       {.command = "farmgen generate",
        .options = {{"description", description.filename().string()}, {"set", options.overrides}},
        .inputs = planting::input_files(described)},
-      progress);
+      progress, options.threads);
   return made;
 }
 

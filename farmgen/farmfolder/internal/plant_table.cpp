@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
 #include "core/csv.h"
+#include "core/ordered_texts.h"
 #include "core/text_file.h"
 
 namespace plotscan::farmfolder {
@@ -62,23 +64,38 @@ farm::Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelInde
   return plant;
 }
 
+void append_line(std::string& text, const farm::Plant& plant, std::string_view model) {
+  append_number(text, plant.id);
+  append_number(text += ',', plant.plot);
+  text.append(",").append(kKindNames[static_cast<std::size_t>(plant.kind)]);
+  text.append(",").append(model);
+  for (const double value :
+       {plant.position.x(), plant.position.y(), plant.position.z(), plant.rotation.x(),
+        plant.rotation.y(), plant.rotation.z(), plant.rotation.w(), plant.scale.x(),
+        plant.scale.y(), plant.scale.z(), plant.height_m}) {
+    append_number(text += ',', value);
+  }
+  text += '\n';
+}
+
 }  // namespace
 
-void write_plants(const std::filesystem::path& path, const farm::Farm& farm) {
+void write_plants(const std::filesystem::path& path, const farm::Farm& farm, int threads) {
+  constexpr std::size_t kPlantsOfText = 1000;
   TextFile out(path);
   for (std::size_t i = 0; i < kColumns.size(); ++i) out << (i == 0 ? "" : ",") << kColumns[i];
   out << "\n";
-  for (const farm::Plant& plant : farm.plants) {
-    out << plant.id << "," << plant.plot << "," << kKindNames[static_cast<std::size_t>(plant.kind)]
-        << "," << farm.models[plant.model].name;
-    for (const double value :
-         {plant.position.x(), plant.position.y(), plant.position.z(), plant.rotation.x(),
-          plant.rotation.y(), plant.rotation.z(), plant.rotation.w(), plant.scale.x(),
-          plant.scale.y(), plant.scale.z(), plant.height_m}) {
-      out << "," << value;
-    }
-    out << "\n";
-  }
+  const auto lines = [&](std::size_t number) {
+    const std::span plants(farm.plants);
+    const std::size_t begin = number * kPlantsOfText;
+    std::string text;
+    for (const farm::Plant& plant :
+         plants.subspan(begin, std::min(kPlantsOfText, plants.size() - begin)))
+      append_line(text, plant, farm.models[plant.model].name);
+    return text;
+  };
+  make_in_order((farm.plants.size() + kPlantsOfText - 1) / kPlantsOfText, threads, lines,
+                [&](std::size_t, const std::string& text) { out << text; });
   out.close();
 }
 

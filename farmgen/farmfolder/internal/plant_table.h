@@ -9,7 +9,7 @@
 namespace plotscan::farmfolder {
 
 // truth/plants.csv: one line a plant (docs/farm-format.md).
-void write_plants(const std::filesystem::path& path, const farm::Farm& farm);
+void write_plants(const std::filesystem::path& path, const farm::Farm& farm, int threads);
 
 // Reads what write_plants writes; `models` are those that the model column may name. Throws
 // InputError on a missing column, a value that is not finite, a scale that is not positive, a

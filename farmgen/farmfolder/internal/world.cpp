@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmfolder/internal/world.h"
 
+#include <algorithm>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "sdfxml/elements.h"
+
+#include "core/ordered_texts.h"
 
 namespace plotscan::farmfolder {
 namespace {
@@ -27,7 +31,7 @@ void write_one_mesh_model(sdfxml::XmlFile& xml, const std::string& name, const s
   sdfxml::close_static_model(xml);
 }
 
-void write_plant(sdfxml::XmlFile& xml, const farm::Plant& plant, const std::string& uri) {
+void write_plant(sdfxml::XmlWriter& xml, const farm::Plant& plant, const std::string& uri) {
   xml.open("visual", sdfxml::plant_element_name(plant.id));
   xml.text("pose", sdfxml::sdf_pose(plant.position, plant.rotation));
   sdfxml::write_mesh_geometry(xml, uri, plant.scale);
@@ -35,23 +39,58 @@ void write_plant(sdfxml::XmlFile& xml, const farm::Plant& plant, const std::stri
   xml.close();
 }
 
-void write_plants_by_plot(sdfxml::XmlFile& xml, const farm::Farm& farm,
+using PlantList = std::vector<const farm::Plant*>;
+
+// Some plants of a plot's model, and whether they are its first and last ones.
+struct PlantsPiece {
+  std::uint32_t plot = 0;
+  std::span<const farm::Plant* const> plants;
+  bool first = false, last = false;
+};
+
+std::vector<PlantsPiece> pieces_of(const std::map<std::uint32_t, PlantList>& by_plot) {
+  constexpr std::size_t kMostPlants = 1000;
+  std::vector<PlantsPiece> pieces;
+  for (const auto& [plot, list] : by_plot) {
+    const std::span plants(list);
+    for (std::size_t begin = 0; begin < plants.size(); begin += kMostPlants) {
+      const std::size_t count = std::min(kMostPlants, plants.size() - begin);
+      pieces.push_back({.plot = plot,
+                        .plants = plants.subspan(begin, count),
+                        .first = begin == 0,
+                        .last = begin + count == plants.size()});
+    }
+  }
+  return pieces;
+}
+
+// A static model a plot, and one for the plants of none.
+void write_plants_by_plot(sdfxml::XmlFile& xml, const farm::Farm& farm, int threads,
                           const ProgressReport& progress) {
+  constexpr int kOpenElements = 4;  // sdf, world, model, link
   std::vector<std::string> uris;
   for (const farm::PlantModel& model : farm.models) {
     uris.push_back(model_mesh_path(model.name).generic_string());
   }
-  std::map<std::uint32_t, std::vector<const farm::Plant*>> by_plot;
+  std::map<std::uint32_t, PlantList> by_plot;
   for (const farm::Plant& plant : farm.plants) by_plot[plant.plot].push_back(&plant);
-  std::size_t written = 0;
-  for (const auto& [plot, plants] : by_plot) {
-    sdfxml::open_static_model(
-        xml, plot == 0 ? sdfxml::kPlantsOutsidePlots : sdfxml::plot_element_name(plot));
-    for (const farm::Plant* plant : plants) write_plant(xml, *plant, uris[plant->model]);
-    sdfxml::close_static_model(xml);
-    written += plants.size();
-    progress(static_cast<double>(written) / static_cast<double>(farm.plants.size()));
-  }
+  const std::vector<PlantsPiece> pieces = pieces_of(by_plot);
+  const auto print = [&](std::size_t piece) {
+    sdfxml::XmlElements elements(kOpenElements);
+    for (const farm::Plant* plant : pieces[piece].plants)
+      write_plant(elements, *plant, uris[plant->model]);
+    return elements.printed();
+  };
+  const auto write = [&](std::size_t number, const std::string& plants) {
+    const PlantsPiece& piece = pieces[number];
+    if (piece.first)
+      sdfxml::open_static_model(xml, piece.plot == 0 ? sdfxml::kPlantsOutsidePlots
+                                                     : sdfxml::plot_element_name(piece.plot));
+    xml.append(plants);
+    if (piece.last) sdfxml::close_static_model(xml);
+    progress(static_cast<double>(number + 1) / static_cast<double>(pieces.size()));
+  };
+  make_in_order(pieces.size(), threads, print, write);
 }
 
 }  // namespace
@@ -64,7 +103,7 @@ std::filesystem::path light_mesh_path(const std::string& name) {
   return model_mesh_path(name).replace_filename(name + "_light.obj");
 }
 
-void write_world(const std::filesystem::path& path, const farm::Farm& farm,
+void write_world(const std::filesystem::path& path, const farm::Farm& farm, int threads,
                  const ProgressReport& progress) {
   sdfxml::XmlFile xml(path);
   xml.open("sdf");
@@ -74,7 +113,7 @@ void write_world(const std::filesystem::path& path, const farm::Farm& farm,
   write_one_mesh_model(xml, sdfxml::kTerrainModel,
                        model_mesh_path(sdfxml::kTerrainModel).generic_string(),
                        farm::SurfaceClass::ground);
-  write_plants_by_plot(xml, farm, progress);
+  write_plants_by_plot(xml, farm, threads, progress);
   xml.close();
   xml.close();
   xml.finish();

@@ -19,7 +19,7 @@ std::filesystem::path light_mesh_path(const std::string& name);
 // visual for each plant (Gazebo loads thousands of separate models very slowly, and an <include>
 // cannot be scaled). Each visual has its class as <laser_retro>. Mesh paths are relative to the
 // file, as Gazebo Sim resolves them.
-void write_world(const std::filesystem::path& path, const farm::Farm& farm,
+void write_world(const std::filesystem::path& path, const farm::Farm& farm, int threads,
                  const ProgressReport& progress);
 
 // Writes model.config and model.sdf of one model below models_folder; its mesh is beside them. The

@@ -160,6 +160,20 @@ TEST(FarmFolder, TheSameDescriptionAndSeedWriteTheSameBytes) {
             text_of(folder.path() / "c/truth/plants.csv"));
 }
 
+// More plants of a plot than are printed at a time.
+TEST(FarmFolder, HasTheSameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  const farm::Farm farm = planting::generate(
+      description::load_description(write_example(folder), {"plants.count=1500"}), 42);
+  for (const int threads : {1, 3}) {
+    write_farm(farm, folder.path() / std::to_string(threads), false,
+               {.command = "farmgen generate"}, {}, threads);
+  }
+  for (const char* file : {"world.sdf", "truth/plants.csv"})
+    EXPECT_EQ(text_of(folder.path() / "1" / file), text_of(folder.path() / "3" / file)) << file;
+  expect_equal(farm, read_farm(folder.path() / "3"));
+}
+
 TEST(FarmFolder, TerrainIsAPlyThatAssimpReads) {
   const TemporaryFolder folder;
   const farm::Farm farm = written_example(folder);
