@@ -10,6 +10,7 @@
 #include "sdfxml/elements.h"
 
 #include "core/output_folder.h"
+#include "core/stage.h"
 #include "farm/surface_colours.h"
 #include "mesh/obj.h"
 
@@ -97,6 +98,7 @@ nlohmann::json results_of(const farm::Farm& farm) {
 
 void write_farm(const farm::Farm& farm, const fs::path& folder, bool replace, Manifest origin,
                 const ProgressReport& progress, int threads) {
+  const Stage stage("writing");
   const auto report = [&](double share) {
     if (progress) progress(share);
   };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -16,11 +17,32 @@
 #include "terrain/make_terrain.h"
 
 #include "core/error.h"
+#include "core/stage.h"
 #include "core/statistics.h"
 #include "farm/heights.h"
 
 namespace plotscan::planting {
 namespace {
+
+std::vector<PlotBox> boxes_of(const std::vector<farm::Plot>& plots) {
+  std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
+  for (const farm::Plot& plot : plots) boxes.push_back(plot.box);
+  return boxes;
+}
+
+terrain::MadeTerrain made_terrain(const FarmDescription& description,
+                                  const std::vector<farm::Plot>& plots, std::uint64_t seed) {
+  const Stage stage("terrain");
+  return terrain::make_terrain(description.terrain, boxes_of(plots), seed, description.source);
+}
+
+std::vector<farm::PlantModel> made_models(const FarmDescription& description) {
+  Stage stage("plant models");
+  std::vector<farm::PlantModel> models = make_models(description.models, description.source);
+  stage.found(std::to_string(models.size()) + " models");
+  return models;
+}
 
 // The plots of a farm whose plants a table places.
 std::vector<farm::Plot> laid_out_plots(const FarmDescription& description,
@@ -44,13 +66,6 @@ std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {
   return plots;
 }
 
-std::vector<PlotBox> boxes_of(const std::vector<farm::Plot>& plots) {
-  std::vector<PlotBox> boxes;
-  boxes.reserve(plots.size());
-  for (const farm::Plot& plot : plots) boxes.push_back(plot.box);
-  return boxes;
-}
-
 // The weeds come behind the crop, so that no plant of the crop changes its id.
 void add_weeds(const FarmDescription& description, farm::Farm& farm) {
   for (farm::Plant& weed : draw_weeds(*description.weeds, farm.plots, farm.models, farm.terrain,
@@ -58,6 +73,17 @@ void add_weeds(const FarmDescription& description, farm::Farm& farm) {
     weed.id = static_cast<std::uint32_t>(farm.plants.size() + 1);
     farm.plants.push_back(weed);
   }
+}
+
+// The crop's plants, and the weeds.
+void add_plants(const FarmDescription& description, const std::vector<SownPlot>& sown,
+                farm::Farm& farm) {
+  Stage stage("plants");
+  farm.plants = description.plants
+                    ? grow_plants(sown, farm.models, farm.terrain, description.source, farm.seed)
+                    : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+  if (description.weeds) add_weeds(description, farm);
+  stage.found(std::to_string(farm.plants.size()) + " plants");
 }
 
 // How far the plant's stem leans from the vertical.
@@ -97,12 +123,11 @@ farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
   if (description.plants) sown = sow(*grid, *description.plants, seed);
   std::vector<farm::Plot> plots =
       description.plants ? planted_plots(sown) : laid_out_plots(description, grid, seed);
-  terrain::MadeTerrain ground =
-      terrain::make_terrain(description.terrain, boxes_of(plots), seed, description.source);
+  terrain::MadeTerrain ground = made_terrain(description, plots, seed);
   farm::Farm farm{.name = description.name,
                   .seed = seed,
                   .terrain = std::move(ground.terrain),
-                  .models = make_models(description.models, description.source),
+                  .models = made_models(description),
                   .plots = std::move(plots),
                   .plants = {},
                   .anchor = description.anchor,
@@ -114,10 +139,7 @@ farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
                                              std::to_string(plots_of(*description.plots)) +
                                              " are missing; a lower missing_rate leaves some");
   }
-  farm.plants = description.plants
-                    ? grow_plants(sown, farm.models, farm.terrain, description.source, seed)
-                    : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
-  if (description.weeds) add_weeds(description, farm);
+  add_plants(description, sown, farm);
   measure_plots(farm);
   return farm;
 }

@@ -15,6 +15,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/stage.h"
 #include "core/statistics.h"
 #include "lidar/internal/canopy_ceiling.h"
 #include "lidar/internal/ray_grid.h"
@@ -146,6 +147,7 @@ farm::CanopyHeights canopy_of(const Scene& scene, const CanopyCeiling& ceiling,
 
 void measure_canopies(farm::Farm& farm, int threads) {
   if (farm.plots.empty()) return;
+  const Stage stage("canopies");
   const Scene scene(scene_content(farm));
   const CanopyCeiling ceiling(farm);
   const double step_m = step_of(farm);

@@ -5,14 +5,23 @@
 #include "farmfolder/write_farm.h"
 #include "planting/generate.h"
 
+#include "core/stage.h"
 #include "lidar/canopy_height.h"
 
 namespace plotscan::lidar {
+namespace {
+
+planting::FarmDescription read_description(const std::filesystem::path& description,
+                                           const std::vector<std::string>& overrides) {
+  const Stage stage("description");
+  return description::load_description(description, overrides);
+}
+
+}  // namespace
 
 farm::Farm make_farm(const std::filesystem::path& description, const std::filesystem::path& folder,
                      const MakeFarmOptions& options, const ProgressReport& progress) {
-  const planting::FarmDescription described =
-      description::load_description(description, options.overrides);
+  const planting::FarmDescription described = read_description(description, options.overrides);
   farm::Farm made =
       planting::generate(described, options.seed.value_or(described.seed.value_or(1)));
   measure_canopies(made, options.threads);
