@@ -8,12 +8,12 @@
 
 #include "cloud/surroundings.h"
 #include "methods/dhami2020/internal/ground_level.h"
-#include "methods/dhami2020/internal/k_means.h"
 #include "methods/dhami2020/internal/lattice.h"
 #include "methods/dhami2020/internal/oriented_box.h"
 #include "methods/dhami2020/internal/plot_grid.h"
 #include "methods/dhami2020/internal/plot_heights.h"
 #include "methods/dhami2020/internal/voting.h"
+#include "methods/dhami2020/k_means.h"
 #include "methods/dhami2020/settings.h"
 #include "methods/dhami2020/voxel_filter.h"
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/internal/k_means.h"
+#include "methods/dhami2020/k_means.h"
 
 #include <algorithm>
 #include <limits>
