@@ -79,7 +79,7 @@ target_include_directories(random123 SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
 
 # PCL's config hands out variables; behind one target its flags reach only what links it.
 # pcl_io finds VTK, whose config warns about packages that PCL does not need: hence QUIET.
-find_package(PCL 1.12 QUIET REQUIRED COMPONENTS common io filters sample_consensus segmentation)
+find_package(PCL 1.12 QUIET REQUIRED COMPONENTS common io filters ml sample_consensus segmentation)
 add_library(pcl INTERFACE IMPORTED)
 target_include_directories(pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
 target_link_libraries(pcl INTERFACE ${PCL_COMMON_LIBRARIES} ${PCL_IO_LIBRARIES}

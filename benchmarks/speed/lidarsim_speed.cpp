@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays per second of the whole simulator (pose, ray, cast, noise, labels, file) as a ratio to a
 // bare loop of rtcIntersect1 over the very same rays, both in one run. See README.md.
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <optional>
+#include <string>
 #include <vector>
 
+#include "comparison.h"
 #include "farmfolder/read_farm.h"
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>
@@ -63,16 +62,6 @@ struct Work {
   std::vector<lidar::Ray> rays;
 };
 
-// Set before the benchmarks run, which take no arguments of their own.
-const Work* work_at_hand = nullptr;
-
-template <class Action>
-double seconds(Action&& action) {
-  const auto start = std::chrono::steady_clock::now();
-  action();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 void cast_bare(const Work& work, int threads) {
   auto* const scene = static_cast<RTCScene>(work.scene.native());
   const auto cast = [&](const tbb::blocked_range<std::size_t>& range) {
@@ -100,66 +89,44 @@ void cast_bare(const Work& work, int threads) {
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, work.rays.size(), 1024), cast); });
 }
 
-std::uint64_t simulate_to_file(const Work& work, int threads, const std::filesystem::path& file) {
+void simulate_to_file(const Work& work, int threads, const std::filesystem::path& file) {
   scan::PcdWriter cloud(file);
   lidar::simulate(work.scene, work.sensor, {.fired = work.plan, .placed = work.plan},
                   {.threads = threads},
                   [&](std::span<const scan::LabelledPoint> points) { cloud.write(points); });
   cloud.close();
-  return cloud.points();
 }
 
-// Both alternate, so that whatever else the machine does slows both.
-void simulator_and_bare_loop(benchmark::State& state) {
-  const Work& work = *work_at_hand;
-  const int threads = static_cast<int>(state.range(0));
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("lidarsim_speed-" + std::to_string(getpid()) + ".pcd");
-  double bare_s = 0;
-  double simulator_s = 0;
-  std::uint64_t points = 0;
-  for (auto _ : state) {  // NOLINT(clang-analyzer-deadcode.DeadStores): the library's idiom
-    bare_s += seconds([&] { cast_bare(work, threads); });
-    const double run_s = seconds([&] { points = simulate_to_file(work, threads, file); });
-    simulator_s += run_s;
-    state.SetIterationTime(run_s);
-  }
-  std::filesystem::remove(file);
-  const double rays = static_cast<double>(work.rays.size() * state.iterations());
-  state.counters["rays"] = static_cast<double>(work.rays.size());
-  state.counters["points"] = static_cast<double>(points);
-  state.counters["bare_rays/s"] = rays / bare_s;
-  state.counters["simulator_rays/s"] = rays / simulator_s;
-  state.counters["ratio"] = bare_s / simulator_s;
+void add_comparison(const Work& work, int threads, const std::filesystem::path& file) {
+  const speed::Comparison comparison{
+      .ours = [&work, threads, file] { simulate_to_file(work, threads, file); },
+      .reference = [&work, threads] { cast_bare(work, threads); },
+      .reference_name = "bare loop of Embree",
+      .items = "rays",
+      .count = static_cast<double>(work.rays.size()),
+      .now_s = threads == 1 ? processor_time_s : speed::wall_s};
+  const std::string name =
+      "simulator, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  speed::add_benchmark(name, comparison);
 }
-
-BENCHMARK(simulator_and_bare_loop)
-    ->ArgName("threads")
-    ->Arg(1)
-    ->Arg(2)
-    ->UseManualTime()
-    ->Unit(benchmark::kMillisecond);
 
 int run(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
   if (argc != 2 && argc != 3) {
     std::cerr << "usage: lidarsim_speed FARM [FLIGHT] [--benchmark_...]\n";
     return 2;
   }
   const farm::Farm farm = farmfolder::read_farm(argv[1]);
   const Work work(farm, argc == 3 ? scan::read_trajectory(argv[2]) : middle_strip(farm));
-  work_at_hand = &work;
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("lidarsim_speed-" + std::to_string(getpid()) + ".pcd");
+  for (const int threads : {1, 2}) add_comparison(work, threads, file);
   benchmark::RunSpecifiedBenchmarks();
+  std::filesystem::remove(file);
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "lidarsim_speed: " << error.what() << '\n';
-    return 1;
-  }
+  return plotscan::speed::run_program("lidarsim_speed", run, argc, argv);
 }
