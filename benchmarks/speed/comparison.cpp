@@ -43,6 +43,7 @@ void compare(benchmark::State& state, const Comparison& comparison) {
 }  // namespace
 
 void add_benchmark(const std::string& name, const Comparison& comparison) {
+  // NOLINTNEXTLINE(clang-analyzer-cplusplus.NewDeleteLeaks): the library owns what it allocates
   benchmark::RegisterBenchmark(
       name.c_str(), [comparison](benchmark::State& state) { compare(state, comparison); })
       ->UseManualTime()

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 using Points = std::vector<scan::LabelledPoint>;
 
-constexpr std::size_t kBuffer_bytes = 256 * 1024;  // of plain reading and writing
+constexpr std::size_t kBuffer_bytes = std::size_t{256} * 1024;  // of plain reading and writing
 
 // A folder of its own that goes with its object.
 class TemporaryFolder {
