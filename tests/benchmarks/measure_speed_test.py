@@ -64,20 +64,20 @@ class MeasureSpeed(unittest.TestCase):
                          ["reading .pcd", "2 Mpoints/s, 80 MB/s", "bytes: 400 MB/s", "0.2"])
 
     def test_an_alarm_names_the_row_that_is_slower_than_usual(self):
-        lines = speed.alarms({"fast": row(0.51), "slow": row(0.49), "unknown": row(0.01)}, {"fast": 1, "slow": 1})
-        self.assertEqual(lines, ["slow: ratio 0.49, usually 1; below 0.5"])
+        lines = speed.alarms({"fast": row(0.34), "slow": row(0.32), "unknown": row(0.01)}, {"fast": 1, "slow": 1})
+        self.assertEqual(lines, ["slow: ratio 0.32, usually 1; below 0.333"])
 
     def test_an_alarm_names_a_row_that_is_gone_unless_the_build_lacks_the_format(self):
         self.assertEqual(speed.alarms({}, {"a stage": 1, "reading .laz": 1}), ["a stage: not measured"])
 
     def test_the_command_fails_by_the_alarm_alone(self):
-        for ratio, arguments, fails in [(0.4, ["--alarm"], True), (0.6, ["--alarm"], False), (0.4, [], False)]:
+        for ratio, arguments, fails in [(0.3, ["--alarm"], True), (0.4, ["--alarm"], False), (0.3, [], False)]:
             FakeInputs.rows = {"slow": row(ratio)}
             with (self.subTest(ratio=ratio, arguments=arguments), mock.patch.object(speed, "Inputs", FakeInputs),
                   mock.patch.object(speed, "USUAL", {"slow": 1}), mock.patch.object(speed, "print_table"),
                   mock.patch.object(sys, "argv", ["measure_speed", "--bin", ".", *arguments])):
                 if fails:
-                    self.assertRaisesRegex(SystemExit, "slow: ratio 0.4", speed.main)
+                    self.assertRaisesRegex(SystemExit, "slow: ratio 0.3", speed.main)
                 else:
                     speed.main()
 
