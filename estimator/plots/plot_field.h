@@ -31,7 +31,7 @@ struct FieldSigns {
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
   double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
   double mean_unevenness = 0;  // the same of the plots' mean
-  double aspect = 0;           // length of a plot over its width
+  double aspect = 0;           // length of a plot over its width and that width's standard error
   double least_gap_m = 0;      // between plots, along their length or their width
   double evidence = 0;  // for a plot, over one canopy without them: Schwarz's criterion, nats
 };

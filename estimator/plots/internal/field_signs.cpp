@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/statistics.h"
+#include "plots/internal/box_errors.h"
 #include "plots/internal/roughness.h"
 #include "plots/internal/squareness.h"
 
@@ -23,7 +24,7 @@ constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops u
 constexpr double kLeastRoughness =
     0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
 // Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
-// a crop. Plots of drawn trials: up to 8.6; vine rows, whole or in equal parts: 10.7 and more.
+// a crop. Plots of drawn trials: up to 9.0; vine rows, whole or in equal parts: 10.7 and more.
 constexpr double kMostAspect = 10;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
@@ -53,6 +54,12 @@ double least_gap_m(const Lattice& lattice) {
   };
   return std::min(gap(lattice.r.pitch_m, lattice.r.size_m),
                   gap(lattice.c.pitch_m, lattice.c.size_m));
+}
+
+// Of plots as wide as their standard error allows: two drill rows hide part of what is sown.
+double least_aspect(const Lattice& lattice) {
+  const auto [width_m, length_m] = std::minmax(lattice.r.size_m, lattice.c.size_m);
+  return length_m / (width_m + box_error(lattice, {}).width_m);
 }
 
 double filled_share(const Lattice& lattice) {
@@ -140,8 +147,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
                    .roughness = roughness(lattice, field.points(), noise_m),
                    .unevenness = unevenness_of(lattice, pieces),
                    .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
-                   .aspect = std::max(lattice.r.size_m, lattice.c.size_m) /
-                             std::min(lattice.r.size_m, lattice.c.size_m),
+                   .aspect = least_aspect(lattice),
                    .least_gap_m = least_gap_m(lattice),
                    .evidence = evidence / static_cast<double>(lattice.places.size())};
   for (const Place& place : lattice.places)

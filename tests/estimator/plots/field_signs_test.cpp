@@ -79,6 +79,21 @@ TEST(FieldSigns, MeasureRoughness) {
   EXPECT_NEAR(field.signs->roughness, (1 - 0.475) / std::sqrt(12) / 0.95, 0.005);
 }
 
+// Canopy of 0.56 x 5.7 m: where leaves spread its sides, it may be sown wider than it looks.
+TEST(FieldSigns, AllowForTheErrorOfNarrowPlotsWidth) {
+  const auto aspect_of = [](double spread_m) {
+    const PlotField field = field_of(
+        [&](double x, double y, RandomStream& random) {
+          const bool inside = std::abs(x) + spread_m * random.normal() < 0.28;
+          return inside && std::abs(y) < 2.85 ? random.uniform(0, 1) : 0;
+        },
+        1.6, 6.6);
+    return field.signs ? field.signs->aspect : NAN;
+  };
+  EXPECT_NEAR(aspect_of(0), 5.7 / 0.56, 0.3);
+  EXPECT_LT(aspect_of(0.2), 9.5);
+}
+
 TEST(FieldSigns, TellLongRows) {
   EXPECT_NE(why_none_of(
                 [](double x, double, RandomStream& random) {
