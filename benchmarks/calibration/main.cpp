@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
 #include <string>
 
 #include "calibration/field_sample.h"
 #include "calibration/fit.h"
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "core/program.h"
@@ -27,29 +29,45 @@ struct SampleArguments {
   bool true_ground = false;
 };
 
-void run_sample(const Program& program, const SampleArguments& arguments) {
+fs::path file_of(const calibration::FarmPlan& plan, const fs::path& folder) {
+  return folder / (plan.library + "-" + std::to_string(plan.seed));
+}
+
+// Of farms that the folder does not hold.
+std::vector<calibration::FarmPlan> missing_plans(const SampleArguments& arguments) {
   const std::vector<calibration::Library> libraries =
       calibration::read_libraries(arguments.libraries);
-  const fs::path base = arguments.libraries.parent_path() / "farm.yaml";
-  fs::create_directories(arguments.output);
-  const auto progress = program.progress("sample");
+  std::vector<calibration::FarmPlan> plans;
   for (int number = 0; number < arguments.farms; ++number) {
     for (std::size_t i = 0; i < libraries.size(); ++i) {
-      const calibration::FarmPlan plan = calibration::plan_farm(libraries[i], i, number);
-      const fs::path file = arguments.output / (plan.library + "-" + std::to_string(plan.seed));
-      if (!fs::exists(file)) {
-        calibration::write_sample(
-            file,
-            calibration::sample_field(plan, base,
-                                      arguments.true_ground ? calibration::GroundSource::truth
-                                                            : calibration::GroundSource::fitted,
-                                      arguments.output, program.common().threads));
-      }
-      if (progress)
-        progress((number + static_cast<double>(i + 1) / static_cast<double>(libraries.size())) /
-                 arguments.farms);
+      calibration::FarmPlan plan = calibration::plan_farm(libraries[i], i, number);
+      if (!fs::exists(file_of(plan, arguments.output))) plans.push_back(std::move(plan));
     }
   }
+  return plans;
+}
+
+// Each farm on one thread, as many farms at a time as there are threads.
+void run_sample(const Program& program, const SampleArguments& arguments) {
+  const fs::path base = arguments.libraries.parent_path() / "farm.yaml";
+  const auto source =
+      arguments.true_ground ? calibration::GroundSource::truth : calibration::GroundSource::fitted;
+  const std::vector<calibration::FarmPlan> plans = missing_plans(arguments);
+  fs::create_directories(arguments.output);
+  const auto progress = program.progress("sample");
+  std::mutex reporting;
+  std::size_t done = 0;
+  const auto sample = [&](std::size_t i) {
+    calibration::write_sample(
+        file_of(plans[i], arguments.output),
+        calibration::sample_field(plans[i], base, source, arguments.output, 1));
+    const std::scoped_lock lock(reporting);
+    done += 1;
+    if (progress) progress(static_cast<double>(done) / static_cast<double>(plans.size()));
+  };
+  tbb::task_arena arena(program.common().threads);
+  arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, plans.size(), sample, tbb::simple_partitioner()); });
 }
 
 // Numbers to 5 digits, which is more than they mean.
