@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/text_file.h"
+#include "core/number_text.h"
 
 namespace plotscan::sdfxml {
 
@@ -16,7 +16,7 @@ std::string sdf_numbers(std::initializer_list<double> values) {
   std::string text;
   for (const double value : values) {
     if (!text.empty()) text += ' ';
-    append_number(text, value + 0.0);  // adding zero turns -0 into 0
+    text += NumberText(value + 0.0);  // adding zero turns -0 into 0
   }
   return text;
 }

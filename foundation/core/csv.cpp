@@ -2,13 +2,13 @@
 #include "core/csv.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/error.h"
 #include "core/internal/printable.h"
+#include "core/number_text.h"
 #include "core/parse.h"
 #include "core/text.h"
 
@@ -73,9 +73,7 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file, std
 
 std::string format_number(double value) {
   if (std::isnan(value)) return "nan";
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  return std::string(std::string_view(NumberText(value)));
 }
 
 std::string csv_field(const std::string& text) {

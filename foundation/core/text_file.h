@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <concepts>
 #include <filesystem>
 #include <fstream>
-#include <string>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/number_text.h"
 
 namespace plotscan {
-
-// The shortest text that reads back as the same number.
-template <class Number>
-requires std::integral<Number> || std::floating_point<Number>
-void append_number(std::string& text, Number value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  text.append(buffer.data(), end);
-}
 
 // A text file being written, its numbers as the shortest text that reads back as the same number.
 class TextFile {
@@ -34,9 +23,7 @@ class TextFile {
   }
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number> TextFile& operator<<(Number value) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return *this << std::string_view(buffer.data(), end);
+    return *this << std::string_view(NumberText(value));
   }
 
   // Throws WriteError when anything could not be written.

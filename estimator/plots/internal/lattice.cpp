@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -135,26 +134,31 @@ void number(const Layout& layout, Lattice& lattice) {
   }
 }
 
-// The place of a row or column that is nearest to it along `other`.
-const Place& nearest_of(const std::vector<Place>& places, int Place::*line, int at,
-                        int Place::*other, int other_at) {
-  return *std::ranges::min_element(places, {}, [&](const Place& place) {
-    return place.*line == at ? std::abs(place.*other - other_at) : std::numeric_limits<int>::max();
-  });
+// The places of each row, or of each column.
+std::map<int, std::vector<Place>> by_line(const std::vector<Place>& places, int Place::*line) {
+  std::map<int, std::vector<Place>> lines;
+  for (const Place& place : places) lines[place.*line].push_back(place);
+  return lines;
+}
+
+const Place& nearest_to(const std::vector<Place>& places, int Place::*number, int at) {
+  return *std::ranges::min_element(
+      places, {}, [&](const Place& place) { return std::abs(place.*number - at); });
 }
 
 // Where each column crosses each row a plot may stand that no band shows. Columns of each row's own
 // lie a pitch from number to number.
 void add_crossings(Lattice& lattice) {
-  const std::vector<Place> shown = lattice.places;
-  for (int row = 0; row < lattice.rows; ++row) {
-    for (int column = 0; column < lattice.columns; ++column) {
-      const Place& of_row = nearest_of(shown, &Place::row, row, &Place::column, column);
-      if (of_row.column == column) continue;
+  const auto rows = by_line(lattice.places, &Place::row);
+  const auto columns = by_line(lattice.places, &Place::column);
+  for (const auto& [row, of_row] : rows) {
+    for (const auto& [column, of_column] : columns) {
+      const Place& beside = nearest_to(of_row, &Place::column, column);
+      if (beside.column == column) continue;
       const double c_m = lattice.aligned
-                             ? nearest_of(shown, &Place::column, column, &Place::row, row).c_m
-                             : of_row.c_m + (column - of_row.column) * lattice.c.pitch_m;
-      lattice.places.push_back({.row = row, .column = column, .r_m = of_row.r_m, .c_m = c_m});
+                             ? nearest_to(of_column, &Place::row, row).c_m
+                             : beside.c_m + (column - beside.column) * lattice.c.pitch_m;
+      lattice.places.push_back({.row = row, .column = column, .r_m = beside.r_m, .c_m = c_m});
     }
   }
 }

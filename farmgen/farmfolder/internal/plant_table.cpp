@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "core/csv.h"
+#include "core/number_text.h"
 #include "core/ordered_texts.h"
 #include "core/text_file.h"
 
@@ -65,15 +66,14 @@ farm::Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelInde
 }
 
 void append_line(std::string& text, const farm::Plant& plant, std::string_view model) {
-  append_number(text, plant.id);
-  append_number(text += ',', plant.plot);
+  text.append(NumberText(plant.id)).append(",").append(NumberText(plant.plot));
   text.append(",").append(kKindNames[static_cast<std::size_t>(plant.kind)]);
   text.append(",").append(model);
   for (const double value :
        {plant.position.x(), plant.position.y(), plant.position.z(), plant.rotation.x(),
         plant.rotation.y(), plant.rotation.z(), plant.rotation.w(), plant.scale.x(),
         plant.scale.y(), plant.scale.z(), plant.height_m}) {
-    append_number(text += ',', value);
+    text.append(",").append(NumberText(value));
   }
   text += '\n';
 }
