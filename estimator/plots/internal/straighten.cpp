@@ -28,9 +28,19 @@ class PlotGroups {
   const std::vector<double>& counts() const { return counts_; }
 
   std::vector<double> means(const std::vector<double>& values) const {
-    std::vector<double> sums(count());
-    for (std::size_t i = 0; i < plots(); ++i) sums[of(i)] += values[i];
-    for (std::size_t g = 0; g < count(); ++g) sums[g] /= std::max(1.0, counts_[g]);
+    return means(values, std::vector<double>(plots(), 1));
+  }
+  // Of weighted plots; of all where a group's weigh nothing.
+  std::vector<double> means(const std::vector<double>& values,
+                            const std::vector<double>& weights) const {
+    std::vector<double> sums(count()), weighted(count()), weight(count());
+    for (std::size_t i = 0; i < plots(); ++i) {
+      sums[of(i)] += values[i];
+      weighted[of(i)] += weights[i] * values[i];
+      weight[of(i)] += weights[i];
+    }
+    for (std::size_t g = 0; g < count(); ++g)
+      sums[g] = weight[g] > 0 ? weighted[g] / weight[g] : sums[g] / std::max(1.0, counts_[g]);
     return sums;
   }
   // The plots' values less those of their groups.
@@ -95,6 +105,7 @@ LinesOfGroups fit_lines(const PlotGroups& groups, const std::vector<double>& x,
 struct Positions {
   std::vector<double> at;
   double parameters = 0;
+  std::vector<double> in_place = std::vector<double>(at.size(), 1);  // 0: its plots lie beside it
 };
 
 // Whether steps differ from the usual one, beyond their errors: -1 narrower, 1 wider, 0 neither.
@@ -129,12 +140,14 @@ bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
 Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
                            double sigma_m) {
   const auto size = static_cast<Eigen::Index>(positions.size());
-  Positions as_they_are{positions, static_cast<double>(size)};
+  Positions as_they_are{.at = positions, .parameters = static_cast<double>(size)};
   if (size < 3) return as_they_are;
   const std::vector<int> unusual = unusual_steps(positions, counts, sigma_m);
-  std::vector<double> weights;
-  for (std::size_t row = 0; row < positions.size(); ++row)
-    weights.push_back(is_out_of_place(row, unusual) ? 0 : std::sqrt(counts[row]));
+  std::vector<double> in_place, weights;
+  for (std::size_t row = 0; row < positions.size(); ++row) {
+    in_place.push_back(is_out_of_place(row, unusual) ? 0 : 1);
+    weights.push_back(in_place.back() * std::sqrt(counts[row]));
+  }
   std::vector<std::size_t> alleys;
   for (std::size_t i = 0; i < unusual.size(); ++i)
     if (unusual[i] != 0 && weights[i] > 0 && weights[i + 1] > 0) alleys.push_back(i);
@@ -154,7 +167,9 @@ Positions with_equal_steps(const std::vector<double>& positions, const std::vect
   const Eigen::VectorXd fitted =
       (weight.asDiagonal() * design).colPivHouseholderQr().solve(weight.asDiagonal() * right);
   const Eigen::VectorXd smooth = design * fitted;
-  return {.at = {smooth.begin(), smooth.end()}, .parameters = static_cast<double>(unknowns)};
+  return {.at = {smooth.begin(), smooth.end()},
+          .parameters = static_cast<double>(unknowns),
+          .in_place = std::move(in_place)};
 }
 
 // Centres as measured, and their rows and columns.
@@ -199,7 +214,7 @@ Positions columns_at(bool aligned, const Centers& centers, const std::vector<dou
     numbers[column] = static_cast<double>(column);
   const double pitch_m = fit_lines(centers.row, centers.column.spread_out(numbers), c).slope;
   for (double& number : numbers) number *= pitch_m;
-  return {std::move(numbers), 1};
+  return {.at = std::move(numbers), .parameters = 1};
 }
 
 // Columns and rows' offsets in turn.
@@ -210,7 +225,7 @@ Columns fit_columns(const Centers& centers, bool aligned) {
   for (int round = 0; round < kRounds; ++round) {
     fit.column = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
     const std::vector<double> rest = centers.column.less(centers.c, fit.column.at);
-    fit.row_offset = centers.row.means(rest);
+    fit.row_offset = centers.row.means(rest, centers.column.spread_out(fit.column.in_place));
     fit.rms_m = rms_of(centers.row.less(rest, fit.row_offset), centers.row);
   }
   return fit;

@@ -50,8 +50,7 @@ TEST(Straighten, KeepsWideAndNarrowGapsInTurn) {
   expect_straightened(trial, true);
 }
 
-// Lodged plots, whose canopy leans towards the next ones. (The rows' offsets still take a sixth of
-// the 0.25 m.)
+// Lodged plots, whose canopy leans towards the next ones.
 TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
   const TrialLayout sown = known_trial({0, 0, 0}, 6);
   TrialLayout leaning = sown;
@@ -62,7 +61,7 @@ TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
   lattice.aligned = true;
   straighten(lattice);
   for (std::size_t i = 0; i < sown.places.size(); ++i)
-    EXPECT_NEAR(lattice.places[i].c_m, sown.box(sown.places[i]).center.y(), 0.05) << i;
+    EXPECT_NEAR(lattice.places[i].c_m, sown.box(sown.places[i]).center.y(), 0.012) << i;
 }
 
 // Plots that are turned by 0.01 about the view's axes.
