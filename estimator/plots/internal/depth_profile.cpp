@@ -84,6 +84,19 @@ DepthProfile pooled_profile(const Lattice& lattice, double reach_m) {
   return profile;
 }
 
+Neighbours neighbours_of(const Lattice& lattice) {
+  const double pitch_m = lattice.r.pitch_m;
+  if (!(pitch_m > 0)) return {};
+  double with = 0;
+  for (const Place& place : lattice.places) {
+    with += std::ranges::any_of(lattice.places, [&](const Place& other) {
+      return std::abs(other.r_m - place.r_m - pitch_m) < 0.2 * pitch_m &&
+             std::abs(other.c_m - place.c_m) < 0.5 * lattice.c.size_m;
+    });
+  }
+  return {pitch_m, with / std::max<double>(1, static_cast<double>(lattice.places.size()))};
+}
+
 DepthProfile profile_with_gaps(const Lattice& lattice) {
   const double size_m = lattice.r.size_m, pitch_m = lattice.r.pitch_m;
   const double gap_m = pitch_m > 0 ? std::max(0.1, pitch_m - size_m) : 1.0;

@@ -20,6 +20,20 @@ DepthProfile profile_of(const Lattice& lattice, const Place& place, double reach
 // The same from the mean cover of all plots.
 DepthProfile pooled_profile(const Lattice& lattice, double reach_m);
 
+// The plots one pitch before and after a plot along r, whose leaves hang over into its profile.
+struct Neighbours {
+  double pitch_m = 0;
+  double share = 0;  // of the plots that have one
+
+  // What neighbours whose depth is `canopy` about their centres add at x_m, in the mean of all
+  // plots.
+  template <class Canopy>
+  double depth(const Canopy& canopy, double x_m) const {
+    return share > 0 ? share * (canopy(x_m - pitch_m) + canopy(x_m + pitch_m)) : 0;
+  }
+};
+Neighbours neighbours_of(const Lattice& lattice);
+
 // The mean of all plots along r, as far as the middle of the gaps beside them.
 DepthProfile profile_with_gaps(const Lattice& lattice);
 

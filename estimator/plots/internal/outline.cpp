@@ -25,12 +25,13 @@ struct EdgeFit {
 };
 
 // Squares about depth * box + level in the edges' reach, the level at least 0.
-double squares_of(const DepthProfile& profile, double depth, const BlurredBox& box, double edge_m) {
+double squares_of(const DepthProfile& profile, double depth, const BlurredBox& box,
+                  const Neighbours& near, double edge_m) {
   double n = 0, rest = 0, squares = 0;
   for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
     const double x = profile.x_m[i];
     if (std::abs(std::abs(x) - edge_m) > kEdgeReach_m) continue;
-    const double left = profile.depth[i] - depth * box(x);
+    const double left = profile.depth[i] - depth * (box(x) + near.depth(box, x));
     n += 1;
     rest += left;
     squares += left * left;
@@ -40,15 +41,17 @@ double squares_of(const DepthProfile& profile, double depth, const BlurredBox& b
 }
 
 // Where the depth falls through half of the plateau's, of both sides together, from the line
-// through the samples about it.
-double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit) {
+// through the samples about it; the neighbours' share in it is taken away first.
+double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit& fit,
+                       const Neighbours& near) {
   double size = fit.size_m;
   for (int round = 0; round < kEdgeRounds; ++round) {
+    const BlurredBox box(size, fit.blur_m);
     double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
     for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
       const double x = std::abs(profile.x_m[i]) - size / 2;
       if (std::abs(x) > kHalfDepthReach_m) continue;
-      const double y = profile.depth[i];
+      const double y = profile.depth[i] - depth * near.depth(box, profile.x_m[i]);
       n += 1;
       x_sum += x;
       y_sum += y;
@@ -67,6 +70,7 @@ double half_depth_size(const DepthProfile& profile, double depth, const EdgeFit&
 EdgeFit fit_edges_along(const Lattice& lattice) {
   const double size_m = lattice.r.size_m, band_m = lattice.r.band_m;
   const DepthProfile profile = profile_with_gaps(lattice);
+  const Neighbours near = neighbours_of(lattice);
   const double depth = plateau_depth(profile, size_m);
   EdgeFit best{.size_m = size_m};
   double best_squares = std::numeric_limits<double>::infinity();
@@ -74,13 +78,13 @@ EdgeFit fit_edges_along(const Lattice& lattice) {
   for (const double size : steps_between(size_m - 0.35, size_m + 0.35, 0.01)) {
     if (size < 0.2) continue;
     for (const double blur : blurs) {
-      const double squares = squares_of(profile, depth, BlurredBox(size, blur), size_m / 2);
+      const double squares = squares_of(profile, depth, BlurredBox(size, blur), near, size_m / 2);
       if (squares >= best_squares) continue;
       best_squares = squares;
       best = {.size_m = size, .blur_m = blur};
     }
   }
-  const double half_m = half_depth_size(profile, depth, best);
+  const double half_m = half_depth_size(profile, depth, best, near);
   if (std::abs(half_m - best.size_m) < kMostHalfDepth_m) best.size_m = half_m;
   best.size_m = std::clamp(best.size_m, band_m - kMostOfBand_m, band_m + kMostOfBand_m);
   return best;

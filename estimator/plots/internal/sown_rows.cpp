@@ -53,13 +53,14 @@ class Curves {
   double squares_;
 };
 
-// A canopy at the places of a profile.
+// The canopy of a plot whose neighbours along r are as it is.
 template <class Canopy>
-Eigen::VectorXd curve_of(const DepthProfile& profile, const Canopy& canopy) {
+Eigen::VectorXd curve_of(const DepthProfile& profile, const Neighbours& near,
+                         const Canopy& canopy) {
   Eigen::VectorXd curve(static_cast<Eigen::Index>(profile.x_m.size()));
   for (std::size_t i = 0; i < profile.x_m.size(); ++i) {
     const double x = profile.x_m[i];
-    curve[static_cast<Eigen::Index>(i)] = canopy(x);
+    curve[static_cast<Eigen::Index>(i)] = canopy(x) + near.depth(canopy, x);
   }
   return curve;
 }
@@ -72,11 +73,11 @@ Eigen::VectorXd depth_of(const DepthProfile& profile) {
 // What a canopy leaves of which `canopy(blur_m)` is the shape that leaves of one spread make: the
 // best two of them together, over a level.
 template <class Canopy>
-double squares_of(const DepthProfile& profile, const Canopy& canopy) {
+double squares_of(const DepthProfile& profile, const Neighbours& near, const Canopy& canopy) {
   constexpr auto kBlurs = static_cast<int>(kBlurs_m.size());
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(profile.x_m.size()), kBlurs + 1);
   for (int blur = 0; blur < kBlurs; ++blur)
-    curves.col(blur) = curve_of(profile, canopy(kBlurs_m[static_cast<std::size_t>(blur)]));
+    curves.col(blur) = curve_of(profile, near, canopy(kBlurs_m[static_cast<std::size_t>(blur)]));
   curves.col(kBlurs).setOnes();
   const Curves fit(curves, depth_of(profile));
   double least = std::numeric_limits<double>::infinity();
@@ -92,7 +93,7 @@ double squares_of(const DepthProfile& profile, const Canopy& canopy) {
 }
 
 // What the best even canopy leaves, its edges as free as the rows' are.
-double squares_of_even_canopy(const DepthProfile& profile, double size_m) {
+double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& near, double size_m) {
   double least = std::numeric_limits<double>::infinity();
   const double smallest_m = std::max(0.2, size_m - kMostOff_m);
   const auto steps = static_cast<int>((size_m + kMostOff_m - smallest_m) / kCoarse_m);
@@ -100,14 +101,14 @@ double squares_of_even_canopy(const DepthProfile& profile, double size_m) {
     const auto canopy = [&](double blur_m) {
       return BlurredBox(smallest_m + step * kCoarse_m, blur_m);
     };
-    least = std::min(least, squares_of(profile, canopy));
+    least = std::min(least, squares_of(profile, near, canopy));
   }
   return least;
 }
 
 // What rows at equal steps leave, whatever the shape of their leaves.
-double squares_of_rows(const DepthProfile& profile, const SownRows& rows) {
-  return squares_of(profile, [&](double blur_m) {
+double squares_of_rows(const DepthProfile& profile, const Neighbours& near, const SownRows& rows) {
+  return squares_of(profile, near, [&](double blur_m) {
     return [&, blur_m](double x_m) {
       double canopy = 0;
       for (int row = 0; row < rows.rows; ++row) {
@@ -125,13 +126,13 @@ struct RowsFit {
 };
 
 // The best spacing of so many rows within [low_m, high_m].
-RowsFit best_spacing(const DepthProfile& profile, int rows, double low_m, double high_m,
-                     double step_m) {
+RowsFit best_spacing(const DepthProfile& profile, const Neighbours& near, int rows, double low_m,
+                     double high_m, double step_m) {
   RowsFit best;
   const auto steps = static_cast<int>(std::floor((high_m - low_m) / step_m + 1e-9));
   for (int i = 0; i <= steps; ++i) {
     const SownRows tried{.rows = rows, .spacing_m = low_m + i * step_m};
-    const double squares = squares_of_rows(profile, tried);
+    const double squares = squares_of_rows(profile, near, tried);
     if (squares < best.squares) best = {tried, squares};
   }
   return best;
@@ -142,16 +143,18 @@ RowsFit best_spacing(const DepthProfile& profile, int rows, double low_m, double
 std::optional<SownRows> sown_rows_along(const Lattice& lattice) {
   const double size_m = lattice.r.size_m;
   const DepthProfile profile = profile_with_gaps(lattice);
+  const Neighbours near = neighbours_of(lattice);
   RowsFit best;
   for (int rows = 2; rows <= kMostSownRows; ++rows) {
     const double low_m = std::max(kLeastSownSpacing_m, (size_m - kMostOff_m) / rows);
     const double high_m = std::min(kMostSownSpacing_m, (size_m + kMostOff_m) / rows);
-    const RowsFit fit = best_spacing(profile, rows, low_m, high_m, kCoarse_m);
+    const RowsFit fit = best_spacing(profile, near, rows, low_m, high_m, kCoarse_m);
     if (fit.squares < best.squares) best = fit;
   }
-  if (best.squares >= kClearly * squares_of_even_canopy(profile, size_m)) return std::nullopt;
+  if (best.squares >= kClearly * squares_of_even_canopy(profile, near, size_m)) return std::nullopt;
   const double about_m = best.rows.spacing_m;
-  return best_spacing(profile, best.rows.rows, about_m - kCoarse_m, about_m + kCoarse_m, kFine_m)
+  return best_spacing(profile, near, best.rows.rows, about_m - kCoarse_m, about_m + kCoarse_m,
+                      kFine_m)
       .rows;
 }
 

@@ -24,6 +24,18 @@ TEST(FitEdges, FindsTheSizeAndTheBlurOfKnownPlots) {
   }
 }
 
+// Plots so near each other that their leaves meet: the canopy does not fall to half in the gap.
+TEST(FitEdges, TellsAPlotsLeavesFromItsNeighbours) {
+  TrialLayout trial = known_trial({0, 0});
+  trial.column_pitch_m = 1.65;
+  for (TrialPlace& place : trial.places)
+    place.position_m.x() = 2 + (place.column - 1) * trial.column_pitch_m;
+  const CanopyRaster raster = canopy_of(trial, 1.2, 0.15);
+  Lattice lattice = lattice_of(trial, raster);
+  fit_edges(lattice);
+  EXPECT_NEAR(lattice.c.size_m, 1.5, 0.03);
+}
+
 TEST(FitEdges, StaysNearTheLayoutsBands) {
   const TrialLayout trial = known_trial({0, 0});
   const CanopyRaster raster = canopy_of(trial);
