@@ -11,8 +11,6 @@
 namespace plotscan::calibration {
 namespace {
 
-// The suites' seeds lie below 1000.
-constexpr std::uint64_t kFirstSeed = 5000;
 constexpr std::uint64_t kSeedsOfLibrary = 100;
 // So that no two farms share a plant: a farm grows fewer.
 constexpr std::uint64_t kPlantSeeds = 100;
@@ -57,7 +55,10 @@ void plan_plants(const Library& library, std::uint64_t seed, RandomStream& rando
                  std::vector<std::string>& set) {
   constexpr std::uint64_t kSeedsOfCultivar = 20;
   const double spread = draw(random, library.spread);
-  set.push_back("plants.scale=[" + text(1 - spread) + ", " + text(1 + spread) + "]");
+  const double vigour =
+      library.vigour && random.uniform() < 0.35 ? draw(random, *library.vigour) : 1;
+  set.push_back("plants.scale=[" + text(vigour * (1 - spread)) + ", " +
+                text(vigour * (1 + spread)) + "]");
   const bool stretched = random.uniform() < 0.35 && library.height_m;
   const double height_m = library.height_m.value_or(0) * random.uniform(0.75, 1.35);
   set.push_back("plants.models=" + models_of(library, kPlantSeeds * seed, random));
@@ -168,11 +169,13 @@ void plan_errors(RandomStream& random, lidar::FlyOptions& flight) {
 
 }  // namespace
 
-std::vector<Library> read_libraries(const std::filesystem::path& file) {
+std::vector<Library> read_libraries(const std::filesystem::path& file, const std::string& ranges) {
   constexpr Range kAny{-1000, 1000};
   constexpr Range kPositive{0.01, 1000};
+  constexpr Range kSeeds{1000, 1e6};  // the suites' seeds lie below
   const YamlSection document = YamlSection::load(file, {});
-  const YamlSection crops = document.section("crops");
+  const YamlSection drawn = document.section("ranges").section(ranges);
+  const YamlSection crops = drawn.section("crops");
   std::vector<Library> libraries;
   for (const YamlSection& entry : document.list("libraries", kMostLibraries)) {
     entry.allow_only({"name", "crop", "stage", "height_m", "set", "vary", "density_m2", "row_m",
@@ -198,17 +201,19 @@ std::vector<Library> read_libraries(const std::filesystem::path& file) {
     library.spacing_m = range("spacing_m");
     library.spread = entry.pair("spread", {0, 0.5});
     library.variants = entry.pair("variants", {1, 100});
+    if (drawn.has("vigour")) library.vigour = drawn.pair("vigour", kPositive);
+    library.first_seed = static_cast<std::uint64_t>(drawn.number("first_seed", kSeeds));
     libraries.push_back(std::move(library));
   }
   return libraries;
 }
 
 FarmPlan plan_farm(const Library& library, std::size_t library_number, int number) {
-  FarmPlan plan{
-      .library = library.name,
-      .seed = kFirstSeed + kSeedsOfLibrary * library_number + static_cast<std::uint64_t>(number),
-      .overrides = {},
-      .flight = {}};
+  FarmPlan plan{.library = library.name,
+                .seed = library.first_seed + kSeedsOfLibrary * library_number +
+                        static_cast<std::uint64_t>(number),
+                .overrides = {},
+                .flight = {}};
   RandomStream random(plan.seed, random_purpose("calibration/farm"), 0);
   plan_plots(library, random, plan.overrides);
   plan_plants(library, plan.seed, random, plan.overrides);

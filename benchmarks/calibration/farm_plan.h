@@ -31,10 +31,13 @@ struct Library {
   std::optional<Bounds> spacing_m = {};         // from plant to plant in them
   Bounds spread = {0, 0};                       // scales are in [1 - spread, 1 + spread]
   Bounds variants = {1, 1};                     // different plants
+  std::optional<Bounds> vigour = {};            // scale of all of them, in a third of the farms
+  std::uint64_t first_seed = 0;                 // of the farms
 };
 
-// Reads libraries.yaml. Throws InputError on an unknown key or an impossible value.
-std::vector<Library> read_libraries(const std::filesystem::path& file);
+// Reads libraries.yaml, the parameters that they do not set from these of its ranges. Throws
+// InputError on an unknown key or an impossible value.
+std::vector<Library> read_libraries(const std::filesystem::path& file, const std::string& ranges);
 
 // One farm and its flight.
 struct FarmPlan {

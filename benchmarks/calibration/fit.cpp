@@ -142,6 +142,22 @@ std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& cali
   return groups;
 }
 
+// By the farms that tell crops.
+heights::Likeness fit_like_crops(const heights::Calibration& calibration) {
+  const heights::Calibration half = calibration.halved();
+  return fit_likeness(half.features_of_farms(), heights::crop_indicators(half),
+                      std::vector<double>(half.farms.size(), 1));
+}
+
+std::vector<heights::Likeness> fit_like_ratios(const heights::Calibration& calibration) {
+  std::vector<heights::Likeness> of_crops(calibration.crops.size());
+  tbb::parallel_for(std::size_t{0}, of_crops.size(), [&](std::size_t i) {
+    const heights::Calibration own = calibration.of_crop(calibration.crops[i]);
+    of_crops[i] = fit_likeness(own.features_of_farms(), own.ratios(), own.noise());
+  });
+  return of_crops;
+}
+
 // Under which the crops of the farms, each told by the farms of other libraries, are likeliest.
 double likeliest_sharpness(const heights::Calibration& calibration) {
   std::vector<Eigen::VectorXd> scores(calibration.farms.size());
@@ -328,7 +344,6 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
                                    .center = {},
                                    .scale = {},
                                    .like_crops = {},
-                                   .like_ratios = {},
                                    .within = {}};
   for (const auto& [height, value] : fields.front().plots.front().truth)
     calibration.heights.push_back(height);
@@ -336,12 +351,9 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
     calibration.farms.push_back(farm_of(field, calibration));
   calibration.crops = crops_of(calibration.farms);
   scale_features(calibration);
-  calibration.like_crops =
-      fit_likeness(calibration.features_of_farms(), heights::crop_indicators(calibration),
-                   std::vector<double>(calibration.farms.size(), 1));
+  calibration.like_crops = fit_like_crops(calibration);
   calibration.crop_sharpness = likeliest_sharpness(calibration);
-  calibration.like_ratios = fit_likeness(calibration.features_and_crops_of_farms(),
-                                         calibration.ratios(), calibration.noise());
+  calibration.like_ratios = fit_like_ratios(calibration);
   find_unlikeness(calibration);
   find_surprises(calibration, Group::library);
   find_surprises(calibration, Group::crop);

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct SampleArguments {
   fs::path libraries;
+  std::string ranges;
   fs::path output;
   int farms = 8;
   bool true_ground = false;
@@ -36,7 +37,7 @@ fs::path file_of(const calibration::FarmPlan& plan, const fs::path& folder) {
 // Of farms that the folder does not hold.
 std::vector<calibration::FarmPlan> missing_plans(const SampleArguments& arguments) {
   const std::vector<calibration::Library> libraries =
-      calibration::read_libraries(arguments.libraries);
+      calibration::read_libraries(arguments.libraries, arguments.ranges);
   std::vector<calibration::FarmPlan> plans;
   for (int number = 0; number < arguments.farms; ++number) {
     for (std::size_t i = 0; i < libraries.size(); ++i) {
@@ -165,6 +166,7 @@ int main(int argc, char** argv) {
       program.command("sample", "Fly over farms of every plant library.",
                       [&] { run_sample(program, arguments); }, {.threads = true, .json = false});
   sample.add_option("LIBRARIES", arguments.libraries, "plant libraries (YAML)")->required();
+  sample.add_option("RANGES", arguments.ranges, "of the parameters: usual or wide")->required();
   sample
       .add_option("-o,--output", arguments.output,
                   "folder of samples; farms that it holds are not flown again")

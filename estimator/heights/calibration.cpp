@@ -41,6 +41,22 @@ FromOthers from_others_of(const json& document) {
   return {.unlike = document.at("unlike"), .surprise = vector_of(document.at("surprise"))};
 }
 
+// The same with those of its farms that are kept, by their numbers.
+Calibration with_farms(const Calibration& calibration, auto&& is_kept) {
+  Calibration fewer{.features = calibration.features,
+                    .heights = calibration.heights,
+                    .center = calibration.center,
+                    .scale = calibration.scale,
+                    .crops = calibration.crops,
+                    .like_crops = calibration.like_crops,
+                    .crop_sharpness = calibration.crop_sharpness,
+                    .like_ratios = calibration.like_ratios,
+                    .within = calibration.within};
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    if (is_kept(i)) fewer.farms.push_back(calibration.farms[i]);
+  return fewer;
+}
+
 }  // namespace
 
 Eigen::VectorXd Calibration::scaled(const Eigen::VectorXd& values) const {
@@ -61,26 +77,10 @@ Eigen::VectorXd Calibration::indicators_of(const std::string& crop) const {
                                static_cast<Eigen::Index>(index_of(crop)));
 }
 
-Eigen::VectorXd Calibration::with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const {
-  Eigen::VectorXd values(scaled.size() + static_cast<Eigen::Index>(crops.size()));
-  values << scaled, Eigen::VectorXd::Constant(static_cast<Eigen::Index>(crops.size()), -1);
-  values(scaled.size() + static_cast<Eigen::Index>(crop)) = 1;
-  return values;
-}
-
 Eigen::MatrixXd Calibration::features_of_farms() const {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()), center.size());
   for (std::size_t i = 0; i < farms.size(); ++i)
     rows.row(static_cast<Eigen::Index>(i)) = scaled(farms[i].features);
-  return rows;
-}
-
-Eigen::MatrixXd Calibration::features_and_crops_of_farms() const {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(farms.size()),
-                       center.size() + static_cast<Eigen::Index>(crops.size()));
-  for (std::size_t i = 0; i < farms.size(); ++i)
-    rows.row(static_cast<Eigen::Index>(i)) =
-        with_crop(scaled(farms[i].features), index_of(farms[i].crop));
   return rows;
 }
 
@@ -99,12 +99,17 @@ std::vector<double> Calibration::noise() const {
 }
 
 Calibration Calibration::without(std::span<const std::size_t> farms_left_out) const {
-  Calibration fewer = *this;
-  fewer.farms.clear();
-  for (std::size_t i = 0; i < farms.size(); ++i)
-    if (std::ranges::find(farms_left_out, i) == farms_left_out.end())
-      fewer.farms.push_back(farms[i]);
-  return fewer;
+  return with_farms(*this, [&](std::size_t i) {
+    return std::ranges::find(farms_left_out, i) == farms_left_out.end();
+  });
+}
+
+Calibration Calibration::of_crop(const std::string& crop) const {
+  return with_farms(*this, [&](std::size_t i) { return farms[i].crop == crop; });
+}
+
+Calibration Calibration::halved() const {
+  return with_farms(*this, [](std::size_t i) { return i % 2 == 0; });
 }
 
 json json_of(const Calibration& calibration) {
@@ -121,6 +126,9 @@ json json_of(const Calibration& calibration) {
                      {"surprise_given_crop", numbers_of(farm.surprise_given_crop)},
                      {"unlike", farm.unlike}});
   }
+  json like_ratios = json::array();
+  for (const Likeness& likeness : calibration.like_ratios)
+    like_ratios.push_back(likeness_json(likeness));
   json within = json::array();
   for (const auto& row : calibration.within.rowwise()) within.push_back(numbers_of(row));
   return {{"features", calibration.features},
@@ -130,7 +138,7 @@ json json_of(const Calibration& calibration) {
           {"crops", calibration.crops},
           {"like_crops", likeness_json(calibration.like_crops)},
           {"crop_sharpness", calibration.crop_sharpness},
-          {"like_ratios", likeness_json(calibration.like_ratios)},
+          {"like_ratios", like_ratios},
           {"within", within},
           {"farms", farms}};
 }
@@ -143,8 +151,9 @@ Calibration calibration_of(const json& document) {
                           .crops = document.at("crops"),
                           .like_crops = likeness_of(document.at("like_crops")),
                           .crop_sharpness = document.at("crop_sharpness"),
-                          .like_ratios = likeness_of(document.at("like_ratios")),
                           .within = {}};
+  for (const json& likeness : document.at("like_ratios"))
+    calibration.like_ratios.push_back(likeness_of(likeness));
   calibration.within.resize(static_cast<Eigen::Index>(calibration.heights.size()),
                             calibration.center.size());
   for (Eigen::Index row = 0; row < calibration.within.rows(); ++row)

@@ -42,18 +42,18 @@ struct Likeness {
 };
 
 // The file that benchmarks/calibration writes (heights/calibration.json). A height's ratio to the
-// canopy's top is kriged from the field's features and its crop, and corrected by what the plot's
-// features differ from the field's.
+// canopy's top is kriged from the field's features, for each crop by itself, and corrected by what
+// the plot's features differ from the field's.
 struct Calibration {
   std::vector<std::string> features = {};
   std::vector<std::string> heights = {};
   Eigen::VectorXd center;  // features are shifted and divided by these
   Eigen::VectorXd scale;
   std::vector<std::string> crops = {};
-  Likeness like_crops;        // by features: fields of one crop are alike
-  double crop_sharpness = 1;  // of what they tell of the crop
-  Likeness like_ratios;       // by features and crop
-  Eigen::MatrixXd within;     // a row a height: weights of the scaled differences
+  Likeness like_crops;                     // by features: fields of one crop are alike
+  double crop_sharpness = 1;               // of what they tell of the crop
+  std::vector<Likeness> like_ratios = {};  // by features, for each of `crops`
+  Eigen::MatrixXd within;                  // a row a height: weights of the scaled differences
   std::vector<CalibrationFarm> farms = {};
 
   // Features scaled to a spread of 1, no farther than 4 from the middle.
@@ -62,15 +62,14 @@ struct Calibration {
   std::size_t index_of(const std::string& crop) const;
   // In the order of `crops`: 1 for this one, 0 for the others. Throws as index_of does.
   Eigen::VectorXd indicators_of(const std::string& crop) const;
-  // The scaled features of a field or plot, then 1 for its crop and -1 for each other.
-  Eigen::VectorXd with_crop(const Eigen::VectorXd& scaled, std::size_t crop) const;
-  // A row a farm: its scaled features, the same with its crop, and its ratios.
+  // A row a farm: its scaled features, and its ratios.
   Eigen::MatrixXd features_of_farms() const;
-  Eigen::MatrixXd features_and_crops_of_farms() const;
   Eigen::MatrixXd ratios() const;
   std::vector<double> noise() const;
-  // The same with fewer farms.
+  // The same with fewer farms: without these, with the crop's alone, and with every second one.
   Calibration without(std::span<const std::size_t> farms_left_out) const;
+  Calibration of_crop(const std::string& crop) const;
+  Calibration halved() const;
 };
 
 nlohmann::json json_of(const Calibration& calibration);

@@ -20,12 +20,16 @@ Eigen::MatrixXd crop_indicators(const Calibration& calibration) {
   return indicators;
 }
 
+Kriging indicators_kriged(const Calibration& calibration) {
+  return {calibration.features_of_farms() * calibration.like_crops.weights.asDiagonal(),
+          crop_indicators(calibration), std::vector<double>(calibration.farms.size(), 1),
+          calibration.like_crops.covariance};
+}
+
 CropModel::CropModel(const Calibration& calibration)
     : weights_(calibration.like_crops.weights),
       sharpness_(calibration.crop_sharpness),
-      indicators_(calibration.features_of_farms() * weights_.asDiagonal(),
-                  crop_indicators(calibration), std::vector<double>(calibration.farms.size(), 1),
-                  calibration.like_crops.covariance) {}
+      indicators_(indicators_kriged(calibration.halved())) {}
 
 Eigen::VectorXd CropModel::scores(const Eigen::VectorXd& scaled) const {
   return indicators_.values_at(scaled.cwiseProduct(weights_)) / unlike(scaled);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,25 +36,25 @@ Eigen::VectorXd spread_of(std::vector<Neighbour> neighbours) {
 }
 
 // What is left within the farms at these distances.
-Eigen::VectorXd spread_within(const Calibration& calibration,
+Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
                               const Eigen::VectorXd& squared_distances) {
   std::vector<Neighbour> neighbours;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+  for (std::size_t i = 0; i < farms.size(); ++i)
     neighbours.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)),
-                          .numbers = &calibration.farms[i].within});
+                          .numbers = &farms[i].within});
   return spread_of(std::move(neighbours));
 }
 
 // What predictions from others missed by, of canopies of which as little was known. A user's plants
 // are of no library, and may be as unlike all of them as one crop is unlike the others: how little
 // is known of them says how much of each.
-Eigen::VectorXd surprise_from_others(const Calibration& calibration,
+Eigen::VectorXd surprise_from_others(std::span<const CalibrationFarm> farms,
                                      const Eigen::VectorXd& squared_distances,
                                      const CropEvidence& crop) {
   constexpr double kWeight = 0.1;  // a factor e of `unlike` is as far as 0.3 in features
   std::vector<Neighbour> neighbours;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
-    const CalibrationFarm& farm = calibration.farms[i];
+  for (std::size_t i = 0; i < farms.size(); ++i) {
+    const CalibrationFarm& farm = farms[i];
     const auto add = [&](double unlike, const Eigen::VectorXd& surprise) {
       const double factor = std::log(crop.unlike / unlike);
       neighbours.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)) +
@@ -67,62 +68,73 @@ Eigen::VectorXd surprise_from_others(const Calibration& calibration,
   return spread_of(std::move(neighbours));
 }
 
-}  // namespace
-
-RatioModel::RatioModel(const Calibration& calibration)
-    : calibration_(calibration),
-      kriging_(
-          calibration.features_and_crops_of_farms() * calibration.like_ratios.weights.asDiagonal(),
-          calibration.ratios(), calibration.noise(), calibration.like_ratios.covariance) {
+double usual_unlike(std::span<const CalibrationFarm> farms) {
   constexpr double kUsual = 0.95;
   std::vector<double> unlike;
-  for (const CalibrationFarm& farm : calibration.farms) unlike.push_back(farm.unlike);
-  usual_unlike_ = quantile(unlike, kUsual);
+  for (const CalibrationFarm& farm : farms) unlike.push_back(farm.unlike);
+  return quantile(unlike, kUsual);
 }
 
-Eigen::VectorXd RatioModel::place(const Eigen::VectorXd& scaled, std::size_t crop) const {
-  return calibration_.with_crop(scaled, crop).cwiseProduct(calibration_.like_ratios.weights);
+}  // namespace
+
+RatioModel::OfCrop::OfCrop(const Calibration& calibration, const Likeness& likeness)
+    : farms(calibration.farms),
+      weights(likeness.weights),
+      kriging(calibration.features_of_farms() * weights.asDiagonal(), calibration.ratios(),
+              calibration.noise(), likeness.covariance),
+      usual_unlike(heights::usual_unlike(farms)) {}
+
+Eigen::VectorXd RatioModel::OfCrop::place(const Eigen::VectorXd& scaled) const {
+  return scaled.cwiseProduct(weights);
 }
 
-Eigen::VectorXd RatioModel::likeliest_place(const Eigen::VectorXd& scaled,
-                                            const Eigen::VectorXd& crops) const {
+RatioModel::RatioModel(const Calibration& calibration) {
+  for (std::size_t i = 0; i < calibration.crops.size(); ++i) {
+    const Calibration own = calibration.of_crop(calibration.crops[i]);
+    if (own.farms.empty()) continue;
+    crops_.try_emplace(static_cast<Eigen::Index>(i), own, calibration.like_ratios[i]);
+  }
+}
+
+const RatioModel::OfCrop& RatioModel::likeliest(const Eigen::VectorXd& crops) const {
   Eigen::Index likeliest = 0;
   crops.maxCoeff(&likeliest);
-  return place(scaled, static_cast<std::size_t>(likeliest));
+  return crops_.at(likeliest);
 }
 
 Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
                                const Eigen::VectorXd& crops) const {
-  const auto heights = static_cast<Eigen::Index>(calibration_.heights.size());
   double sum = 0;
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(heights), squares = values;
-  for (Eigen::Index crop = 0; crop < crops.size(); ++crop) {
-    if (crops(crop) < kLeastLikely) continue;
-    const Prediction of_crop =
-        kriging_.at(place(scaled, static_cast<std::size_t>(crop)), relative_noise(top_m));
-    sum += crops(crop);
-    values += crops(crop) * of_crop.values;
-    squares += crops(crop) * (of_crop.values.cwiseAbs2() + of_crop.sds.cwiseAbs2());
+  Eigen::VectorXd values;
+  Eigen::VectorXd squares;
+  for (const auto& [i, crop] : crops_) {
+    if (crops(i) < kLeastLikely) continue;
+    const Prediction of_crop = crop.kriging.at(crop.place(scaled), relative_noise(top_m));
+    if (sum == 0) values = squares = Eigen::VectorXd::Zero(of_crop.values.size());
+    sum += crops(i);
+    values += crops(i) * of_crop.values;
+    squares += crops(i) * (of_crop.values.cwiseAbs2() + of_crop.sds.cwiseAbs2());
   }
   values /= sum;
   return {.values = values,
           .sds = (squares / sum - values.cwiseAbs2()).cwiseMax(0).cwiseSqrt(),
-          .unlike = kriging_.unlike(likeliest_place(scaled, crops))};
+          .unlike = likeliest(crops).kriging.unlike(likeliest(crops).place(scaled))};
 }
 
 FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
                            const CropEvidence& crop) const {
   const Prediction ratios = mixture(scaled, top_m, crop.probabilities);
-  const Eigen::VectorXd distances =
-      kriging_.squared_distances(likeliest_place(scaled, crop.probabilities));
-  const Eigen::VectorXd surprise = surprise_from_others(calibration_, distances, crop);
+  const OfCrop& likely = likeliest(crop.probabilities);
+  const Eigen::VectorXd distances = likely.kriging.squared_distances(likely.place(scaled));
+  const Eigen::VectorXd surprise = surprise_from_others(likely.farms, distances, crop);
   return {.values = ratios.values,
           .field_sds = ratios.sds.cwiseProduct(surprise),
-          .within_sds = spread_within(calibration_, distances)};
+          .within_sds = spread_within(likely.farms, distances)};
 }
 
 double RatioModel::unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {
-  return kriging_.unlike(likeliest_place(scaled, crops)) / usual_unlike_;
+  const OfCrop& likely = likeliest(crops);
+  return likely.kriging.unlike(likely.place(scaled)) / likely.usual_unlike;
 }
 
 }  // namespace plotscan::heights

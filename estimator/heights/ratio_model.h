@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "heights/calibration.h"
@@ -17,14 +20,14 @@ struct FieldRatios {
   Eigen::VectorXd within_sds;  // of a plot's about the field's
 };
 
-// How heights follow from canopies, by a calibration's farms. Both standard deviations are those
-// that were found on the farms most like the field.
+// How heights follow from canopies, by a calibration's farms, for each crop by its own. Both
+// standard deviations are those that were found on the farms most like the field.
 class RatioModel {
  public:
-  // Keeps a reference to the calibration.
   explicit RatioModel(const Calibration& calibration);
 
-  // Of a field's scaled features (Calibration::scaled), its canopy's top, and its crop.
+  // Of a field's scaled features (Calibration::scaled), its canopy's top, and its crop. Crops that
+  // have no farm have a probability of 0.
   FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const CropEvidence& crop) const;
   // The same as the regression alone has it: a mixture over the crops that it may be.
   Prediction mixture(const Eigen::VectorXd& scaled, double top_m,
@@ -34,13 +37,20 @@ class RatioModel {
   double unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:
-  Eigen::VectorXd place(const Eigen::VectorXd& scaled, std::size_t crop) const;
-  Eigen::VectorXd likeliest_place(const Eigen::VectorXd& scaled,
-                                  const Eigen::VectorXd& crops) const;
+  // A crop that has farms.
+  struct OfCrop {
+    OfCrop(const Calibration& calibration, const Likeness& likeness);
+    Eigen::VectorXd place(const Eigen::VectorXd& scaled) const;
 
-  const Calibration& calibration_;
-  Kriging kriging_;
-  double usual_unlike_ = 1;
+    std::vector<CalibrationFarm> farms;
+    Eigen::VectorXd weights;
+    Kriging kriging;
+    double usual_unlike;
+  };
+
+  const OfCrop& likeliest(const Eigen::VectorXd& crops) const;
+
+  std::map<Eigen::Index, OfCrop> crops_;  // by its place in the calibration's
 };
 
 }  // namespace plotscan::heights
