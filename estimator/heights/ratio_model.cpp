@@ -51,7 +51,7 @@ Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
 Eigen::VectorXd surprise_from_others(std::span<const CalibrationFarm> farms,
                                      const Eigen::VectorXd& squared_distances,
                                      const CropEvidence& crop) {
-  constexpr double kWeight = 0.1;  // a factor e of `unlike` is as far as 0.3 in features
+  constexpr double kWeight = 1;  // a factor e of `unlike` is as far as 1 in features
   std::vector<Neighbour> neighbours;
   for (std::size_t i = 0; i < farms.size(); ++i) {
     const CalibrationFarm& farm = farms[i];
