@@ -66,11 +66,10 @@ class Caster {
   void measure_together(std::span<const std::uint32_t> which,
                         std::vector<double>& heights_m) const {
     const float top_m = scene_.top_m() + kAbove_m;
-    std::vector<Ray> rays;
-    rays.reserve(which.size());
-    for (const std::uint32_t i : which) {
-      const Eigen::Vector2f place = grid_.place(i).cast<float>();
-      rays.push_back({.origin_m = {place.x(), place.y(), top_m}, .direction = {0, 0, -1}});
+    RayArrays rays(which.size());
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const Eigen::Vector2f place = grid_.place(which[i]).cast<float>();
+      rays.set(i, {.origin_m = {place.x(), place.y(), top_m}, .direction = {0, 0, -1}});
     }
     std::vector<Hit> hits(rays.size());
     scene_.cast_bundles(rays, rays.size(), top_m - scene_.bottom_m() + kAbove_m, hits);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
+#include <ranges>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -49,7 +51,24 @@ Detector::Detector(const sensor::Beam& beam, ReturnMode mode)
 
 std::span<const Return> Detector::detect(std::span<const Hit> hits) {
   returns_.clear();
-  listen(hits);
+  hits_.clear();
+  std::ranges::copy_if(hits, std::back_inserter(hits_), [](const Hit& hit) {
+    return std::isfinite(hit.range_m) && hit.reflectance * hit.cos_incidence > 0;
+  });
+  if (hits_.empty()) return returns_;
+  const auto [least, most] = std::ranges::minmax(hits_ | std::views::transform(&Hit::range_m));
+  const double nearest_m = std::max<double>(kNearest_m, least);
+  const double farthest_m = std::max<double>(kNearest_m, most);
+  if (farthest_m - nearest_m <= kOnePeak * sigma_m_) {
+    listen(hits.size());
+    const Peak peak = only_peak(echoes_, nearest_m, farthest_m, sigma_m_);
+    if (peak.power >= threshold_) returns_.push_back(return_of(peak));
+    return returns_;
+  }
+  std::ranges::sort(hits_, {}, [](const Hit& hit) {
+    return std::tuple(hit.range_m, hit.surface, hit.cos_incidence);
+  });
+  listen(hits.size());
   for (const Peak& peak : reported(detected_peaks(), mode_)) returns_.push_back(return_of(peak));
   return returns_;
 }
@@ -57,20 +76,13 @@ std::span<const Return> Detector::detect(std::span<const Hit> hits) {
 // The power of a sub-ray's echo from a Lambertian surface, in units of that of a white one that
 // faces the whole beam 1 m away (the lidar equation: Wagner et al., ISPRS J. 60, 2006, for targets
 // that no sub-ray overfills).
-void Detector::listen(std::span<const Hit> hits) {
-  const auto sub_rays = static_cast<double>(hits.size());
-  hits_.clear();
-  std::ranges::copy_if(hits, std::back_inserter(hits_), [](const Hit& hit) {
-    return std::isfinite(hit.range_m) && hit.reflectance * hit.cos_incidence > 0;
-  });
-  std::ranges::sort(hits_, {}, [](const Hit& hit) {
-    return std::tuple(hit.range_m, hit.surface, hit.cos_incidence);
-  });
+void Detector::listen(std::size_t sub_rays) {
   echoes_.clear();
   for (const Hit& hit : hits_) {
     const double range_m = std::max<double>(kNearest_m, hit.range_m);
     const double reflected = static_cast<double>(hit.reflectance) * hit.cos_incidence;
-    echoes_.push_back({.range_m = range_m, .power = reflected / (sub_rays * square(range_m))});
+    echoes_.push_back({.range_m = range_m,
+                       .power = reflected / (static_cast<double>(sub_rays) * square(range_m))});
   }
 }
 
@@ -100,6 +112,13 @@ Return Detector::return_of(const Peak& peak) {
 }
 
 Hit Detector::main_hit(const Peak& peak) {
+  const auto hits = std::span(hits_).subspan(peak.begin, peak.end - peak.begin);
+  const auto is_of_first = [&](const Hit& hit) { return hit.surface == hits.front().surface; };
+  if (std::ranges::all_of(hits, is_of_first)) {
+    const auto echoes = std::span(echoes_).subspan(peak.begin, peak.end - peak.begin);
+    const auto strongest = std::ranges::max_element(echoes, {}, &Echo::power) - echoes.begin();
+    return hits[static_cast<std::size_t>(strongest)];
+  }
   by_surface_.resize(peak.end - peak.begin);
   std::iota(by_surface_.begin(), by_surface_.end(), peak.begin);
   std::ranges::sort(by_surface_, {}, [&](std::size_t i) { return std::pair(hits_[i].surface, i); });

@@ -36,7 +36,8 @@ class Detector {
   std::span<const Return> detect(std::span<const Hit> hits);
 
  private:
-  void listen(std::span<const Hit> hits);
+  // Makes the echoes of hits_, of a shot of so many sub-rays.
+  void listen(std::size_t sub_rays);
   std::vector<Peak> detected_peaks() const;
   Return return_of(const Peak& peak);
   Hit main_hit(const Peak& peak);
@@ -45,7 +46,7 @@ class Detector {
   double sigma_m_;  // of the pulse, in range
   double threshold_;
   double least_separation_m_;
-  std::vector<Hit> hits_;  // those that echo, by range
+  std::vector<Hit> hits_;  // those that echo; by range where they have more than one maximum
   std::vector<Echo> echoes_;
   std::vector<std::size_t> by_surface_;  // the echoes of one return
   std::vector<Return> returns_;

@@ -143,10 +143,10 @@ bool Scene::goes_to_the_sky(const Ray& ray) const {
   return ray.origin_m.z() > top_m_ && ray.direction.z() >= 0;
 }
 
-Hit Scene::hit_of(const Ray& ray, const Meeting& met) const {
+Hit Scene::hit_of(const Eigen::Vector3f& direction, const Meeting& met) const {
   const Eigen::Vector3f normal = normal_from_mesh_[met.surface] * met.normal;
   return {.range_m = met.range_m,
-          .cos_incidence = std::min(1.0f, std::abs(normal.dot(ray.direction)) / normal.norm()),
+          .cos_incidence = std::min(1.0f, std::abs(normal.dot(direction)) / normal.norm()),
           .reflectance = optics_[mesh_of_surface_[met.surface]].reflectance(
               met.triangle, surfaces_[met.surface].reflectance),
           .surface = met.surface};
@@ -176,54 +176,67 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
     intersect(world, query, ray.time_s);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     const bool in_instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    hits[i] = hit_of(ray, {.range_m = query.ray.tfar,
-                           .normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z},
-                           .surface = in_instance ? query.hit.instID[0] : query.hit.geomID,
-                           .triangle = query.hit.primID});
-  }
-}
-
-void Scene::cast_packet(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const {
-  alignas(32) int valid[kPacket];
-  RTCRayHit8 query;
-  for (std::size_t i = 0; i < kPacket; ++i) {
-    const Ray& ray = rays[std::min(i, rays.size() - 1)];
-    valid[i] = i < rays.size() && !goes_to_the_sky(ray) ? -1 : 0;
-    query.ray.org_x[i] = ray.origin_m.x();
-    query.ray.org_y[i] = ray.origin_m.y();
-    query.ray.org_z[i] = ray.origin_m.z();
-    query.ray.tnear[i] = 0;
-    query.ray.dir_x[i] = ray.direction.x();
-    query.ray.dir_y[i] = ray.direction.y();
-    query.ray.dir_z[i] = ray.direction.z();
-    query.ray.time[i] = 0;
-    query.ray.tfar[i] = max_range_m;
-    query.ray.mask[i] = ~0u;
-    query.ray.flags[i] = 0;
-    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  intersect(trees_->world.get(), valid, query, rays.front().time_s);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i].range_m = std::numeric_limits<float>::infinity();
-    if (valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    const bool in_instance = query.hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
     hits[i] =
-        hit_of(rays[i], {.range_m = query.ray.tfar[i],
-                         .normal = {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]},
-                         .surface = in_instance ? query.hit.instID[0][i] : query.hit.geomID[i],
-                         .triangle = query.hit.primID[i]});
+        hit_of(ray.direction, {.range_m = query.ray.tfar,
+                               .normal = {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z},
+                               .surface = in_instance ? query.hit.instID[0] : query.hit.geomID,
+                               .triangle = query.hit.primID});
   }
 }
 
-void Scene::cast_bundles(std::span<const Ray> rays, std::size_t bundle, float max_range_m,
+void Scene::cast_packet(const RayArrays& rays, std::size_t begin, std::size_t count,
+                        float max_range_m, std::span<Hit> hits) const {
+  // The last ray stands in the lanes that are left.
+  const auto take = [&](const std::vector<float>& of_rays, float* lanes) {
+    std::copy_n(of_rays.begin() + static_cast<std::ptrdiff_t>(begin), count, lanes);
+    std::fill(lanes + count, lanes + kPacket, lanes[count - 1]);
+  };
+  RTCRayHit8 query;
+  RTCRay8& ray = query.ray;
+  RTCHit8& hit = query.hit;
+  take(rays.origin_m[0], ray.org_x);
+  take(rays.origin_m[1], ray.org_y);
+  take(rays.origin_m[2], ray.org_z);
+  take(rays.direction[0], ray.dir_x);
+  take(rays.direction[1], ray.dir_y);
+  take(rays.direction[2], ray.dir_z);
+  alignas(32) std::array<int, kPacket> valid;
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    valid[i] = i < count && !(ray.org_z[i] > top_m_ && ray.dir_z[i] >= 0) ? -1 : 0;
+    ray.tnear[i] = 0;
+    ray.time[i] = 0;
+    ray.tfar[i] = max_range_m;
+    ray.mask[i] = ~0u;
+    ray.flags[i] = 0;
+    hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  intersect(trees_->world.get(), valid.data(), query, rays.time_s[begin]);
+  for (std::size_t i = 0; i < count; ++i) {
+    Hit& met = hits[begin + i];
+    met.range_m = std::numeric_limits<float>::infinity();
+    if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const bool in_instance = hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
+    met = hit_of({ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]},
+                 {.range_m = ray.tfar[i],
+                  .normal = {hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]},
+                  .surface = in_instance ? hit.instID[0][i] : hit.geomID[i],
+                  .triangle = hit.primID[i]});
+  }
+}
+
+void Scene::cast_bundles(const RayArrays& rays, std::size_t bundle, float max_range_m,
                          std::span<Hit> hits) const {
-  if (trees_->swaying) return cast(rays, max_range_m, hits);
+  check(hits.size() >= rays.size(), "every ray has room for its hit");
+  if (trees_->swaying) {
+    std::vector<Ray> one_by_one;
+    one_by_one.reserve(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) one_by_one.push_back(rays.at(i));
+    return cast(one_by_one, max_range_m, hits);
+  }
   for (std::size_t begin = 0; begin < rays.size(); begin += bundle) {
-    for (std::size_t i = 0; i < bundle; i += kPacket) {
-      const std::size_t count = std::min(kPacket, bundle - i);
-      cast_packet(rays.subspan(begin + i, count), max_range_m, hits.subspan(begin + i, count));
-    }
+    for (std::size_t i = 0; i < bundle; i += kPacket)
+      cast_packet(rays, begin + i, std::min(kPacket, bundle - i), max_range_m, hits);
   }
 }
 

@@ -8,17 +8,12 @@
 #include <Eigen/Core>
 
 #include "lidar/optics.h"
+#include "lidar/rays.h"
 #include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
 
 class Sway;
-
-struct Ray {
-  Eigen::Vector3f origin_m;   // world frame
-  Eigen::Vector3f direction;  // unit vector
-  double time_s = 0;          // from take-off; where plants sway it decides what is met
-};
 
 // Where a ray first meets a surface.
 struct Hit {
@@ -43,7 +38,7 @@ class Scene {
   void cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
   // The same for rays of which every `bundle` that follow each other lie close together, which is
   // twice as fast (but where plants sway). A ray within micrometres of an edge may end otherwise.
-  void cast_bundles(std::span<const Ray> rays, std::size_t bundle, float max_range_m,
+  void cast_bundles(const RayArrays& rays, std::size_t bundle, float max_range_m,
                     std::span<Hit> hits) const;
   const Surface& surface(const Hit& hit) const { return surfaces_[hit.surface]; }
 
@@ -67,8 +62,10 @@ class Scene {
   Scene(const SceneContent& content, const Sway* sway);
   void build_trees(const SceneContent& content);
   bool goes_to_the_sky(const Ray& ray) const;
-  Hit hit_of(const Ray& ray, const Meeting& met) const;
-  void cast_packet(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
+  Hit hit_of(const Eigen::Vector3f& direction, const Meeting& met) const;
+  // Casts rays [begin, begin + count), which are at most kPacket.
+  void cast_packet(const RayArrays& rays, std::size_t begin, std::size_t count, float max_range_m,
+                   std::span<Hit> hits) const;
 
   std::unique_ptr<Trees> trees_;
   std::vector<Surface> surfaces_;                  // in the order of SceneContent::placed

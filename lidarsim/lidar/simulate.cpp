@@ -19,10 +19,10 @@
 namespace plotscan::lidar {
 namespace {
 
-// Firing sequences that one task takes, by the number of sub-rays: a fraction of a millisecond of
-// casting, where there are not very many.
+// Firing sequences that one task takes, by the number of sub-rays: about a millisecond of casting,
+// where there are not very many. Packets are cast full where a laser has some hundred sub-rays.
 std::uint64_t batch_sequences(int sub_rays) {
-  return static_cast<std::uint64_t>(std::max(1, 64 / sub_rays));
+  return static_cast<std::uint64_t>(sub_rays == 1 ? 64 : std::max(1, 160 / sub_rays));
 }
 
 // Batches under way for each thread: work for some milliseconds, so that one thread that waits for
@@ -54,12 +54,7 @@ class Simulator {
   Batch run(std::uint64_t begin) const {
     const std::uint64_t end = std::min(begin + batch_sequences(options_.sub_rays), end_sequence_);
     std::vector<Ray> axes = fire(shots_.fired, begin, end);
-    std::vector<Hit> hits;
-    if (sub_rays_) {
-      hits = cast(widened(begin, axes));
-    } else {
-      hits = cast(axes);
-    }
+    const std::vector<Hit> hits = sub_rays_ ? cast_beams(begin, axes) : cast(axes);
     if (&shots_.placed != &shots_.fired) axes = fire(shots_.placed, begin, end);
     return {.end_sequence = end,
             .points = sub_rays_ ? measure_beams(begin, axes, hits) : measure(begin, axes, hits)};
@@ -81,29 +76,38 @@ class Simulator {
     return rays;
   }
 
-  // The sub-rays of the shots along the axes.
-  std::vector<Ray> widened(std::uint64_t begin_sequence, const std::vector<Ray>& axes) const {
-    std::vector<Ray> rays;
-    rays.reserve(axes.size() * sub_rays_->count());
+  float reach_m() const {
+    return static_cast<float>(sensor_.max_range_m + kNoiseReach * options_.range_noise_m);
+  }
+
+  std::vector<Hit> cast(const std::vector<Ray>& axes) const {
+    std::vector<Hit> hits(axes.size());
+    scene_.cast(axes, reach_m(), hits);
+    return hits;
+  }
+
+  // Those of each laser's sub-rays together, shot by shot: from one shot to the next a laser turns
+  // by about a beam's width.
+  std::vector<Hit> cast_beams(std::uint64_t begin_sequence, const std::vector<Ray>& axes) const {
+    RayArrays rays(axes.size() * sub_rays_->count());
     const std::size_t lasers = shots_.fired.lasers();
     Eigen::Vector3f spin_axis;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const std::uint64_t sequence = begin_sequence + i / lasers;
       if (i % lasers == 0) spin_axis = shots_.fired.spin_axis(sequence).cast<float>();
-      sub_rays_->append(axes[i], spin_axis, sequence * lasers + i % lasers, rays);
+      sub_rays_->spread(axes[i], spin_axis, sequence * lasers + i % lasers, rays,
+                        first_sub_ray(i, axes.size()));
     }
-    return rays;
+    std::vector<Hit> hits(rays.size());
+    scene_.cast_bundles(rays, rays.size() / lasers, reach_m(), hits);
+    return hits;
   }
 
-  std::vector<Hit> cast(const std::vector<Ray>& rays) const {
-    std::vector<Hit> hits(rays.size());
-    const double reach_m = sensor_.max_range_m + kNoiseReach * options_.range_noise_m;
-    if (sub_rays_) {
-      scene_.cast_bundles(rays, sub_rays_->count(), static_cast<float>(reach_m), hits);
-    } else {
-      scene_.cast(rays, static_cast<float>(reach_m), hits);
-    }
-    return hits;
+  // Where those of the i-th axis begin among all of a batch.
+  std::size_t first_sub_ray(std::size_t i, std::size_t axes) const {
+    const std::size_t lasers = shots_.fired.lasers();
+    const std::size_t sequences = axes / lasers;
+    return (i % lasers * sequences + i / lasers) * sub_rays_->count();
   }
 
   // Points of the axes' hits. The axes say where the points are put.
@@ -136,8 +140,8 @@ class Simulator {
     std::vector<scan::LabelledPoint> points;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const std::uint64_t shot = begin_sequence * shots_.fired.lasers() + i;
-      const auto returns =
-          detector.detect(std::span(hits).subspan(i * sub_rays_->count(), sub_rays_->count()));
+      const auto returns = detector.detect(
+          std::span(hits).subspan(first_sub_ray(i, axes.size()), sub_rays_->count()));
       const std::size_t first = points.size();
       for (std::size_t k = 0; k < returns.size(); ++k) {
         add_point(shot, axes[i], returns[k],

@@ -27,16 +27,19 @@ struct Extremum {
 
 class Waveform {
  public:
-  Waveform(std::span<const Echo> echoes, double sigma_m) : echoes_(echoes), sigma_m_(sigma_m) {}
+  // The echoes lie between the nearest and the farthest; farther apart than kReach they are sorted.
+  Waveform(std::span<const Echo> echoes, double nearest_m, double farthest_m, double sigma_m)
+      : echoes_(echoes),
+        sigma_m_(sigma_m),
+        all_within_reach_(farthest_m - nearest_m <= kReach * sigma_m) {}
 
+  // At a range between the nearest and the farthest.
   Sample at(double range_m) const {
-    const double reach_m = kReach * sigma_m_;
-    auto echo = std::ranges::lower_bound(echoes_, range_m - reach_m, {}, &Echo::range_m);
     Sample sample;
-    for (; echo != echoes_.end() && echo->range_m <= range_m + reach_m; ++echo) {
-      const double away_m = echo->range_m - range_m;
+    for (const Echo& echo : within_reach(range_m)) {
+      const double away_m = echo.range_m - range_m;
       const double square = away_m * away_m / (sigma_m_ * sigma_m_);
-      const double power = echo->power * std::exp(-0.5 * square);
+      const double power = echo.power * std::exp(-0.5 * square);
       sample.power += power;
       sample.slope += power * away_m;
       sample.bend += power * (square - 1);
@@ -62,6 +65,14 @@ class Waveform {
   }
 
  private:
+  std::span<const Echo> within_reach(double range_m) const {
+    if (all_within_reach_) return echoes_;
+    const double reach_m = kReach * sigma_m_;
+    const auto begin = std::ranges::lower_bound(echoes_, range_m - reach_m, {}, &Echo::range_m);
+    const auto end = std::ranges::upper_bound(echoes_, range_m + reach_m, {}, &Echo::range_m);
+    return {begin, end};
+  }
+
   // Of the echoes by their power, where that lies between the two; else the middle. Of echoes much
   // closer together than the pulse is long the waveform has its maximum there.
   double mean_range(double near_m, double far_m) const {
@@ -76,23 +87,29 @@ class Waveform {
 
   std::span<const Echo> echoes_;
   double sigma_m_;
+  bool all_within_reach_;
 };
 
 // The maxima of the echoes [begin, end), which overlap, and which of them belong to which.
 void find_in_group(std::span<const Echo> echoes, std::size_t begin, std::size_t end, double sigma_m,
                    std::vector<Peak>& peaks) {
   const auto group = echoes.subspan(begin, end - begin);
-  const Waveform waveform(group, sigma_m);
   const double first_m = group.front().range_m;
-  const double length_m = group.back().range_m - first_m;
-  const int steps =
-      length_m <= 2 * sigma_m ? 1 : static_cast<int>(std::ceil(length_m / (kStep * sigma_m)));
+  const double last_m = group.back().range_m;
+  const double length_m = last_m - first_m;
+  if (length_m <= kOnePeak * sigma_m) {
+    const Peak peak = only_peak(group, first_m, last_m, sigma_m);
+    peaks.push_back({.range_m = peak.range_m, .power = peak.power, .begin = begin, .end = end});
+    return;
+  }
+  const Waveform waveform(group, first_m, last_m, sigma_m);
+  const int steps = static_cast<int>(std::ceil(length_m / (kStep * sigma_m)));
   // Before the first echo the power rises, after the last it falls.
   bool was_rising = true;
   double before_m = first_m;
   std::size_t peak_begin = begin;
   for (int i = 1; i <= steps; ++i) {
-    const double here_m = i == steps ? group.back().range_m : first_m + i * length_m / steps;
+    const double here_m = i == steps ? last_m : first_m + i * length_m / steps;
     const bool rising = i < steps && waveform.at(here_m).slope > 0;
     if (was_rising && !rising) {
       const Extremum top = waveform.extremum(before_m, here_m, true);
@@ -110,6 +127,12 @@ void find_in_group(std::span<const Echo> echoes, std::size_t begin, std::size_t 
 }
 
 }  // namespace
+
+Peak only_peak(std::span<const Echo> echoes, double nearest_m, double farthest_m, double sigma_m) {
+  const Extremum top =
+      Waveform(echoes, nearest_m, farthest_m, sigma_m).extremum(nearest_m, farthest_m, true);
+  return {.range_m = top.range_m, .power = top.power, .begin = 0, .end = echoes.size()};
+}
 
 std::vector<Peak> find_peaks(std::span<const Echo> echoes, double sigma_m) {
   std::vector<Peak> peaks;

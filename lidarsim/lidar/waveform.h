@@ -22,9 +22,14 @@ struct Peak {
 };
 
 // The maxima of the sum of the echoes' pulses, Gaussians of standard deviation `sigma_m` in range,
-// from near to far. The echoes are sorted by range. Where all of them lie within 2 sigma there is
+// from near to far. The echoes are sorted by range. Where all of them lie within kOnePeak there is
 // one maximum (the sum is then log-concave); elsewhere the slope's sign is looked at every eighth
 // of sigma, so that a dip narrower than that is not seen. A maximum is found to a micrometre.
 std::vector<Peak> find_peaks(std::span<const Echo> echoes, double sigma_m);
+
+// Echoes that lie so close together, in sigmas, have one maximum.
+inline constexpr double kOnePeak = 2;
+// The maximum of such echoes, which may come in any order.
+Peak only_peak(std::span<const Echo> echoes, double nearest_m, double farthest_m, double sigma_m);
 
 }  // namespace plotscan::lidar

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/internal/beam.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +18,8 @@ namespace {
 // the least discrepancy.
 constexpr double kGolden = 0.6180339887498949;
 constexpr std::uint64_t kGolden64 = 0x9E3779B97F4A7C15;
+
+constexpr std::size_t kLanes = 8;
 
 // The mean of a standard normal point's square distance, -2 ln(v), over those with v, the
 // probability of one further out, in [low, high].
@@ -54,14 +58,20 @@ std::vector<Eigen::Vector2d> normal_pattern(int count) {
 }
 
 SubRays::SubRays(const sensor::Beam& beam, int count)
-    : along_rad_(static_cast<float>(beam.along_rad / 4)),
+    : count_(static_cast<std::size_t>(count)),
+      pattern_((count_ + kLanes - 1) / kLanes),
+      along_rad_(static_cast<float>(beam.along_rad / 4)),
       across_rad_(static_cast<float>(beam.across_rad / 4)) {
-  for (const Eigen::Vector2d& point : normal_pattern(count))
-    pattern_.push_back(point.cast<float>());
+  const std::vector<Eigen::Vector2d> pattern = normal_pattern(count);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto lane = static_cast<Eigen::Index>(i % kLanes);
+    pattern_[i / kLanes].x[lane] = static_cast<float>(pattern[i].x());
+    pattern_[i / kLanes].y[lane] = static_cast<float>(pattern[i].y());
+  }
 }
 
-void SubRays::append(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
-                     std::vector<Ray>& rays) const {
+void SubRays::spread(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
+                     RayArrays& rays, std::size_t first) const {
   constexpr float kParallel = 1e-4f;  // a shot along the spin axis: no direction is the spin's
   Eigen::Vector3f along = axis.direction.cross(spin_axis);
   along = along.norm() > kParallel ? along.normalized() : axis.direction.unitOrthogonal();
@@ -70,12 +80,26 @@ void SubRays::append(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uin
   const double turn = std::numbers::pi * static_cast<double>(shot * kGolden64) * 0x1p-64;
   const auto cosine = static_cast<float>(std::cos(turn));
   const auto sine = static_cast<float>(std::sin(turn));
-  for (const Eigen::Vector2f& point : pattern_) {
-    const float x = along_rad_ * (cosine * point.x() - sine * point.y());
-    const float y = across_rad_ * (sine * point.x() + cosine * point.y());
-    rays.push_back({.origin_m = axis.origin_m,
-                    .direction = (axis.direction + x * along + y * across).normalized(),
-                    .time_s = axis.time_s});
+  const auto begin = static_cast<std::ptrdiff_t>(first);
+  std::fill_n(rays.time_s.begin() + begin, count_, axis.time_s);
+  for (std::size_t c = 0; c < 3; ++c)
+    std::fill_n(rays.origin_m[c].begin() + begin, count_,
+                axis.origin_m[static_cast<Eigen::Index>(c)]);
+  for (std::size_t i = 0; i < pattern_.size(); ++i) {
+    const Lanes x = along_rad_ * (cosine * pattern_[i].x - sine * pattern_[i].y);
+    const Lanes y = across_rad_ * (sine * pattern_[i].x + cosine * pattern_[i].y);
+    std::array<Lanes, 3> aside;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto k = static_cast<Eigen::Index>(c);
+      aside[c] = axis.direction[k] + x * along[k] + y * across[k];
+    }
+    const Lanes length = (aside[0].square() + (aside[1].square() + aside[2].square())).sqrt();
+    const std::size_t done = i * kLanes;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Lanes direction = aside[c] / length;
+      std::copy_n(direction.data(), std::min(kLanes, count_ - done),
+                  rays.direction[c].begin() + begin + static_cast<std::ptrdiff_t>(done));
+    }
   }
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "lidar/scene.h"
+#include "lidar/rays.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::lidar {
@@ -25,14 +26,22 @@ class SubRays {
   // `count` is in [1, kMaxSubRays].
   SubRays(const sensor::Beam& beam, int count);
 
-  std::size_t count() const { return pattern_.size(); }
-  // Appends the sub-rays of a shot along `axis`. The beam's ellipse lies along axis x spin_axis,
-  // the direction of the spin; the pattern is turned within it from shot to shot.
-  void append(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
-              std::vector<Ray>& rays) const;
+  std::size_t count() const { return count_; }
+  // Puts the sub-rays of a shot along `axis` at [first, first + count()) of `rays`. The beam's
+  // ellipse lies along axis x spin_axis, the direction of the spin; the pattern is turned within it
+  // from shot to shot.
+  void spread(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
+              RayArrays& rays, std::size_t first) const;
 
  private:
-  std::vector<Eigen::Vector2f> pattern_;
+  using Lanes = Eigen::Array<float, 8, 1>;
+  // The pattern's points, side by side; of the last ones some are not used.
+  struct Points {
+    Lanes x = Lanes::Zero(), y = Lanes::Zero();
+  };
+
+  std::size_t count_;
+  std::vector<Points> pattern_;
   float along_rad_;  // standard deviations
   float across_rad_;
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sub_rays.h"
 #include <gtest/gtest.h>
 
 namespace plotscan::lidar {
@@ -46,8 +47,8 @@ TEST(Beam, EllipsesHoldTheirShareOfTheEnergy) {
   const Eigen::Vector3d along = axis.direction.cross(spin_axis).normalized().cast<double>();
   const Eigen::Vector3d across = axis.direction.cast<double>().cross(along);
   for (const int count : {5, 7, 19, 64, 200, 1024}) {
-    std::vector<Ray> rays;
-    SubRays(kBeam, count).append(axis, spin_axis, 12345, rays);
+    const std::vector<Ray> rays =
+        testing::sub_rays_of(SubRays(kBeam, count), axis, spin_axis, 12345);
     for (const double k : {0.4, 0.6, 0.8, 1.0, 1.3}) {
       int inside = 0;
       for (const Ray& ray : rays) {
@@ -77,8 +78,8 @@ TEST(Beam, LiesWithTheScan) {
     const Eigen::Vector3d across = axis.direction.cast<double>().cross(along);
     for (const int count : {4, 7, 37}) {
       for (const std::uint64_t shot : {0ull, 1ull, 17ull, 123'456'789'012ull}) {
-        std::vector<Ray> rays;
-        SubRays(kBeam, count).append(axis, spin_axis, shot, rays);
+        const std::vector<Ray> rays =
+            testing::sub_rays_of(SubRays(kBeam, count), axis, spin_axis, shot);
         ASSERT_EQ(rays.size(), static_cast<std::size_t>(count));
         Eigen::Vector3d mean(0, 0, 0);
         double along_square = 0;
@@ -100,8 +101,8 @@ TEST(Beam, LiesWithTheScan) {
 }
 
 TEST(Beam, ShotAlongTheSpinAxisKeepsItsSpread) {
-  std::vector<Ray> rays;
-  SubRays(kBeam, 16).append({{0, 0, 0}, {0, 0, 1}}, {0, 0, 1}, 3, rays);
+  const std::vector<Ray> rays =
+      testing::sub_rays_of(SubRays(kBeam, 16), {{0, 0, 0}, {0, 0, 1}}, {0, 0, 1}, 3);
   double square = 0;
   for (const Ray& ray : rays) square += ray.direction.head<2>().squaredNorm() / 16;
   EXPECT_NEAR(std::sqrt(square), std::hypot(0.75e-3, 0.375e-3), 1e-6);
@@ -109,8 +110,7 @@ TEST(Beam, ShotAlongTheSpinAxisKeepsItsSpread) {
 
 TEST(Beam, OneSubRayIsTheAxis) {
   const Ray axis{{1, 2, 3}, Eigen::Vector3f(1, 2, -7).normalized()};
-  std::vector<Ray> rays;
-  SubRays(kBeam, 1).append(axis, {0, 0, 1}, 5, rays);
+  const std::vector<Ray> rays = testing::sub_rays_of(SubRays(kBeam, 1), axis, {0, 0, 1}, 5);
   ASSERT_EQ(rays.size(), 1u);
   EXPECT_NEAR((rays[0].direction - axis.direction).norm(), 0, 1e-7);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plate_scenes.h"
+#include "sub_rays.h"
 #include <gtest/gtest.h>
 
 namespace plotscan::lidar {
@@ -109,9 +110,9 @@ bool grazes_edge(const Hover& hover, int sub_rays, std::uint64_t shot, double pl
   constexpr double kEdgeError_m = 5e-6;
   sensor::SequenceShots shots;
   hover.plan.fire(shot, shots);
-  std::vector<Ray> rays;
-  SubRays(*hover.sensor.beam, sub_rays)
-      .append(ray_of(shots, 0), hover.plan.spin_axis(shot).cast<float>(), shot, rays);
+  const std::vector<Ray> rays =
+      testing::sub_rays_of(SubRays(*hover.sensor.beam, sub_rays), ray_of(shots, 0),
+                           hover.plan.spin_axis(shot).cast<float>(), shot);
   return std::ranges::any_of(rays, [&](const Ray& ray) {
     const double x_m = (kHeight_m - plate_z_m) * ray.direction.x() / -ray.direction.z();
     return std::abs(x_m) < kEdgeError_m;

@@ -127,6 +127,12 @@ std::vector<Ray> bundled(const std::vector<Ray>& rays, std::size_t bundle) {
   return bundles;
 }
 
+RayArrays arrays_of(const std::vector<Ray>& rays) {
+  RayArrays arrays(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) arrays.set(i, rays[i]);
+  return arrays;
+}
+
 // The same as one by one, but where a ray passes within micrometres of an edge.
 TEST(Scene, RaysInBundlesHitWhatTheyHitOneByOne) {
   const farm::Farm farm = testing::small_farm();
@@ -135,7 +141,7 @@ TEST(Scene, RaysInBundlesHitWhatTheyHitOneByOne) {
     const std::vector<Ray> rays = bundled(random_rays(farm, 2000), bundle);
     std::vector<Hit> alone(rays.size()), together(rays.size());
     scene.cast(rays, kFar_m, alone);
-    scene.cast_bundles(rays, bundle, kFar_m, together);
+    scene.cast_bundles(arrays_of(rays), bundle, kFar_m, together);
     std::size_t met = 0, otherwise = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       met += std::isfinite(alone[i].range_m);
@@ -179,7 +185,7 @@ TEST(Scene, RaysInBundlesPassHoles) {
   const Scene scene(content);
   const std::vector<Ray> rays = bundled({{{0, 0, 5}, {0, 0, -1}}}, 8);
   std::vector<Hit> hits(rays.size());
-  scene.cast_bundles(rays, rays.size(), kFar_m, hits);
+  scene.cast_bundles(arrays_of(rays), rays.size(), kFar_m, hits);
   int in_holes = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Eigen::Vector3f at = rays[i].origin_m + 4 * rays[i].direction;

@@ -53,6 +53,26 @@ TEST(Waveform, TwoEqualPulsesMergeWithinTwoSigma) {
   }
 }
 
+// Whatever the order of echoes within two sigma; 100 draws against the search among sorted ones.
+TEST(Waveform, OnlyPeakIsThatOfTheSortedEchoes) {
+  for (std::uint64_t draw = 0; draw < 100; ++draw) {
+    RandomStream stream(3, random_purpose("test/only-peak"), draw);
+    std::vector<Echo> echoes(1 + draw % 30);
+    for (Echo& echo : echoes)
+      echo = {stream.uniform(9, 9 + kOnePeak * kSigma_m), stream.uniform(0.1, 1)};
+    const auto [nearest, farthest] = std::ranges::minmax(echoes, {}, &Echo::range_m);
+    const Peak only = only_peak(echoes, nearest.range_m, farthest.range_m, kSigma_m);
+    std::ranges::sort(echoes, {}, &Echo::range_m);
+    const auto peaks = find_peaks(echoes, kSigma_m);
+    ASSERT_EQ(peaks.size(), 1u);
+    EXPECT_NEAR(only.range_m, peaks[0].range_m, 2e-6);
+    EXPECT_NEAR(only.power, power_at(echoes, only.range_m), 1e-9);
+    for (const double aside_m : {-1e-3, 1e-3})
+      EXPECT_GT(only.power, power_at(echoes, only.range_m + aside_m));
+    EXPECT_EQ(only.end, echoes.size());
+  }
+}
+
 // Pulses much closer than their length peak at the mean of their ranges weighted by power.
 TEST(Waveform, ClosePulsesPeakAtTheirWeightedMean) {
   const std::vector<Echo> echoes = {{8, 3}, {8.01, 1}, {8.02, 2}};
