@@ -10,6 +10,7 @@
 #include "farmfolder/read_farm.h"
 #include "plant_command.h"
 #include "planting/generate.h"
+#include "terrain/extent.h"
 #include <fmt/core.h>
 
 #include "core/data_folder.h"
@@ -150,15 +151,18 @@ void run_generate(const Program& program, const Arguments& arguments) {
                         .replace = arguments.force},
                        program.progress("writing"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const farm::FarmSummary summary = farm::summarise(made);
-  nlohmann::json document = json_of(made, summary);
-  document["folder"] = arguments.output;
-  document["seconds"] = elapsed.count();
-  program.result(document);
+  if (common.json) {
+    nlohmann::json document = json_of(made, farm::summarise(made));
+    document["folder"] = arguments.output;
+    document["seconds"] = elapsed.count();
+    program.result(document);
+  }
+  const Eigen::Vector3d size_m = terrain::extent_of(made.terrain).sizes();
+  const auto weeds = std::ranges::count(made.plants, farm::PlantKind::weed, &farm::Plant::kind);
   program.say(fmt::format("{}: {} plots, {} plants on {:.1f} x {:.1f} m, seed {}, in {:.2f} s",
-                          arguments.output, summary.plots, summary.plants,
-                          summary.terrain_size_m.x(), summary.terrain_size_m.y(), made.seed,
-                          elapsed.count()));
+                          arguments.output, made.plots.size(),
+                          made.plants.size() - static_cast<std::size_t>(weeds), size_m.x(),
+                          size_m.y(), made.seed, elapsed.count()));
   say_notes(program, made);
 }
 

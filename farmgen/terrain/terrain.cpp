@@ -76,19 +76,22 @@ Terrain::Terrain(Vertices vertices, std::vector<Triangle> triangles)
       triangles_(facing_up(vertices_, std::move(triangles))),
       grid_(vertices_, triangles_) {}
 
+Terrain::Place Terrain::place_in(std::uint32_t index, const Eigen::Vector2d& point) const {
+  const Triangle& triangle = triangles_[index];
+  const Eigen::Vector3d shares = barycentric(vertices_, triangle, point);
+  return {.z = shares.x() * vertices_[triangle[0]].z() + shares.y() * vertices_[triangle[1]].z() +
+               shares.z() * vertices_[triangle[2]].z(),
+          .least_share = shares.minCoeff()};
+}
+
 std::optional<double> Terrain::height(double x, double y) const {
   const Eigen::Vector2d point(x, y);
   std::optional<double> highest;
   std::optional<double> nearest;  // of the triangle that misses the point by least
   double least_share = -kEdgeTolerance;
   for (const std::uint32_t index : grid_.candidates(x, y)) {
-    const Triangle& triangle = triangles_[index];
-    const Eigen::Vector3d shares = barycentric(vertices_, triangle, point);
-    const double share = shares.minCoeff();
+    const auto [z, share] = place_in(index, point);
     if (!(share >= least_share)) continue;
-    const double z = shares.x() * vertices_[triangle[0]].z() +
-                     shares.y() * vertices_[triangle[1]].z() +
-                     shares.z() * vertices_[triangle[2]].z();
     if (share >= 0) {
       highest = std::max(z, highest.value_or(z));
     } else {
@@ -97,6 +100,18 @@ std::optional<double> Terrain::height(double x, double y) const {
     least_share = std::min(share, 0.0);
   }
   return highest ? highest : nearest;
+}
+
+std::optional<double> Terrain::height_near(double x, double y, std::uint32_t& triangle) const {
+  const Eigen::Vector2d point(x, y);
+  if (const Place place = place_in(triangle, point); place.least_share >= 0) return place.z;
+  for (const std::uint32_t index : grid_.candidates(x, y)) {
+    const Place place = place_in(index, point);
+    if (!(place.least_share >= 0)) continue;
+    triangle = index;
+    return place.z;
+  }
+  return height(x, y);  // on an edge, to rounding
 }
 
 mesh::Mesh mesh_of(const Terrain& terrain) {

@@ -136,14 +136,15 @@ void CanopyCeiling::raise(const Standing& plant, const RayGrid& grid,
   };
   const auto [first_line, last_line] = range(foot.x(), grid.box.length_m, grid.lines);
   const auto [first_ray, last_ray] = range(foot.y(), grid.box.width_m, grid.rays_a_line);
-  const Eigen::Vector2d step = plant.map_from_world * grid.width_axis *
+  const Eigen::Vector2d step = plant.map->cells_per_metre() * plant.map_from_world *
+                               grid.width_axis *
                                (grid.box.width_m / static_cast<double>(grid.rays_a_line));
   for (std::size_t line = first_line; line <= last_line; ++line) {
     const Eigen::Vector2d start =
-        plant.map_from_world * (grid.place(line, first_ray) - plant.foot_m);
+        plant.map->cell_of(plant.map_from_world * (grid.place(line, first_ray) - plant.foot_m));
     float* const ceilings = ceiling_m.data() + line * grid.rays_a_line;
     for (std::size_t ray = first_ray; ray <= last_ray; ++ray) {
-      const double height = plant.map->at(start + static_cast<double>(ray - first_ray) * step);
+      const double height = plant.map->at_cell(start + static_cast<double>(ray - first_ray) * step);
       const double z_m = plant.foot_z_m + plant.z_scale * height;
       ceilings[ray] = std::max(ceilings[ray], static_cast<float>(z_m));
     }
@@ -166,13 +167,14 @@ std::optional<std::vector<float>> CanopyCeiling::over(const RayGrid& grid) const
   if (lookups > kMostPlantsARay) return std::nullopt;
   std::vector<float> ceiling_m(grid.rays(), CeilingMap::kNothing);
   for (const Standing& plant : plants) raise(plant, grid, ceiling_m);
+  std::uint32_t triangle = 0;  // of the terrain, under the ray before
   for (std::size_t i = 0; i < ceiling_m.size(); ++i) {
     if (ceiling_m[i] == CeilingMap::kNothing) {
       ceiling_m[i] = 0;
       continue;
     }
     const Eigen::Vector2d place = grid.place(i);
-    const double ground_m = farm_.terrain.height(place.x(), place.y()).value();
+    const double ground_m = farm_.terrain.height_near(place.x(), place.y(), triangle).value();
     const double above_m = static_cast<double>(ceiling_m[i]) - ground_m + 2 * margin_m_;
     ceiling_m[i] = static_cast<float>(std::max(0.0, above_m));
   }

@@ -24,8 +24,14 @@ class CeilingMap {
   static CeilingMap of_any_turn(const mesh::Mesh& mesh, double margin);
 
   // kNothing where there is nothing.
-  float at(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d cell = cells_per_metre_ * (place - low_);
+  float at(const Eigen::Vector2d& place) const { return at_cell(cell_of(place)); }
+
+  // A place in cells from the grid's corner.
+  Eigen::Vector2d cell_of(const Eigen::Vector2d& place) const {
+    return cells_per_metre_ * (place - low_);
+  }
+  double cells_per_metre() const { return cells_per_metre_; }
+  float at_cell(const Eigen::Vector2d& cell) const {
     // Written so that NaN is outside.
     const bool inside = cell.x() >= 0 && cell.y() >= 0 && cell.x() < columns_ && cell.y() < rows_;
     if (!inside) return kNothing;

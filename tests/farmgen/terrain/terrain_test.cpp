@@ -64,6 +64,28 @@ std::optional<double> brute_force_height(const Terrain& terrain, double x, doubl
   return std::nullopt;
 }
 
+// Along a random walk that leaves the square now and then, and beyond what rounding tells apart.
+TEST(Terrain, HeightNearTheLastPlaceIsTheHeight) {
+  const Surface surface = bumpy_square(24, 1.0, 3);
+  const Terrain terrain(surface.vertices, surface.triangles);
+  RandomStream random(9, random_purpose("test/walk"), 0);
+  Eigen::Vector2d place(0.5, 0.5);
+  std::uint32_t triangle = 0;
+  int inside = 0, outside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    place += Eigen::Vector2d(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02));
+    place = place.cwiseMax(-0.05).cwiseMin(1.05);
+    const auto near = terrain.height_near(place.x(), place.y(), triangle);
+    const auto height = terrain.height(place.x(), place.y());
+    ASSERT_EQ(near.has_value(), height.has_value());
+    (height ? inside : outside) += 1;
+    if (!height) continue;
+    ASSERT_NEAR(*near, *height, 1e-12);
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_GT(outside, 100);
+}
+
 TEST(Terrain, HeightAgreesWithBruteForceOverAllTriangles) {
   for (const double skew : {1.0, 6.0}) {
     const Surface surface = bumpy_square(24, skew, 7);
