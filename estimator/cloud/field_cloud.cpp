@@ -35,7 +35,7 @@ Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
 }
 
 TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int threads) {
-  std::vector<Eigen::Vector3f> points(tiles.keys.size());
+  std::vector<Eigen::Vector3f> points(tiles.all().size());
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, tiles.tiles.size(), [&](std::size_t tile) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
@@ -102,48 +103,59 @@ void TileStore::add(std::span<const Eigen::Vector3d> points) {
     new_keys_.push_back(placed->key);
     new_slots_.push_back(slot);
   }
-  if (new_keys_.size() >= options_.buffered_points) merge({});
+  if (new_keys_.size() >= options_.buffered_points) merge(all_slots());
 }
 
-// Groups the kept and the new keys by slot, then sorts and thins each slot's in their place. Slots
-// that are unwanted, where any are named, end up empty.
-void TileStore::merge(const std::vector<char>& unwanted) {
-  const std::size_t slots = tiles_.size();
-  std::vector<std::size_t> begin(slots + 1, 0);
-  for (const Slot slot : new_slots_) ++begin[slot + 1];
-  for (std::size_t slot = 0; slot < slots; ++slot)
-    begin[slot + 1] += begin[slot] + tiles_[slot].kept;
+std::vector<TileStore::Slot> TileStore::all_slots() const {
+  std::vector<Slot> slots(tiles_.size());
+  std::iota(slots.begin(), slots.end(), Slot{0});
+  return slots;
+}
 
-  auto grouped = std::make_unique_for_overwrite<std::uint64_t[]>(begin[slots]);
-  std::vector<std::size_t> end(begin.begin(), begin.end() - 1);
-  const std::uint64_t* kept = kept_.get();
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    std::copy_n(kept, tiles_[slot].kept, &grouped[end[slot]]);
-    kept += tiles_[slot].kept;
-    end[slot] += tiles_[slot].kept;
+void TileStore::merge(const std::vector<Slot>& order) {
+  std::vector<std::size_t> sizes(tiles_.size(), 0);
+  for (const Slot slot : new_slots_) ++sizes[slot];
+  for (std::size_t slot = 0; slot < sizes.size(); ++slot) sizes[slot] += tiles_[slot].kept;
+  constexpr auto kDropped = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> begin(tiles_.size(), kDropped);
+  std::size_t size = 0;
+  for (const Slot slot : order) {
+    begin[slot] = size;
+    size += sizes[slot];
   }
-  for (std::size_t i = 0; i < new_keys_.size(); ++i) grouped[end[new_slots_[i]]++] = new_keys_[i];
+
+  auto grouped = std::make_unique_for_overwrite<std::uint64_t[]>(size);
+  std::vector<std::size_t> end = begin;
+  const std::uint64_t* kept = kept_.get();
+  for (const Slot slot : kept_order_) {
+    if (begin[slot] != kDropped) end[slot] += tiles_[slot].kept;
+    if (begin[slot] != kDropped) std::copy_n(kept, tiles_[slot].kept, &grouped[begin[slot]]);
+    kept += tiles_[slot].kept;
+  }
+  for (std::size_t i = 0; i < new_keys_.size(); ++i)
+    if (begin[new_slots_[i]] != kDropped) grouped[end[new_slots_[i]]++] = new_keys_[i];
   new_keys_.clear();
   new_slots_.clear();
 
   tbb::task_arena arena(options_.threads);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, slots, [&](std::size_t slot) {
-      const std::span keys(&grouped[begin[slot]], end[slot] - begin[slot]);
-      const bool dropped = !unwanted.empty() && unwanted[slot];
-      const Thinned thinned =
-          dropped ? Thinned{} : thin(keys, tiles_[slot].kept, options_.points_per_cell);
-      tiles_[slot].kept = thinned.kept;
-      tiles_[slot].repeated += thinned.repeated;
+    tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
+      TileState& tile = tiles_[order[i]];
+      const std::span keys(&grouped[begin[order[i]]], sizes[order[i]]);
+      const Thinned thinned = thin(keys, tile.kept, options_.points_per_cell);
+      tile.kept = thinned.kept;
+      tile.repeated += thinned.repeated;
     });
   });
 
   kept_size_ = 0;
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    std::copy_n(&grouped[begin[slot]], tiles_[slot].kept, &grouped[kept_size_]);
+  for (const Slot slot : order) {
+    if (begin[slot] != kept_size_)
+      std::copy_n(&grouped[begin[slot]], tiles_[slot].kept, &grouped[kept_size_]);
     kept_size_ += tiles_[slot].kept;
   }
   kept_ = std::move(grouped);
+  kept_order_ = order;
 }
 
 std::vector<TileCount> TileStore::tile_counts() const {
@@ -154,38 +166,27 @@ std::vector<TileCount> TileStore::tile_counts() const {
 }
 
 TiledKeys TileStore::take(const std::function<bool(Tile)>& wanted) {
-  std::vector<char> unwanted;
-  for (const TileState& state : tiles_) unwanted.push_back(!wanted(state.tile));
-  merge(unwanted);
-  struct Range {
-    Tile tile;
-    std::size_t begin;
-    std::size_t size;
-  };
-  std::vector<Range> ranges;
-  std::size_t begin = 0;
-  for (std::size_t slot = 0; slot < tiles_.size(); ++slot) {
-    const TileState& state = tiles_[slot];
-    if (unwanted[slot]) {
-      counts_.unwanted += state.added;
-      continue;
+  std::vector<Slot> order;
+  for (const Slot slot : all_slots()) {
+    if (wanted(tiles_[slot].tile)) {
+      order.push_back(slot);
+    } else {
+      counts_.unwanted += tiles_[slot].added;
     }
+  }
+  std::ranges::sort(order, {}, [&](Slot slot) { return tiles_[slot].tile; });
+  merge(order);
+  TiledKeys taken;
+  taken.begin.push_back(0);
+  for (const Slot slot : order) {
+    const TileState& state = tiles_[slot];
     counts_.repeated += state.repeated;
     counts_.thinned += state.added - state.repeated - state.kept;
-    ranges.push_back({state.tile, begin, state.kept});
-    begin += state.kept;
+    taken.tiles.push_back(state.tile);
+    taken.begin.push_back(taken.begin.back() + state.kept);
   }
-  std::ranges::sort(ranges, {}, &Range::tile);
-  TiledKeys taken;
-  taken.keys.reserve(kept_size_);
-  for (const Range& range : ranges) {
-    taken.tiles.push_back(range.tile);
-    taken.begin.push_back(taken.keys.size());
-    const std::uint64_t* first = &kept_[range.begin];
-    taken.keys.insert(taken.keys.end(), first, first + range.size);
-  }
-  taken.begin.push_back(taken.keys.size());
-  kept_.reset();
+  taken.keys = std::move(kept_);
+  kept_order_.clear();
   kept_size_ = 0;
   return taken;
 }

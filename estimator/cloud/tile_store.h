@@ -24,10 +24,11 @@ struct TileCount {
 struct TiledKeys {
   std::vector<Tile> tiles = {};
   std::vector<std::size_t> begin = {};  // of each tile's keys; one more than tiles, ends the last
-  std::vector<std::uint64_t> keys = {};
+  std::unique_ptr<std::uint64_t[]> keys = {};
 
+  std::span<const std::uint64_t> all() const { return {keys.get(), begin.back()}; }
   std::span<const std::uint64_t> of(std::size_t tile) const {
-    return std::span(keys).subspan(begin[tile], begin[tile + 1] - begin[tile]);
+    return {&keys[begin[tile]], begin[tile + 1] - begin[tile]};
   }
 };
 
@@ -77,7 +78,10 @@ class TileStore {
   };
 
   Slot slot_of(Tile tile);
-  void merge(const std::vector<char>& unwanted);
+  // Groups the kept and the new keys by slot, slots in `order`, and sorts and thins each slot's;
+  // slots that are not named lose theirs.
+  void merge(const std::vector<Slot>& order);
+  std::vector<Slot> all_slots() const;
 
   TileStoreOptions options_;
   Counts counts_;
@@ -87,8 +91,10 @@ class TileStore {
   std::uint64_t last_block_key_ = 0;
   std::uint32_t last_block_ = 0;
 
-  std::vector<TileState> tiles_;           // by slot
-  std::unique_ptr<std::uint64_t[]> kept_;  // slot after slot, each sorted and thinned
+  std::vector<TileState> tiles_;  // by slot
+  std::unique_ptr<std::uint64_t[]>
+      kept_;  // slot after slot of kept_order_, each sorted and thinned
+  std::vector<Slot> kept_order_;
   std::size_t kept_size_ = 0;
   // Added since the last merge.
   std::vector<std::uint64_t> new_keys_;

@@ -40,10 +40,8 @@ Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world)
   return tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Bounds{},
       [&](const tbb::blocked_range<std::size_t>& some, Bounds bounds) {
-        for (std::size_t i = some.begin(); i != some.end(); ++i) {
-          if (!field.leaves_out(points[i]))
-            bounds.add(ab_from_world * points[i].head<2>().cast<double>());
-        }
+        for (std::size_t i = some.begin(); i != some.end(); ++i)
+          bounds.add(ab_from_world * points[i].head<2>().cast<double>());
         return bounds;
       },
       [](Bounds one, const Bounds& other) {
@@ -54,7 +52,7 @@ Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world)
 
 std::uint64_t share_of(double z_m, const CanopyScale& scale) {
   const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
-  return static_cast<std::uint64_t>(std::lround(std::clamp(share, 0.0, 1.0) * kFullCover));
+  return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kFullCover + 0.5);
 }
 
 std::uint64_t count_of(std::uint64_t cell) { return cell & ((std::uint64_t{1} << kCoverBits) - 1); }
@@ -140,7 +138,6 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
           for (std::size_t i = some.begin(); i != some.end(); ++i) {
-            if (field.leaves_out(points[i])) continue;
             const Eigen::Vector2d ab =
                 (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
             const auto a =

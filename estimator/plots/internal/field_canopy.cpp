@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -129,10 +130,10 @@ struct FieldCanopy::Block {
 };
 
 // How many blocks cover the points; 0 where no point is finite.
-std::size_t FieldCanopy::lay_out_blocks() {
+std::size_t FieldCanopy::lay_out_blocks(std::span<const Eigen::Vector3f> points) {
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low_;
-  for (const Eigen::Vector3f& point : points_) {
+  for (const Eigen::Vector3f& point : points) {
     if (!point.allFinite()) continue;
     low_ = low_.cwiseMin(point.head<2>().cast<double>());
     high = high.cwiseMax(point.head<2>().cast<double>());
@@ -147,22 +148,23 @@ std::size_t FieldCanopy::lay_out_blocks() {
 }
 
 // Each task fills blocks of its own with all of their points, in the points' order.
-std::vector<FieldCanopy::Block> FieldCanopy::filled_blocks(std::size_t count,
+std::vector<FieldCanopy::Block> FieldCanopy::filled_blocks(std::span<const Eigen::Vector3f> points,
+                                                           std::size_t count,
                                                            double canopy_m) const {
   constexpr std::size_t kTasks = 8;
-  std::vector<std::uint32_t> block_of_point(points_.size());
-  tbb::parallel_for(std::size_t{0}, points_.size(), [&](std::size_t i) {
+  std::vector<std::uint32_t> block_of_point(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     block_of_point[i] =
-        points_[i].allFinite() ? static_cast<std::uint32_t>(block_of(points_[i])) : kNoBlock;
+        points[i].allFinite() ? static_cast<std::uint32_t>(block_of(points[i])) : kNoBlock;
   });
   const std::size_t patches = patches_for(block_of_point, count);
   const double patch_m = block_m_ / static_cast<double>(patches);
   std::vector<Block> field(count, Block(canopy_m));
   tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
     const std::size_t begin = task * count / kTasks, end = (task + 1) * count / kTasks;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
       if (block_of_point[i] < begin || block_of_point[i] >= end) continue;
-      const Eigen::Vector3f& point = points_[i];
+      const Eigen::Vector3f& point = points[i];
       Block& block = field[block_of_point[i]];
       ++block.count;
       if (point.z() > canopy_m) block.heights.add(point.z());
@@ -249,14 +251,14 @@ double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, doubl
 }
 
 FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
-                         const GroundError& ground_error)
-    : points_(points) {
+                         const GroundError& ground_error) {
   const double low_m = std::max(kLeast_m, 2 * noise_m), canopy_m = 1.5 * low_m;
   scale_ = {low_m, 2 * low_m};
-  const std::size_t count = lay_out_blocks();
+  const std::size_t count = lay_out_blocks(points);
   if (count == 0) return;
   tbb::task_arena arena(threads);
-  const std::vector<Block> field = arena.execute([&] { return filled_blocks(count, canopy_m); });
+  const std::vector<Block> field =
+      arena.execute([&] { return filled_blocks(points, count, canopy_m); });
   std::vector<double> scanned, tops;
   for (const Block& block : field)
     if (block.count > 0) scanned.push_back(block.count);
@@ -269,9 +271,13 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m
     if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kBlockTop));
   }
   leave_out_surfaces();
-  if (tops.empty()) return;
-  scale_.high_m = std::max(usual_top_m(std::move(tops)), 2 * low_m);
-  if (ground_error) arena.execute([&] { leave_out_unsure_ground(ground_error); });
+  if (!tops.empty()) {
+    scale_.high_m = std::max(usual_top_m(std::move(tops)), 2 * low_m);
+    if (ground_error) arena.execute([&] { leave_out_unsure_ground(ground_error); });
+  }
+  kept_.reserve(points.size());
+  std::ranges::copy_if(points, std::back_inserter(kept_),
+                       [&](const Eigen::Vector3f& point) { return !leaves_out(point); });
 }
 
 }  // namespace plotscan::plots

@@ -27,11 +27,12 @@ struct CanopyScale {
 // too badly to tell its ridges from canopy.
 class FieldCanopy {
  public:
-  // Keeps a reference to the points. noise_m is the sigma of their heights.
+  // noise_m is the sigma of the points' heights.
   FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
               const GroundError& ground_error = {});
 
-  std::span<const Eigen::Vector3f> points() const { return points_; }
+  // Those that are not left out, in their order.
+  std::span<const Eigen::Vector3f> points() const { return kept_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
   // From the noise to the usual height of the canopy's top, over the places that have one.
   const CanopyScale& scale() const { return scale_; }
@@ -42,14 +43,15 @@ class FieldCanopy {
  private:
   struct Block;
 
-  std::size_t lay_out_blocks();
-  std::vector<Block> filled_blocks(std::size_t count, double canopy_m) const;
+  std::size_t lay_out_blocks(std::span<const Eigen::Vector3f> points);
+  std::vector<Block> filled_blocks(std::span<const Eigen::Vector3f> points, std::size_t count,
+                                   double canopy_m) const;
   std::size_t block_of(const Eigen::Vector3f& point) const;
   std::size_t cell_of(const Eigen::Vector3f& point) const;
   void leave_out_surfaces();
   void leave_out_unsure_ground(const GroundError& ground_error);
 
-  std::span<const Eigen::Vector3f> points_;
+  std::vector<Eigen::Vector3f> kept_;
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1;
   std::size_t blocks_along_y_ = 0;
