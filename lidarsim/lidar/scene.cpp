@@ -188,8 +188,7 @@ void Scene::cast_packet(const RayArrays& rays, std::size_t begin, std::size_t co
                         float max_range_m, std::span<Hit> hits) const {
   // The last ray stands in the lanes that are left.
   const auto take = [&](const std::vector<float>& of_rays, float* lanes) {
-    std::copy_n(of_rays.begin() + static_cast<std::ptrdiff_t>(begin), count, lanes);
-    std::fill(lanes + count, lanes + kPacket, lanes[count - 1]);
+    for (std::size_t i = 0; i < kPacket; ++i) lanes[i] = of_rays[begin + std::min(i, count - 1)];
   };
   RTCRayHit8 query;
   RTCRay8& ray = query.ray;
