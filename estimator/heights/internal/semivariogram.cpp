@@ -30,28 +30,47 @@ struct Pairs {
 };
 using PairsAbove = std::array<Pairs, kPairsAbove.size()>;
 
+// Coordinates of returns, each in an array of its own, as vector instructions take them.
+struct Places {
+  std::span<const float> x, y, z;
+
+  std::size_t size() const { return z.size(); }
+  Places from(std::size_t begin) const {
+    return {x.subspan(begin), y.subspan(begin), z.subspan(begin)};
+  }
+};
+
 // Returns, cell by cell.
 struct InCells {
   std::vector<std::size_t> first;  // of each cell, and of the one after the last
-  std::vector<Eigen::Vector3f> returns;
+  std::vector<float> x, y, z;
 
-  std::span<const Eigen::Vector3f> of(std::size_t cell) const {
-    return std::span(returns).subspan(first[cell], first[cell + 1] - first[cell]);
+  Places of(std::size_t cell) const {
+    const std::size_t count = first[cell + 1] - first[cell];
+    return {{&x[first[cell]], count}, {&y[first[cell]], count}, {&z[first[cell]], count}};
   }
 };
 
 InCells in_cells(const BoxCells& cells, std::span<const Eigen::Vector3f> returns) {
-  std::vector<std::size_t> cell_of(returns.size());
+  const std::size_t count = returns.size();
+  std::vector<std::size_t> cell_of(count);
   InCells sorted{.first = std::vector<std::size_t>(cells.count() + 1, 0),
-                 .returns = std::vector<Eigen::Vector3f>(returns.size())};
-  for (std::size_t k = 0; k < returns.size(); ++k) {
+                 .x = std::vector<float>(count + 1),  // empty cells at the end have an address too
+                 .y = std::vector<float>(count + 1),
+                 .z = std::vector<float>(count + 1)};
+  for (std::size_t k = 0; k < count; ++k) {
     cell_of[k] = cells.index(returns[k]);
     ++sorted.first[cell_of[k] + 1];
   }
   for (std::size_t cell = 0; cell < cells.count(); ++cell)
     sorted.first[cell + 1] += sorted.first[cell];
   std::vector<std::size_t> next(sorted.first);
-  for (std::size_t k = 0; k < returns.size(); ++k) sorted.returns[next[cell_of[k]]++] = returns[k];
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t at = next[cell_of[k]]++;
+    sorted.x[at] = returns[k].x();
+    sorted.y[at] = returns[k].y();
+    sorted.z[at] = returns[k].z();
+  }
   return sorted;
 }
 
@@ -67,23 +86,47 @@ std::vector<Eigen::Vector3f> thinned(std::span<const Eigen::Vector3f> descending
   return kept;
 }
 
-// Adds the pairs of a return with others that lie a lag away.
-void compare(const Eigen::Vector3f& point, std::span<const Eigen::Vector3f> others, double lag_m,
-             double top_m, PairsAbove& pairs) {
-  const double nearest_m2 = kNearer * kNearer * lag_m * lag_m;
-  const double farthest_m2 = kFarther * kFarther * lag_m * lag_m;
-  for (const Eigen::Vector3f& other : others) {
-    const double distance_m2 = (point.head<2>() - other.head<2>()).squaredNorm();
-    if (distance_m2 < nearest_m2 || distance_m2 > farthest_m2) continue;
-    const double difference_m = point.z() - other.z();
-    const double lower_m = std::min(point.z(), other.z());
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (lower_m < kPairsAbove[i] * top_m) break;
-      pairs[i].squares_m2 += difference_m * difference_m;
-      ++pairs[i].count;
+// Pairs of returns that lie a lag apart.
+class LagPairs {
+ public:
+  LagPairs(double lag_m, double top_m)
+      : nearest_m2_(kNearer * kNearer * lag_m * lag_m),
+        farthest_m2_(kFarther * kFarther * lag_m * lag_m),
+        top_m_(top_m) {}
+
+  // Of a return with others. First those that lie a lag away are picked, without branches.
+  void add(const Places& one, std::size_t k, const Places& others) {
+    distance_m2_.resize(std::max(distance_m2_.size(), others.size()));
+    picked_.resize(distance_m2_.size());
+    const float x = one.x[k], y = one.y[k], z = one.z[k];
+    for (std::size_t i = 0; i < others.size(); ++i)
+      distance_m2_[i] =
+          (x - others.x[i]) * (x - others.x[i]) + (y - others.y[i]) * (y - others.y[i]);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      picked_[count] = others.z[i];
+      count += static_cast<std::size_t>(distance_m2_[i] >= nearest_m2_) &
+               static_cast<std::size_t>(distance_m2_[i] <= farthest_m2_);
+    }
+    for (const float other_z : std::span(picked_).first(count)) {
+      const double difference_m = z - other_z;
+      const double lower_m = std::min(z, other_z);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        if (lower_m < kPairsAbove[i] * top_m_) break;
+        pairs_[i].squares_m2 += difference_m * difference_m;
+        ++pairs_[i].count;
+      }
     }
   }
-}
+
+  const PairsAbove& above() const { return pairs_; }
+
+ private:
+  double nearest_m2_, farthest_m2_, top_m_;
+  PairsAbove pairs_;
+  std::vector<float> distance_m2_;
+  std::vector<float> picked_;  // heights
+};
 
 PairsAbove pairs_apart(const PlotBox& box, std::span<const Eigen::Vector3f> descending,
                        double lag_m, double top_m) {
@@ -91,18 +134,16 @@ PairsAbove pairs_apart(const PlotBox& box, std::span<const Eigen::Vector3f> desc
   const double most = std::max(kCompared, kComparedOfCell * static_cast<double>(cells.count()));
   const InCells compared =
       in_cells(cells, thinned(descending, most / static_cast<double>(descending.size())));
-  PairsAbove pairs;
+  LagPairs pairs(lag_m, top_m);
   for (std::size_t cell = 0; cell < cells.count(); ++cell) {
-    const auto own = compared.of(cell);
-    for (std::size_t k = 0; k < own.size(); ++k)
-      compare(own[k], own.subspan(k + 1), lag_m, top_m, pairs);
+    const Places own = compared.of(cell);
+    for (std::size_t k = 0; k < own.size(); ++k) pairs.add(own, k, own.from(k + 1));
     for (const std::size_t near : cells.around(cell)) {
       if (near <= cell) continue;
-      for (const Eigen::Vector3f& point : own)
-        compare(point, compared.of(near), lag_m, top_m, pairs);
+      for (std::size_t k = 0; k < own.size(); ++k) pairs.add(own, k, compared.of(near));
     }
   }
-  return pairs;
+  return pairs.above();
 }
 
 // Of one lag over the far one; `longer` where either is unknown.
