@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sub_rays.h"
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace plotscan::lidar {
