@@ -160,7 +160,7 @@ void run_fit(const Program& program, const FitArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("heightcal", "Calibrate crop heights on virtual farms (docs/plot-heights.md).");
+  Program program("heightcal", "Calibrate crop heights on virtual farms (docs/plot-heights-calibration.md).");
   SampleArguments arguments;
   CLI::App& sample =
       program.command("sample", "Fly over farms of every plant library.",

@@ -62,7 +62,7 @@ Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear);
 
 // How much noisier the ratios of a canopy this high are than a very high one's: errors are in
 // proportion to the canopy above this height, and the same in metres below it. Half a metre did
-// best of 0, 0.25 and 0.5 m on farms left out (docs/plot-heights.md).
+// best of 0, 0.25 and 0.5 m on farms left out.
 double relative_noise(double top_m);
 
 }  // namespace plotscan::heights

@@ -7,7 +7,7 @@
 namespace plotscan::plots {
 namespace {
 
-// Chosen on 51 farms of one word, as docs/plot-finding.md says.
+// Chosen on 51 farms of one word, as docs/plot-finding-tests.md says.
 constexpr double kOfSpread =
     0.65;  // of the leaves' spread over an edge, in which the sown one lies
 // Errors of centres near each other are alike, so that what is fitted to them has more error than
