@@ -14,7 +14,7 @@
 namespace plotscan::cloud {
 
 // Points a square metre at which plots were found, and at which they were not any more
-// (docs/real-clouds.md).
+// (docs/real-clouds-tests.md).
 inline constexpr double kPlotsFound_m2 = 65;
 inline constexpr double kPlotsLost_m2 = 20;
 // Plots are not searched below, even ones much larger than those.

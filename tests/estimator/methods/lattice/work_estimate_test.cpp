@@ -13,7 +13,7 @@ struct Measured {
   double gigabytes;
 };
 
-// Runs of docs/real-clouds.md, one thread.
+// Runs of docs/real-clouds-tests.md, one thread.
 TEST(EstimateWork, IsWithinAFactorOfTwoOfWhatWasMeasured) {
   const Measured runs[] = {{"a flight of the paper's", {7700000, 2300, 3040}, 2.95, 0.32},
                            {"114 ha", {684374, 1183744, 0.594}, 2.7, 0.23},
