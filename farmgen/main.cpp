@@ -15,6 +15,7 @@
 
 #include "core/data_folder.h"
 #include "core/error.h"
+#include "core/place_json.h"
 #include "core/program.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
@@ -71,11 +72,7 @@ nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary)
                              {"weeds", summary.weeds},
                              {"leaf_area_index", summary.leaf_area_index},
                              {"cultivars", json_of(summary.cultivars)}};
-  if (made.anchor) {
-    document["anchor"] = {{"latitude_deg", made.anchor->latitude_deg},
-                          {"longitude_deg", made.anchor->longitude_deg},
-                          {"altitude_m", made.anchor->altitude_m}};
-  }
+  if (made.anchor) document["anchor"] = anchor_json(*made.anchor);
   return document;
 }
 

@@ -19,6 +19,8 @@ methods::lattice::Options inner(const EstimateOptions& options) {
   methods::lattice::Options made{.crop_box = options.crop_box};
   for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
   boundary::take("lattice", options.settings, methods::lattice::settings(), made);
+  if (!made.ground_classes.empty())
+    throw InputError("ground_classes is for files: points in memory have no classes");
   made.threads = boundary::threads_of(options.threads);
   return made;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plotscan/score.h"
 
-#include <numbers>
-
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
 
+#include "core/angle.h"
 #include "score/run.h"
 #include "score/score_files.h"
 
@@ -20,7 +19,7 @@ Scores outer(const score::Scores& scores) {
               .extra = boxes.extra,
               .iou_mean = boxes.iou_mean,
               .center_rmse_m = boxes.center_rmse_m,
-              .heading_rmse_deg = boxes.heading_rmse_rad * 180 / std::numbers::pi};
+              .heading_rmse_deg = degrees(boxes.heading_rmse_rad)};
   for (const score::HeightScore& height : scores.heights) {
     made.heights.push_back({.height = height.height,
                             .truth = height.truth,

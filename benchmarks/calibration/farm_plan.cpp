@@ -221,7 +221,6 @@ FarmPlan plan_farm(const Library& library, std::size_t library_number, int numbe
   plan_path(random, plan.flight);
   plan_errors(random, plan.flight);
   plan.flight.seed = plan.seed;
-  plan.flight.wind.seed = plan.seed;
   return plan;
 }
 

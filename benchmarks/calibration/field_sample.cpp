@@ -43,7 +43,7 @@ ground::Surface true_surface(const farm::Farm& farm, double noise_m) {
     for (int column = 0; column < surface.columns; ++column) {
       const Eigen::Vector2d node = surface.origin + surface.cell_m * Eigen::Vector2d(column, row);
       surface.z_m.push_back(
-          static_cast<float>(farm.terrain.height(node.x(), node.y()).value_or(NAN)));
+          static_cast<float>(farm.terrain.height(node.x(), node.y()).value_or(kNaN)));
     }
   }
   surface.sd_m.assign(surface.z_m.size(), kStandardError_m);
@@ -117,7 +117,7 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
       const Eigen::Vector2d place = point.head<2>().cast<double>();
       if (!plot.box.contains(place)) continue;
       const double ground_m = source == GroundSource::truth
-                                  ? farm.terrain.height(place.x(), place.y()).value_or(NAN)
+                                  ? farm.terrain.height(place.x(), place.y()).value_or(kNaN)
                                   : sample.surface.height(place);
       if (std::isnan(ground_m)) continue;
       plot.points.emplace_back(point.x(), point.y(), static_cast<float>(point.z() - ground_m));

@@ -110,7 +110,7 @@ heights::CalibrationFarm farm_of(const MeasuredField& field,
           .within = {},
           .from_libraries = {},
           .from_crops = {},
-          .surprise_given_crop = {}};
+          .standardised_given_crop = {}};
 }
 
 void scale_features(heights::Calibration& calibration) {
@@ -143,17 +143,17 @@ std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& cali
 }
 
 // By the farms that tell crops.
-heights::Likeness fit_like_crops(const heights::Calibration& calibration) {
+heights::Kernel fit_crop_kernel(const heights::Calibration& calibration) {
   const heights::Calibration half = calibration.halved();
-  return fit_likeness(half.features_of_farms(), heights::crop_indicators(half),
-                      std::vector<double>(half.farms.size(), 1));
+  return fit_kernel(half.features_of_farms(), heights::crop_indicators(half),
+                    std::vector<double>(half.farms.size(), 1));
 }
 
-std::vector<heights::Likeness> fit_like_ratios(const heights::Calibration& calibration) {
-  std::vector<heights::Likeness> of_crops(calibration.crops.size());
+std::vector<heights::Kernel> fit_ratio_kernels(const heights::Calibration& calibration) {
+  std::vector<heights::Kernel> of_crops(calibration.crops.size());
   tbb::parallel_for(std::size_t{0}, of_crops.size(), [&](std::size_t i) {
     const heights::Calibration own = calibration.of_crop(calibration.crops[i]);
-    of_crops[i] = fit_likeness(own.features_of_farms(), own.ratios(), own.noise());
+    of_crops[i] = fit_kernel(own.features_of_farms(), own.ratios(), own.noise());
   });
   return of_crops;
 }
@@ -190,16 +190,16 @@ void find_unlikeness(heights::Calibration& calibration) {
   tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
     heights::CalibrationFarm& farm = calibration.farms[i];
     const heights::Calibration others = all.without({&i, 1});
-    farm.unlike =
+    farm.novelty =
         heights::RatioModel(others)
             .mixture(others.scaled(farm.features), farm.top_m, others.indicators_of(farm.crop))
-            .unlike;
+            .novelty;
   });
 }
 
 // Errors over standard deviations.
-Eigen::VectorXd surprise(const heights::CalibrationFarm& farm,
-                         const heights::Prediction& prediction) {
+Eigen::VectorXd standardised_errors(const heights::CalibrationFarm& farm,
+                                    const heights::Prediction& prediction) {
   return (farm.ratios - prediction.values).cwiseQuotient(prediction.sds);
 }
 
@@ -227,11 +227,11 @@ void find_surprises(heights::Calibration& calibration, Group group) {
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
       auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
-      from_others.unlike = crops.unlike(scaled);
-      from_others.surprise = surprise(farm, model.mixture(scaled, farm.top_m, told));
+      from_others.novelty = crops.novelty(scaled);
+      from_others.standardised = standardised_errors(farm, model.mixture(scaled, farm.top_m, told));
       if (group == Group::library) {
-        farm.surprise_given_crop =
-            surprise(farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));
+        farm.standardised_given_crop = standardised_errors(
+            farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));
       }
     }
   });
@@ -268,10 +268,9 @@ struct ByOthers {
 };
 
 void add(double error_m, double sd_m, Errors& errors) {
-  constexpr double kQuantile95 = 2.064;
   errors.rmse_m += error_m * error_m;
   errors.bias_m += error_m;
-  errors.inside += std::abs(error_m) < kQuantile95 * sd_m ? 1 : 0;
+  errors.inside += std::abs(error_m) < heights::kIntervalErrors * sd_m ? 1 : 0;
 }
 
 void finish(std::size_t farms, Errors& errors) {
@@ -343,7 +342,7 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   heights::Calibration calibration{.features = heights::feature_names(),
                                    .center = {},
                                    .scale = {},
-                                   .like_crops = {},
+                                   .crop_kernel = {},
                                    .within = {}};
   for (const auto& [height, value] : fields.front().plots.front().truth)
     calibration.heights.push_back(height);
@@ -351,9 +350,9 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
     calibration.farms.push_back(farm_of(field, calibration));
   calibration.crops = crops_of(calibration.farms);
   scale_features(calibration);
-  calibration.like_crops = fit_like_crops(calibration);
+  calibration.crop_kernel = fit_crop_kernel(calibration);
   calibration.crop_sharpness = likeliest_sharpness(calibration);
-  calibration.like_ratios = fit_like_ratios(calibration);
+  calibration.ratio_kernels = fit_ratio_kernels(calibration);
   find_unlikeness(calibration);
   find_surprises(calibration, Group::library);
   find_surprises(calibration, Group::crop);
@@ -374,7 +373,7 @@ std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group gr
       const auto ratios = [&](const Eigen::VectorXd& probabilities, bool given) {
         return model.at(
             scaled, farm.top_m,
-            {.probabilities = probabilities, .unlike = crops.unlike(scaled), .given = given});
+            {.probabilities = probabilities, .novelty = crops.novelty(scaled), .given = given});
       };
       predictions[i] = {.told = ratios(known_crops(others, crops.probabilities(scaled)), false),
                         .given = ratios(others.indicators_of(farm.crop), true)};

@@ -68,7 +68,7 @@ Cost cost_of(const Parameters& parameters, const Farms& farms) {
                                                               misfits.cwiseInverse().asDiagonal() *
                                                               solved.transpose();
   const double linear = covariance.linear * covariance.linear;
-  const Eigen::MatrixXd near = slope.cwiseProduct(heights::likenesses_of(places));
+  const Eigen::MatrixXd near = slope.cwiseProduct(heights::squared_exponentials_of(places));
   const Eigen::VectorXd by_weight =
       linear * sums_of_products(slope, places) - 0.5 * sums_of_distances(near, places);
   cost.gradient.head(count) = by_weight + logs;
@@ -111,8 +111,8 @@ Parameters least_cost(Parameters parameters, const Farms& farms) {
 
 }  // namespace
 
-heights::Likeness fit_likeness(const Eigen::MatrixXd& compared, const Eigen::MatrixXd& values,
-                               const std::vector<double>& noise) {
+heights::Kernel fit_kernel(const Eigen::MatrixXd& compared, const Eigen::MatrixXd& values,
+                           const std::vector<double>& noise) {
   const Farms farms{.compared = compared,
                     .values = values.rowwise() - values.colwise().mean(),
                     .noise = Eigen::Map<const Eigen::VectorXd>(

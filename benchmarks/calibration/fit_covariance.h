@@ -14,7 +14,7 @@ namespace plotscan::calibration {
 // own that is the best for it (Rasmussen and Williams 2006, equation 5.8). `noise`: how much
 // noisier than usual a farm's values are. The weights' logarithms are taken to be normal, with a
 // spread of 1 about their mean: what tells little is left little weight.
-heights::Likeness fit_likeness(const Eigen::MatrixXd& compared, const Eigen::MatrixXd& values,
-                               const std::vector<double>& noise);
+heights::Kernel fit_kernel(const Eigen::MatrixXd& compared, const Eigen::MatrixXd& values,
+                           const std::vector<double>& noise);
 
 }  // namespace plotscan::calibration

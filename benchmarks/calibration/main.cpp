@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/program.h"
+#include "core/statistics.h"
 #include "core/text_file.h"
 
 namespace {
@@ -124,7 +125,7 @@ void print_left_out(const Program& program, const heights::Calibration& fitted,
     const auto limit = std::ranges::find_if(limits, [&](const LeftOut& other) {
       return other.name == row.name && other.height == row.height;
     });
-    const double limit_m = limit == limits.end() ? NAN : limit->given.rmse_m;
+    const double limit_m = limit == limits.end() ? kNaN : limit->given.rmse_m;
     program.say(fmt::format("{:20} {:11} {:4}", row.name, row.height, row.farms) +
                 figures("farm out", farms[i].told) + figures("crop given", farms[i].given) +
                 figures("library out", row.told) + figures("crop given", row.given) +
@@ -160,7 +161,8 @@ void run_fit(const Program& program, const FitArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Program program("heightcal", "Calibrate crop heights on virtual farms (docs/plot-heights-calibration.md).");
+  Program program("heightcal",
+                  "Calibrate crop heights on virtual farms (docs/plot-heights-calibration.md).");
   SampleArguments arguments;
   CLI::App& sample =
       program.command("sample", "Fly over farms of every plant library.",

@@ -6,6 +6,7 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/place_json.h"
 #include "core/plot_features.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
@@ -48,10 +49,7 @@ json flight_json(const fs::path& scan, const lidar::FlyOptions& flight) {
                     {flight.mount_rpy_deg.x(), flight.mount_rpy_deg.y(), flight.mount_rpy_deg.z()}},
                    {"returns", flight.returns},
                    {"start_utc", format_utc(record.start)}};
-  if (record.anchor)
-    document["world_origin_wgs84"] = {{"latitude_deg", record.anchor->latitude_deg},
-                                      {"longitude_deg", record.anchor->longitude_deg},
-                                      {"altitude_m", record.anchor->altitude_m}};
+  if (record.anchor) document["world_origin_wgs84"] = anchor_json(*record.anchor);
   return document;
 }
 
@@ -111,7 +109,7 @@ std::uint64_t write_blind_files(const FarmPlace& place, const BlindParts& parts,
   }
   fs::copy_file(scan / "poses.csv", folder / "poses.csv");
   fs::copy_file(scan / "sensor.yaml", folder / "sensor.yaml");
-  write_text(folder / "flight.json", flight_json(scan, place.suite_case.flight).dump(1) + "\n");
+  write_json(folder / "flight.json", flight_json(scan, place.suite_case.flight));
   return points;
 }
 

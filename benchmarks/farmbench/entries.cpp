@@ -84,7 +84,7 @@ void write_entry(const fs::path& output, const Entry& entry) {
                          {"scorer_sha256", entry.scorer_sha256},
                          {"farms", farms}};
   fs::create_directories(output / "entries");
-  write_text(output / "entries" / (entry.method + ".json"), document.dump(1) + "\n");
+  write_json(output / "entries" / (entry.method + ".json"), document);
 }
 
 void add_entries(const fs::path& output, SuiteResult& result) {

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/farm_scan.h"
 
-#include "description/load_description.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
-
 #include "farmbench/internal/survey.h"
-#include "lidar/canopy_height.h"
+#include "farmbench/run.h"
+#include "lidar/make_farm.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
 
 farm::Farm make_farm(const FarmPlace& place) {
-  const auto& [suite_case, seed, folder, threads] = place;
-  const planting::FarmDescription description =
-      description::load_description(suite_case.farm, suite_case.overrides);
-  farm::Farm made = planting::generate(description, seed);
-  lidar::measure_canopies(made, threads);
-  farmfolder::write_farm(made, folder / "farm", true,
-                         {.command = "farmbench run",
-                          .options = {{"set", suite_case.overrides}},
-                          .inputs = planting::input_files(description)},
-                         {}, threads);
-  return made;
+  return lidar::make_farm(place.suite_case.farm, place.folder / "farm",
+                          {.overrides = place.suite_case.overrides,
+                           .seed = place.seed,
+                           .threads = place.threads,
+                           .replace = true,
+                           .command = kRunCommand});
 }
 
 std::vector<score::TruePlot> standing_plots(const FarmPlace& place) {

@@ -88,7 +88,7 @@ RunSummary write_results(const RunOptions& options, const Suite& suite,
   RunSummary summary{.result = result_of(suite, std::move(farms)), .table = {}};
   add_entries(options.output, summary.result);
   summary.table = make_table(summary.result, options.seed);
-  write_text(options.output / "results.json", to_json(summary.result).dump(1) + "\n");
+  write_json(options.output / "results.json", to_json(summary.result));
   write_reports(options.output, summary.result, summary.table);
   write_run_manifest(options, tasks.size(), finished);
   return summary;
@@ -113,10 +113,9 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
 
 SuiteResult read_results(const fs::path& output) {
   const fs::path file = output / "results.json";
-  const std::string text = read_json_text(file);
+  const json document = read_json(file);
+  require_known_format(document, file);
   try {
-    const json document = json::parse(text);
-    require_known_format(document, file);
     SuiteResult result = suite_result_from_json(document);
     require_methods(result);
     for (FarmResult& farm : result.farms) read_times(output, farm);

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/statistics.h"
 #include "farmbench/suite_result.h"
 #include "score/within_farms.h"
 
@@ -40,20 +40,20 @@ struct TableRow {
   double rmse_high_m = 0;
   // How much the suite's baseline has less than this, on the same farms, and its 95 % interval. NaN
   // where the suite names no baseline.
-  double rmse_change_m = std::numeric_limits<double>::quiet_NaN();
-  double rmse_change_low_m = std::numeric_limits<double>::quiet_NaN();
-  double rmse_change_high_m = std::numeric_limits<double>::quiet_NaN();
+  double rmse_change_m = kNaN;
+  double rmse_change_low_m = kNaN;
+  double rmse_change_high_m = kNaN;
   double bias_m = 0;
   double mae_m = 0;
   double r2 = 0;
   score::WithinFarms within = {};  // the error a farm and within it; NaN where nothing was found
   // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals, and
   // where the height is not named after the truth.
-  double coverage95 = std::numeric_limits<double>::quiet_NaN();
-  std::size_t flagged = 0;          // found plots with this height and a flag
-  std::size_t large_unflagged = 0;  // those without, in error by more than score::kLargeError_m
-  double large_unflagged_share = std::numeric_limits<double>::quiet_NaN();  // of all with it
-  double seconds = 0;  // of the method, median over farms; NaN: not known
+  double coverage95 = kNaN;
+  std::size_t flagged = 0;              // found plots with this height and a flag
+  std::size_t large_unflagged = 0;      // those without, in error by more than score::kLargeError_m
+  double large_unflagged_share = kNaN;  // of all with it
+  double seconds = 0;                   // of the method, median over farms; NaN: not known
 };
 
 // All rows: by case, by method, by truth; of a case without plots, one row a method. `seed` draws

@@ -14,4 +14,8 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   file.commit();
 }
 
+void write_json(const std::filesystem::path& path, const nlohmann::json& document) {
+  write_text(path, document.dump(1) + "\n");
+}
+
 }  // namespace plotscan::farmbench

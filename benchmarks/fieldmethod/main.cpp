@@ -84,7 +84,7 @@ class Raster {
       sums[cell] += static_cast<double>(point.z);
       ++counts[cell];
     }
-    z_m_.assign(sums.size(), std::nan(""));
+    z_m_.assign(sums.size(), kNaN);
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (counts[i] > 0) z_m_[i] = sums[i] / counts[i];
     while (fill_rim()) {

@@ -3,14 +3,16 @@
 // cloud, or those of an ASPRS class of it, as JSON (scripts/measure_clouds). Points and errors in
 // metres; `inside` is the share of points within 1.96 standard errors, of those that have a ground.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "core/cloud_files.h"
 #include "core/error.h"
+#include "core/parse.h"
 #include "estimate/ground_grids.h"
 #include "scan/cloud_reader.h"
 
@@ -34,8 +36,11 @@ struct Errors {
 
 CloudFiles reference(const std::filesystem::path& file, const char* only_class) {
   CloudFiles cloud(file);
-  for (int number = 0; only_class != nullptr && number < 256; ++number)
-    if (number != std::atoi(only_class)) cloud.leave_out_classes.push_back(number);
+  if (only_class == nullptr) return cloud;
+  const std::optional<int> number = parsed<int>(only_class);
+  if (!number || *number < 0 || *number > 255)
+    throw InputError(std::string("CLASS ") + only_class + " is no number of 0 to 255");
+  cloud.only_classes = {*number};
   return cloud;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
 #include "methods.h"
+
+#include "core/error.h"
 
 namespace {
 
@@ -34,8 +37,9 @@ PlotError error_of(const ground_error::PlotGround& ground, const PlotBox& box,
     for (double b = 0.5 * (kStep_m - box.width_m); b < 0.5 * box.width_m; b += kStep_m) {
       const Eigen::Vector2d place = box.center + a * box.length_axis() + b * box.width_axis();
       const Eigen::Vector2d world = place + origin.head<2>();
-      const double off =
-          ground.height(place) + origin.z() - terrain.height(world.x(), world.y()).value();
+      const std::optional<double> truth_m = terrain.height(world.x(), world.y());
+      if (!truth_m) throw InputError("a plot lies beside the terrain");
+      const double off = ground.height(place) + origin.z() - *truth_m;
       error.mean_m += off;
       error.square_m2 += off * off;
       ++count;
@@ -90,12 +94,7 @@ void measure(const std::filesystem::path& farm, const std::filesystem::path& sca
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const bool each = argc > 1 && std::string_view(argv[1]) == "--each";
-  std::map<std::string, Score> scores;
-  for (int i = each ? 2 : 1; i + 1 < argc; i += 2) measure(argv[i], argv[i + 1], each, scores);
+void print(const std::map<std::string, Score>& scores) {
   std::printf("method plots without bias_cm rms_cm worst_cm over_1cm point_rms_cm inside_95 s\n");
   for (const auto& [method, score] : scores) {
     const double n = score.plots;
@@ -103,5 +102,24 @@ int main(int argc, char** argv) {
                 score.without, 100 * score.sum_m / n, 100 * std::sqrt(score.squares_m2 / n),
                 100 * score.worst_m, score.over_1cm / n,
                 100 * std::sqrt(score.point_squares_m2 / n), score.inside / n, score.seconds);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool each = argc > 1 && std::string_view(argv[1]) == "--each";
+  const int first = each ? 2 : 1;
+  if (argc <= first || (argc - first) % 2 != 0) {
+    std::fprintf(stderr, "usage: ground_error [--each] (FARM SCAN)...\n");
+    return 2;
+  }
+  try {
+    std::map<std::string, Score> scores;
+    for (int i = first; i < argc; i += 2) measure(argv[i], argv[i + 1], each, scores);
+    print(scores);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "ground_error: %s\n", error.what());
+    return 2;
   }
 }

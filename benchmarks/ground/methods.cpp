@@ -12,6 +12,7 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
+#include "core/error.h"
 #include "core/extent.h"
 #include "core/statistics.h"
 #include "ground/surface.h"
@@ -58,7 +59,10 @@ struct Raster {
     const double* const north = south + columns;
     return (1 - n) * ((1 - e) * south[0] + e * south[1]) + n * ((1 - e) * north[0] + e * north[1]);
   }
+  // Throws InputError where all are empty.
   void fill() {
+    if (std::ranges::all_of(z, [](double height) { return std::isnan(height); }))
+      throw InputError("the filter found no ground");
     for (bool empty = true; empty;) {
       empty = false;
       std::vector<double> filled = z;

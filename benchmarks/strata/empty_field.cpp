@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "strata/draw.h"
 #include "strata/scenery.h"
@@ -31,7 +31,7 @@ Eigen::Vector2d turned(const Eigen::Vector2d& local, double heading) {
           std::sin(heading) * local.x() + std::cos(heading) * local.y()};
 }
 
-double any_heading(RandomStream& random) { return random.uniform(0, std::numbers::pi); }
+double any_heading(RandomStream& random) { return random.uniform(0, kPi); }
 
 // A tree or bush, a fifth wider or narrower than asked for.
 Thing crown(const Eigen::Vector2d& place, double width_m, double height_m, RandomStream& random) {
@@ -109,7 +109,7 @@ Scene cars(RandomStream& random) {
       if (!chance(random, filled)) continue;
       const Eigen::Vector2d local{(bay - (bays - 1) / 2.0) * bay_m + 0.1 * random.normal(),
                                   (row - (rows - 1) / 2.0) * lane_m + 0.15 * random.normal()};
-      const double turn = (chance(random, 0.5) ? 0.5 : -0.5) * std::numbers::pi;
+      const double turn = (chance(random, 0.5) ? 0.5 : -0.5) * kPi;
       scene.things.push_back({.shape = Shape::car,
                               .outline = {.center = turned(local, heading),
                                           .width_m = random.uniform(1.65, 1.95),
@@ -134,7 +134,7 @@ Thing wall(const Eigen::Vector2d& local, double length_m, double heading, double
 
 // Four walls, rows of tables and shelves on a level floor, and in half of the rooms a ceiling.
 Scene room(RandomStream& random) {
-  constexpr double kAcross = std::numbers::pi / 2;
+  constexpr double kAcross = kPi / 2;
   const double heading = any_heading(random);
   const Eigen::Vector2d size_m{random.uniform(8, 20), random.uniform(6, 14)};
   const double height_m = random.uniform(2.4, 4);
@@ -191,7 +191,7 @@ Scene building(RandomStream& random) {
                             .outline = {.center = turned(local, heading),
                                         .width_m = random.uniform(5, 10),
                                         .length_m = random.uniform(8, 18),
-                                        .heading_rad = heading + (part % 2) * std::numbers::pi / 2},
+                                        .heading_rad = heading + (part % 2) * kPi / 2},
                             .height_m = random.uniform(3, 9)});
   }
   return scene;

@@ -3,16 +3,12 @@
 
 #include <fstream>
 
-#include "description/load_description.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
-
 #include "core/error.h"
 #include "core/random.h"
 #include "core/temporary_path.h"
 #include "core/text_file.h"
-#include "lidar/canopy_height.h"
 #include "lidar/fly.h"
+#include "lidar/make_farm.h"
 #include "strata/empty_field.h"
 #include "strata/position_file.h"
 #include "strata/thin.h"
@@ -42,15 +38,12 @@ void write_plan(const fs::path& folder, const json& plan) {
 }
 
 void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
-  const planting::FarmDescription description =
-      description::load_description(plan.farm, plan.overrides);
-  farm::Farm farm = planting::generate(description, plan.seed);
-  lidar::measure_canopies(farm, threads);
-  farmfolder::write_farm(farm, field.farm, true,
-                         {.command = "measure_plots run",
-                          .options = {{"set", plan.overrides}},
-                          .inputs = planting::input_files(description)},
-                         {}, threads);
+  const farm::Farm farm = lidar::make_farm(plan.farm, field.farm,
+                                           {.overrides = plan.overrides,
+                                            .seed = plan.seed,
+                                            .threads = threads,
+                                            .replace = true,
+                                            .command = "measure_plots run"});
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");

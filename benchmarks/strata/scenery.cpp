@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace plotscan::strata {
 namespace {
@@ -62,7 +63,7 @@ double canopy_height(const Thing& thing, const Eigen::Vector2d& place, RandomStr
   constexpr double kAmplitude = 0.1 / kWaves;
   double uneven = 0;
   for (int i = 0; i < kWaves; ++i) {
-    const double per_m = 2 * std::numbers::pi / (kShortest_m * std::pow(kLonger, i));
+    const double per_m = 2 * kPi / (kShortest_m * std::pow(kLonger, i));
     const double along_m =
         place.x() * std::cos(kGoldenAngle * i) + place.y() * std::sin(kGoldenAngle * i);
     uneven += kAmplitude * std::sin(per_m * along_m + i);
@@ -99,11 +100,11 @@ Ground::Ground(double relief_m, RandomStream& random) {
   slope_ = {random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02)};
   for (int i = 0; i < kWaves; ++i) {
     const double wavelength_m = random.uniform(6, 40);
-    const double direction = random.uniform(0, 2 * std::numbers::pi);
-    waves_.push_back({.per_m = 2 * std::numbers::pi / wavelength_m *
+    const double direction = random.uniform(0, 2 * kPi);
+    waves_.push_back({.per_m = 2 * kPi / wavelength_m *
                                Eigen::Vector2d(std::cos(direction), std::sin(direction)),
                       .amplitude_m = relief_m / kWaves,
-                      .phase = random.uniform(0, 2 * std::numbers::pi)});
+                      .phase = random.uniform(0, 2 * kPi)});
   }
 }
 

@@ -28,6 +28,12 @@ double median_z(const std::vector<Eigen::Vector3d>& points) {
   return quantile(std::move(z), 0.5);
 }
 
+NamedArea scanned_field(const CloudFiles& cloud) {
+  TileCounter tiles;
+  record::read_positions(cloud, [&](auto points) { tiles.add(points); });
+  return {.area = find_field(tiles.counts()).bounds(), .name = "scanned field"};
+}
+
 }  // namespace
 
 std::string text_of(const Area& area) {
@@ -66,24 +72,16 @@ void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
   }
 }
 
-CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
+CloudMap read_map(const CloudFiles& cloud, const std::optional<NamedArea>& area,
                   const ProgressReport& progress) {
-  Area field{};
-  if (area) {
-    require_area(*area, "crop box");
-    field = *area;
-  } else {
-    TileCounter tiles;
-    record::read_positions(cloud, [&](auto points) { tiles.add(points); });
-    field = find_field(tiles.counts()).bounds();
-    require_area(field, cloud.name() + ": the scanned field");
-  }
+  const NamedArea field = area ? *area : scanned_field(cloud);
+  require_area(field.area, area ? field.name : cloud.name() + ": the " + field.name);
   if (progress) progress(0.2);
-  CloudMap map(field);
+  CloudMap map(field.area);
   record::read_positions(cloud, [&](auto points) { map.add(points); });
   if (map.points().empty()) {
     throw InputError(cloud.name() + ": none of its " + std::to_string(map.points_read()) +
-                     " points lies in the crop box " + text_of(field));
+                     " points lies in the " + field.name + " " + text_of(field.area));
   }
   if (progress) progress(0.4);
   return map;

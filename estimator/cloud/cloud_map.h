@@ -50,11 +50,17 @@ class CloudMap {
   std::size_t points_read_ = 0;
 };
 
+// What is asked for of a cloud, and what messages call it.
+struct NamedArea {
+  Area area{};
+  std::string name = "crop box";
+};
+
 // Streams a cloud into a map of the area; without one, of the bounds of the densely scanned field
 // (FieldHull), found in a first pass over the files. Memory is bounded by the points inside the
 // area.
 // Throws InputError on a broken cloud or when no point lies in the area.
-CloudMap read_map(const CloudFiles& cloud, const std::optional<Area>& area,
+CloudMap read_map(const CloudFiles& cloud, const std::optional<NamedArea>& area,
                   const ProgressReport& progress = {});
 
 }  // namespace plotscan::cloud

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/manifest.h"
 #include "core/plot_features.h"
+#include "core/statistics.h"
 #include "estimate/ground_grids.h"
 #include "estimate/height_properties.h"
 #include "estimate/plot_tables.h"
@@ -89,7 +91,7 @@ PlotId id_of(const PlotFeature& feature, std::size_t number) {
 // NaN where there is none.
 double number_in(const json& properties, const std::string& name) {
   const auto found = properties.find(name);
-  return found != properties.end() && found->is_number() ? found->get<double>() : std::nan("");
+  return found != properties.end() && found->is_number() ? found->get<double>() : kNaN;
 }
 
 // The standard errors and intervals that stand beside the heights.
@@ -209,8 +211,11 @@ Estimate read_estimate(const fs::path& path) {
   const PlacedPlots placed = read_plot_features(file, "");
   estimate.units = placed.units;
   bool any_height = false;
+  std::set<std::string> ids;
   for (const PlotFeature& feature : placed.plots) {
     estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));
+    const std::string id = estimate.plots.back().id.text();
+    if (!ids.insert(id).second) throw InputError(file, "has two plots with the id " + id);
     any_height = any_height || !estimate.plots.back().heights_m.empty();
   }
   if (is_folder && fs::exists(path / "clusters.geojson")) {

@@ -77,8 +77,8 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
 // else its plot_number, else its place in the file. The method is the one that the folder's
 // manifest.json names, "" without a manifest. The ground's grids are not read. Throws InputError as
-// read_plot_features does, when no plot has a height, and when a file that no method of ours wrote
-// has no plot.
+// read_plot_features does, when no plot has a height, when two plots have one id, and when a file
+// that no method of ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path);
 
 // What a feature of a given map says of its plot, to be given back (PlotEstimate::attributes): all

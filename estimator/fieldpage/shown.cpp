@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "core/extent.h"
+#include "core/statistics.h"
 #include "record/positions.h"
 #include "report/shown_grid.h"
 
 namespace plotscan::fieldpage {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 report::ShownPlot shown(const estimate::PlotEstimate& plot) {
   report::ShownPlot result{.id = plot.id.text(),
@@ -26,7 +24,7 @@ report::ShownPlot shown(const estimate::PlotEstimate& plot) {
   for (const auto& [name, height_m] : plot.heights_m) {
     const auto error = plot.errors.find(name);
     result.heights[name] = error == plot.errors.end()
-                               ? report::ShownHeight{height_m, kNone, kNone, kNone}
+                               ? report::ShownHeight{height_m, kNaN, kNaN, kNaN}
                                : report::ShownHeight{height_m, error->second.standard_error_m,
                                                      error->second.low95_m, error->second.high95_m};
   }
@@ -77,7 +75,7 @@ void show_working(report::ShownField& field, const estimate::Estimate& estimate)
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth) {
   const score::FieldScore scored = score::score_field(truth, estimate);
-  std::map<std::string, report::ShownPlot*> by_id;
+  std::map<std::string, report::ShownPlot*> by_id;  // an estimate's are all different
   for (report::ShownPlot& plot : field.plots) by_id[plot.id] = &plot;
   for (const PlotId& id : scored.extra) by_id.at(id.text())->state = report::PlotState::extra;
   for (const score::PlotScore& plot : scored.plots) {
@@ -99,7 +97,7 @@ void show_terrain(report::ShownField& field, const terrain::Terrain& terrain) {
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const Eigen::Vector2d place = grid.first + grid.cell_m * Eigen::Vector2d(column, row);
-      grid.z_m.push_back(static_cast<float>(terrain.height(place.x(), place.y()).value_or(kNone)));
+      grid.z_m.push_back(static_cast<float>(terrain.height(place.x(), place.y()).value_or(kNaN)));
     }
   }
   field.terrain = std::move(grid);

@@ -68,19 +68,8 @@ Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
   return raster;
 }
 
-// The count of the square in which the middle one of all points lies.
-double usual_count(const Raster& raster) {
-  std::vector<std::uint32_t> counts = raster.counts;
-  std::sort(counts.begin(), counts.end());
-  double all = 0;
-  for (const std::uint32_t count : counts) all += count;
-  double below = 0;
-  for (const std::uint32_t count : counts) {
-    below += count;
-    if (2 * below >= all) return count;
-  }
-  return 0;
-}
+// Of the square in which the middle point lies.
+double usual_count(const Raster& raster) { return self_weighted_median(raster.counts); }
 
 // Where a point lies on the grid: cells from its first node. Outside, or not finite: below -0.5.
 Eigen::Vector2f place_of(const Eigen::Vector3f& point, const Grid& grid) {

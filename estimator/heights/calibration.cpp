@@ -22,23 +22,24 @@ json numbers_of(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-json likeness_json(const Likeness& likeness) {
-  return {{"weights", numbers_of(likeness.weights)},
-          {"linear", likeness.covariance.linear},
-          {"noise", likeness.covariance.noise}};
+json kernel_json(const Kernel& kernel) {
+  return {{"weights", numbers_of(kernel.weights)},
+          {"linear", kernel.covariance.linear},
+          {"noise", kernel.covariance.noise}};
 }
 
-Likeness likeness_of(const json& document) {
+Kernel kernel_of(const json& document) {
   return {.weights = vector_of(document.at("weights")),
           .covariance = {.linear = document.at("linear"), .noise = document.at("noise")}};
 }
 
 json from_others_json(const FromOthers& from) {
-  return {{"unlike", from.unlike}, {"surprise", numbers_of(from.surprise)}};
+  return {{"novelty", from.novelty}, {"standardised", numbers_of(from.standardised)}};
 }
 
 FromOthers from_others_of(const json& document) {
-  return {.unlike = document.at("unlike"), .surprise = vector_of(document.at("surprise"))};
+  return {.novelty = document.at("novelty"),
+          .standardised = vector_of(document.at("standardised"))};
 }
 
 // The same with those of its farms that are kept, by their numbers.
@@ -48,9 +49,9 @@ Calibration with_farms(const Calibration& calibration, auto&& is_kept) {
                     .center = calibration.center,
                     .scale = calibration.scale,
                     .crops = calibration.crops,
-                    .like_crops = calibration.like_crops,
+                    .crop_kernel = calibration.crop_kernel,
                     .crop_sharpness = calibration.crop_sharpness,
-                    .like_ratios = calibration.like_ratios,
+                    .ratio_kernels = calibration.ratio_kernels,
                     .within = calibration.within};
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
     if (is_kept(i)) fewer.farms.push_back(calibration.farms[i]);
@@ -123,12 +124,12 @@ json json_of(const Calibration& calibration) {
                      {"within", numbers_of(farm.within)},
                      {"from_libraries", from_others_json(farm.from_libraries)},
                      {"from_crops", from_others_json(farm.from_crops)},
-                     {"surprise_given_crop", numbers_of(farm.surprise_given_crop)},
-                     {"unlike", farm.unlike}});
+                     {"standardised_given_crop", numbers_of(farm.standardised_given_crop)},
+                     {"novelty", farm.novelty}});
   }
-  json like_ratios = json::array();
-  for (const Likeness& likeness : calibration.like_ratios)
-    like_ratios.push_back(likeness_json(likeness));
+  json ratio_kernels = json::array();
+  for (const Kernel& kernel : calibration.ratio_kernels)
+    ratio_kernels.push_back(kernel_json(kernel));
   json within = json::array();
   for (const auto& row : calibration.within.rowwise()) within.push_back(numbers_of(row));
   return {{"features", calibration.features},
@@ -136,9 +137,9 @@ json json_of(const Calibration& calibration) {
           {"center", numbers_of(calibration.center)},
           {"scale", numbers_of(calibration.scale)},
           {"crops", calibration.crops},
-          {"like_crops", likeness_json(calibration.like_crops)},
+          {"crop_kernel", kernel_json(calibration.crop_kernel)},
           {"crop_sharpness", calibration.crop_sharpness},
-          {"like_ratios", like_ratios},
+          {"ratio_kernels", ratio_kernels},
           {"within", within},
           {"farms", farms}};
 }
@@ -149,26 +150,27 @@ Calibration calibration_of(const json& document) {
                           .center = vector_of(document.at("center")),
                           .scale = vector_of(document.at("scale")),
                           .crops = document.at("crops"),
-                          .like_crops = likeness_of(document.at("like_crops")),
+                          .crop_kernel = kernel_of(document.at("crop_kernel")),
                           .crop_sharpness = document.at("crop_sharpness"),
                           .within = {}};
-  for (const json& likeness : document.at("like_ratios"))
-    calibration.like_ratios.push_back(likeness_of(likeness));
+  for (const json& kernel : document.at("ratio_kernels"))
+    calibration.ratio_kernels.push_back(kernel_of(kernel));
   calibration.within.resize(static_cast<Eigen::Index>(calibration.heights.size()),
                             calibration.center.size());
   for (Eigen::Index row = 0; row < calibration.within.rows(); ++row)
     calibration.within.row(row) = vector_of(document.at("within").at(row));
   for (const json& farm : document.at("farms")) {
-    calibration.farms.push_back({.library = farm.at("library"),
-                                 .crop = farm.at("crop"),
-                                 .top_m = farm.at("top_m"),
-                                 .features = vector_of(farm.at("features")),
-                                 .ratios = vector_of(farm.at("ratios")),
-                                 .within = vector_of(farm.at("within")),
-                                 .from_libraries = from_others_of(farm.at("from_libraries")),
-                                 .from_crops = from_others_of(farm.at("from_crops")),
-                                 .surprise_given_crop = vector_of(farm.at("surprise_given_crop")),
-                                 .unlike = farm.at("unlike")});
+    calibration.farms.push_back(
+        {.library = farm.at("library"),
+         .crop = farm.at("crop"),
+         .top_m = farm.at("top_m"),
+         .features = vector_of(farm.at("features")),
+         .ratios = vector_of(farm.at("ratios")),
+         .within = vector_of(farm.at("within")),
+         .from_libraries = from_others_of(farm.at("from_libraries")),
+         .from_crops = from_others_of(farm.at("from_crops")),
+         .standardised_given_crop = vector_of(farm.at("standardised_given_crop")),
+         .novelty = farm.at("novelty")});
   }
   return calibration;
 }

@@ -17,9 +17,13 @@ namespace plotscan::heights {
 // What was told of a farm from others that are less like it: farms of other plant libraries, or of
 // other crops.
 struct FromOthers {
-  double unlike = 0;         // how little they know of its canopy (CropModel::unlike)
-  Eigen::VectorXd surprise;  // errors over standard deviations, the crop told from the canopy
+  double novelty = 0;            // how little they know of its canopy (CropModel::novelty)
+  Eigen::VectorXd standardised;  // errors over standard deviations, the crop told from the canopy
 };
+
+// Half of a 95 % interval in standard errors: Student's t with the 24 degrees of freedom that a
+// standard deviation from 25 farms has.
+inline constexpr double kIntervalErrors = 2.064;
 
 // A farm that the calibration was fitted on. Vectors of heights are in the calibration's order.
 struct CalibrationFarm {
@@ -30,13 +34,13 @@ struct CalibrationFarm {
   Eigen::VectorXd ratios;  // true heights over the canopy's top, the same
   Eigen::VectorXd within;  // sd of its plots' ratios about what is predicted
   FromOthers from_libraries, from_crops;
-  Eigen::VectorXd surprise_given_crop;  // from_libraries' with its crop given
-  double unlike = 0;                    // Prediction::unlike by the other farms
+  Eigen::VectorXd standardised_given_crop;  // from_libraries' with its crop given
+  double novelty = 0;                       // Prediction::novelty by the other farms
 };
 
 // How like two fields are: the weights of what is compared, and the covariance over the places that
 // they make.
-struct Likeness {
+struct Kernel {
   Eigen::VectorXd weights;  // of each number that is compared
   Covariance covariance;
 };
@@ -50,9 +54,9 @@ struct Calibration {
   Eigen::VectorXd center;  // features are shifted and divided by these
   Eigen::VectorXd scale;
   std::vector<std::string> crops = {};
-  Likeness like_crops;                     // by features: fields of one crop are alike
+  Kernel crop_kernel;                      // by features: fields of one crop are alike
   double crop_sharpness = 1;               // of what they tell of the crop
-  std::vector<Likeness> like_ratios = {};  // by features, for each of `crops`
+  std::vector<Kernel> ratio_kernels = {};  // by features, for each of `crops`
   Eigen::MatrixXd within;                  // a row a height: weights of the scaled differences
   std::vector<CalibrationFarm> farms = {};
 

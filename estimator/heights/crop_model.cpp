@@ -21,27 +21,27 @@ Eigen::MatrixXd crop_indicators(const Calibration& calibration) {
 }
 
 Kriging indicators_kriged(const Calibration& calibration) {
-  return {calibration.features_of_farms() * calibration.like_crops.weights.asDiagonal(),
+  return {calibration.features_of_farms() * calibration.crop_kernel.weights.asDiagonal(),
           crop_indicators(calibration), std::vector<double>(calibration.farms.size(), 1),
-          calibration.like_crops.covariance};
+          calibration.crop_kernel.covariance};
 }
 
 CropModel::CropModel(const Calibration& calibration)
-    : weights_(calibration.like_crops.weights),
+    : weights_(calibration.crop_kernel.weights),
       sharpness_(calibration.crop_sharpness),
       indicators_(indicators_kriged(calibration.halved())) {}
 
 Eigen::VectorXd CropModel::scores(const Eigen::VectorXd& scaled) const {
-  return indicators_.values_at(scaled.cwiseProduct(weights_)) / unlike(scaled);
+  return indicators_.values_at(scaled.cwiseProduct(weights_)) / novelty(scaled);
 }
 
 Eigen::VectorXd CropModel::probabilities(const Eigen::VectorXd& scaled) const {
   return softmax(scores(scaled), sharpness_);
 }
 
-double CropModel::unlike(const Eigen::VectorXd& scaled) const {
+double CropModel::novelty(const Eigen::VectorXd& scaled) const {
   constexpr double kLeast = 0.1;
-  return std::max(kLeast, indicators_.unlike(scaled.cwiseProduct(weights_)));
+  return std::max(kLeast, indicators_.novelty(scaled.cwiseProduct(weights_)));
 }
 
 }  // namespace plotscan::heights

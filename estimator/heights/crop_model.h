@@ -11,7 +11,7 @@ namespace plotscan::heights {
 // Which crop a field is of.
 struct CropEvidence {
   Eigen::VectorXd probabilities;  // in the order of the calibration's crops
-  double unlike = 0;              // how little is known of such a canopy (CropModel::unlike)
+  double novelty = 0;             // how little is known of such a canopy (CropModel::novelty)
   bool given = false;             // the crop was, and not told from the canopy
 };
 
@@ -28,12 +28,12 @@ class CropModel {
 
   // By crop, in the calibration's order, of a field's scaled features: the kriged indicator (near 1
   // for its crop and near 0 for the others) over its standard deviation, up to a scale that the
-  // crops share (Prediction::unlike). All are small for a canopy like none that is known.
+  // crops share (Prediction::novelty). All are small for a canopy like none that is known.
   Eigen::VectorXd scores(const Eigen::VectorXd& scaled) const;
   Eigen::VectorXd probabilities(const Eigen::VectorXd& scaled) const;
-  // How little is known of such a canopy (Prediction::unlike), at least 0.1: nothing is beyond all
+  // How little is known of such a canopy (Prediction::novelty), at least 0.1: nothing is beyond all
   // doubt.
-  double unlike(const Eigen::VectorXd& scaled) const;
+  double novelty(const Eigen::VectorXd& scaled) const;
 
  private:
   Eigen::VectorXd weights_;

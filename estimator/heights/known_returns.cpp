@@ -12,8 +12,8 @@ namespace {
 
 // A place of a plot: the heights that 5 % of its returns are under, and over.
 struct Place {
-  double low_m = NAN;
-  double high_m = NAN;
+  double low_m = kNaN;
+  double high_m = kNaN;
 };
 
 std::vector<double> ground_errors(std::span<const Eigen::Vector3f> points,

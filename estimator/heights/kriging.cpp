@@ -17,7 +17,7 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places) {
+Eigen::MatrixXd squared_exponentials_of(const Eigen::MatrixXd& places) {
   Eigen::MatrixXd result = places * places.transpose();
   const Eigen::VectorXd squares = result.diagonal();
   for (Eigen::Index j = 0; j < result.cols(); ++j) {
@@ -29,7 +29,7 @@ Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places) {
 }
 
 Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear) {
-  return (likenesses_of(places) + square(linear) * places * places.transpose()).array() +
+  return (squared_exponentials_of(places) + square(linear) * places * places.transpose()).array() +
          kLevelVariance;
 }
 
@@ -68,7 +68,7 @@ Eigen::VectorXd Kriging::covariances(const Eigen::VectorXd& place) const {
       .matrix();
 }
 
-double Kriging::unlike(const Eigen::VectorXd& place) const {
+double Kriging::novelty(const Eigen::VectorXd& place) const {
   const Eigen::VectorXd known = factor_.matrixL().solve(covariances(place));
   const double own = 1 + square(covariance_.linear) * place.squaredNorm() + kLevelVariance;
   return std::sqrt(std::max(0.0, own - known.squaredNorm()));
@@ -79,8 +79,8 @@ Eigen::VectorXd Kriging::values_at(const Eigen::VectorXd& place) const {
 }
 
 Prediction Kriging::at(const Eigen::VectorXd& place, double noise) const {
-  Prediction prediction{.values = values_at(place), .sds = {}, .unlike = unlike(place)};
-  prediction.sds = scales_ * std::sqrt(square(prediction.unlike) + noise_variance(noise));
+  Prediction prediction{.values = values_at(place), .sds = {}, .novelty = novelty(place)};
+  prediction.sds = scales_ * std::sqrt(square(prediction.novelty) + noise_variance(noise));
   return prediction;
 }
 

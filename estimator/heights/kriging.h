@@ -17,12 +17,12 @@ struct Covariance {
 };
 
 // Several values of one place, and by how much what varies about them does so: a value's standard
-// deviation is its spread times its own scale. `unlike` is the part of it that is not noise: 0 in
+// deviation is its spread times its own scale. `novelty` is the part of it that is not noise: 0 in
 // the middle of what is known, 1 and more where nothing is.
 struct Prediction {
   Eigen::VectorXd values;
   Eigen::VectorXd sds;
-  double unlike = 0;
+  double novelty = 0;
 };
 
 // Gaussian process regression (Rasmussen and Williams 2006, section 2.2) of several values that
@@ -37,8 +37,8 @@ class Kriging {
   Eigen::VectorXd values_at(const Eigen::VectorXd& place) const;
   // Of new values there, their own noise, so much more than usual, included.
   Prediction at(const Eigen::VectorXd& place, double noise) const;
-  // Of the noiseless value alone: Prediction::unlike.
-  double unlike(const Eigen::VectorXd& place) const;
+  // Of the noiseless value alone: Prediction::novelty.
+  double novelty(const Eigen::VectorXd& place) const;
   // Of this place to each known one.
   Eigen::VectorXd squared_distances(const Eigen::VectorXd& place) const;
 
@@ -57,7 +57,7 @@ class Kriging {
 };
 
 // exp(-|a - b|^2 / 2) of all pairs of places, and their covariances without noise; a row a place.
-Eigen::MatrixXd likenesses_of(const Eigen::MatrixXd& places);
+Eigen::MatrixXd squared_exponentials_of(const Eigen::MatrixXd& places);
 Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear);
 
 // How much noisier the ratios of a canopy this high are than a very high one's: errors are in

@@ -93,7 +93,7 @@ FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Su
                              .crops = plants.crops};
   for (std::size_t k = 0; k < measured.size(); ++k) {
     field_heights.plots[measured[k]].heights = plants.plots[k].heights;
-    seen[measured[k]].evidence.unlike = plants.plots[k].unlike;
+    seen[measured[k]].evidence.novelty = plants.plots[k].novelty;
   }
   for (std::size_t i = 0; i < plots.size(); ++i) {
     field_heights.plots[i].points = plots[i].points.size();

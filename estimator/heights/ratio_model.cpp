@@ -48,41 +48,41 @@ Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
 // What predictions from others missed by, of canopies of which as little was known. A user's plants
 // are of no library, and may be as unlike all of them as one crop is unlike the others: how little
 // is known of them says how much of each.
-Eigen::VectorXd surprise_from_others(std::span<const CalibrationFarm> farms,
-                                     const Eigen::VectorXd& squared_distances,
-                                     const CropEvidence& crop) {
-  constexpr double kWeight = 1;  // a factor e of `unlike` is as far as 1 in features
+Eigen::VectorXd standardised_from_others(std::span<const CalibrationFarm> farms,
+                                         const Eigen::VectorXd& squared_distances,
+                                         const CropEvidence& crop) {
+  constexpr double kWeight = 1;  // a factor e of `novelty` is as far as 1 in features
   std::vector<Neighbour> neighbours;
   for (std::size_t i = 0; i < farms.size(); ++i) {
     const CalibrationFarm& farm = farms[i];
-    const auto add = [&](double unlike, const Eigen::VectorXd& surprise) {
-      const double factor = std::log(crop.unlike / unlike);
+    const auto add = [&](double novelty, const Eigen::VectorXd& standardised) {
+      const double factor = std::log(crop.novelty / novelty);
       neighbours.push_back({.squared_distance = squared_distances(static_cast<Eigen::Index>(i)) +
                                                 kWeight * factor * factor,
-                            .numbers = &surprise});
+                            .numbers = &standardised});
     };
-    add(farm.from_libraries.unlike,
-        crop.given ? farm.surprise_given_crop : farm.from_libraries.surprise);
-    add(farm.from_crops.unlike, farm.from_crops.surprise);
+    add(farm.from_libraries.novelty,
+        crop.given ? farm.standardised_given_crop : farm.from_libraries.standardised);
+    add(farm.from_crops.novelty, farm.from_crops.standardised);
   }
   return spread_of(std::move(neighbours));
 }
 
-double usual_unlike(std::span<const CalibrationFarm> farms) {
+double usual_novelty(std::span<const CalibrationFarm> farms) {
   constexpr double kUsual = 0.95;
-  std::vector<double> unlike;
-  for (const CalibrationFarm& farm : farms) unlike.push_back(farm.unlike);
-  return quantile(unlike, kUsual);
+  std::vector<double> novelty;
+  for (const CalibrationFarm& farm : farms) novelty.push_back(farm.novelty);
+  return quantile(novelty, kUsual);
 }
 
 }  // namespace
 
-RatioModel::OfCrop::OfCrop(const Calibration& calibration, const Likeness& likeness)
+RatioModel::OfCrop::OfCrop(const Calibration& calibration, const Kernel& kernel)
     : farms(calibration.farms),
-      weights(likeness.weights),
+      weights(kernel.weights),
       kriging(calibration.features_of_farms() * weights.asDiagonal(), calibration.ratios(),
-              calibration.noise(), likeness.covariance),
-      usual_unlike(heights::usual_unlike(farms)) {}
+              calibration.noise(), kernel.covariance),
+      usual_novelty(heights::usual_novelty(farms)) {}
 
 Eigen::VectorXd RatioModel::OfCrop::place(const Eigen::VectorXd& scaled) const {
   return scaled.cwiseProduct(weights);
@@ -92,7 +92,7 @@ RatioModel::RatioModel(const Calibration& calibration) {
   for (std::size_t i = 0; i < calibration.crops.size(); ++i) {
     const Calibration own = calibration.of_crop(calibration.crops[i]);
     if (own.farms.empty()) continue;
-    crops_.try_emplace(static_cast<Eigen::Index>(i), own, calibration.like_ratios[i]);
+    crops_.try_emplace(static_cast<Eigen::Index>(i), own, calibration.ratio_kernels[i]);
   }
 }
 
@@ -118,7 +118,7 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
   values /= sum;
   return {.values = values,
           .sds = (squares / sum - values.cwiseAbs2()).cwiseMax(0).cwiseSqrt(),
-          .unlike = likeliest(crops).kriging.unlike(likeliest(crops).place(scaled))};
+          .novelty = likeliest(crops).kriging.novelty(likeliest(crops).place(scaled))};
 }
 
 FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
@@ -126,15 +126,15 @@ FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
   const Prediction ratios = mixture(scaled, top_m, crop.probabilities);
   const OfCrop& likely = likeliest(crop.probabilities);
   const Eigen::VectorXd distances = likely.kriging.squared_distances(likely.place(scaled));
-  const Eigen::VectorXd surprise = surprise_from_others(likely.farms, distances, crop);
+  const Eigen::VectorXd standardised = standardised_from_others(likely.farms, distances, crop);
   return {.values = ratios.values,
-          .field_sds = ratios.sds.cwiseProduct(surprise),
+          .field_sds = ratios.sds.cwiseProduct(standardised),
           .within_sds = spread_within(likely.farms, distances)};
 }
 
-double RatioModel::unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {
+double RatioModel::novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {
   const OfCrop& likely = likeliest(crops);
-  return likely.kriging.unlike(likely.place(scaled)) / likely.usual_unlike;
+  return likely.kriging.novelty(likely.place(scaled)) / likely.usual_novelty;
 }
 
 }  // namespace plotscan::heights

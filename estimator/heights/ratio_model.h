@@ -34,18 +34,18 @@ class RatioModel {
                      const Eigen::VectorXd& crops) const;
   // How much less is known of a canopy with these scaled features, of its likeliest crop, than of
   // farms that were left out: over 1, it is farther from what is known than 95 of 100 of them were.
-  double unlike(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
+  double novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:
   // A crop that has farms.
   struct OfCrop {
-    OfCrop(const Calibration& calibration, const Likeness& likeness);
+    OfCrop(const Calibration& calibration, const Kernel& kernel);
     Eigen::VectorXd place(const Eigen::VectorXd& scaled) const;
 
     std::vector<CalibrationFarm> farms;
     Eigen::VectorXd weights;
     Kriging kriging;
-    double usual_unlike;
+    double usual_novelty;
   };
 
   const OfCrop& likeliest(const Eigen::VectorXd& crops) const;

@@ -5,18 +5,10 @@
 
 #include "core/statistics.h"
 #include "estimate/height_properties.h"
+#include "score/internal/moments.h"
 
 namespace plotscan::score {
 namespace {
-
-// Sum of (a - mean a)(b - mean b).
-double co_moment(const std::vector<double>& a, const std::vector<double>& b) {
-  const double mean_a = mean(a);
-  const double mean_b = mean(b);
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - mean_a) * (b[i] - mean_b);
-  return sum;
-}
 
 double share(std::size_t part, std::size_t whole) {
   return ratio(static_cast<double>(part), static_cast<double>(whole));
@@ -92,22 +84,20 @@ HeightScore score_height(const std::string& height, const std::string& truth,
                     .truth = truth,
                     .plots = pairs.estimates_m.size(),
                     .without = pairs.without};
-  std::vector<double> errors_m, absolute_m, squared_m2;
-  for (std::size_t i = 0; i < score.plots; ++i) {
-    errors_m.push_back(pairs.estimates_m[i] - pairs.truths_m[i]);
-    absolute_m.push_back(std::abs(errors_m.back()));
-    squared_m2.push_back(errors_m.back() * errors_m.back());
+  const std::vector<double> errors_m = errors_of(pairs);
+  std::vector<double> absolute_m, squared_m2;
+  for (const double error_m : errors_m) {
+    absolute_m.push_back(std::abs(error_m));
+    squared_m2.push_back(error_m * error_m);
   }
   const auto count = static_cast<double>(score.plots);
-  const double truth_moment = co_moment(pairs.truths_m, pairs.truths_m);
-  const double estimate_moment = co_moment(pairs.estimates_m, pairs.estimates_m);
-  const double cross_moment = co_moment(pairs.estimates_m, pairs.truths_m);
+  const Moments both = moments(pairs.estimates_m, pairs.truths_m);
   score.rmse_m = std::sqrt(mean(squared_m2));
   score.bias_m = mean(errors_m);
   score.mae_m = mean(absolute_m);
-  score.standard_error_m = std::sqrt(ratio(co_moment(errors_m, errors_m), (count - 1) * count));
-  score.r2 = 1 - ratio(mean(squared_m2) * count, truth_moment);
-  score.correlation2 = ratio(cross_moment * cross_moment, truth_moment * estimate_moment);
+  score.standard_error_m = std::sqrt(ratio(moments(errors_m, errors_m).aa, (count - 1) * count));
+  score.r2 = 1 - ratio(mean(squared_m2) * count, both.bb);
+  score.correlation2 = ratio(both.ab * both.ab, both.aa * both.bb);
   score.coverage95 = share(pairs.trust.covered, pairs.trust.intervals);
   score.flagged = pairs.trust.flagged;
   score.large_unflagged = pairs.trust.large_unflagged;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_files.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -9,27 +8,14 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/place_json.h"
+#include "core/statistics.h"
+#include "core/text.h"
 
 namespace plotscan::score {
 namespace {
 
 using nlohmann::json;
-
-json box_json(const PlotBox& box) {
-  return {{"center_x_m", box.center.x()},
-          {"center_y_m", box.center.y()},
-          {"width_m", box.width_m},
-          {"length_m", box.length_m},
-          {"heading_deg", box.heading_rad / kDegrees}};
-}
-
-PlotBox box_from_json(const json& document) {
-  return {
-      .center = {document.at("center_x_m").get<double>(), document.at("center_y_m").get<double>()},
-      .width_m = document.at("width_m"),
-      .length_m = document.at("length_m"),
-      .heading_rad = document.at("heading_deg").get<double>() * kDegrees};
-}
 
 json error_json(const estimate::HeightError& error) {
   return {{"standard_error_m", error.standard_error_m},
@@ -48,10 +34,9 @@ void read_trust(const json& document, FoundPlot& found) {
   if (document.contains("errors")) {
     for (const auto& [name, error] : document["errors"].items()) {
       const json& standard = error.at("standard_error_m");  // null: an interval alone
-      found.errors[name] = {
-          .standard_error_m = standard.is_null() ? std::nan("") : standard.get<double>(),
-          .low95_m = error.at("low95_m"),
-          .high95_m = error.at("high95_m")};
+      found.errors[name] = {.standard_error_m = standard.is_null() ? kNaN : standard.get<double>(),
+                            .low95_m = error.at("low95_m"),
+                            .high95_m = error.at("high95_m")};
     }
   }
   if (document.contains("confidence")) found.confidence = document["confidence"].get<double>();
@@ -83,7 +68,7 @@ PlotScore plot_from_json(const json& document) {
   PlotScore plot{.truth = {.id = id_from_json(document.at("plot_number")),
                            .row = document.at("row_number"),
                            .column = document.at("col_number"),
-                           .box = box_from_json(document.at("box")),
+                           .box = box_from(document.at("box")),
                            .heights_m = document.at("truths_m")},
                  .found = {}};
   const json& found = document.at("found");
@@ -123,11 +108,8 @@ void write_trust(std::ostream& out, const PlotScore& plot, const std::set<std::s
           << format_number(error->second.high95_m);
     }
   }
-  out << ',' << (found.confidence ? format_number(*found.confidence) : "") << ',';
-  std::string flags;
-  for (const std::string& flag : found.flags) flags += (flags.empty() ? "" : ";") + flag;
-  std::ranges::replace(flags, ',', ' ');  // they are part of a line
-  out << flags;
+  out << ',' << (found.confidence ? format_number(*found.confidence) : "") << ','
+      << csv_field(joined(found.flags, ";"));
 }
 
 }  // namespace
@@ -184,10 +166,12 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   const std::set<std::string> intervals = heights_with_intervals(field);
   std::ofstream out(path);
   out << "plot_number,row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
-  for (const std::string& truth : truths) out << ",true_" << truth;
-  for (const std::string& height : heights) out << ",estimated_height_" << height << "_m";
+  for (const std::string& truth : truths) out << ',' << csv_field("true_" + truth);
+  for (const std::string& height : heights)
+    out << ',' << csv_field("estimated_height_" + height + "_m");
   for (const std::string& height : intervals)
-    out << ",low95_" << height << "_m,high95_" << height << "_m";
+    out << ',' << csv_field("low95_" + height + "_m") << ','
+        << csv_field("high95_" + height + "_m");
   if (!intervals.empty()) out << ",confidence,flags";
   out << '\n';
   for (const PlotScore& plot : field.plots) {

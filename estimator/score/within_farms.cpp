@@ -7,44 +7,10 @@
 #include <vector>
 
 #include "core/statistics.h"
+#include "score/internal/moments.h"
 
 namespace plotscan::score {
 namespace {
-
-// Sums over pairs (a, b), each less its mean.
-struct Moments {
-  double aa = 0;
-  double ab = 0;
-  double bb = 0;
-
-  Moments& operator+=(const Moments& more) {
-    aa += more.aa;
-    ab += more.ab;
-    bb += more.bb;
-    return *this;
-  }
-  bool vary() const { return aa > 0 && bb > 0; }
-  double correlation() const { return vary() ? ab / std::sqrt(aa * bb) : kNaN; }
-};
-
-// Values that are all equal have moments of exactly 0, whatever their mean rounds to.
-std::vector<double> less_mean(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  const double middle = low == high ? low : mean(values);
-  std::vector<double> less;
-  less.reserve(values.size());
-  for (const double value : values) less.push_back(value - middle);
-  return less;
-}
-
-Moments moments(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::vector<double> less_a = less_mean(a);
-  const std::vector<double> less_b = less_mean(b);
-  Moments sums;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sums += {less_a[i] * less_a[i], less_a[i] * less_b[i], less_b[i] * less_b[i]};
-  return sums;
-}
 
 // Of each value, from 1; equal values share the mean of their ranks.
 std::vector<double> ranks(const std::vector<double>& values) {
@@ -60,14 +26,6 @@ std::vector<double> ranks(const std::vector<double>& values) {
     first = end;
   }
   return ranks;
-}
-
-std::vector<double> errors_of(const HeightPairs& pairs) {
-  std::vector<double> errors_m;
-  errors_m.reserve(pairs.truths_m.size());
-  for (std::size_t i = 0; i < pairs.truths_m.size(); ++i)
-    errors_m.push_back(pairs.estimates_m[i] - pairs.truths_m[i]);
-  return errors_m;
 }
 
 }  // namespace

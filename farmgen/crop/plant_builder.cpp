@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::crop {
@@ -123,7 +123,7 @@ PlantBuilder::Row PlantBuilder::tube_row(const Vector3d& centre, const Eigen::Ma
   const int points = sides == 2 ? 2 : sides + 1;
   for (int i = 0; i < points; ++i) {
     const double share = static_cast<double>(i) / (sides == 2 ? 1 : sides);
-    const double angle = (sides == 2 ? 1 : 2) * std::numbers::pi * (i == sides ? 0 : share);
+    const double angle = (sides == 2 ? 1 : 2) * kPi * (i == sides ? 0 : share);
     const Vector3d offset = radius_m * (std::cos(angle) * frame.col(0) +
                                         tube.flatness * std::sin(angle) * frame.col(1));
     row.push_back(add_vertex(centre + offset, share, v));
@@ -170,7 +170,7 @@ void PlantBuilder::ellipsoid(const Vector3d& centre, const Vector3d& axis, const
             .light_points = 3,
             .light_sides = 3};
   for (int i = 0; i < kPoints; ++i) {
-    const double angle = std::numbers::pi * i / (kPoints - 1);
+    const double angle = kPi * i / (kPoints - 1);
     tube.path.push_back(centre - std::cos(angle) * half_axes_m.x() * axis.normalized());
     const bool end = i == 0 || i == kPoints - 1;
     tube.radius_m.push_back(end ? 0 : half_axes_m.y() * std::sin(angle));

@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/place_json.h"
 #include "farm/farm.h"
 #include "farm/heights.h"
 #include "mesh/measure.h"
@@ -35,12 +36,6 @@ struct FarmRecord {
   std::optional<double> soil_reflectance = {};
 };
 
-Anchor anchor_of(const nlohmann::json& anchor) {
-  return {.latitude_deg = anchor.at("latitude_deg"),
-          .longitude_deg = anchor.at("longitude_deg"),
-          .altitude_m = anchor.at("altitude_m")};
-}
-
 double share_of(const fs::path& folder, const nlohmann::json& value) {
   const auto share = value.get<double>();
   if (share >= 0 && share <= 1) return share;
@@ -59,7 +54,7 @@ FarmRecord read_record(const fs::path& folder) {
                       .light_models = results.at("light_models"),
                       .plots = results.at("plots"),
                       .plants = results.at("plants")};
-    if (results.contains("anchor")) record.anchor = anchor_of(results["anchor"]);
+    if (results.contains("anchor")) record.anchor = anchor_from(results["anchor"]);
     if (results.contains("terrain_origin_m")) {
       const nlohmann::json& origin = results["terrain_origin_m"];
       record.terrain_origin_m = Eigen::Vector3d(

@@ -10,6 +10,7 @@
 #include "sdfxml/elements.h"
 
 #include "core/output_folder.h"
+#include "core/place_json.h"
 #include "core/stage.h"
 #include "farm/surface_colours.h"
 #include "mesh/obj.h"
@@ -68,12 +69,6 @@ void write_truth(const fs::path& folder, const farm::Farm& farm, int threads) {
   write_terrain(folder / "terrain.ply", farm.terrain);
 }
 
-nlohmann::json json_of(const Anchor& anchor) {
-  return {{"latitude_deg", anchor.latitude_deg},
-          {"longitude_deg", anchor.longitude_deg},
-          {"altitude_m", anchor.altitude_m}};
-}
-
 nlohmann::json results_of(const farm::Farm& farm) {
   nlohmann::json models = nlohmann::json::array();
   nlohmann::json with_light = nlohmann::json::array();
@@ -86,7 +81,7 @@ nlohmann::json results_of(const farm::Farm& farm) {
                             {"light_models", with_light},
                             {"plots", farm.plots.size()},
                             {"plants", farm.plants.size()}};
-  if (farm.anchor) results["anchor"] = json_of(*farm.anchor);
+  if (farm.anchor) results["anchor"] = anchor_json(*farm.anchor);
   if (farm.terrain_origin_m)
     results["terrain_origin_m"] = {farm.terrain_origin_m->x(), farm.terrain_origin_m->y(),
                                    farm.terrain_origin_m->z()};

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/isolated.h"
+#include "core/text.h"
 #include "mesh/internal/assimp_mesh.h"
 #include "mesh/internal/mesh_bytes.h"
 #include "mesh/internal/mesh_files.h"
@@ -22,13 +22,6 @@ constexpr std::array<const char*, 6> kFormats = {".obj", ".dae", ".gltf", ".glb"
 // buffers, images) has the rest.
 constexpr std::uint64_t kLeastMemory_bytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMemoryPerByte = 64;
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 void put_lowest_at_zero(Mesh& mesh) {
   const auto below = [](const auto& a, const auto& b) { return a.z() < b.z(); };

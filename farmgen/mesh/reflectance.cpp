@@ -6,6 +6,8 @@
 #include <cctype>
 #include <string>
 
+#include "core/text.h"
+
 namespace plotscan::mesh {
 namespace {
 
@@ -57,13 +59,6 @@ constexpr std::string_view kLeaf = "leaf";
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-std::string lower(std::string_view name) {
-  std::string text(name);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // Whether a word of the name begins or ends at the place: "BeanStem2" has the words Bean and Stem.
 bool is_border(std::string_view name, std::size_t place) {
   if (place == 0 || place >= name.size()) return true;
@@ -74,7 +69,7 @@ bool is_border(std::string_view name, std::size_t place) {
 }
 
 bool holds(std::string_view name, std::string_view word) {
-  const std::string text = lower(name);
+  const std::string text = lower_case(name);
   for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
     if (word.size() > kStandsAlone || word == kLeaf) return true;
     const std::size_t end = at + word.size();

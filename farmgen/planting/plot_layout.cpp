@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "terrain/extent.h"
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 
@@ -125,8 +125,7 @@ std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid) {
 
 PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed) {
   if (!grid.random_heading) return grid;
-  grid.heading_rad =
-      RandomStream(seed, random_purpose("plots/heading"), 0).uniform(0, 2 * std::numbers::pi);
+  grid.heading_rad = RandomStream(seed, random_purpose("plots/heading"), 0).uniform(0, 2 * kPi);
   return grid;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.h"
 #include "core/number_text.h"
 
 namespace plotscan::sdfxml {
@@ -27,7 +28,7 @@ Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
   constexpr double kGimbalLock = 1 - 1e-12;
   if (std::abs(sin_pitch) > kGimbalLock) {
     const double sign = std::copysign(1.0, sin_pitch);
-    return {0, sign * M_PI / 2, -2 * sign * std::atan2(q.x(), q.w())};
+    return {0, sign * kPi / 2, -2 * sign * std::atan2(q.x(), q.w())};
   }
   return {std::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())),
           std::asin(sin_pitch),

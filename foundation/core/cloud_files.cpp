@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -17,10 +17,7 @@ bool is_cloud(const fs::path& file) {
   // Text by other names, .txt and .csv, may be anything.
   static constexpr std::array kExtensions = {".las", ".laz", ".pcd", ".ply",
                                              ".xyz", ".asc", ".pts"};
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+  return std::ranges::find(kExtensions, lower_extension(file)) != kExtensions.end();
 }
 
 std::vector<fs::path> tiles_of(const fs::path& folder) {

@@ -54,6 +54,12 @@ WriteError::WriteError(const std::filesystem::path& file) : WriteError(file, obs
 WriteError::WriteError(const std::filesystem::path& file, int error)
     : std::runtime_error(write_message(file, error)) {}
 
+void throw_as_ours(const std::filesystem::filesystem_error& error) {
+  const int reason = error.code().value();
+  if (is_of_disk(reason)) throw WriteError(error.path1(), reason);
+  throw InputError(error.path1(), error.code().message());
+}
+
 void check(bool condition, const std::string& what) {
   if (!condition) throw std::logic_error("internal error: " + what);
 }

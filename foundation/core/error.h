@@ -36,6 +36,10 @@ class WriteError : public std::runtime_error {
   WriteError(const std::filesystem::path& file, int error);
 };
 
+// Throws an error of the file system as one of these: WriteError where the disk is full, read only
+// or broken, else InputError, "FILE: reason".
+[[noreturn]] void throw_as_ours(const std::filesystem::filesystem_error& error);
+
 // Throws std::logic_error with the text: a bug in Plotscan, never the user's fault.
 void check(bool condition, const std::string& what);
 

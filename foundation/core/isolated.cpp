@@ -12,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -57,7 +58,7 @@ void confine(const IsolationLimits& limits, pid_t parent) {
   if (getppid() != parent) _exit(1);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.processor_s));
-  if (PLOTSCAN_SANITIZED != 0) return;
+  if (PLOTSCAN_SANITIZED != 0) return;  // whose findings are printed
   limit(RLIMIT_AS, taken_bytes() + limits.memory_bytes);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
@@ -94,9 +95,38 @@ void send(int pipe, Outcome outcome, const std::string& text) {
   _exit(0);
 }
 
-struct Child {
-  pid_t process = -1;
-  int pipe = -1;
+// How the process ended, -1 where the system does not tell.
+int reaped(pid_t process) {
+  int status = -1;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+// A process and the end of the pipe that it sends to. One that nobody waited for is ended.
+class Child {
+ public:
+  Child(pid_t process, int pipe) : process_(process), pipe_(pipe) {}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (process_ > 0) end();
+  }
+
+  int pipe() const { return pipe_; }
+  // Its status, once it has come to its end.
+  int wait() {
+    close(pipe_);
+    return reaped(std::exchange(process_, -1));
+  }
+  int end() {
+    kill(process_, SIGKILL);
+    return wait();
+  }
+
+ private:
+  pid_t process_;
+  int pipe_;
 };
 
 // No two start at once: a child that inherits another's end of a pipe would keep it open.
@@ -119,7 +149,7 @@ Child start(const IsolationLimits& limits, const std::function<std::string()>& w
     close(ends[0]);
     throw std::system_error(error, std::generic_category(), "no process can be started");
   }
-  return {process, ends[0]};
+  return Child(process, ends[0]);
 }
 
 // Everything that the child sends; false when it does not come to an end in time.
@@ -140,14 +170,6 @@ bool receive(int pipe, std::chrono::seconds patience, std::string& received) {
   }
 }
 
-// How the child ended, -1 where the system does not tell.
-int reaped(pid_t process) {
-  int status = -1;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
-}
-
 std::string reason_of(int status, bool in_time, const IsolationLimits& limits) {
   const bool killed = WIFSIGNALED(status);
   if (!in_time) return "came to no end";
@@ -164,13 +186,11 @@ std::string reason_of(int status, bool in_time, const IsolationLimits& limits) {
 
 std::string run_isolated(const std::string& what, const IsolationLimits& limits,
                          const std::function<std::string()>& work) {
-  const Child child = start(limits, work);
+  Child child = start(limits, work);
   std::string received;
   const bool in_time =
-      receive(child.pipe, std::chrono::seconds(kWaitingFactor * limits.processor_s), received);
-  close(child.pipe);
-  if (!in_time) kill(child.process, SIGKILL);
-  const int status = reaped(child.process);
+      receive(child.pipe(), std::chrono::seconds(kWaitingFactor * limits.processor_s), received);
+  const int status = in_time ? child.wait() : child.end();
   const bool ended = in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0 && !received.empty();
   if (!ended) throw InputError(what + ": its reader " + reason_of(status, in_time, limits));
   const auto outcome = static_cast<Outcome>(received.front());

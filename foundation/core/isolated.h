@@ -18,7 +18,8 @@ struct IsolationLimits {
 // child's stdout and stderr lead nowhere; it leaves nothing but what it returns. Throws InputError
 // - with the text of an InputError that `work` throws;
 // - "WHAT: its reader ..." where it crashes, throws anything else or uses more than the limits.
-// Builds with a sanitizer, which needs terabytes of addresses, do not limit the memory.
+// Builds with a sanitizer, which needs terabytes of addresses and tells what it finds, neither
+// limit the memory nor quieten the child.
 std::string run_isolated(const std::string& what, const IsolationLimits& limits,
                          const std::function<std::string()>& work);
 

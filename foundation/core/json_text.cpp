@@ -25,4 +25,12 @@ std::string read_json_text(const std::filesystem::path& path) {
   return text;
 }
 
+nlohmann::json read_json(const std::filesystem::path& path) {
+  try {
+    return nlohmann::json::parse(read_json_text(path));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(path, std::string("not JSON: ") + error.what());
+  }
+}
+
 }  // namespace plotscan

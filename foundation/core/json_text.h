@@ -4,10 +4,15 @@
 #include <filesystem>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 namespace plotscan {
 
 // A JSON file's text, not yet parsed. Throws InputError when it cannot be read, and where it is
 // nested deeper than 100: what goes through it calls itself once a level.
 std::string read_json_text(const std::filesystem::path& path);
+
+// The document in it. Throws InputError as above, and when it is not JSON.
+nlohmann::json read_json(const std::filesystem::path& path);
 
 }  // namespace plotscan

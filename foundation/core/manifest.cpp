@@ -81,14 +81,10 @@ nlohmann::json read_manifest(const fs::path& folder) {
   const fs::path path = folder / "manifest.json";
   if (!fs::exists(path))
     throw InputError(folder, "not a folder written by plotscan (it has no manifest.json)");
-  try {
-    nlohmann::json manifest = nlohmann::json::parse(read_json_text(path));
-    if (!manifest.is_object()) throw InputError(path, "not a manifest: a JSON object is expected");
-    require_known_format(manifest, path);
-    return manifest;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(path, std::string("not JSON: ") + error.what());
-  }
+  nlohmann::json manifest = read_json(path);
+  if (!manifest.is_object()) throw InputError(path, "not a manifest: a JSON object is expected");
+  require_known_format(manifest, path);
+  return manifest;
 }
 
 void require_unchanged(const fs::path& folder, const std::string& part) {

@@ -2,8 +2,9 @@
 #include "core/plot_box.h"
 
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "core/angle.h"
 
 namespace plotscan {
 namespace {
@@ -64,14 +65,14 @@ std::array<Eigen::Vector2d, 4> PlotBox::corners() const {
 }
 
 double wrap_heading(double heading_rad) {
-  const double wrapped = std::fmod(heading_rad, std::numbers::pi);
-  const double positive = wrapped < 0 ? wrapped + std::numbers::pi : wrapped;
-  return positive >= std::numbers::pi ? 0.0 : positive;
+  const double wrapped = std::fmod(heading_rad, kPi);
+  const double positive = wrapped < 0 ? wrapped + kPi : wrapped;
+  return positive >= kPi ? 0.0 : positive;
 }
 
 double heading_difference(double a_rad, double b_rad) {
   const double difference = wrap_heading(a_rad - b_rad);
-  return std::min(difference, std::numbers::pi - difference);
+  return std::min(difference, kPi - difference);
 }
 
 double intersection_area(const PlotBox& a, const PlotBox& b) {

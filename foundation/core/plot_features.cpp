@@ -14,6 +14,7 @@
 #include "core/geodesy.h"
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
+#include "core/place_json.h"
 
 namespace plotscan {
 namespace {
@@ -41,11 +42,7 @@ json ring_of(const PlotBox& box, const Projection& projection) {
 
 json feature_of(const PlotFeature& plot, const Projection& projection) {
   json properties = plot.properties;
-  properties["center_x_m"] = plot.box.center.x();
-  properties["center_y_m"] = plot.box.center.y();
-  properties["width_m"] = plot.box.width_m;
-  properties["length_m"] = plot.box.length_m;
-  properties["heading_deg"] = plot.box.heading_rad / kDegrees;
+  properties.update(box_json(plot.box));
   json feature = {
       {"type", "Feature"},
       {"geometry",
@@ -79,30 +76,20 @@ void write_document(const std::filesystem::path& path, const json& document) {
   if (!out.flush()) throw WriteError(path);
 }
 
-constexpr std::array<const char*, 5> kBoxProperties = {"center_x_m", "center_y_m", "width_m",
-                                                       "length_m", "heading_deg"};
-
 bool has_exact_box(const json& properties) {
   return std::ranges::all_of(kBoxProperties, [&](const char* name) {
     return properties.contains(name) && properties[name].is_number();
   });
 }
 
-PlotBox exact_box(const json& properties) {
-  return {
-      .center = {properties["center_x_m"].get<double>(), properties["center_y_m"].get<double>()},
-      .width_m = properties["width_m"].get<double>(),
-      .length_m = properties["length_m"].get<double>(),
-      .heading_rad = properties["heading_deg"].get<double>() * kDegrees};
-}
-
 // The outer ring of a Polygon, or of a MultiPolygon of one part, as GIS programs export it.
 const json& polygon_ring(const json& feature, const std::string& which) {
-  const json geometry = feature.contains("geometry") ? feature["geometry"] : json();
+  static const json kNone;
+  const json& geometry = feature.contains("geometry") ? feature["geometry"] : kNone;
   const std::string type = geometry.is_object() ? geometry.value("type", "") : "null";
-  if (type == "Polygon") return feature["geometry"].at("coordinates").at(0);
+  if (type == "Polygon") return geometry.at("coordinates").at(0);
   if (type == "MultiPolygon" && geometry.at("coordinates").size() == 1) {
-    return feature["geometry"].at("coordinates").at(0).at(0);
+    return geometry.at("coordinates").at(0).at(0);
   }
   throw InputError(which + " has geometry \"" + type + "\"; a plot is a Polygon of four corners");
 }
@@ -176,8 +163,7 @@ PlotFeature read_feature(const json& feature, const std::filesystem::path& path,
   const std::string which = name_of(path, place, plot);
   const PlotBox polygon = rectangle_of(polygon_ring(feature, which), positions.metres, which);
   plot.box = polygon;
-  if (!positions.in_degrees && has_exact_box(plot.properties))
-    plot.box = exact_box(plot.properties);
+  if (!positions.in_degrees && has_exact_box(plot.properties)) plot.box = box_from(plot.properties);
   require_sound(plot.box, which);
   require_agreement(plot.box, polygon, which);
   return plot;
@@ -185,10 +171,14 @@ PlotFeature read_feature(const json& feature, const std::filesystem::path& path,
 
 constexpr const char* kUnits = "coordinate_units_m";
 
-std::optional<CoordinateUnits> units_of(const json& document) {
+std::optional<CoordinateUnits> units_of(const json& document, const std::filesystem::path& path) {
   if (!document.contains(kUnits)) return std::nullopt;
-  return CoordinateUnits{.horizontal_m = document[kUnits].at("x_y").get<double>(),
-                         .vertical_m = document[kUnits].at("z").get<double>()};
+  const CoordinateUnits units{.horizontal_m = document[kUnits].at("x_y").get<double>(),
+                              .vertical_m = document[kUnits].at("z").get<double>()};
+  const bool sound = units.horizontal_m > 0 && std::isfinite(units.horizontal_m) &&
+                     units.vertical_m > 0 && std::isfinite(units.vertical_m);
+  if (!sound) throw InputError(path, std::string(kUnits) + ": x_y and z must be metres above 0");
+  return units;
 }
 
 // The system that a file names in its member crs, as "EPSG:<code>" where that is there; "" where it
@@ -262,7 +252,7 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
     throw InputError(path, "is in the coordinate system " + stated_crs(document) +
                                ", and the cloud is in " + crs + "; give the map in the latter");
   }
-  const std::optional<CoordinateUnits> units = units_of(document);
+  const std::optional<CoordinateUnits> units = units_of(document, path);
   return {.metres = from_units(units ? units->horizontal_m : unit_m)};
 }
 
@@ -270,7 +260,7 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
                          const std::string& crs, double unit_m) {
   if (document.contains("coordinate_system")) require_known_format(document, path);  // ours
   const Positions positions = positions_of(document, path, crs, unit_m);
-  PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document)};
+  PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document, path)};
   for (const json& feature : document.at("features"))
     placed.plots.push_back(read_feature(feature, path, placed.plots.size() + 1, positions));
   return placed;

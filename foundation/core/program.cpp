@@ -18,7 +18,6 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/internal/disk_error.h"
 #include "core/internal/interrupt.h"
 #include "core/internal/printable.h"
 #include "core/internal/program_completion.h"
@@ -162,11 +161,6 @@ int Program::caught_run(int argc, char** argv) {
   } catch (const InputError& error) {
     say_error(name_, error.what());
     return kExitBadInput;
-  } catch (const std::filesystem::filesystem_error& error) {
-    const int reason = error.code().value();
-    say_error(name_, is_full(reason) ? WriteError(error.path1(), reason).what()
-                                     : error.path1().string() + ": " + error.code().message());
-    return is_of_disk(reason) ? kExitFailure : kExitBadInput;
   } catch (const std::bad_alloc&) {
     say_error(name_, "there is not enough memory for this input");
     return kExitFailure;
@@ -187,6 +181,8 @@ int Program::guarded_run(int argc, char** argv) {
     }
     say_error(name_, usage_error(error, {argv + std::min(argc, 1), argv + argc}));
     return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw_as_ours(error);
   }
 }
 

@@ -3,11 +3,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include <Random123/philox.h>
+
+#include "core/angle.h"
 
 namespace plotscan {
 
@@ -57,7 +58,7 @@ class RandomStream {
   // Two independent standard normal numbers (Box-Muller).
   std::pair<double, double> normal_pair() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    const double angle = 2.0 * std::numbers::pi * uniform();
+    const double angle = 2.0 * kPi * uniform();
     return {radius * std::cos(angle), radius * std::sin(angle)};
   }
   double normal() { return normal_pair().first; }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/error.h"
@@ -12,7 +11,7 @@ namespace plotscan {
 
 double quantile(std::vector<double> values, double share) {
   check(share >= 0 && share <= 1, "a quantile's share is in [0, 1]");
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNaN;
   const double position = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::ptrdiff_t>(std::floor(position));
   const double low = selected<double>(values, static_cast<std::size_t>(below));
@@ -23,7 +22,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 double mean(const std::vector<double>& values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return kNaN;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 

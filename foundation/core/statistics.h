@@ -32,6 +32,22 @@ Value selected_low(std::span<Value> values, std::size_t place) {
   return *at;
 }
 
+// The median of values that each count as much as they are: of the counts of points in squares,
+// that of the square in which the middle point lies. Of values of at least 0; 0 when there are
+// none.
+template <class Value>
+Value self_weighted_median(std::vector<Value> values) {
+  std::ranges::sort(values);
+  double all = 0;
+  for (const Value value : values) all += static_cast<double>(value);
+  double below = 0;
+  for (const Value value : values) {
+    below += static_cast<double>(value);
+    if (2 * below >= all) return value;
+  }
+  return Value{};
+}
+
 // NaN of a whole that is none.
 inline double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,19 @@ inline std::string joined(const std::vector<std::string>& names, const char* sep
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : separator) + name;
   return text;
+}
+
+// Its ASCII letters in lower case.
+inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+// Of a file's name, its dot with it: ".las" of "FIELD.LAS".
+inline std::string lower_extension(const std::filesystem::path& file) {
+  return lower_case(file.extension().string());
 }
 
 // "a, b or c"

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace plotscan {
 namespace {
@@ -21,8 +22,7 @@ int highest(const std::vector<TrialPlace>& places, int TrialPlace::*number) {
 double TrialLayout::heading_rad() const { return wrap_heading(angle_of(column_axis)); }
 
 double TrialLayout::skew_rad() const {
-  return std::remainder(angle_of(row_axis) - angle_of(column_axis) - std::numbers::pi / 2,
-                        std::numbers::pi);
+  return std::remainder(angle_of(row_axis) - angle_of(column_axis) - kPi / 2, kPi);
 }
 
 int TrialLayout::rows() const { return highest(places, &TrialPlace::row); }

@@ -11,7 +11,8 @@
 namespace plotscan::boundary {
 
 // What `work` returns; the errors that a program prints and ends with exit code 2 or 3 leave the
-// library as its own, with the same text.
+// library as its own, with the same text. A disk that is full, read only or broken stays a
+// std::runtime_error, as every other failure does.
 template <class Work>
 auto guarded(Work&& work) {
   try {
@@ -21,7 +22,11 @@ auto guarded(Work&& work) {
   } catch (const InputError& error) {
     throw BadInput(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    throw BadInput(error.path1().string() + ": " + error.code().message());
+    try {
+      throw_as_ours(error);
+    } catch (const InputError& ours) {
+      throw BadInput(ours.what());
+    }
   }
 }
 

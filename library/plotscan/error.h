@@ -7,6 +7,10 @@
 
 namespace plotscan {
 
+// What functions throw: BadInput and NothingMeasured as below. Whatever else goes wrong leaves as
+// std::runtime_error, whose what() names the file where there is one (a disk that is full or cannot
+// be written), or as std::bad_alloc.
+
 // Bad input: a file, a line of it, a value, an option. what() says which one, what is wrong and
 // what would be right, in the words in which the programs print it.
 class PLOTSCAN_API BadInput : public std::runtime_error {

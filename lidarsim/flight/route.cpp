@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::flight {
 namespace {
 
-double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
+double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
 
 // Of the nose along the way; nothing for a vertical one.
 std::optional<double> heading_along(const Eigen::Vector3d& way) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -38,11 +37,10 @@ double step_of(const farm::Farm& farm) {
 // Of a hit over its place; NaN beside the terrain.
 double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit& hit, double top_m,
                  const Eigen::Vector2d& place) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (!std::isfinite(hit.range_m)) return kNone;
+  if (!std::isfinite(hit.range_m)) return kNaN;
   if (scene.surface(hit).label == scan::PointClass::ground) return 0;
   const std::optional<double> ground_m = terrain.height(place.x(), place.y());
-  return ground_m ? std::max(0.0, top_m - static_cast<double>(hit.range_m) - *ground_m) : kNone;
+  return ground_m ? std::max(0.0, top_m - static_cast<double>(hit.range_m) - *ground_m) : kNaN;
 }
 
 // Casts rays of a grid straight down, those of each task together.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/place_json.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
 #include "lidar/fly_settings.h"
@@ -56,11 +57,7 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
   manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
   if (!sensor.wedges) manifest.options["spin_hz"] = sensor::chosen_spin_hz(sensor, options.spin_hz);
   manifest.options[site.kind] = site.name;
-  if (site.anchor) {
-    manifest.options["anchor"] = {{"latitude_deg", site.anchor->latitude_deg},
-                                  {"longitude_deg", site.anchor->longitude_deg},
-                                  {"altitude_m", site.anchor->altitude_m}};
-  }
+  if (site.anchor) manifest.options["anchor"] = anchor_json(*site.anchor);
   if (options.flight) manifest.options["flight"] = options.flight->filename().string();
   if (options.waypoints) manifest.options["waypoints"] = options.waypoints->filename().string();
   if (!options.formats.empty()) manifest.options["formats"] = options.formats;
@@ -102,15 +99,6 @@ void write_flight(const std::filesystem::path& folder, const DroneFlight& flight
   description.close();
 }
 
-// The other formats are made of the whole folder, and the manifest lists them, too.
-void finish(const std::filesystem::path& folder, const Manifest& manifest,
-            const std::vector<std::string>& formats) {
-  write_manifest(folder, manifest);
-  if (formats.empty()) return;
-  record::write_formats(formats, folder);
-  write_manifest(folder, manifest);
-}
-
 // What is flown over; `plants` is what the scene was made from, where it can sway.
 struct FlownPlace {
   const Site& site;
@@ -149,7 +137,7 @@ FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_f
   const FlySummary summary{.shots = (scanned.end - scanned.begin) * fired.lasers(),
                            .points = cloud.points(),
                            .duration_s = flight.truth.end_s()};
-  finish(output.path(), manifest_of(site, sensor, options, summary), options.formats);
+  record::finish_scan(output.path(), manifest_of(site, sensor, options, summary), options.formats);
   output.commit();
   return summary;
 }

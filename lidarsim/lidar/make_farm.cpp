@@ -27,7 +27,7 @@ farm::Farm make_farm(const std::filesystem::path& description, const std::filesy
   measure_canopies(made, options.threads);
   farmfolder::write_farm(
       made, folder, options.replace,
-      {.command = "farmgen generate",
+      {.command = options.command,
        .options = {{"description", description.filename().string()}, {"set", options.overrides}},
        .inputs = planting::input_files(described)},
       progress, options.threads);

@@ -17,7 +17,8 @@ struct MakeFarmOptions {
   std::vector<std::string> overrides = {};  // as description::load_description takes them
   std::optional<std::uint64_t> seed = {};   // else the description's, else 1
   int threads = 1;
-  bool replace = false;  // a farm that is there
+  bool replace = false;                      // a farm that is there
+  std::string command = "farmgen generate";  // the one that the manifest names
 };
 
 // Reads the description, generates the farm, measures its canopies and writes its folder

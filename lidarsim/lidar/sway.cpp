@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/angle.h"
 #include "core/random.h"
@@ -97,7 +96,7 @@ Sway::Sway(const SwayOptions& options, const flight::WindOptions& wind, double d
 
 Sway::Motion Sway::motion_of(std::uint32_t plant, const Eigen::Vector2d& foot_m,
                              double height_m) const {
-  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kTurn = 2 * kPi;
   const double top_m = std::max(height_m, kLeastHeight_m);
   RandomStream stream(seed_, random_purpose("sway phase"), plant);
   Motion motion{.wind_share = canopy_wind_share(top_m, wind_height_m_),

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool is_trajectory(const fs::path& file) {
-  const std::string extension = file.extension().string();
+  const std::string extension = lower_extension(file);
   return extension == ".tum" || extension == ".txt" || extension == ".csv";
 }
 
@@ -31,7 +31,7 @@ Source open(const fs::path& in, const ConvertOptions& options) {
 }
 
 ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& out) {
-  if (out.extension() == ".csv") {
+  if (lower_extension(out) == ".csv") {
     scan::write_trajectory(out, trajectory);
   } else {
     scan::write_tum(out, trajectory);
@@ -52,7 +52,7 @@ scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options
 const Format& writable_format(const fs::path& out) {
   const Format* format = find_format(out);
   if (format != nullptr && format->create) return *format;
-  const std::string laz = out.extension() == ".laz"
+  const std::string laz = lower_extension(out) == ".laz"
                               ? "; .laz where built with LASzip (liblaszip-dev on Debian 13 and "
                                 "Ubuntu 24.04)"
                               : "";

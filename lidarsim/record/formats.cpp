@@ -2,7 +2,6 @@
 #include "record/formats.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/text.h"
 #include "record/internal/las_file.h"
@@ -132,9 +131,7 @@ std::string readable_clouds() {
 }
 
 const Format* find_format(const path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(file);
   for (const Format& format : formats())
     if (std::ranges::count(format.extensions, extension) > 0) return &format;
   return nullptr;

@@ -147,12 +147,7 @@ JoinSummary join_scans(const std::vector<fs::path>& folders, const fs::path& sca
                                 {"points", summary.points}}};
   manifest.earlier_inputs = first.flight.at("inputs");
   if (!options.formats.empty()) manifest.options["formats"] = options.formats;
-  write_manifest(output.path(), manifest);
-  if (!options.formats.empty()) {
-    // They are made of the whole folder, and the manifest lists them, too.
-    write_formats(options.formats, output.path());
-    write_manifest(output.path(), manifest);
-  }
+  finish_scan(output.path(), manifest, options.formats);
   output.commit();
   return summary;
 }

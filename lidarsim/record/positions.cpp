@@ -66,14 +66,18 @@ std::optional<Eigen::Vector3d> first_place(const Source& source) {
   return std::nullopt;
 }
 
+// The same for all sources, each of which is checked against it.
 scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& sources) {
   scan::CloudSystem system;
+  std::vector<std::string> notes;
   for (const Source& source : sources) {
-    system = scan::told_system(cloud, source.path, first_place(source));
-    if (first_place(source)) continue;
-    system.notes.push_back("no transform of " + source.path.filename().string() +
-                           " moves its clouds: their points are taken as they are");
+    const std::optional<Eigen::Vector3d> place = first_place(source);
+    system = scan::told_system(cloud, source.path, place);
+    if (place) continue;
+    notes.push_back("no transform of " + source.path.filename().string() +
+                    " moves its clouds: their points are taken as they are");
   }
+  system.notes.insert(system.notes.end(), notes.begin(), notes.end());
   return system;
 }
 

@@ -6,6 +6,7 @@
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/place_json.h"
 
 namespace plotscan::record {
 namespace {
@@ -14,10 +15,7 @@ using nlohmann::json;
 
 std::optional<Anchor> anchor_of(const json& options) {
   if (!options.contains("anchor")) return std::nullopt;
-  const json& anchor = options["anchor"];
-  return Anchor{.latitude_deg = anchor.at("latitude_deg"),
-                .longitude_deg = anchor.at("longitude_deg"),
-                .altitude_m = anchor.at("altitude_m")};
+  return anchor_from(options["anchor"]);
 }
 
 UtcTime start_of(const json& options) {

@@ -47,4 +47,12 @@ void write_formats(const std::vector<std::string>& formats,
   }
 }
 
+void finish_scan(const std::filesystem::path& scan_folder, const Manifest& manifest,
+                 const std::vector<std::string>& formats) {
+  write_manifest(scan_folder, manifest);
+  if (formats.empty()) return;
+  write_formats(formats, scan_folder);
+  write_manifest(scan_folder, manifest);
+}
+
 }  // namespace plotscan::record

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/manifest.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::record {
@@ -24,5 +25,10 @@ void require_formats(const std::vector<std::string>& formats, const sensor::Sens
 // as require_formats and convert do.
 void write_formats(const std::vector<std::string>& formats,
                    const std::filesystem::path& scan_folder);
+
+// Writes the manifest of a scan folder that lacks nothing else, and the further formats, which are
+// made of the whole folder and are listed in the manifest, too. Throws as write_formats does.
+void finish_scan(const std::filesystem::path& scan_folder, const Manifest& manifest,
+                 const std::vector<std::string>& formats);
 
 }  // namespace plotscan::record

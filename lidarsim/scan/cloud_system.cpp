@@ -2,12 +2,12 @@
 #include "scan/cloud_system.h"
 
 #include <cmath>
-#include <limits>
 
 #include <fmt/core.h>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/statistics.h"
 #include "scan/internal/cloud_layout.h"
 
 namespace plotscan::scan {
@@ -147,7 +147,7 @@ Eigen::Vector3d CloudSystem::metres_of(const Eigen::Vector3d& point) const {
   const double from_meridian_deg =
       std::remainder(place.longitude_deg - zone->central_meridian_deg(), 360.0);
   if (!(std::abs(from_meridian_deg) < kFarthest_deg && std::abs(place.latitude_deg) < 90))
-    return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return Eigen::Vector3d::Constant(kNaN);
   Eigen::Vector3d projected = utm_from_geodetic(*zone, place);
   projected.z() *= units.vertical_m;
   return projected;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 
@@ -17,6 +18,12 @@ constexpr double kFarthest_m = 2e7;
 constexpr double kNormTolerance = 0.01;
 
 }  // namespace
+
+Eigen::AngleAxisd shorter_turn(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
+  Eigen::AngleAxisd turn(a.conjugate() * b);
+  if (turn.angle() > kPi) turn.angle() -= 2 * kPi;
+  return turn;
+}
 
 std::string pose_error(const StampedPose& pose, double previous_s) {
   if (!std::isfinite(pose.time_s) || !pose.position_m.allFinite() ||

@@ -15,6 +15,10 @@ struct StampedPose {
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();  // world_from_body
 };
 
+// The turn from attitude a to b by the shorter way, about an axis in a's frame; its angle lies
+// within half a turn on either side of 0.
+Eigen::AngleAxisd shorter_turn(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
+
 // Where the body is at any time: linear in position, slerp in attitude (Shoemake 1985) between
 // stamped poses, the shorter way round.
 class Trajectory {

@@ -2,13 +2,14 @@
 #include "sensor/risley.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace plotscan::sensor {
 
 Risley::Risley(const std::array<Wedge, 2>& wedges, const PerLaser& fires_s) {
   for (std::size_t i = 0; i < 2; ++i) {
-    const PerLaser advance_rad = 2 * std::numbers::pi * wedges[i].turns_hz * fires_s;
+    const PerLaser advance_rad = 2 * kPi * wedges[i].turns_hz * fires_s;
     turning_[i] = {.turns_hz = wedges[i].turns_hz,
                    .phase_rad = wedges[i].phase_rad,
                    .cos_advance = advance_rad.cos(),
@@ -31,7 +32,7 @@ Risley::Risley(const std::array<Wedge, 2>& wedges, const PerLaser& fires_s) {
 std::array<PerLaser, 2> Risley::thick_side(const Turning& wedge, double time_s, Eigen::Index begin,
                                            Eigen::Index count) {
   const double turns = wedge.turns_hz * time_s;
-  const double angle_rad = 2 * std::numbers::pi * (turns - std::floor(turns)) + wedge.phase_rad;
+  const double angle_rad = 2 * kPi * (turns - std::floor(turns)) + wedge.phase_rad;
   const double cosine = std::cos(angle_rad);
   const double sine = std::sin(angle_rad);
   const auto cos_advance = wedge.cos_advance.segment(begin, count);
@@ -60,7 +61,7 @@ std::array<double, 2> deflections_rad(const std::array<Wedge, 2>& wedges) {
   std::array<double, 2> deflection_rad = {};
   for (const int opposite : {0, 1}) {
     still[0].phase_rad = 0;
-    still[1].phase_rad = opposite * std::numbers::pi;
+    still[1].phase_rad = opposite * kPi;
     const VectorPerLaser direction = Risley(still, PerLaser::Zero(1)).directions(0, 0, 1);
     deflection_rad[opposite] =
         std::atan2(std::hypot(direction[1][0], direction[2][0]), direction[0][0]);

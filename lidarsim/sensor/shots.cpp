@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 
@@ -25,11 +25,9 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
 
 // The vector that turns attitude a into b by the shorter way, in a's frame.
 Eigen::Vector3d turn_between(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
-  const Eigen::AngleAxisd turn(a.conjugate() * b);
-  const double angle =
-      turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
-  if (std::abs(angle) < kNoTurn_rad) return Eigen::Vector3d::Zero();
-  return angle * turn.axis();
+  const Eigen::AngleAxisd turn = scan::shorter_turn(a, b);
+  if (std::abs(turn.angle()) < kNoTurn_rad) return Eigen::Vector3d::Zero();
+  return turn.angle() * turn.axis();
 }
 
 VectorPerLaser cross(const Eigen::Vector3d& a, const VectorPerLaser& b) {
@@ -66,7 +64,7 @@ ShotPlan::ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d
   cos_elevation_ = of_each([](const Laser& laser) { return std::cos(laser.elevation_rad); });
   sin_elevation_ = of_each([](const Laser& laser) { return std::sin(laser.elevation_rad); });
   if (sensor.wedges) risley_.emplace(*sensor.wedges, fires_s_);
-  const PerLaser head_rad = 2 * std::numbers::pi * spin_hz * fires_s_;
+  const PerLaser head_rad = 2 * kPi * spin_hz * fires_s_;
   const PerLaser advance_rad =
       head_rad + of_each([](const Laser& laser) { return laser.azimuth_rad; });
   cos_advance_ = advance_rad.cos();
@@ -128,7 +126,7 @@ double ShotPlan::jitter_turns(std::uint64_t sequence) const {
   };
   const double share =
       static_cast<double>(sequence % jitter_sequences_) / static_cast<double>(jitter_sequences_);
-  return jitter_.sd_rad / (2 * std::numbers::pi) * std::lerp(at(block), at(block + 1), share);
+  return jitter_.sd_rad / (2 * kPi) * std::lerp(at(block), at(block + 1), share);
 }
 
 double ShotPlan::head_turns(std::uint64_t sequence) const {
@@ -167,7 +165,7 @@ void ShotPlan::fire_lasers(const Segment& motion, std::uint64_t sequence, Eigen:
   const Eigen::Vector3d position = motion.position_m + motion.velocity_m_s * in_segment_s;
   const PerLaser later_s = these(fires_s_) - fires_s_[begin];
 
-  const double azimuth = 2 * std::numbers::pi * head_turns(sequence);
+  const double azimuth = 2 * kPi * head_turns(sequence);
   const double cosine = std::cos(azimuth);
   const double sine = std::sin(azimuth);
   const VectorPerLaser direction = turned(risley_ ? risley_->directions(time_s, begin, count)

@@ -46,10 +46,10 @@ std::vector<MeasuredField> known_fields() {
 TEST(CalibrationFit, FindsTheFeatureThatTellsTheHeights) {
   const heights::Calibration fitted = fit(known_fields());
   for (const heights::CalibrationFarm& farm : fitted.farms) {
-    EXPECT_TRUE(farm.from_libraries.surprise.allFinite());
-    EXPECT_TRUE(farm.from_crops.surprise.allFinite());
-    EXPECT_EQ(farm.from_crops.surprise.size(), 2);
-    EXPECT_GT(farm.from_crops.unlike, farm.from_libraries.unlike) << "no other crop is as like";
+    EXPECT_TRUE(farm.from_libraries.standardised.allFinite());
+    EXPECT_TRUE(farm.from_crops.standardised.allFinite());
+    EXPECT_EQ(farm.from_crops.standardised.size(), 2);
+    EXPECT_GT(farm.from_crops.novelty, farm.from_libraries.novelty) << "no other crop is as like";
   }
   for (const Group group : {Group::farm, Group::library}) {
     for (const LeftOut& row : leave_out(fitted, group)) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
 
+#include <system_error>
+
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
 
 namespace plotscan {
 namespace {
@@ -23,6 +26,19 @@ TEST(ReadText, RefusesMissingFilesAndFolders) {
   EXPECT_EQ(read_text(folder.write("a.txt", "line\n")), "line\n");
   EXPECT_THROW(read_text(folder.path() / "absent"), InputError);
   EXPECT_THROW(read_text(folder.path()), InputError);
+}
+
+// A full disk is nobody's bad input.
+TEST(ThrowAsOurs, TellsDisksFromInput) {
+  const auto thrown = [](std::errc reason) {
+    throw_as_ours({"", "out/file", std::make_error_code(reason)});
+  };
+  EXPECT_EQ(testing::message_of<WriteError>([&] { thrown(std::errc::no_space_on_device); }),
+            "no space left on out/file");
+  EXPECT_THAT(testing::message_of<WriteError>([&] { thrown(std::errc::read_only_file_system); }),
+              ::testing::HasSubstr("out/file: cannot be written"));
+  EXPECT_EQ(testing::message_of<InputError>([&] { thrown(std::errc::permission_denied); }),
+            "out/file: Permission denied");
 }
 
 TEST(Check, ThrowsWhenFalse) {

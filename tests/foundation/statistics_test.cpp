@@ -33,6 +33,14 @@ TEST(Selected, IsTheValueAtThePlaceOfTheSorted) {
   }
 }
 
+// Of squares with 1, 2, 3 and 10 points, the 8th and 9th of 16 lie in the one of 10.
+TEST(SelfWeightedMedian, IsThatOfTheSquareOfTheMiddlePoint) {
+  EXPECT_EQ(self_weighted_median<int>({3, 10, 1, 2}), 10);
+  EXPECT_EQ(self_weighted_median<int>({3, 3, 1, 2}), 3);
+  EXPECT_EQ(self_weighted_median<double>({0, 0, 2.5}), 2.5);
+  EXPECT_EQ(self_weighted_median<int>({}), 0);
+}
+
 TEST(Mean, OfNothingIsNotANumber) {
   EXPECT_DOUBLE_EQ(mean({1, 2, 6}), 3);
   EXPECT_TRUE(std::isnan(mean({})));

@@ -18,5 +18,11 @@ TEST(Alternatives, EndWithTheWordOr) {
   EXPECT_EQ(alternatives({}), "");
 }
 
+TEST(LowerExtension, IsOfTheNameWithItsDot) {
+  EXPECT_EQ(lower_extension("FIELD.v2.LAS"), ".las");
+  EXPECT_EQ(lower_extension("FIELD.LAS/cloud"), "");
+  EXPECT_EQ(lower_case("Z\xC3\x84 9"), "z\xC3\x84 9");  // ASCII alone
+}
+
 }  // namespace
 }  // namespace plotscan

@@ -124,6 +124,7 @@ TEST_F(LibraryOptions, AreRefusedByTheirKeyAndKind) {
   EXPECT_EQ(refused("calibrated", 1.0), "lattice's calibrated is true or false");
   EXPECT_EQ(refused("crop", 1.0), "lattice's crop is a text");
   EXPECT_EQ(refused("ground_classes", 2.0), "lattice's ground_classes is whole numbers");
+  EXPECT_THAT(refused("ground_classes", std::vector{2.0}), HasSubstr("have no classes"));
   EXPECT_EQ(refused("rows", 0.0), "rows 0 must be in [1, 100000]");
 }
 

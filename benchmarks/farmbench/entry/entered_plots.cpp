@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "core/trial_layout.h"
 #include "estimate/height_properties.h"
 #include "farmbench/entry/internal/entered_rows.h"
@@ -51,7 +52,7 @@ void read_interval(const EnteredRow& row, const std::string& height, estimate::P
     return;
   }
   plot.errors[height] = {
-      .standard_error_m = standard.value_or(std::nan("")), .low95_m = *low, .high95_m = *high};
+      .standard_error_m = standard.value_or(kNaN), .low95_m = *low, .high95_m = *high};
 }
 
 void read_heights(const EnteredRow& row, estimate::PlotEstimate& plot, Problems& problems) {

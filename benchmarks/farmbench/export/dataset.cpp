@@ -159,7 +159,7 @@ DatasetSummary export_dataset(const DatasetOptions& options, const ProgressRepor
     summary.scans += document["sequences"].back()["scans"].get<std::size_t>();
     summary.points += document["sequences"].back()["points"].get<std::uint64_t>();
   }
-  write_text(folder.path() / "dataset.json", document.dump(1) + "\n");
+  write_json(folder.path() / "dataset.json", document);
   write_text(folder.path() / "README.md", card(document, options.command));
   write_manifest(folder.path(), {.command = kDatasetCommand,
                                  .options = {{"suite", suite.name}, {"seeds", suite.seeds}},

@@ -85,7 +85,7 @@ ExportSummary export_suite(const ExportOptions& options, const ProgressReport& p
         }));
     summary.points += task["fields"].back()["points"].get<std::uint64_t>();
   }
-  write_text(folder.path() / "task.json", task.dump(1) + "\n");
+  write_json(folder.path() / "task.json", task);
   write_text(folder.path() / "TASK.md", task_sheet(task));
   write_manifest(folder.path(), {.command = kExportCommand, .options = {{"suite", suite.name}}});
   set_file_times(folder.path());

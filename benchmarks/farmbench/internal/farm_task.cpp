@@ -74,8 +74,8 @@ void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const Ru
                                progress);
   result.made_from = task.made_from;
   // The result last: it is what a later run looks for.
-  write_text(times_file(options.output, task.name), times_of(result).dump(1) + "\n");
-  write_text(result_file(options, task), to_json(result).dump(1) + "\n");
+  write_json(times_file(options.output, task.name), times_of(result));
+  write_json(result_file(options, task), to_json(result));
   task.result = std::move(result);
   if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task.seed);
   fs::remove_all(folder);

@@ -9,7 +9,6 @@
 
 #include "cloud/cloud_map.h"
 #include "description/load_description.h"
-#include "farmfolder/write_farm.h"
 #include "planting/generate.h"
 
 #include "core/error.h"
@@ -114,7 +113,7 @@ FieldScan scan_field(const FarmPlace& place, const farm::Farm& farm, const cloud
                      const ProgressReport& progress) {
   ScannedFarm scanned =
       scan_farm(place, farm, [&](double share) { report_share(progress, kFlown * share); });
-  cloud::CloudMap map = cloud::read_map(scanned.cloud, area);
+  cloud::CloudMap map = cloud::read_map(scanned.cloud, cloud::NamedArea{area, "farm's plots"});
   return {std::move(scanned), std::move(map)};
 }
 

@@ -166,7 +166,7 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
   write_manifest(output, manifest);
   write_entry(output, entry);
   add_entries(output, result);
-  write_text(output / "results.json", to_json(result).dump(1) + "\n");
+  write_json(output / "results.json", to_json(result));
   report(output, options.seed);
   write_manifest(output, manifest);
 }

@@ -9,6 +9,7 @@
 #include "cloud/convex_hull.h"
 
 #include "core/error.h"
+#include "core/statistics.h"
 
 namespace plotscan::cloud {
 namespace {
@@ -33,19 +34,9 @@ std::vector<TileCount> coarsened(std::span<const TileCount> counts) {
 // What the square of the median point holds: unlike the median square's, it is not drawn down by
 // wide and thinly scanned surroundings.
 std::uint64_t typical_count(std::span<const TileCount> counts) {
-  std::vector<std::uint64_t> sorted;
-  std::uint64_t total = 0;
-  for (const TileCount& count : counts) {
-    sorted.push_back(count.points);
-    total += count.points;
-  }
-  std::ranges::sort(sorted);
-  std::uint64_t below = 0;
-  for (const std::uint64_t points : sorted) {
-    below += points;
-    if (2 * below >= total) return points;
-  }
-  return 0;
+  std::vector<std::uint64_t> points;
+  for (const TileCount& count : counts) points.push_back(count.points);
+  return self_weighted_median(std::move(points));
 }
 
 // The dense squares of which enough neighbours are dense: a square of thin surroundings is so by

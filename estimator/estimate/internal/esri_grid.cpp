@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/parse.h"
+#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -64,9 +65,7 @@ class Header {
  public:
   explicit Header(Words& words) : words_(words) {
     while (words.letter_follows()) {
-      std::string key(words.next().substr(0, 20));
-      std::ranges::transform(key, key.begin(),
-                             [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      std::string key = lower_case(words.next().substr(0, 20));
       if (std::ranges::find(kKeys, key) == kKeys.end()) {
         words.fail("'" + key + "' is no word of an ESRI ASCII grid's header");
       }

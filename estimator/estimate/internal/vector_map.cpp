@@ -2,7 +2,6 @@
 #include "estimate/internal/vector_map.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "core/error.h"
@@ -16,16 +15,15 @@
 #include <ogrsf_frmts.h>
 
 #include "core/geodesy.h"
-#include "core/text.h"
 #endif
+
+#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
 
 bool is_vector_map(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(file);
   return extension == ".gpkg" || extension == ".shp";
 }
 

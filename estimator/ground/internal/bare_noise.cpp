@@ -55,13 +55,7 @@ double usual_count(const Columns& columns) {
   for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
     counts.push_back(columns.first[i + 1] - columns.first[i]);
   }
-  std::sort(counts.begin(), counts.end());
-  double below = 0;
-  for (const std::uint32_t count : counts) {
-    below += count;
-    if (2 * below >= static_cast<double>(columns.returns.size())) return count;
-  }
-  return 0;
+  return self_weighted_median(std::move(counts));
 }
 
 // How many columns a block is wide, so that usual ones have enough returns.

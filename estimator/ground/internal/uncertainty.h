@@ -7,7 +7,7 @@
 
 namespace plotscan::ground {
 
-// Draws of the surface's error (docs/ground.md, step 5): from the normal law of a surface whose
+// Draws of the surface's error (docs/ground.md, step 6): from the normal law of a surface whose
 // second differences are white noise of the size that they have where the ground is seen, given
 // this evidence. `surface` is in metres above any plane.
 ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& evidence,

@@ -22,7 +22,7 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
         "ground is unsure by centimetres");
   raise(evidence.top_m < std::max(options.least_top_m, options.least_top_sigmas * evidence.noise_m),
         "canopy is too low to measure");
-  raise(evidence.unlike > 1, "plants unlike those the calibration knows");
+  raise(evidence.novelty > 1, "plants unlike those the calibration knows");
   const auto mean = heights.find("mean");
   raise(mean != heights.end() && mean->second.standard_error_m > options.largest_error_m,
         "heights are unsure by centimetres");

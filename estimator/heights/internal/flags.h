@@ -18,7 +18,7 @@ struct PlotEvidence {
   double top_m = 0;
   double noise_m = 0;
   PlotGround ground;
-  double unlike = 0;  // over 1: the canopy is unlike all that the calibration knows
+  double novelty = 0;  // over 1: the canopy is unlike all that the calibration knows
 };
 
 struct FlagOptions {

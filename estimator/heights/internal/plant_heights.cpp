@@ -12,14 +12,11 @@
 namespace plotscan::heights {
 namespace {
 
-// Of Student's t with the 24 degrees of freedom that a standard deviation from 25 farms has.
-constexpr double kQuantile95 = 2.064;
-
 Height height_of(double value_m, double sd_m) {
   return {.value_m = value_m,
           .standard_error_m = sd_m,
-          .low95_m = value_m - kQuantile95 * sd_m,
-          .high95_m = value_m + kQuantile95 * sd_m};
+          .low95_m = value_m - kIntervalErrors * sd_m,
+          .high95_m = value_m + kIntervalErrors * sd_m};
 }
 
 // Neighbours in the wrong order get their mean, until all are in order (pool adjacent violators,
@@ -62,7 +59,7 @@ CropEvidence crop_evidence(const Calibration& calibration, const Eigen::VectorXd
                            const std::optional<std::string>& crop) {
   const CropModel model(calibration);
   return {.probabilities = crop ? calibration.indicators_of(*crop) : model.probabilities(scaled),
-          .unlike = model.unlike(scaled),
+          .novelty = model.novelty(scaled),
           .given = crop.has_value()};
 }
 
@@ -117,8 +114,8 @@ FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibrat
     const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
     Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
     PlantHeights& plot = plants.plots[i];
-    plot.unlike = model.unlike(scaled, crops.probabilities);
-    if (plot.unlike > 1) {
+    plot.novelty = model.novelty(scaled, crops.probabilities);
+    if (plot.novelty > 1) {
       const FieldRatios own = model.at(scaled, field[i].top_m, crops);
       sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
     }

@@ -31,7 +31,7 @@ const std::map<std::string, CanopyQuantile>& canopy_quantiles();
 // A plot's heights by name.
 struct PlantHeights {
   std::map<std::string, Height> heights = {};
-  double unlike = 0;  // over 1: the canopy is unlike all that the calibration knows
+  double novelty = 0;  // over 1: the canopy is unlike all that the calibration knows
 };
 
 // The heights of a field's plots, and how likely it is of each crop.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "core/statistics.h"
 #include "heights/internal/box_cells.h"
 
 namespace plotscan::heights {
@@ -24,7 +25,7 @@ struct Pairs {
 
   // NaN of too few.
   double semivariance(double noise_m) const {
-    return count < kLeastPairs ? NAN
+    return count < kLeastPairs ? kNaN
                                : squares_m2 / (2 * static_cast<double>(count)) - noise_m * noise_m;
   }
 };

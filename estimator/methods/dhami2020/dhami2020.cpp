@@ -234,8 +234,11 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
-  std::optional<cloud::Area> area = options.crop_box;
-  if (!area && !options.boxes.empty()) area = cloud::surroundings(options.boxes, options.extend_m);
+  std::optional<cloud::NamedArea> area;
+  if (options.crop_box)
+    area = {.area = *options.crop_box};
+  else if (!options.boxes.empty())
+    area = {cloud::surroundings(options.boxes, options.extend_m), "given boxes"};
   return estimate_plots(cloud::read_map(cloud, area, progress), options, progress);
 }
 

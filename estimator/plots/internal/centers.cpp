@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "plots/internal/depth_profile.h"
+#include "plots/internal/steps.h"
 
 namespace plotscan::plots {
 namespace {
@@ -98,8 +99,7 @@ std::optional<double> shift_of(const OwnCover& own, double size_m) {
   }
   const auto best = static_cast<std::size_t>(std::ranges::max_element(gains) - gains.begin());
   if (best == 0 || best + 1 == gains.size()) return std::nullopt;
-  const double bend = gains[best - 1] - 2 * gains[best] + gains[best + 1];
-  const double part = bend < 0 ? 0.5 * (gains[best - 1] - gains[best + 1]) / bend : 0;
+  const double part = parabola_top(gains[best - 1], gains[best], gains[best + 1]);
   return (static_cast<double>(best) - steps + part) * kShiftStep_m;
 }
 

@@ -12,7 +12,6 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr int kMostRows = 12;               // of a plot
 constexpr double kLeastGapOfSpacing = 0.2;  // by which a step between plots is wider
 constexpr double kMostOthers = 0.34;        // of the groups: plots of which not all rows were seen
 
@@ -33,7 +32,7 @@ std::vector<Steps> steps_of(const Lines& middles) {
   for (const std::vector<double>& line : middles)
     for (std::size_t i = 1; i < line.size(); ++i) steps.push_back(line[i] - line[i - 1]);
   std::ranges::sort(steps);
-  const std::size_t few = std::max<std::size_t>(1, steps.size() / (std::size_t{2} * kMostRows));
+  const std::size_t few = std::max<std::size_t>(1, steps.size() / (std::size_t{2} * kMostSownRows));
   std::vector<Steps> found;
   double sum = 0;
   for (std::size_t i = 0; i + few <= steps.size(); ++i) {
@@ -109,7 +108,7 @@ std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
       sizes.push_back(static_cast<double>(last - first + 1));
   }
   DrilledPlots plots{.rows = static_cast<int>(most_frequent(sizes)), .spacing = steps.spacing};
-  if (plots.rows < 2 || plots.rows > kMostRows) return std::nullopt;
+  if (plots.rows < 2 || plots.rows > kMostSownRows) return std::nullopt;
   const double span = (plots.rows - 1) * steps.spacing;
   double all = 0, whole = 0, length = 0;
   for (std::size_t i = 0; i < middles.size(); ++i) {

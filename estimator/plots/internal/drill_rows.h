@@ -8,6 +8,8 @@
 
 namespace plotscan::plots {
 
+inline constexpr int kMostSownRows = 12;  // of a plot
+
 // Plots of drill rows at one spacing; lengths in cells.
 struct DrilledPlots {
   int rows = 0;                                  // of a plot

@@ -88,14 +88,7 @@ class Patch {
 // The height that half of the canopy's volume has its top under: however many blocks of low weeds,
 // or of ground that strips of the survey give different heights, lie around the crop, it is the
 // crop's.
-double usual_top_m(std::vector<double> tops_m) {
-  std::ranges::sort(tops_m);
-  const double half = 0.5 * std::accumulate(tops_m.begin(), tops_m.end(), 0.0);
-  double below = 0;
-  for (const double top_m : tops_m)
-    if ((below += top_m) >= half) return top_m;
-  return tops_m.back();
-}
+double usual_top_m(std::vector<double> tops_m) { return self_weighted_median(std::move(tops_m)); }
 
 // Of a block's side, so many that the usual patch holds enough returns.
 std::size_t patches_for(std::span<const std::uint32_t> block_of_point, std::size_t blocks) {

@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "core/statistics.h"
+#include "plots/internal/steps.h"
 
 namespace plotscan::plots {
 namespace {
@@ -126,9 +127,7 @@ double refined(const std::vector<Cell>& cells, double guess_rad, double reach_ra
   const std::vector<double> values = sharpnesses(cells, angles, bin_m, threads);
   const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   if (best == 0 || best + 1 == values.size()) return angles[best];
-  const double left = values[best - 1], top = values[best], right = values[best + 1];
-  const double bend = left - 2 * top + right;
-  return angles[best] + (bend < 0 ? 0.5 * (left - right) / bend * step_rad : 0);
+  return angles[best] + parabola_top(values[best - 1], values[best], values[best + 1]) * step_rad;
 }
 
 // Directions of two families of lines, whole degrees.

@@ -15,11 +15,9 @@ struct FieldAxes {
   double second_rad = 0;  // of the other, 60 to 120 degrees further
 };
 
-// The pair of directions along which the canopy's lines are sharpest: means along lines, over the
-// whole field and in blocks of some metres, whose steps across the lines are squared and summed.
-// Long lines show weak alleys, short ones those of rows with offsets of their own. Two pairs where
-// the families disagree, and none without canopy. With a hint, the first direction is sought near
-// it.
+// The pair of directions along which the canopy's lines are sharpest: the squared steps, from line
+// to line, of the mean canopy along lines through the whole field. Two pairs where the families
+// disagree, and none without canopy. With a hint, the first direction is sought near it.
 std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
                                  int threads);
 

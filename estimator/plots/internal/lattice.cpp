@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -95,14 +96,18 @@ void place_plots(const Layout& layout, Lattice& lattice) {
   lattice.c.pitch_m = usual_step(steps);
 }
 
-// Every place has the nearest of the columns that run through all rows.
-void number_columns(const std::vector<Column>& columns, Lattice& lattice) {
+// Every place has the nearest of the columns that run through all rows. False where two places of a
+// row would have the same.
+bool number_columns(const std::vector<Column>& columns, Lattice& lattice) {
+  std::set<std::pair<int, int>> taken;
   for (Place& place : lattice.places) {
     const auto nearest = std::ranges::min_element(
         columns, {}, [&](const Column& column) { return std::abs(column.c_m - place.c_m); });
     place.column = static_cast<int>(nearest - columns.begin());
+    if (!taken.emplace(place.row, place.column).second) return false;
   }
   lattice.columns = static_cast<int>(columns.size());
+  return true;
 }
 
 // Every row by itself, from the place nearest to the first of all plots.
@@ -126,12 +131,8 @@ void number(const Layout& layout, Lattice& lattice) {
   for (const Place& place : lattice.places) positions.push_back(place.c_m);
   std::vector<Column> columns;
   if (layout.aligned) columns = columns_of(std::move(positions), pitch_m, lattice.c.size_m);
-  lattice.aligned = !columns.empty();
-  if (lattice.aligned) {
-    number_columns(columns, lattice);
-  } else {
-    number_each_row(pitch_m, lattice);
-  }
+  lattice.aligned = !columns.empty() && number_columns(columns, lattice);
+  if (!lattice.aligned) number_each_row(pitch_m, lattice);
 }
 
 // The places of each row, or of each column.

@@ -100,7 +100,7 @@ double roughness_of(const std::vector<Eigen::Vector3f>& returns, double noise_m)
   std::vector<Eigen::Vector3f> upper;
   std::ranges::copy_if(returns, std::back_inserter(upper),
                        [&](const Eigen::Vector3f& point) { return point.z() > kUpper * top_m; });
-  if (upper.size() < kLeastReturns) return NAN;
+  if (upper.size() < kLeastReturns) return kNaN;
   const double known_noise_m = noise_m < kNoiseOfHeight * top_m ? noise_m : 0;
   const double scatter_m = scatter_about_plane(upper);
   return std::sqrt(std::max(0.0, scatter_m * scatter_m - known_noise_m * known_noise_m)) / top_m;

@@ -12,11 +12,11 @@
 #include <Eigen/Core>
 
 #include "plots/internal/depth_profile.h"
+#include "plots/internal/drill_rows.h"
 
 namespace plotscan::plots {
 namespace {
 
-constexpr int kMostSownRows = 12;
 constexpr double kLeastSownSpacing_m = 0.1, kMostSownSpacing_m = 1.2;
 constexpr double kMostOff_m = 0.45;  // rows times spacing, from the size that the outline has
 constexpr double kCoarse_m = 0.02, kFine_m = 0.005;  // steps of the spacing

@@ -12,4 +12,9 @@ double usual_step(std::vector<double> steps) {
   return quantile(std::move(steps), 0.5);
 }
 
+double parabola_top(double before, double middle, double after) {
+  const double bend = before - 2 * middle + after;
+  return bend < 0 ? 0.5 * (before - after) / bend : 0;
+}
+
 }  // namespace plotscan::plots

@@ -11,4 +11,8 @@ namespace plotscan::plots {
 // quartile. 0 where there are none.
 double usual_step(std::vector<double> steps);
 
+// Where the parabola through three values has its top, in steps from the middle one; 0 where it has
+// none.
+double parabola_top(double before, double middle, double after);
+
 }  // namespace plotscan::plots

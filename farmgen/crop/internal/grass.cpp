@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "crop/internal/axis.h"
 
 namespace plotscan::crop {
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHalfTurn = std::numbers::pi;
+constexpr double kHalfTurn = kPi;
 constexpr double kTipExponent = 0.8;  // of the cosine that narrows a blade to its tip
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/angle.h"
 #include "core/random.h"
@@ -32,8 +31,8 @@ class MaizePlant {
         stem_(Vector3d::Zero()) {
     RandomStream random(seed, random_purpose("maize/plant"), 0);
     vigour_ = 1 + traits["plant_variation"] * random.uniform(-1, 1);
-    plane_rad_ = 2 * std::numbers::pi * random.uniform();
-    lean_azimuth_rad_ = 2 * std::numbers::pi * random.uniform();
+    plane_rad_ = 2 * kPi * random.uniform();
+    lean_azimuth_rad_ = 2 * kPi * random.uniform();
     lean_rad_ = traits.radians("lean_deg") * random.uniform();
   }
 
@@ -130,8 +129,7 @@ class MaizePlant {
 
   double leaf_azimuth(int rank) const {
     RandomStream random(seed_, random_purpose("maize/azimuth"), rank);
-    return plane_rad_ + rank * std::numbers::pi +
-           traits_.radians("azimuth_spread_deg") * random.uniform(-1, 1);
+    return plane_rad_ + rank * kPi + traits_.radians("azimuth_spread_deg") * random.uniform(-1, 1);
   }
 
   // Lower leaves open wide, the upper ones stand upright and bend less.
@@ -147,7 +145,7 @@ class MaizePlant {
             .twist_rad = 0.5 * random.uniform(-1, 1),
             .undulation_rad = traits_.radians("undulation_deg"),
             .undulation_waves = 3,
-            .undulation_phase = 2 * std::numbers::pi * random.uniform(),
+            .undulation_phase = 2 * kPi * random.uniform(),
             .length_m = vary(blade_m(rank), random),
             .width_m = vary(blade_width_m(rank), random),
             .base_width_share = 0.6,
@@ -227,8 +225,8 @@ class MaizePlant {
   void grow_silks(const Vector3d& tip, const Vector3d& axis, RandomStream& random) {
     const int count = plant_.light() ? kLightSilks : kSilks;
     for (int silk = 0; silk < count; ++silk) {
-      const Vector3d aside = direction(2 * std::numbers::pi * (silk + random.uniform()) / count,
-                                       random.uniform(-0.5, 0.5));
+      const Vector3d aside =
+          direction(2 * kPi * (silk + random.uniform()) / count, random.uniform(-0.5, 0.5));
       const double length = traits_["silk_m"] * random.uniform(0.7, 1);
       const Vector3d up = tip + 0.4 * length * (axis + 0.4 * aside);
       const Vector3d end = up + 0.6 * length * (aside - Vector3d::UnitZ()).normalized();

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "crop/internal/png.h"
@@ -16,7 +16,7 @@
 namespace plotscan::crop {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTurn = 2 * kPi;
 
 // A shade in [0, 1] at a place of the texture, u and v in [0, 1]: 0 the darkest, kPlain the
 // organ's own colour, 1 the lightest, as its veins are.

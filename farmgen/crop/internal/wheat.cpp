@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"
 #include "crop/internal/grass.h"
@@ -46,9 +46,9 @@ class WheatShoot {
     vigour_ = vigour * (1 + traits_["plant_variation"] * random.uniform(-1, 1));
     plane_rad_ = azimuth_rad + kUpright + random.uniform(-0.5, 0.5);
     lean_rad_ = traits_.radians("lean_deg") * random.uniform();
-    lean_azimuth_rad_ = 2 * std::numbers::pi * random.uniform();
+    lean_azimuth_rad_ = 2 * kPi * random.uniform();
     nod_rad_ = traits_.radians("ear_nod_deg") * random.uniform(0.6, 1.4);
-    nod_azimuth_rad_ = 2 * std::numbers::pi * random.uniform();
+    nod_azimuth_rad_ = 2 * kPi * random.uniform();
     grow_axis(foot, angle_rad, azimuth_rad);
     grow_stem();
     const int lowest_green = unfolded_ - traits_.count("green_leaves") + 1;
@@ -135,7 +135,7 @@ class WheatShoot {
                              .rise_exponent = 3};
     const double spread = traits_.radians("azimuth_spread_deg") * random.uniform(-1, 1);
     return {.collar = axis_.at(collar_m(rank)),
-            .azimuth_rad = plane_rad_ + rank * std::numbers::pi + spread,
+            .azimuth_rad = plane_rad_ + rank * kPi + spread,
             .elevation_rad = kUpright - vary(traits_.radians("blade_angle_deg"), random),
             .bend_rad = traits_.radians("blade_bend_deg") * random.uniform(0.5, 1.25),
             .bend_exponent = random.uniform(1.3, 2.8),
@@ -179,7 +179,7 @@ class WheatShoot {
     grow_wheat_ear({.foot_m = stem_m(),
                     .length_m = ear_m(),
                     .shown_from_m = collar_m(unfolded_),
-                    .side_rad = 2 * std::numbers::pi * random.uniform(),
+                    .side_rad = 2 * kPi * random.uniform(),
                     .spikelets = traits_.count("spikelets"),
                     .spikelet_m = traits_["spikelet_m"],
                     .spikelet_radius_m = traits_["spikelet_radius_m"],
@@ -214,13 +214,13 @@ void grow_plant(const Traits& traits, std::uint64_t seed, std::uint64_t number,
   const double spread = std::min(traits["tiller_spread"], mean);
   const double drawn = mean + spread * random.uniform(-1, 1) + random.uniform(-0.5, 0.5);
   const auto tillers = static_cast<int>(std::clamp(std::lround(drawn), 0L, 20L));
-  const double azimuth = 2 * std::numbers::pi * random.uniform();
+  const double azimuth = 2 * kPi * random.uniform();
   const std::uint64_t shoot = number * kMostShoots;
   WheatShoot(traits, seed, shoot, plant).grow(foot, 0, azimuth, 1, 1);
   for (int tiller = 1; tiller <= tillers; ++tiller) {
     // In the axils of the lowest leaves, which stand in two rows; a tiller's first leaf unfolds
     // with the main stem's third above its axil (Kirby 2002).
-    const double turned = azimuth + tiller * std::numbers::pi + random.uniform(-0.9, 0.9);
+    const double turned = azimuth + tiller * kPi + random.uniform(-0.9, 0.9);
     const double angle = traits.radians("tiller_angle_deg") * random.uniform(0.6, 1.3);
     const int first_rank = std::min(tiller + 3, traits.count("unfolded"));
     WheatShoot(traits, seed, shoot + static_cast<std::uint64_t>(tiller), plant)

@@ -138,7 +138,7 @@ class Drone {
     xml_.text("visualize", "false");
     xml_.open(classic ? "ray" : "lidar");
     xml_.open("scan");
-    const double turn = 2 * std::numbers::pi;
+    const double turn = 2 * kPi;
     write_angles("horizontal", kAzimuths, -turn / 2, turn / 2 - turn / kAzimuths);
     write_angles("vertical", 16, -kElevation_rad, kElevation_rad);
     xml_.close();

@@ -2,9 +2,10 @@
 #include "gazebo/internal/shapes.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
+
+#include "core/angle.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -24,7 +25,7 @@ mesh::Mesh turned(const std::vector<ProfilePoint>& profile) {
   mesh.vertices.emplace_back(0, 0, profile.front().z);
   for (std::uint32_t ring = 1; ring <= rings; ++ring) {
     for (std::uint32_t i = 0; i < kAround; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kAround;
+      const double angle = 2 * kPi * i / kAround;
       const auto& [radius, z] = profile[ring];
       mesh.vertices.emplace_back(
           Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), z).cast<float>());
@@ -51,7 +52,7 @@ mesh::Mesh turned(const std::vector<ProfilePoint>& profile) {
 // angle further.
 void add_quarter(std::vector<ProfilePoint>& profile, double radius, double z, double from_rad) {
   for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
-    const double angle = from_rad + std::numbers::pi / 2 * ring / kRings;
+    const double angle = from_rad + kPi / 2 * ring / kRings;
     profile.push_back({radius * std::cos(angle), z + radius * std::sin(angle)});
   }
 }
@@ -78,7 +79,7 @@ mesh::Mesh unit_cylinder() { return turned({{0, -0.5}, {1, -0.5}, {1, 0.5}, {0, 
 
 mesh::Mesh capsule(double radius_m, double length_m) {
   std::vector<ProfilePoint> profile;
-  add_quarter(profile, radius_m, -length_m / 2, -std::numbers::pi / 2);
+  add_quarter(profile, radius_m, -length_m / 2, -kPi / 2);
   if (length_m == 0) profile.pop_back();  // a ball has one equator
   add_quarter(profile, radius_m, length_m / 2, 0);
   return turned(profile);

@@ -2,7 +2,6 @@
 #include "planting/internal/weeds.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "planting/plot_layout.h"
@@ -10,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/random.h"
@@ -64,8 +64,7 @@ farm::Plant drawn_weed(const WeedsDescription& description, std::uint64_t number
   farm::Plant weed{.kind = farm::PlantKind::weed};
   weed.model = description.models[RandomStream(seed, random_purpose("weed/model"), number)
                                       .below(description.models.size())];
-  const double yaw =
-      RandomStream(seed, random_purpose("weed/yaw"), number).uniform(0, 2 * std::numbers::pi);
+  const double yaw = RandomStream(seed, random_purpose("weed/yaw"), number).uniform(0, 2 * kPi);
   weed.rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
   RandomStream scale(seed, random_purpose("weed/scale"), number);
   for (int axis = 0; axis < 3; ++axis) {

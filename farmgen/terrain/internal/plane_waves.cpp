@@ -2,8 +2,8 @@
 #include "terrain/internal/plane_waves.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "core/random.h"
 
 namespace plotscan::terrain {
@@ -11,7 +11,7 @@ namespace {
 
 // Enough that heights are normally distributed and no pattern repeats.
 constexpr int kWaves = 256;
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kTurn = 2 * kPi;
 // Clods: the greatest product of wave number and size.
 constexpr double kFinestClods = 4;
 

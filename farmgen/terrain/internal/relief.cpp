@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/angle.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -20,7 +21,7 @@ double across_furrows(const FurrowsDescription& furrows, const Eigen::Vector2d& 
 double furrow_height(const FurrowsDescription& furrows, double across_m) {
   const double phase = std::remainder(across_m / furrows.spacing_m, 1.0);  // in [-0.5, 0.5]
   if (furrows.profile == FurrowProfile::sine)
-    return furrows.depth_m / 2 * std::cos(2 * std::numbers::pi * phase);
+    return furrows.depth_m / 2 * std::cos(2 * kPi * phase);
   return furrows.depth_m / 2 * std::clamp(8 * (0.25 - std::abs(phase)), -1.0, 1.0);
 }
 

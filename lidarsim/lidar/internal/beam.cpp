@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::lidar {
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector2d> normal_pattern(int count) {
   for (int i = 0; i < pairs; ++i) {
     const double square =
         mean_square_distance(outside * (pairs - i - 1) / pairs, outside * (pairs - i) / pairs);
-    const double angle = std::numbers::pi * std::fmod(i * kGolden, 1.0);
+    const double angle = kPi * std::fmod(i * kGolden, 1.0);
     points.push_back(std::sqrt(square) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     points.push_back(-points.back());
     covariance += 2.0 / count * points.back() * points.back().transpose();
@@ -77,7 +77,7 @@ void SubRays::spread(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uin
   along = along.norm() > kParallel ? along.normalized() : axis.direction.unitOrthogonal();
   const Eigen::Vector3f across = axis.direction.cross(along);
   // Half a turn is a whole period of a pattern that is its own reflection.
-  const double turn = std::numbers::pi * static_cast<double>(shot * kGolden64) * 0x1p-64;
+  const double turn = kPi * static_cast<double>(shot * kGolden64) * 0x1p-64;
   const auto cosine = static_cast<float>(std::cos(turn));
   const auto sine = static_cast<float>(std::sin(turn));
   const auto begin = static_cast<std::ptrdiff_t>(first);

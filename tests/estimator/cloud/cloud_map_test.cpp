@@ -74,15 +74,19 @@ TEST(ReadMap, FindsTheDenselyScannedField) {
 TEST(ReadMap, ReadsACropBoxFromAFile) {
   const plotscan::testing::TemporaryFolder folder;
   const auto file = folder.write("cloud.pcd", pcd_of("1 2 3\n4 5 6\n70 80 9\n", 3));
-  const CloudMap map = read_map(file, Area{0, 0, 10, 10});
+  const CloudMap map = read_map(file, NamedArea{{0, 0, 10, 10}});
   EXPECT_EQ(map.points_read(), 3u);
   ASSERT_EQ(map.points().size(), 2u);
   EXPECT_LT((map.origin() + map.points()[1].cast<double>() - Eigen::Vector3d(4, 5, 6)).norm(),
             1e-6);
   EXPECT_THAT(message_of<InputError>([&] {
-                read_map(file, Area{-9, -9, -8, -8});
+                read_map(file, NamedArea{{-9, -9, -8, -8}});
               }),
               HasSubstr("none of its 3 points lies in the crop box -9,-9,-8,-8"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_map(file, NamedArea{{-9, -9, -8, -8}, "given boxes"});
+              }),
+              HasSubstr("lies in the given boxes -9,-9,-8,-8"));
 }
 
 }  // namespace

@@ -235,5 +235,14 @@ TEST(Estimate, SaysWhatIsMissing) {
   EXPECT_THAT(message(), HasSubstr("has no plots"));
 }
 
+TEST(Estimate, IdsAreDifferent) {
+  const TemporaryFolder folder;
+  PlotFeature plot{.box = {.width_m = 1, .length_m = 2},
+                   .properties = {{"plot_number", 7}, {"height_mine_m", 0.5}}};
+  write_plot_features(folder.path() / "two.geojson", {plot, plot});
+  EXPECT_THAT(message_of<InputError>([&] { read_estimate(folder.path() / "two.geojson"); }),
+              HasSubstr("two plots with the id 7"));
+}
+
 }  // namespace
 }  // namespace plotscan::estimate

@@ -60,8 +60,9 @@ Unseen of_unseen(const std::vector<std::string>& libraries) {
       const Eigen::VectorXd scaled = others.scaled(farm.features);
       const Eigen::VectorXd probabilities = crops.probabilities(scaled);
       const auto ratios = [&](const Eigen::VectorXd& crop, bool is_given) {
-        return model.at(scaled, farm.top_m,
-                        {.probabilities = crop, .unlike = crops.unlike(scaled), .given = is_given});
+        return model.at(
+            scaled, farm.top_m,
+            {.probabilities = crop, .novelty = crops.novelty(scaled), .given = is_given});
       };
       const FieldRatios told = ratios(probabilities, false);
       const FieldRatios given = ratios(shipped.indicators_of(farm.crop), true);
@@ -136,7 +137,7 @@ TEST(Calibration, KnowsHowLittleItKnowsOfACropThatWasLeftOut) {
       told(static_cast<Eigen::Index>(shipped.index_of(crop))) = 0;
       const FieldRatios ratios = model.at(
           scaled, farm.top_m,
-          {.probabilities = told / told.sum(), .unlike = crops.unlike(scaled), .given = false});
+          {.probabilities = told / told.sum(), .novelty = crops.novelty(scaled), .given = false});
       const Eigen::ArrayXd errors = (ratios.values - farm.ratios).cwiseQuotient(ratios.field_sds);
       inside += (errors.abs() < 2.064).cast<double>().mean();
     }
@@ -204,15 +205,15 @@ TEST(Calibration, ACropsHeightsFollowFromItsOwnFarms) {
 TEST(Calibration, FewFarmsAreUnlikeWhatIsKnown) {
   const Calibration& shipped = shipped_calibration();
   const RatioModel model(shipped);
-  int unlike = 0;
+  int novelty = 0;
   for (const CalibrationFarm& farm : shipped.farms)
-    unlike += model.unlike(shipped.scaled(farm.features), shipped.indicators_of(farm.crop)) > 1;
-  EXPECT_LT(unlike, 0.03 * static_cast<double>(shipped.farms.size()));
+    novelty += model.novelty(shipped.scaled(farm.features), shipped.indicators_of(farm.crop)) > 1;
+  EXPECT_LT(novelty, 0.03 * static_cast<double>(shipped.farms.size()));
   // A field of glass plates on stilts: all features as far from the middle as they can be, by
   // turns.
   Eigen::VectorXd far = Eigen::VectorXd::Constant(shipped.center.size(), 4);
   for (Eigen::Index k = 0; k < far.size(); k += 2) far(k) = -4;
-  EXPECT_GT(model.unlike(far, shipped.indicators_of("maize")), 1);
+  EXPECT_GT(model.novelty(far, shipped.indicators_of("maize")), 1);
 }
 
 }  // namespace

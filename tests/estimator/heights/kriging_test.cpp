@@ -41,8 +41,8 @@ TEST(Kriging, FollowsCurvesAndKnowsWhereItDoesNot) {
   const Prediction inside = kriging.at(place, 1);
   EXPECT_NEAR(inside.values(0), curves(0.4, -0.7)(0), 0.02);
   EXPECT_NEAR(inside.values(1), curves(0.4, -0.7)(1), 0.1);
-  EXPECT_LT(inside.unlike, 0.1);
-  EXPECT_GT(kriging.unlike(Eigen::Vector2d(8, 8)), 0.9);
+  EXPECT_LT(inside.novelty, 0.1);
+  EXPECT_GT(kriging.novelty(Eigen::Vector2d(8, 8)), 0.9);
   EXPECT_GT(kriging.at(Eigen::Vector2d(8, 8), 1).sds(0), 5 * inside.sds(0));
   EXPECT_GT(kriging.at(place, 3).sds(0), 2 * inside.sds(0));
 }

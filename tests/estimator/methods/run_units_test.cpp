@@ -17,6 +17,7 @@ namespace plotscan::methods {
 namespace {
 
 namespace fs = std::filesystem;
+using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -84,6 +85,12 @@ TEST(Run, FeetBecomeMetresAndGoBack) {
   const estimate::Estimate read = estimate::read_estimate(feet.output);
   ASSERT_TRUE(read.units);
   EXPECT_LT((read.plots[3].box.center - found.plots[3].box.center).norm(), 1e-6);
+
+  auto turned = nlohmann::json::parse(read_text(feet.output / "plots.geojson"));
+  turned["coordinate_units_m"]["x_y"] = -1;
+  const fs::path backwards = folder.write("backwards.geojson", turned.dump());
+  EXPECT_THAT(message_of<InputError>([&] { estimate::read_estimate(backwards); }),
+              HasSubstr("x_y and z must be metres above 0"));
 
   // A breeder's map, drawn over the cloud in a GIS, is in its feet.
   auto map = nlohmann::json::parse(read_text(feet.output / "plots.geojson"));

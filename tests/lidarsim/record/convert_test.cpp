@@ -161,6 +161,8 @@ TEST_F(Convert, TrajectoriesGoToTumAndBack) {
   EXPECT_GT(convert(scan_ / "trajectory.csv", tum, {}).poses, 100u);
   convert(tum, back, {});
   EXPECT_EQ(file_hash(back), file_hash(scan_ / "trajectory.csv"));
+  convert(tum, folder_.path() / "LOUD.TUM", {});
+  EXPECT_EQ(file_hash(folder_.path() / "LOUD.TUM"), file_hash(tum));
   std::ifstream text(tum);
   std::string line;
   std::getline(text, line);

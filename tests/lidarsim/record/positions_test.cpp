@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using testing::message_of;
+using ::testing::Not;
 using testing::TemporaryFolder;
 
 const Eigen::Vector3d kUtm(512'345.25, 4'123'456.5, 600);
@@ -109,6 +110,26 @@ TEST(RecordedPositions, OfAPcapLieAlongItsTrajectory) {
   EXPECT_EQ(read_cloud_system(cloud).crs, "EPSG:32617");
   cloud.crs = "EPSG:4326";
   EXPECT_THAT(message_of<InputError>([&] { read_cloud_system(cloud); }), HasSubstr("in metres"));
+}
+
+// Each is named, whatever comes after it.
+TEST(RecordedPositions, RecordingsWithoutTransformsAreNamed) {
+  const TemporaryFolder folder;
+  const auto still = [&](const char* name) {
+    auto writer = testing::create_file(folder.path() / name,
+                                       {{.name = "/points", .type = ros::PointCloud2::kType}});
+    auto cloud = labelled_cloud({.stamp = {1'000'000'000}, .frame_id = "lidar"});
+    add_point(cloud, {}, {2, 0, 0}, 0);
+    writer->write(0, {1'000'000'000}, ros::encode(writer->version(), cloud));
+    writer->close();
+    return folder.path() / name;
+  };
+  const CloudFiles cloud(std::vector<fs::path>{still("first.bag"), still("second.bag"),
+                                               write_ros(folder.path() / "third.bag", {0, 0, 0})});
+  const std::vector<std::string> notes = read_cloud_system(cloud).notes;
+  EXPECT_THAT(notes, Contains(HasSubstr("no transform of first.bag")));
+  EXPECT_THAT(notes, Contains(HasSubstr("no transform of second.bag")));
+  EXPECT_THAT(notes, Not(Contains(HasSubstr("third.bag"))));
 }
 
 TEST(RecordedPositions, FactsAreOfTheRecording) {

@@ -2,10 +2,10 @@
 #include "view/internal/axes.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <fmt/core.h>
 
+#include "core/angle.h"
 #include "view/internal/scale.h"
 
 namespace plotscan::view {
@@ -58,12 +58,10 @@ void draw_axes(Page& page, const Axes& axes, const std::string& title_x, const s
   const Eigen::Vector2d middle = axes.frame_px.center();
   page.text({middle.x(), low.y() - 1.5 * tick_px - 1.3 * text_px}, with_unit(title_x, origin_x),
             {.size_px = text_px, .across = Side::middle, .upwards = Side::high});
-  page.text({low.x() - 1.5 * tick_px - widest_px - 0.5 * text_px, middle.y()},
-            with_unit(title_y, origin_y),
-            {.size_px = text_px,
-             .across = Side::middle,
-             .upwards = Side::low,
-             .turn_rad = std::numbers::pi / 2});
+  page.text(
+      {low.x() - 1.5 * tick_px - widest_px - 0.5 * text_px, middle.y()},
+      with_unit(title_y, origin_y),
+      {.size_px = text_px, .across = Side::middle, .upwards = Side::low, .turn_rad = kPi / 2});
 }
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "view/internal/page.h"
 
 namespace plotscan::view {
@@ -34,10 +34,9 @@ bool fits(const BoxLabel& label, double size_px, double turn_rad) {
 
 // Along the longer side of the box, read from left to right.
 double turn_along(const PlotBox& box) {
-  const double heading =
-      box.length_m >= box.width_m ? box.heading_rad : box.heading_rad + std::numbers::pi / 2;
+  const double heading = box.length_m >= box.width_m ? box.heading_rad : box.heading_rad + kPi / 2;
   const double turn = wrap_heading(heading);
-  return turn > std::numbers::pi / 2 + 1e-6 ? turn - std::numbers::pi : turn;
+  return turn > kPi / 2 + 1e-6 ? turn - kPi : turn;
 }
 
 // The largest size at which the widest label fits its box.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/angle.h"
 #include "view/internal/scale.h"
 
 namespace plotscan::view {
@@ -64,11 +64,9 @@ void draw_colour_bar(Page& page, const HeightColours& colours, const Eigen::Alig
     page.text({high.x() + 0.6 * text_px, y}, ticks.text(tick_m), lettering);
     widest_px = std::max(widest_px, text_size_px(ticks.text(tick_m), lettering).x());
   }
-  page.text({high.x() + text_px + widest_px, bar_px.center().y()}, title,
-            {.size_px = text_px,
-             .across = Side::middle,
-             .upwards = Side::high,
-             .turn_rad = std::numbers::pi / 2});
+  page.text(
+      {high.x() + text_px + widest_px, bar_px.center().y()}, title,
+      {.size_px = text_px, .across = Side::middle, .upwards = Side::high, .turn_rad = kPi / 2});
 }
 
 }  // namespace plotscan::view

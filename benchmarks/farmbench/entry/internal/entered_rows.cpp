@@ -12,6 +12,7 @@
 #include "core/json_text.h"
 #include "core/nearest_name.h"
 #include "core/parse.h"
+#include "core/place_json.h"
 #include "core/plot_features.h"
 #include "estimate/height_properties.h"
 
@@ -21,9 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 5> kBox = {"center_x_m", "center_y_m", "width_m", "length_m",
-                                             "heading_deg"};
-
 bool is_height_column(std::string name) {
   for (const std::string_view before : {estimate::kError, estimate::kLow, estimate::kHigh}) {
     if (name.starts_with(before)) name.erase(0, before.size());
@@ -32,9 +30,12 @@ bool is_height_column(std::string name) {
 }
 
 const std::vector<std::string>& other_columns() {
-  static const std::vector<std::string> names = {
-      "plot_number", "center_x_m", "center_y_m", "width_m",    "length_m", "heading_deg",
-      "row_number",  "col_number", "points",     "confidence", "flags"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {"plot_number", "row_number", "col_number",
+                                    "points",      "confidence", "flags"};
+    all.insert(all.end(), kBoxProperties.begin(), kBoxProperties.end());
+    return all;
+  }();
   return names;
 }
 
@@ -103,9 +104,9 @@ json cell_of(const std::string& column, const std::string& cell, const std::stri
 
 // The box of five columns: all of them, or none.
 std::optional<PlotBox> box_of(const EnteredRow& row, Problems& problems) {
-  const auto stated =
-      std::ranges::count_if(kBox, [&](const char* name) { return row.properties.contains(name); });
-  if (stated < static_cast<std::ptrdiff_t>(kBox.size())) {
+  const auto stated = std::ranges::count_if(
+      kBoxProperties, [&](const char* name) { return row.properties.contains(name); });
+  if (stated < static_cast<std::ptrdiff_t>(kBoxProperties.size())) {
     problems.add(row.place,
                  "a box is center_x_m, center_y_m, width_m, length_m and heading_deg, all five");
     return std::nullopt;
@@ -127,8 +128,8 @@ EnteredRow row_of(const CsvTable& table, const CsvTable::Line& line, const fs::p
     json value = cell_of(column, line.fields[i], row.place, problems);
     if (!value.is_null()) row.properties[column] = std::move(value);
   }
-  row.box_stated =
-      std::ranges::any_of(kBox, [&](const char* name) { return row.properties.contains(name); });
+  row.box_stated = std::ranges::any_of(
+      kBoxProperties, [&](const char* name) { return row.properties.contains(name); });
   if (row.box_stated) row.box = box_of(row, problems);
   return row;
 }

@@ -3,10 +3,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "cloud/convex_hull.h"
+
+#include "core/angle.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
@@ -28,8 +29,7 @@ PlotBox box_along(const std::vector<Eigen::Vector2d>& hull, double heading_rad) 
   return {.center = along * middle.x() + across * middle.y(),
           .width_m = side.minCoeff(),
           .length_m = side.maxCoeff(),
-          .heading_rad =
-              wrap_heading(side_is_length ? heading_rad : heading_rad + std::numbers::pi / 2)};
+          .heading_rad = wrap_heading(side_is_length ? heading_rad : heading_rad + kPi / 2)};
 }
 
 }  // namespace

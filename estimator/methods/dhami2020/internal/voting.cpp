@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <vector>
 
+#include "core/angle.h"
 #include "core/plot_box.h"
 #include "core/statistics.h"
 
@@ -37,7 +37,7 @@ Vote vote_heading(std::span<const double> headings_rad, double bin_rad) {
   Bins bins;
   for (const double heading : headings_rad) {
     const double wrapped = wrap_heading(heading);
-    const bool in_first_bin = wrapped >= std::numbers::pi - bin_rad / 2;
+    const bool in_first_bin = wrapped >= kPi - bin_rad / 2;
     bins[in_first_bin ? 0 : std::lround(std::floor(wrapped / bin_rad + 0.5))].push_back(heading);
   }
   const std::vector<double>& winner = fullest(bins);

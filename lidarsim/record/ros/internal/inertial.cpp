@@ -2,7 +2,6 @@
 #include "record/ros/internal/inertial.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/gravity.h"
 
@@ -24,10 +23,9 @@ Vector3d velocity(const scan::Trajectory& trajectory, std::size_t segment) {
 // Slerp turns at a constant rate about an axis that stands still in the body.
 Vector3d angular_rate(const scan::Trajectory& trajectory, std::size_t segment) {
   const auto& poses = trajectory.poses();
-  const Eigen::AngleAxisd turn(poses[segment].attitude.conjugate() * poses[segment + 1].attitude);
-  const double angle_rad =
-      turn.angle() > std::numbers::pi ? turn.angle() - 2 * std::numbers::pi : turn.angle();
-  return angle_rad / duration_s(trajectory, segment) * turn.axis();
+  const Eigen::AngleAxisd turn =
+      scan::shorter_turn(poses[segment].attitude, poses[segment + 1].attitude);
+  return turn.angle() / duration_s(trajectory, segment) * turn.axis();
 }
 
 }  // namespace

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/angle.h"
 #include "core/error.h"
 
 namespace plotscan::record {
 namespace {
 
-constexpr double kAzimuthStep_rad = 2 * std::numbers::pi / kAzimuthSteps;
+constexpr double kAzimuthStep_rad = 2 * kPi / kAzimuthSteps;
 
 }  // namespace
 

@@ -14,7 +14,7 @@ namespace plotscan::record {
 // (manual, section 9.3.3). Each is captured when the sensor has it whole. Memory does not grow.
 class PcapWriter : public scan::PointWriter {
  public:
-  // Throws InputError when the sensor sends no Velodyne packets, std::runtime_error when the file
+  // Throws InputError when the sensor sends no Velodyne packets, WriteError when the file
   // cannot be created.
   PcapWriter(const std::filesystem::path& path, const FlightRecord& flight);
   ~PcapWriter() override;
