@@ -32,6 +32,7 @@ struct Arguments {
   std::optional<double> density_per_m2;
   std::optional<fs::path> keep;
   fs::path source = ".";
+  std::optional<fs::path> meshes;
 };
 
 // One field to measure: a farm, or a field without plots.
@@ -56,9 +57,10 @@ void require_known(const std::vector<std::string>& chosen) {
 }
 
 strata::Sources sources_of(const Arguments& arguments) {
+  const fs::path beside = arguments.source / ".." / "shared" / "data" / "plants" / "cropcraft";
   return {.strata = arguments.source / "benchmarks" / "strata",
           .worlds = arguments.source / "worlds",
-          .meshes = arguments.source / ".." / "shared" / "data" / "plants" / "cropcraft"};
+          .meshes = arguments.meshes.value_or(beside)};
 }
 
 std::vector<Task> plan(const Program& program, const Arguments& arguments) {
@@ -66,7 +68,7 @@ std::vector<Task> plan(const Program& program, const Arguments& arguments) {
   for (const std::string& name : all_strata()) {
     if (!arguments.strata.empty() && std::ranges::count(arguments.strata, name) == 0) continue;
     const bool empty = std::ranges::count(strata::empty_kinds(), name) > 0;
-    if (name == "others" && !fs::exists(sources_of(arguments).meshes)) {
+    if (name == "others" && !fs::exists(sources_of(arguments).meshes) && !arguments.meshes) {
       program.say("others: left out, as " + sources_of(arguments).meshes.string() + " is absent");
       continue;
     }
@@ -139,5 +141,11 @@ int main(int argc, char** argv) {
   command.add_option("--keep", arguments.keep,
                      "folder of fields, STRATUM-INDEX/{farm,scan}: those there are not made again");
   command.add_option("--source", arguments.source, "Plotscan's sources: benchmarks, worlds");
+  command
+      .add_option("--meshes", arguments.meshes,
+                  "CropCraft's plants, for the stratum others: a folder with bean/bean_medium.obj, "
+                  "bean/bean_big.obj and maize/maize_big_1.obj (default: "
+                  "shared/data/plants/cropcraft beside the sources; others is left out without it)")
+      ->check(CLI::ExistingDirectory);
   return program.run(argc, argv);
 }

@@ -81,7 +81,7 @@ struct Plot {
   std::uint32_t missing_plants = 0;                   // sown, but not there
   std::uint32_t weed_count = 0;
   double lodging_rad = 0;                    // mean lean of its plants from the vertical
-  std::optional<CanopyHeights> canopy = {};  // absent: not measured (lidar/canopy_height.h)
+  std::optional<CanopyHeights> canopy = {};  // absent: not measured (lidar/make_farm.h)
 };
 
 // A virtual phenotyping farm, world frame: ENU, metres, z up, origin at the farm's centre.
