@@ -58,8 +58,7 @@ CLI::Option* added(CLI::App& command, const std::string& flag, const std::string
       flag, [&given, flag, text] { given[flag] = text; }, help);
 }
 
-// A method's options are a group that is named as the method; one that another method has as well
-// belongs to none.
+// The help group of an option: the method's name; none for an option that several methods share.
 template <class Options>
 void declare(CLI::App& command, const std::vector<MethodSetting<Options>>& settings,
              const char* group, GivenSettings& given) {

@@ -8,12 +8,12 @@
 namespace plotscan::cloud {
 
 struct HazeOptions {
-  // From a tile's level (tile_levels): farther away drop_outliers judges.
+  // Greatest distance from a tile's level (tile_levels); farther points are for drop_outliers.
   double farthest_m = 10;
-  // A point is alone when it shares a cube with at most so many points, itself too. The cube is as
-  // wide as a square on which so many of the tile's returns lie, 0.3 to 3 m. All of them are in it
-  // where it lies on the ground or in a low canopy; of a haze of 1 in 100 spread over 20 m a cube
-  // holds 0.02 to 0.2.
+  // A point is alone when the cube around it holds at most `alone` points, itself included. The
+  // cube is as wide as a square that holds `column_points` of the tile's returns, 0.3 to 3 m. On
+  // the ground or in a low canopy a cube holds all of these; of a haze that has 1 in 100 returns,
+  // spread over 20 m of height, it holds 0.02 to 0.2.
   std::size_t alone = 2;
   double column_points = 60;
   int threads = 1;
