@@ -58,7 +58,8 @@ CLI::Option* added(CLI::App& command, const std::string& flag, const std::string
       flag, [&given, flag, text] { given[flag] = text; }, help);
 }
 
-// The help group of an option: the method's name; none for an option that several methods share.
+// Adds the settings' options to the help group `group`, named after their method. An option that
+// another method has as well moves to the group of --boxes.
 template <class Options>
 void declare(CLI::App& command, const std::vector<MethodSetting<Options>>& settings,
              const char* group, GivenSettings& given) {

@@ -117,8 +117,8 @@ namespace {
 class AddingBehind {
  public:
   AddingBehind(TileStore& store, int threads) : store_(store), arena_(threads) {}
-  // add() and finish() throw errors of the adding; if one is still open here, the reading failed
-  // first.
+  // Ignores errors: add() and finish() throw those of the adding; one left here follows a failed
+  // read.
   ~AddingBehind() {
     try {
       finish();

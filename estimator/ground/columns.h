@@ -43,7 +43,7 @@ struct Columns {
 };
 
 // The width of the grid's cells, metres, for a typical density (points per square metre): a cell
-// usually holds a few points, and is at least 0.2 m wide.
+// usually holds a few points, and is 0.2 to 10 m wide.
 double cell_for(double density_m2);
 
 // The grid over the densely surveyed area; sparse surroundings and stray points lie outside it.
@@ -54,7 +54,7 @@ Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> cell
 Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid);
 
 // The returns needed to find the ground: those at most reach_m above the lowest hundredth of their
-// column. Of a column in which all returns are that low, only as many as are enough (64 or more).
+// column. Of a column in which all returns are that low, only a sample that is large enough.
 Columns low_part(Columns columns, float reach_m);
 
 // The returns whose height above a surface lies between low_m and high_m; at nodes where `whole` is

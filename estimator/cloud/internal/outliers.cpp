@@ -105,7 +105,7 @@ class Columns {
            static_cast<double>(near) <= options_.lonely_share * static_cast<double>(over);
   }
 
-  // Lowest and highest slab around a tile with points that are not lonely.
+  // Lowest and highest height, metres, of the slabs around a tile with points that are not lonely.
   Extent extent_around(std::size_t tile) const {
     Extent extent;
     rows_.visit_around(tile, kExtentReach, [&](std::size_t other) {

@@ -29,7 +29,8 @@ double inner_cover(const Lattice& lattice, const Place& place) {
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
-// Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
+// Mean over the four sides of the cover inside minus the cover outside, along the side's middle
+// three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
   const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
@@ -48,8 +49,8 @@ struct Column {
   std::size_t plots = 0;
 };
 
-// Plots do not overlap: of two columns nearer to each other than a plot's side that of fewer plots
-// is none, but plots that lean over or are seen in part.
+// Plots do not overlap. Of two columns closer than a plot's side, the one with fewer plots is
+// removed: it is made of plots that lean over or are only partly seen.
 void leave_out_overlapping(std::vector<Column>& columns, double size_m) {
   for (std::size_t i = 1; i < columns.size();) {
     if (columns[i].c_m - columns[i - 1].c_m >= size_m) {
@@ -206,7 +207,7 @@ void leave_out_strays(Lattice& lattice) {
   for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
 }
 
-// Numbers from 0, without those that no plot has.
+// Renumbers from 0 without gaps. Returns the count.
 int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;
   used.reserve(places.size());
@@ -227,7 +228,7 @@ int begin_at_0(std::vector<Place>& places, int Place::*number) {
   return count;
 }
 
-// From each plot to that of the next number and the same line; that of the bands where no two
+// The usual step from a plot to the next on the same line; the bands' pitch where no two plots
 // follow each other.
 double usual_pitch_m(const std::vector<TrialPlace>& places, int TrialPlace::*number,
                      int TrialPlace::*line, Eigen::Index axis, double of_bands_m) {
@@ -242,8 +243,8 @@ double usual_pitch_m(const std::vector<TrialPlace>& places, int TrialPlace::*num
   return steps.empty() ? of_bands_m : usual_step(std::move(steps));
 }
 
-// Of the places that hold a plot. Columns of their own in each row lie a pitch from number to
-// number.
+// Renumbers the places that hold a plot. Columns that each row has for itself lie one pitch apart
+// from number to number.
 void renumber(Lattice& lattice) {
   std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
   lattice.rows = close_up(lattice.places, &Place::row);

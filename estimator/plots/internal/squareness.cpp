@@ -47,7 +47,8 @@ MeanPlot mean_plot(const Lattice& lattice, double around_m) {
   return plot;
 }
 
-// Squares about one level within an outline and one beyond it, the least over the outline's size.
+// Residual squares about one level inside an outline and one outside, least over the outline's
+// size.
 template <class Inside>
 double squares_of_outline(const MeanPlot& plot, const Inside& inside) {
   const auto rows = static_cast<double>(plot.canopy.rows());
@@ -76,7 +77,7 @@ double squares_of_outline(const MeanPlot& plot, const Inside& inside) {
   return best;
 }
 
-// What level + along(r) across(c) leaves, all at least 0: least squares of each in turn.
+// Residual squares of level + along(r) * across(c), all at least 0; each is fitted in turn.
 double squares_of_product(const MeanPlot& plot) {
   Eigen::ArrayXd along = Eigen::ArrayXd::Ones(plot.canopy.rows());
   Eigen::ArrayXd across = Eigen::ArrayXd::Ones(plot.canopy.cols());
@@ -98,8 +99,8 @@ double squares_of_product(const MeanPlot& plot) {
   return squares;
 }
 
-// What a level for each ring leaves, the rings a cell wide, in ellipses of this ratio of axes to
-// the plot's own.
+// Residual squares with one level for each elliptic ring, a cell wide; `stretch` changes the ratio
+// of the axes from the plot's own.
 double squares_of_rings(const MeanPlot& plot, double stretch) {
   const Eigen::Index rows = plot.canopy.rows(), columns = plot.canopy.cols();
   const auto rings = static_cast<std::size_t>((rows + columns) / 2);

@@ -30,7 +30,7 @@ class PlotGroups {
   std::vector<double> means(const std::vector<double>& values) const {
     return means(values, std::vector<double>(plots(), 1));
   }
-  // Of weighted plots; of all where a group's weigh nothing.
+  // Weighted mean of each group; unweighted where all weights of a group are 0.
   std::vector<double> means(const std::vector<double>& values,
                             const std::vector<double>& weights) const {
     std::vector<double> sums(count()), weighted(count()), weight(count());
@@ -50,7 +50,7 @@ class PlotGroups {
     for (std::size_t i = 0; i < plots(); ++i) rest[i] -= of_groups[of(i)];
     return rest;
   }
-  // Each plot has its group's.
+  // Gives each plot the value of its group.
   std::vector<double> spread_out(const std::vector<double>& of_groups) const {
     std::vector<double> values;
     for (std::size_t i = 0; i < plots(); ++i) values.push_back(of_groups[of(i)]);
@@ -74,7 +74,7 @@ double spread_of(std::vector<double> values) {
   return sum_of_squares(values);
 }
 
-// Of what is left of plots' values about one mean for each group and one slope.
+// Root mean square of residuals about a fit of one mean for each group and one slope.
 double rms_of(const std::vector<double>& rest, const PlotGroups& groups) {
   const double free = static_cast<double>(rest.size()) - static_cast<double>(groups.count()) - 1;
   return std::sqrt(sum_of_squares(rest) / std::max(1.0, free));
@@ -125,9 +125,9 @@ std::vector<int> unusual_steps(const std::vector<double>& positions,
   return unusual;
 }
 
-// Between a step that is too wide and one that is too narrow, while the next steps are as usual:
-// its plots are lodged, or their leaves were taken for them. (Where wide and narrow steps
-// alternate, it was sown so.)
+// Whether a row lies between a step that is too wide and one that is too narrow, while the steps
+// beyond are as usual: its plots are lodged, or leaves were taken for plots. (Where wide and narrow
+// steps alternate, the field was sown so.)
 bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
   if (row == 0 || row == unusual.size() || unusual[row - 1] * unusual[row] != -1) return false;
   const bool alone_before = row < 2 || unusual[row - 2] == 0;
@@ -202,7 +202,7 @@ struct Columns {
   double rms_m = 0;
 };
 
-// Of plots whose rows' offsets were taken out of c.
+// Positions of the columns, from plots' c without their rows' offsets.
 Positions columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
   if (aligned) {
     std::vector<double> at = centers.column.means(c);
