@@ -11,8 +11,8 @@
 
 namespace plotscan::strata {
 
-// What stands on the ground of a scene, each a closed form of the place seen from above. Lengths
-// are metres, heights over the ground below.
+// Things on the ground of a scene; the height of each is a formula of the place seen from above.
+// Metres; heights are above the ground below.
 enum class Shape {
   crown,   // an ellipsoid on a stem, as porous as a tree's or bush's
   hedge,   // porous as a crown, of one profile along its length: a vine row

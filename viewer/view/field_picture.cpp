@@ -28,7 +28,8 @@ constexpr double kLabelShare = 0.85;  // of the other text
 constexpr double kLineShare = 0.06;   // of the boxes' shorter side
 constexpr Rgb kPlotColour = kBlue;
 constexpr Rgb kFlaggedColour = kVermilion;
-// The colours end here: the share of pixels below, so that stray points do not bleach all others.
+// The colour scale ends at this quantile of the pixels, so that stray points do not bleach all
+// others.
 constexpr double kColouredShare = 0.995;
 constexpr double kLeastTop_m = 0.1;
 

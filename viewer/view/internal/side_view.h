@@ -18,8 +18,8 @@ class SideView {
  public:
   SideView(const PlotBox& box, double beyond_m) : box_(box), beyond_m_(beyond_m) {}
 
-  // Keeps those between the box's long sides, and as far beyond its ends; evenly thinned where
-  // there are more than a picture can show.
+  // Keeps the points between the box's long sides, up to a distance beyond its ends; evenly thinned
+  // if there are more than a picture can show.
   void add(std::span<const Eigen::Vector3d> points);
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   // Points in the box, inside colour, and beyond its ends, the darker the more there are.
