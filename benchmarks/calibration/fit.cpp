@@ -204,7 +204,7 @@ Eigen::VectorXd standardised_errors(const heights::CalibrationFarm& farm,
   return (farm.ratios - prediction.values).cwiseQuotient(prediction.sds);
 }
 
-// The crops that the others have: the farm's own is none of them where it was left out.
+// Probabilities of the crops that the other farms have; a crop that was left out gets none.
 Eigen::VectorXd known_crops(const heights::Calibration& others, Eigen::VectorXd probabilities) {
   for (std::size_t i = 0; i < others.crops.size(); ++i) {
     if (std::ranges::none_of(others.farms, [&](const heights::CalibrationFarm& farm) {

@@ -18,7 +18,7 @@ namespace plotscan::heights {
 // other crops.
 struct FromOthers {
   double novelty = 0;            // how little they know of its canopy (CropModel::novelty)
-  Eigen::VectorXd standardised;  // errors over standard deviations, the crop told from the canopy
+  Eigen::VectorXd standardised;  // errors / standard deviations, the crop not given
 };
 
 // Half of a 95 % interval in standard errors: Student's t with the 24 degrees of freedom that a

@@ -28,7 +28,7 @@ std::vector<double> ground_errors(std::span<const Eigen::Vector3f> points,
 // The largest standard error with which the ground counts as known, metres.
 double largest_known_error(std::vector<double> errors_m) {
   constexpr double kKnown_m = 0.05;
-  constexpr double kTimesMedian = 1.5;  // what is left is always more than half of the plot
+  constexpr double kTimesMedian = 1.5;  // so at least half of the plot is kept
   std::erase_if(errors_m, [](double error_m) { return std::isnan(error_m); });
   if (errors_m.empty()) return kKnown_m;
   return std::max(kKnown_m, kTimesMedian * quantile(std::move(errors_m), 0.5));

@@ -35,7 +35,7 @@ Eigen::VectorXd spread_of(std::vector<Neighbour> neighbours) {
   return (squares / static_cast<double>(count)).cwiseSqrt();
 }
 
-// What is left within the farms at these distances.
+// Spread of the plots' ratios within a farm, from the farms nearest by these distances.
 Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
                               const Eigen::VectorXd& squared_distances) {
   std::vector<Neighbour> neighbours;

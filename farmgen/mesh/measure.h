@@ -29,7 +29,7 @@ class ScaledArea {
   ScaledArea() = default;
   void add(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
-  // Of each triangle, by axis: the squares of the coordinates of the cross product of its edges.
+  // By axis, for each triangle: the squared coordinates of the cross product of its edges.
   std::array<std::vector<double>, 3> cross_squares_;
 };
 

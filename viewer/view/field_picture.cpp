@@ -86,7 +86,7 @@ FieldPage lay_out_page(const Eigen::AlignedBox2d& shown, const FieldPictureOptio
   return layout;
 }
 
-// Of the boxes' lines: thinner where boxes are small.
+// Width of the boxes' lines: thinner where boxes are small.
 double line_px(const Axes& axes, const estimate::Estimate& estimate, double text_px) {
   double shortest_m = std::numeric_limits<double>::infinity();
   for (const estimate::PlotEstimate& plot : estimate.plots)

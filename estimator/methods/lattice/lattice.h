@@ -29,7 +29,7 @@ struct Options {
   std::optional<double> noise_m = {};        // sigma of the points' heights, else estimated
   bool calibrated = true;                    // plants' heights from the canopy's (docs/methods.md)
   std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
-  std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
+  std::optional<std::string> crop = {};  // one of heights::crop_names(), else from the canopy
   int threads = 1;
   // Called once the field is read, before it is processed.
   std::function<void(const WorkEstimate&)> tell = {};

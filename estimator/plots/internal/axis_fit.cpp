@@ -30,7 +30,8 @@ int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
 }
 
-// Steps that are no whole number of the usual one: each is a parameter, and so is its place.
+// Number of steps that are no whole multiple of the usual step. Each adds two parameters: its size
+// and its place.
 double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);

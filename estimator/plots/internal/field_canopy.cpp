@@ -26,19 +26,20 @@ constexpr std::size_t kMostBlocks = 1 << 18;
 constexpr int kMostPatches = 3;          // of a block's side
 constexpr double kPatchReturns = 12;     // of the usual patch, at least: fewer lie near some plane
 constexpr float kLeastPatchReturns = 4;  // of a patch that is judged
-// Of the noise: what scatters less is a surface. Beams straight down have 1.25 times the noise of
-// the field; roofs and cars: 1.0 in the median; soybeans under 5 cm of range noise: 2.1.
+// Canopy scatters more than this many sigmas of the noise; what scatters less is a surface. Beams
+// straight down have 1.25 times the noise of the field; roofs and cars: 1.0 in the median; soybeans
+// under 5 cm of range noise: 2.1.
 constexpr double kSurfaceSigmas = 1.5;
 constexpr int kCells = 5;  // of a block's side: that of the ground's grid
-// Standard error of ground that is too unsure, as a share of the usual canopy's height: what stands
-// there is known to 12.5 % (95 %). In plots it is 0.05 at most (99 % of the canopy's returns of 44
+// Standard error of ground that is too unsure, as a share of the usual canopy's height: heights
+// there are known to 12.5 % (95 %). In plots it is 0.05 at most (99 % of the canopy's returns of 44
 // farms), on ridges that a ground cuts off 0.04 to 0.3. Where all ground is unsure, as in sparse
-// clouds, it must be so many times that under the usual canopy.
+// clouds, it must be kUnsureTimes that under the usual canopy.
 constexpr double kUnsureShare = 0.0625, kUnsureTimes = 3;
 
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 
-// Heights told apart by 10 %.
+// Counts of heights in bins 10 % wide.
 class HeightCounts {
  public:
   explicit HeightCounts(double least_m) : least_m_(least_m) {}

@@ -97,8 +97,8 @@ void place_plots(const Layout& layout, Lattice& lattice) {
   lattice.c.pitch_m = usual_step(steps);
 }
 
-// Every place has the nearest of the columns that run through all rows. False where two places of a
-// row would have the same.
+// Gives each place the nearest column that runs through all rows. False where two places of a row
+// would get the same column.
 bool number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   std::set<std::pair<int, int>> taken;
   for (Place& place : lattice.places) {
@@ -111,7 +111,7 @@ bool number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   return true;
 }
 
-// Every row by itself, from the place nearest to the first of all plots.
+// Numbers each row by itself, from the place nearest to the first of all plots.
 void number_each_row(double pitch_m, Lattice& lattice) {
   const double start_m = std::ranges::min(lattice.places, {}, &Place::c_m).c_m;
   const Place* last = nullptr;
@@ -148,8 +148,8 @@ const Place& nearest_to(const std::vector<Place>& places, int Place::*number, in
       places, {}, [&](const Place& place) { return std::abs(place.*number - at); });
 }
 
-// Where each column crosses each row a plot may stand that no band shows. Columns of each row's own
-// lie a pitch from number to number.
+// Adds a place where a column crosses a row and no band was seen: a plot may stand there. Columns
+// that a row has for itself lie one pitch apart from number to number.
 void add_crossings(Lattice& lattice) {
   const auto rows = by_line(lattice.places, &Place::row);
   const auto columns = by_line(lattice.places, &Place::column);
@@ -192,7 +192,8 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
-// A single place three pitches away from every other holds something else: a ridge, a bush.
+// Removes places at least three pitches from every other: they hold something else, a ridge or a
+// bush.
 void leave_out_strays(Lattice& lattice) {
   constexpr double kPitches = 3;
   constexpr int kLeastPlots = 4;  // tell a pitch
@@ -219,7 +220,7 @@ int close_up(std::vector<Place>& places, int Place::*number) {
   return static_cast<int>(used.size());
 }
 
-// Numbers from 0; they are steps along a row, so none is left out.
+// Shifts the numbers to begin at 0. They are steps along a row, so gaps stay. Returns the count.
 int begin_at_0(std::vector<Place>& places, int Place::*number) {
   if (places.empty()) return 0;
   const auto [least, most] = std::ranges::minmax(places, {}, number);

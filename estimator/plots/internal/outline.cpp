@@ -11,7 +11,7 @@
 namespace plotscan::plots {
 namespace {
 
-// All chosen.
+// All values are our choice.
 constexpr double kEdgeReach_m = 0.3;       // about an edge, of what the box is fitted to
 constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through half the depth,
 constexpr int kEdgeRounds = 4;             // which is sought so often,

@@ -97,7 +97,7 @@ double level_of(const Start& start) {
   return level;
 }
 
-// Of all profiles together; null where the line begins or ends.
+// The gap on all profiles together; a null pointer stands for the line's begin or end.
 BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
                     const Start* from, const Start* to) {
   const int end = from != nullptr ? from->begin + shape.size : -1;

@@ -22,7 +22,7 @@ constexpr double kMostOff_m = 0.45;  // rows times spacing, from the size that t
 constexpr double kCoarse_m = 0.02, kFine_m = 0.005;  // steps of the spacing
 constexpr double kClearly = 0.5;  // of the squares that an even canopy leaves: rows leave fewer
 
-// Of leaves about their row: stems and whorls near it, blades farther off.
+// Spreads of leaves about their row: stems and whorls are near it, blades farther away.
 constexpr std::array kBlurs_m = {0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4};
 constexpr double kBroader = 1.3;
 
@@ -125,7 +125,7 @@ struct RowsFit {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-// The best spacing of so many rows within [low_m, high_m].
+// The best spacing, within [low_m, high_m], of this number of rows.
 RowsFit best_spacing(const DepthProfile& profile, const Neighbours& near, int rows, double low_m,
                      double high_m, double step_m) {
   RowsFit best;

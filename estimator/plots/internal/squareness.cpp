@@ -11,7 +11,8 @@
 namespace plotscan::plots {
 namespace {
 
-// Of a plot, that takes part in its outline: half the gap to the next one.
+// Range around a plot that its outline is judged on: half the gap to the next plot, within these
+// limits.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
 constexpr int kFitRounds = 20;      // of least squares in turn
 constexpr double kMostStretch = 2;  // of ellipses, from the ratio of the plots' own sides,

@@ -29,7 +29,7 @@ class SideView {
   PlotBox box_;
   double beyond_m_;
   std::vector<Eigen::Vector2d> points_;
-  std::size_t stride_ = 1;  // of the points that belong here, one in so many is kept
+  std::size_t stride_ = 1;  // one in this many points is kept
   std::size_t seen_ = 0;
 };
 
