@@ -9,20 +9,20 @@
 
 namespace plotscan {
 
-// A cloud on the command line: what run and info are told of it alike.
+// The command-line arguments that describe a cloud; `run` and `info` share them.
 struct CloudArguments {
   CloudFiles cloud;
   std::string units;
   std::vector<double> mount_deg;
 };
 
-// Adds CLOUD, --units, --crs and what tells of recordings. The arguments outlive the command.
+// Adds CLOUD, --units, --crs and the options for recordings. `arguments` must outlive `command`.
 void declare_cloud(CLI::App& command, CloudArguments& arguments);
 
-// Adds --cloud and the same options, of a cloud that may be left out.
+// Adds --cloud, which is optional, and the same further options.
 void declare_shown_cloud(CLI::App& command, CloudArguments& arguments);
 
-// The cloud as told; its files are as the user names them.
+// The cloud that the arguments describe; its files are as the user names them.
 CloudFiles cloud_of(const CloudArguments& arguments);
 
 }  // namespace plotscan

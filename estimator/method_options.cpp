@@ -58,8 +58,8 @@ CLI::Option* added(CLI::App& command, const std::string& flag, const std::string
       flag, [&given, flag, text] { given[flag] = text; }, help);
 }
 
-// A method's options are a group that is named as the method; one that another method has as well
-// belongs to none.
+// Adds the settings' options to the help group `group`, named after their method. An option that
+// another method has as well moves to the group of --boxes.
 template <class Options>
 void declare(CLI::App& command, const std::vector<MethodSetting<Options>>& settings,
              const char* group, GivenSettings& given) {

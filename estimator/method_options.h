@@ -10,10 +10,10 @@
 
 namespace plotscan {
 
-// What a command line gives of the methods' settings: their texts by the options' names.
+// The methods' settings given on the command line: option name -> text of its value.
 using GivenSettings = std::map<std::string, std::string>;
 
-// An option for every setting of a method that has one. `given` outlives the command.
+// Adds an option for each setting of the methods that has one. `given` must outlive `command`.
 void declare_methods(CLI::App& command, GivenSettings& given);
 
 // Sets what was given in the options of the method that they name. Throws InputError on a value

@@ -58,7 +58,7 @@ void say_ahead(const Program& program, const methods::lattice::WorkEstimate& wor
                                work.gigabytes));
 }
 
-// The options as the arguments say.
+// The run options that the arguments ask for.
 methods::RunOptions chosen_options(const Program& program, const RunArguments& arguments) {
   methods::RunOptions options = arguments.options;
   options.crop_box = area_of(arguments.crop_box);

@@ -45,7 +45,7 @@ void say_given(const Program& program, const estimate::Estimate& estimate) {
   }
 }
 
-// Whose names were given by row and column, and found no plot.
+// Prints the named places (row and column) in which no plot was found.
 void say_named(const Program& program, const estimate::Estimate& estimate) {
   const auto& names = estimate.diagnostics.names;
   if (!names) return;

@@ -8,8 +8,7 @@
 
 namespace plotscan {
 
-// What `estimator run` tells the person at the terminal of an estimate; `summary` is its
-// height_summary.
+// Prints an estimate at the terminal for `estimator run`; `summary` is its height_summary.
 void say_estimate(const Program& program, const estimate::Estimate& estimate,
                   const nlohmann::json& summary);
 

@@ -39,7 +39,7 @@ bool have_same_bytes(const fs::path& a, const fs::path& b) {
   return fs::is_regular_file(b) && file_hash(a) == file_hash(b);
 }
 
-// Moves files of these names to another folder. Where one cannot be moved, those that came anew go.
+// Moves files of these names to another folder. If one cannot be moved, removes the new ones.
 void place(std::span<const fs::path> names, const fs::path& from, const fs::path& to) {
   std::vector<fs::path> anew;
   for (const fs::path& name : names) {
@@ -56,8 +56,8 @@ void place(std::span<const fs::path> names, const fs::path& from, const fs::path
 }
 
 // The mesh, its materials and their pictures, written beside their places and renamed when they are
-// whole, the mesh last: where it is, all is. What a run that was killed left of the same is no
-// other's.
+// whole, the mesh last: where it is, all is. Files with the same bytes, as a killed run may have
+// left, are no obstacle.
 void write_mesh(const fs::path& output, const mesh::Mesh& mesh, bool replace) {
   if (!fs::is_directory(fs::absolute(output).parent_path()))
     throw InputError(output, "cannot be created: there is no such folder");

@@ -127,7 +127,7 @@ void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
   command.add_option("-o,--output", arguments.png, "the PNG to write")->required();
 }
 
-// Of pictures of both kinds.
+// Adds the options of both kinds of pictures.
 template <class Options>
 void add_view_options(CLI::App& command, Options& options) {
   command.add_option("--width", options.width_px, "width of the picture (pixels)");

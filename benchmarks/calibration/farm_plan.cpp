@@ -12,7 +12,8 @@ namespace plotscan::calibration {
 namespace {
 
 constexpr std::uint64_t kSeedsOfLibrary = 100;
-// So that no two farms share a plant: a farm grows fewer.
+// Plant seeds reserved for each farm, so that no two farms share a plant; a farm grows fewer
+// plants.
 constexpr std::uint64_t kPlantSeeds = 100;
 constexpr std::size_t kMostLibraries = 1000;
 
@@ -142,7 +143,7 @@ void plan_path(RandomStream& random, lidar::FlyOptions& flight) {
   flight.altitude_m = random.uniform(6, 20);
 }
 
-// What a real survey adds, to a quarter of the farms each, to a tenth of them all of it.
+// Errors of a real survey: each kind in a quarter of the farms, all kinds together in a tenth.
 void plan_errors(RandomStream& random, lidar::FlyOptions& flight) {
   constexpr double kShare = 0.25;
   const double all = random.uniform() < 0.1 ? 1 : 0;

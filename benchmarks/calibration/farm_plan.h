@@ -16,8 +16,8 @@ namespace plotscan::calibration {
 
 using Bounds = std::pair<double, double>;
 
-// Plants of one kind, and how they may stand: at random where only a density is stated, in drilled
-// rows where only a spacing is, either way where both are.
+// Plants of one kind, and how they may be sown: at random if only a density is stated, in drilled
+// rows if only a spacing is stated, either way if both are.
 struct Library {
   std::string name;
   std::string crop;
@@ -35,8 +35,8 @@ struct Library {
   std::uint64_t first_seed = 0;                 // of the farms
 };
 
-// Reads libraries.yaml, the parameters that they do not set from these of its ranges. Throws
-// InputError on an unknown key or an impossible value.
+// Reads libraries.yaml; parameters that a library does not set are drawn from the ranges named
+// `ranges` in that file. Throws InputError on an unknown key or an impossible value.
 std::vector<Library> read_libraries(const std::filesystem::path& file, const std::string& ranges);
 
 // One farm and its flight.
@@ -47,9 +47,9 @@ struct FarmPlan {
   lidar::FlyOptions flight;
 };
 
-// The number-th farm of a library, drawn from both: its plants, their sowing and scales, cultivars,
-// plots, terrain, sensor, height and speed of the flight, noise, beam, wind and errors of the
-// poses.
+// The number-th farm of a library. library_number and `number` determine all that is drawn: plants,
+// their sowing and scales, cultivars, plots, terrain, sensor, height and speed of the flight,
+// noise, beam, wind and errors of the poses.
 FarmPlan plan_farm(const Library& library, std::size_t library_number, int number);
 
 }  // namespace plotscan::calibration

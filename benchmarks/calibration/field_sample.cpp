@@ -80,7 +80,7 @@ std::map<std::string, double> truth_of(const farm::Plot& plot) {
           {"p90", plot.heights.p90},   {"p95", plot.heights.p95}, {"p99", plot.heights.p99}};
 }
 
-// A box as a method finds it: a few centimetres off.
+// A box as a method would find it: a few centimetres wrong.
 PlotBox found_box(const PlotBox& box, std::uint64_t seed, std::size_t number) {
   constexpr double kError_m = 0.02;
   RandomStream random(seed, random_purpose("calibration/box"), number);

@@ -33,7 +33,7 @@ struct FieldSample {
 enum class GroundSource { truth, fitted };
 
 // Makes the farm, flies over it and measures its points' heights above the ground. `work` is a
-// folder for what is written on the way, removed afterwards.
+// folder for intermediate files, removed afterwards.
 FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base_farm,
                          GroundSource source, const std::filesystem::path& work, int threads);
 

@@ -46,9 +46,9 @@ Differences differences(const MeasuredField& field, const heights::CalibrationFa
   return own;
 }
 
-// The weights of the differences by ridge regression, and what they leave of each farm's. A farm
-// counts the less the more is left of it: a lodged plot or a crease of the ground would outweigh
-// all that even fields tell of their plots.
+// Weights of the differences by ridge regression, and each farm's residual spread. The larger a
+// farm's residuals, the less it counts; otherwise a lodged plot or a crease of the ground would
+// outweigh all even fields.
 void fit_within(std::span<const MeasuredField> fields, heights::Calibration& calibration) {
   constexpr double kRidge = 0.003;        // features scaled to 1
   constexpr double kLeastSpread = 0.005;  // of the ratio, what even the best farm leaves
@@ -142,7 +142,7 @@ std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& cali
   return groups;
 }
 
-// By the farms that tell crops.
+// Fits the kernel that recognises crops, on every second farm, as CropModel does.
 heights::Kernel fit_crop_kernel(const heights::Calibration& calibration) {
   const heights::Calibration half = calibration.halved();
   return fit_kernel(half.features_of_farms(), heights::crop_indicators(half),
@@ -158,7 +158,8 @@ std::vector<heights::Kernel> fit_ratio_kernels(const heights::Calibration& calib
   return of_crops;
 }
 
-// Under which the crops of the farms, each told by the farms of other libraries, are likeliest.
+// The sharpness under which the true crops are likeliest, each farm judged by the farms of other
+// libraries.
 double likeliest_sharpness(const heights::Calibration& calibration) {
   std::vector<Eigen::VectorXd> scores(calibration.farms.size());
   const std::vector<std::vector<std::size_t>> libraries = groups_of(calibration, Group::library);
@@ -184,7 +185,7 @@ double likeliest_sharpness(const heights::Calibration& calibration) {
   return best;
 }
 
-// How little is known of each farm's canopy by the others.
+// Sets each farm's novelty, as seen from the other farms.
 void find_unlikeness(heights::Calibration& calibration) {
   const heights::Calibration all = calibration;
   tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
@@ -203,7 +204,7 @@ Eigen::VectorXd standardised_errors(const heights::CalibrationFarm& farm,
   return (farm.ratios - prediction.values).cwiseQuotient(prediction.sds);
 }
 
-// The crops that the others have: the farm's own is none of them where it was left out.
+// Probabilities of the crops that the other farms have; a crop that was left out gets none.
 Eigen::VectorXd known_crops(const heights::Calibration& others, Eigen::VectorXd probabilities) {
   for (std::size_t i = 0; i < others.crops.size(); ++i) {
     if (std::ranges::none_of(others.farms, [&](const heights::CalibrationFarm& farm) {
@@ -214,7 +215,8 @@ Eigen::VectorXd known_crops(const heights::Calibration& others, Eigen::VectorXd 
   return probabilities / probabilities.sum();
 }
 
-// Each farm's ratios by the farms of other libraries or other crops: a user's plants are of none.
+// Predicts each farm's ratios from farms of other libraries or other crops, since a user's plants
+// are of no library.
 void find_surprises(heights::Calibration& calibration, Group group) {
   const heights::Calibration all = calibration;
   const std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
@@ -262,7 +264,7 @@ std::vector<Eigen::Vector3f> thinned(const PlotSample& plot, double share, std::
   return kept;
 }
 
-// A farm by the others.
+// A farm as the other farms predict it.
 struct ByOthers {
   heights::FieldRatios told, given;
 };

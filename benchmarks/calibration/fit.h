@@ -25,7 +25,7 @@ struct MeasuredField {
   std::vector<MeasuredPlot> plots;
 };
 
-// What of a sample is measured.
+// Which returns of a sample are measured.
 enum class Returns {
   thinned,  // of half of the farms all returns, of the others down to a thirtieth of them
   perfect,  // rays straight down without any error: the limit of what these features can tell
@@ -37,20 +37,20 @@ MeasuredField measure(const FieldSample& sample, Returns returns);
 // own features.
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
-// How far a height's predictions are off.
+// Errors of a height's predictions.
 struct Errors {
   double rmse_m = 0;
   double bias_m = 0;
   double inside = 0;  // share of the truths in the 95 % interval
 };
 
-// How well a height is predicted where a farm, or all farms of its group, are left out: of all
-// farms of a kind.
+// Errors of a height over all farms of a kind, each predicted with itself, or all farms of its
+// group, left out.
 struct LeftOut {
   std::string name;  // of the kind
   std::string height;
   std::size_t farms = 0;
-  Errors told;   // the crop told from the canopy
+  Errors told;   // crop derived from the canopy
   Errors given;  // the crop given
 };
 

@@ -35,7 +35,7 @@ fs::path file_of(const calibration::FarmPlan& plan, const fs::path& folder) {
   return folder / (plan.library + "-" + std::to_string(plan.seed));
 }
 
-// Of farms that the folder does not hold.
+// Plans of the farms that the folder does not hold yet.
 std::vector<calibration::FarmPlan> missing_plans(const SampleArguments& arguments) {
   const std::vector<calibration::Library> libraries =
       calibration::read_libraries(arguments.libraries, arguments.ranges);
@@ -107,8 +107,8 @@ std::vector<calibration::MeasuredField> measured_fields(const std::vector<fs::pa
 }
 
 // A line a library, crop and height, rmse (bias) and the share inside the interval: with the farm
-// left out, then with its library, each with the crop told from the canopy and given; last with the
-// library where rays straight down without any error were measured, the crop given.
+// left out, then with its library, each with the crop derived from the canopy and given; last with
+// the library where rays straight down without any error were measured, the crop given.
 void print_left_out(const Program& program, const heights::Calibration& fitted,
                     const heights::Calibration& perfect) {
   using calibration::Group;

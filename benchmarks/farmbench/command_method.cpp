@@ -26,7 +26,7 @@ using nlohmann::json;
 constexpr double kMostSeconds = 7.0 * 24 * 3600;
 constexpr double kMostMemory_gb = 1024;
 
-// What stands for each place, in a folder.
+// The value of each {place} of a command, for files in this folder.
 std::map<std::string, std::string> values_in(const fs::path& folder, const CommandMethod& method,
                                              int threads) {
   return {{"cloud", (folder / "cloud.pcd").string()},
@@ -44,7 +44,7 @@ bool takes_boxes(const CommandMethod& method) {
   return names_place(method.words, "boxes") || names_place(method.words, "boxes_csv");
 }
 
-// Where a program lies that is looked for along PATH; its name where it is nowhere.
+// Path of a program found along PATH; its name where it is not found.
 fs::path found_program(const std::string& program) {
   if (program.find('/') != std::string::npos) return program;
   const char* path = std::getenv("PATH");
@@ -63,7 +63,7 @@ void write_inputs(const CommandMethod& method, const Field& field, const fs::pat
   if (takes_boxes(method)) write_boxes(folder, field.plots);
 }
 
-// The last line that a program said, which is where most say what went wrong.
+// The last line of a program's output, where most programs say what went wrong.
 std::string last_line(const fs::path& log) {
   constexpr std::size_t kMostCharacters = 300;
   std::istringstream lines(fs::exists(log) ? read_text(log) : "");

@@ -34,8 +34,8 @@ CommandMethod command_method(const std::string& name, const std::string& command
                              const ProcessLimits& limits,
                              const std::filesystem::path& suite_folder);
 
-// The same of "NAME=COMMAND", as the command line has it. Throws InputError on a NAME that tables
-// cannot hold or that one of Plotscan's methods has, too.
+// The same from "NAME=COMMAND", as given on the command line. Throws InputError on a NAME that
+// tables cannot hold or that one of Plotscan's methods has, too.
 CommandMethod command_method(const std::string& entered, const std::filesystem::path& suite);
 
 // Reads an entry of a suite's methods; errors name its key.
@@ -45,7 +45,7 @@ CommandMethod read_command_method(const YamlSection& entry, const std::string& n
 // all files that it names.
 nlohmann::json made_from(const CommandMethod& method);
 
-// What a program said of a field.
+// A program's result for a field.
 struct CommandResult {
   estimate::Estimate estimate;
   std::string failure;  // "" or why it counts as having found nothing
@@ -53,8 +53,8 @@ struct CommandResult {
   double peak_memory_mb = 0;
 };
 
-// Gives the program what its command names, without labels, in a folder of its own, runs it and
-// reads what it wrote. Whatever goes wrong with it is the result's failure.
+// Runs the program in a folder of its own, with the files that its command names (without labels),
+// and reads what it wrote. Any error of the program is reported as the result's failure.
 CommandResult run_command_method(const CommandMethod& method, const Field& field);
 
 }  // namespace plotscan::farmbench

@@ -35,9 +35,9 @@ struct Entry {
 // Writes output/entries/METHOD.json.
 void write_entry(const std::filesystem::path& output, const Entry& entry);
 
-// Adds the entries of a results folder, by name, to the result's methods, on those farms that both
-// have; those that share no farm are left out. Throws InputError on a broken entry, one whose name
-// another method of the suite has, and one that was scored against another truth.
+// Adds the entries of a results folder, by name, to the result's methods, for the farms that both
+// have; entries that share no farm are left out. Throws InputError on a broken entry, one whose
+// name another method of the suite has, and one that was scored against another truth.
 void add_entries(const std::filesystem::path& output, SuiteResult& result);
 
 }  // namespace plotscan::farmbench

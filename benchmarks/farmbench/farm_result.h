@@ -25,7 +25,7 @@ struct MethodResult {
 struct FarmResult {
   std::string case_name;
   std::uint64_t seed = 0;
-  nlohmann::json made_from;  // all that the result depends on: another value, another result
+  nlohmann::json made_from;  // all that the result depends on
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
   double flight_s = 0;  // duration of the flight
@@ -39,8 +39,8 @@ FarmResult farm_result_from_json(const nlohmann::json& document);
 
 // The seconds of each method, and the megabytes where they are known, by its name.
 nlohmann::json times_of(const FarmResult& result);
-// Takes them over of the methods that are named. Throws nlohmann::json::exception on anything that
-// times_of does not write.
+// Sets the times of the methods that `times` names. Throws nlohmann::json::exception on anything
+// that times_of does not write.
 void set_times(FarmResult& result, const nlohmann::json& times);
 
 }  // namespace plotscan::farmbench

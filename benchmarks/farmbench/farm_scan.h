@@ -26,10 +26,11 @@ struct FarmPlace {
 farm::Farm make_farm(const FarmPlace& place);
 
 // The plots of the farm in folder/farm; where a part is surveyed, those outside it are not scored.
-// Of a case without plots, what stands in the farm's boxes. Throws InputError when none is scored.
+// For a case without plots these are the things in the farm's boxes. Throws InputError when no plot
+// is scored.
 std::vector<score::TruePlot> standing_plots(const FarmPlace& place);
 
-// A farm's scan and the cloud that methods get of it.
+// A farm's scan, and the cloud of it that methods get.
 struct ScannedFarm {
   lidar::FlySummary flown;
   std::filesystem::path cloud;

@@ -15,8 +15,8 @@
 
 namespace plotscan::farmbench {
 
-// One scanned field as the methods get it. What a method takes of it is its own affair, and its
-// name or docs/benchmark.md says so.
+// One scanned field as the methods get it. Each method uses only a part of it; its name or
+// docs/benchmark.md says which.
 struct Field {
   const std::filesystem::path& cloud;  // the whole scan, cloud.pcd
   const std::filesystem::path& poses;  // as the drone reported them, poses.csv of the scan
@@ -42,12 +42,12 @@ struct Method {
 // Every method that a suite can name.
 const std::vector<Method>& known_methods();
 
-// The method of this name: one of these, or an estimator's with settings of its own behind it,
-// "lattice calibrated=false". Throws InputError on another name, and on a setting that the method
-// lacks or cannot have.
+// The method of this name: one of known_methods, or an estimator's method with settings after its
+// name, "lattice calibrated=false". Throws InputError on another name, and on a setting that the
+// method lacks or cannot have.
 Method method_named(const std::string& name);
 
-// Throws InputError on a name that method_named refuses, or that stands there twice.
+// Throws InputError on a name that method_named refuses, and on a repeated name.
 void require_known_methods(const std::vector<std::string>& names);
 
 }  // namespace plotscan::farmbench

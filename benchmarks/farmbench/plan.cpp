@@ -129,8 +129,8 @@ std::string shortened(const std::vector<std::string>& names) {
          " more";
 }
 
-// What farms that were killed between their results and their ends have left: nothing else looks
-// for it, as they are not run again.
+// Removes the work folders of farms that were killed after their result was written. They are not
+// run again, so nothing else would remove them.
 void remove_left_work(const fs::path& output, const std::vector<FarmTask>& tasks) {
   std::set<std::string> finished;
   for (const FarmTask& task : tasks)

@@ -10,8 +10,8 @@
 #include "core/progress.h"
 #include "farmbench/run.h"
 
-// A suite run by others than `run`: one command a farm, on many machines that share the results
-// folder, in whatever order (docs/scale.md).
+// Runs a suite without `run`: one command for each farm, in any order, on many machines that share
+// the results folder (docs/scale.md).
 namespace plotscan::farmbench {
 
 struct PlanSummary {
@@ -19,14 +19,12 @@ struct PlanSummary {
   std::size_t changed = 0;  // cases planned for the first time, or otherwise than before
 };
 
-// Makes the results folder of a suite before its farms are run:
-// - plan.json: the suite, and what the options choose of it;
-// - plan/CASE.json: what the results of the case's farms are made from, but for the seed;
-// - tasks.csv: farm, case, seed, viewed (1 where views/FARM.cbor is written as well), a row a farm;
-// - manifest.json, as run writes it.
-// Files that are as they would be written stay untouched, so that what is newer than they need not
-// be made again. Of the options jobs, threads, force and seed do not count. Throws InputError as
-// run does before its first farm.
+// Makes the results folder of a suite before its farms are run: - plan.json: the suite, and what
+// the options choose of it; - plan/CASE.json: what the results of the case's farms are made from,
+// but for the seed; - tasks.csv: farm, case, seed, viewed (1 where views/FARM.cbor is written as
+// well), a row a farm; - manifest.json, as run writes it. Files whose content would not change stay
+// untouched, so that newer files made from them need not be made again. The options jobs, threads,
+// force and seed have no effect. Throws InputError as run does before its first farm.
 PlanSummary plan(const RunOptions& options);
 
 struct PlannedFarmOptions {
@@ -60,9 +58,9 @@ struct MergeSummary {
   std::vector<std::string> missing;  // farms without a result
 };
 
-// Writes of a planned results folder what run writes when its last farm is done. Throws InputError
-// as run_planned does, where no farm has a result, and where one has none unless finished_only is
-// set.
+// Writes into a planned results folder what run writes after its last farm. Throws InputError as
+// run_planned does, if no farm has a result, and, unless finished_only is set, if any farm has
+// none.
 MergeSummary merge(const std::filesystem::path& output, const MergeOptions& options);
 
 }  // namespace plotscan::farmbench

@@ -163,7 +163,7 @@ std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
   return lines;
 }
 
-// What is left of the errors when every farm's bias is taken away, and whether the order is right.
+// The errors after each farm's bias is subtracted, and whether the order of the plots is right.
 std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
   if (rows.empty()) return {};
   std::vector<std::string> lines = {
@@ -183,7 +183,7 @@ std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
   return lines;
 }
 
-// Of the methods that give intervals; no line where none does.
+// Lines on the methods that give intervals; no lines where none does.
 std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
   std::vector<std::string> lines;
   std::string method;

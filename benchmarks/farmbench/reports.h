@@ -25,7 +25,7 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
 std::vector<std::string> shown_truths(const SuiteResult& result,
                                       const std::vector<TableRow>& table);
 
-// The rows that stand beside one truth, by method in the table's order, then by case.
+// The rows that are compared with one truth, by method in the table's order, then by case.
 std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth);
 
 // One row for each of the suite's methods and cases, whose columns of boxes count; named after the

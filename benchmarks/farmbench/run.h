@@ -22,8 +22,8 @@ struct RunOptions {
   int threads = 1;                          // of all jobs together
   bool keep_clouds = false;                 // keep each farm and its scan in output/clouds
   bool force = false;                       // run again what has been run
-  std::optional<int> seeds = std::nullopt;  // so many from the suite's first one, not the suite's
-  // Of a blind contest: the file that seeds are drawn from (entry/suite_choice.h).
+  std::optional<int> seeds = std::nullopt;  // this many from the suite's first one
+  // For a blind contest: the file that seeds are drawn from (suite_choice.h).
   std::optional<std::filesystem::path> secret = std::nullopt;
   std::vector<std::string> methods = {};  // these in place of the suite's
   std::vector<std::string> entered = {};  // "NAME=COMMAND": programs beside them
@@ -37,18 +37,18 @@ struct RunSummary {
   std::size_t resumed = 0;  // farms whose results were there already
 };
 
-// Told of every farm that has been run and how long it took, from one thread at a time.
+// Called for each farm that has been run, with the time it took, from one thread at a time.
 using FarmReport = std::function<void(const FarmResult& farm, double seconds)>;
 
-// The command that a results folder's manifest names, whichever of farmbench's wrote it.
+// The command named in a results folder's manifest, whichever of farmbench's commands wrote it.
 inline constexpr const char* kRunCommand = "farmbench run";
 
 // Runs the suite and writes output/farms/CASE-SEED.json and times/CASE-SEED.json farm by farm, of
 // each case's first farm views/CASE-SEED.cbor, then the reports of write_reports and manifest.json.
 // A farm is not run again when its file is there and was made from the same (made_from). Nothing
-// but the times depends on jobs and threads. Where no farm is finished, an output folder that was
-// not there before is removed. Throws InputError on a bad suite, options out of range, an output
-// that is no results folder, and as run_farm does.
+// but the times depends on jobs and threads. If no farm was finished, an output folder that did not
+// exist before is removed. Throws InputError on a bad suite, options out of range, an output that
+// is no results folder, and as run_farm does.
 RunSummary run(const RunOptions& options, const ProgressReport& progress = {},
                const FarmReport& finished = {});
 

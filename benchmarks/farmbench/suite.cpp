@@ -67,7 +67,7 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
   return suite_case;
 }
 
-// Of a sweep, the farm and flight that its cases have in common.
+// The farm and flight that all cases of a sweep share.
 SuiteCase read_base(const YamlSection& root) {
   SuiteCase base = read_case(root, {});
   if (base.without_plots) root.fail("without_plots", "is of cases, and a sweep asks about plots");

@@ -25,13 +25,13 @@ struct SuiteCase {
   std::vector<std::string> overrides = {};  // "terrain.side_m=20"
   lidar::FlyOptions flight = {};            // the suite's, with what the case replaces in it
   std::optional<double> published_rmse_cm = std::nullopt;  // somebody's figure for such a farm
-  // What is surveyed, where it is not the whole field: flown over, and all that the cloud keeps.
+  // The surveyed part of the field, if not all: only it is flown over and kept in the cloud.
   std::optional<cloud::Area> survey = std::nullopt;
-  // What stands in the farm's boxes are no plots but trees, say: every plot found is one too many.
+  // The things in the farm's boxes are no plots but, for example, trees: every plot found is extra.
   bool without_plots = false;
 };
 
-// What somebody published, to stand beside what is measured.
+// Published figures, shown beside the measured ones.
 struct Published {
   std::string source;                // "Dhami et al., IROS 2020"
   std::vector<std::string> methods;  // the rows that it belongs beside, "dhami2020/raw-p99"

@@ -10,20 +10,20 @@
 
 namespace plotscan::farmbench {
 
-// A suite, and which of its farms are meant.
+// A suite, and which of its farms to use.
 struct SuiteChoice {
   std::filesystem::path file;               // the YAML file
-  std::optional<int> seeds = std::nullopt;  // so many from the suite's first one, not the suite's
-  // A file whose bytes are the secret of a blind contest: seeds are drawn from it, as many as there
-  // would be without it.
+  std::optional<int> seeds = std::nullopt;  // this many from the suite's first one
+  // A file whose bytes are the secret of a blind contest. Seeds are drawn from it; their number is
+  // the same as without it.
   std::optional<std::filesystem::path> secret = std::nullopt;
 };
 
-// The suite with the seeds that are meant. Throws InputError as load_suite does, on a number of
-// seeds out of range, and on a secret that is missing, shorter than 16 bytes or longer than 64 KiB.
+// The suite with the chosen seeds. Throws InputError as load_suite does, on a number of seeds out
+// of range, and on a secret that is missing, shorter than 16 bytes or longer than 64 KiB.
 Suite chosen_suite(const SuiteChoice& choice);
 
-// One farm of a suite under the name that entrants know it by.
+// One farm of a suite under the code that entrants know.
 struct BlindField {
   std::string code;  // 10 hexadecimal digits, which tell neither case nor seed
   const SuiteCase& suite_case;

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-// Suites that ask which flight a field needs: one kind of farm, flown in every combination of some
-// options' values (docs/sweep.md).
+// Suites that find which flight a field needs: one kind of farm, flown with every combination of
+// some options' values (docs/sweep.md).
 namespace plotscan::farmbench {
 
 // An option of the flight that varies, and its values: numbers or texts.
@@ -18,7 +18,7 @@ struct SweepAxis {
   std::vector<nlohmann::json> values;
 };
 
-// What is good enough: the shortest flight that reaches it is the answer.
+// The accuracy that is good enough; the sweep's answer is the shortest flight that reaches it.
 struct SweepGoal {
   double rmse_m = 0;  // at most, by the upper end of its 95 % interval
   double found = 0;   // of the true plots, at least this share

@@ -64,8 +64,8 @@ SquaredErrors summed(const std::vector<SquaredErrors>& farms) {
   return all;
 }
 
-// Four decimals: a hundredth of what any of the figures is good for.
-// What could not be computed is an empty field.
+// Four decimals, a hundred times finer than any of the figures is accurate. What could not be
+// computed is an empty field.
 std::string field_of(double value) {
   return std::isnan(value) ? "" : format_number(std::round(value * 1e4) / 1e4);
 }

@@ -38,7 +38,7 @@ struct TableRow {
   double rmse_m = 0;
   double rmse_low_m = 0;  // 95 % bootstrap interval over farms
   double rmse_high_m = 0;
-  // How much the suite's baseline has less than this, on the same farms, and its 95 % interval. NaN
+  // This RMSE minus that of the suite's baseline on the same farms, and its 95 % interval. NaN
   // where the suite names no baseline.
   double rmse_change_m = kNaN;
   double rmse_change_low_m = kNaN;
@@ -63,7 +63,7 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 // The rows' methods, each once, in their order.
 std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 
-// A row as --json tells it: metres, degrees, null for NaN.
+// A row as --json prints it: metres, degrees, null for NaN.
 nlohmann::json to_json(const TableRow& row);
 
 // table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,

@@ -13,7 +13,7 @@
 
 namespace plotscan::ground_error {
 
-// The ground under one plot as a method has it; frame of the points, metres.
+// A method's ground under one plot; frame of the points, metres.
 struct PlotGround {
   std::function<double(const Eigen::Vector2d&)> height;  // NaN where the method has none
   double standard_error_m = 0;                           // of the mean over the plot; 0: not given

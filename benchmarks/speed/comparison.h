@@ -21,9 +21,9 @@ struct Comparison {
   double (*now_s)() = processor_time_s;  // the clock
 };
 
-// Adds a benchmark that runs both by turns, so that whatever else the machine does slows both. Its
-// counters: the median seconds of each, the median of the turns' ratios of the reference's seconds
-// to ours, and the work.
+// Adds a benchmark that runs both alternately, so that other load on the machine slows both. Its
+// counters: the median seconds of each, the median over the turns of (reference seconds / our
+// seconds), and the work.
 void add_benchmark(const std::string& name, const Comparison& comparison);
 
 // A program's main: takes Google Benchmark's arguments, calls `run` with the others, and prints

@@ -161,7 +161,7 @@ void add_writing(const Kind& kind, const Flight& flight, const fs::path& file) {
                         .bytes = static_cast<double>(bytes)});
 }
 
-// What a recording without poses of its own has to be told.
+// The options needed to read a recording that has no poses of its own.
 record::SourceOptions reading_options(const record::Format& format, const fs::path& scan_folder) {
   if (!format.is_recording || format.has_topics) return {};
   return {.flight = record::FlightOptions{.trajectory = scan_folder / "poses.csv"}};

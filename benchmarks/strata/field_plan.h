@@ -29,7 +29,7 @@ struct FieldPlan {
   std::filesystem::path farm;  // description, of which `overrides` replace keys
   Overrides overrides = {};
   lidar::FlyOptions flight = {};
-  // Of a cloud with more, so many points are kept, drawn: as of a lidar that fires less often.
+  // A larger cloud is thinned to this many random points, as from a lidar that fires less often.
   std::optional<std::size_t> most_points = std::nullopt;
 };
 
@@ -39,8 +39,8 @@ nlohmann::json to_json(const FieldPlan& plan);
 // The strata whose fields are farms with plots, in the table's order (docs/benchmark.md).
 const std::vector<std::string>& farm_strata();
 
-// A random stream of a field's own: the same word, stratum and index draw the same field, any
-// other another one.
+// A field's own random stream: the same word, stratum and index always draw the same field, any
+// change draws another.
 RandomStream field_stream(const std::string& word, const std::string& stratum, int index);
 
 // The index-th farm that the word draws in a stratum. Throws InputError on a file of `sources` that

@@ -15,7 +15,7 @@ struct KeptField {
   std::filesystem::path farm;  // "": a field without plots
 };
 
-// The field in the folder, made and flown where it is not there yet. Throws InputError when the
+// The field in the folder; it is made and flown if it is not there yet. Throws InputError when the
 // folder holds another field, or the farm cannot be made or flown.
 KeptField keep_farm(const FieldPlan& plan, const std::filesystem::path& folder, int threads);
 

@@ -10,24 +10,24 @@
 
 namespace plotscan::strata {
 
-// What the estimator made of one field.
+// The estimator's result for one field.
 struct MeasuredField {
   std::string stratum;  // or the kind of a field without plots
   int index = 0;
   score::FieldScore score;  // without plots: all that was found is extra
-  // How sure the estimator was of each plot that it found, true and false ones; those that it says
-  // nothing of are in neither.
+  // The estimator's confidence in each plot that it found, for true and for false ones; plots
+  // without a confidence are in neither.
   std::vector<double> true_confidences = {};
   std::vector<double> false_confidences = {};
-  // Of the found plots' boxes: centres along both axes, widths and lengths of which the estimator
-  // says how sure it is, and those within 1.96 of its standard errors of the true ones.
+  // Counts over the found plots' boxes of figures (centre along both axes, width, length) with a
+  // standard error, and of those within 1.96 standard errors of the true ones.
   std::size_t box_figures = 0, box_figures_inside = 0;
   std::size_t points = 0;  // of the cloud
   double seconds = 0;      // from the cloud's file to the heights
   std::string failure;     // why the estimator gave up; "" when it did not
 };
 
-// Runs the default method on the cloud and nothing else, and scores what it says.
+// Runs the default method on the cloud alone, and scores its estimate.
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
                             int threads);
 

@@ -11,7 +11,7 @@
 
 namespace plotscan::strata {
 
-// Between which bounds a crop's plants are drawn.
+// The bounds between which a crop's plants are drawn.
 struct CropRanges {
   Bounds spread;  // of a field's plants: their scales lie in [1 - spread, 1 + spread]
   std::map<std::string, Bounds> parameters;            // of the crop, as `farmgen plant` knows them
@@ -38,8 +38,8 @@ struct Sowing {
 Overrides draw_plants(const std::string& crop, const CropRanges& ranges, const Sowing& sowing,
                       bool tufts, RandomStream& random);
 
-// Plants that others modelled (meshes; `folder` holds bean/ and maize/): a mesh, how large it is,
-// how far its copies are stretched along each axis, how many there are.
+// Draws third-party plants (meshes; `folder` holds bean/ and maize/): a mesh, its size, the range
+// by which its copies are stretched along each axis, and their number.
 Overrides draw_meshes(const std::filesystem::path& folder, RandomStream& random);
 
 // The value of "plants.models": the crop at a stage, 3 to 8 plants of drawn parameters and seed.

@@ -12,7 +12,8 @@ namespace plotscan::strata {
 // an estimator reads of it. Throws WriteError when the file cannot be written.
 void write_positions(const std::filesystem::path& file, const std::vector<Eigen::Vector3f>& points);
 
-// Of a cloud in any format, in its order. Throws InputError when it cannot be read.
+// The positions of a cloud in any format, in the file's order. Throws InputError when it cannot be
+// read.
 std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud);
 
 }  // namespace plotscan::strata

@@ -11,8 +11,8 @@
 
 namespace plotscan::strata {
 
-// What stands on the ground of a scene, each a closed form of the place seen from above. Lengths
-// are metres, heights over the ground below.
+// Things on the ground of a scene; the height of each is a formula of the place seen from above.
+// Metres; heights are above the ground below.
 enum class Shape {
   crown,   // an ellipsoid on a stem, as porous as a tree's or bush's
   hedge,   // porous as a crown, of one profile along its length: a vine row
@@ -54,7 +54,7 @@ struct ScanOptions {
   double side_m = 30;       // of the square that is scanned, about the origin
   double density_m2 = 300;  // points a square metre
   double noise_m = 0.02;    // standard deviation of the points along each axis
-  double wall_share = 0.1;  // of the points on a thing that has walls, so many lie on them
+  double wall_share = 0.1;  // share of a thing's points that lie on its walls, if any
 };
 
 // A scan of things on the ground: points uniform over the square, each at the highest return there,

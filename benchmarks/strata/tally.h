@@ -13,7 +13,7 @@
 
 namespace plotscan::strata {
 
-// The heights that a stratum's row shows; what is said of flags and intervals counts all.
+// The heights that a stratum's row shows; its numbers on flags and intervals count all heights.
 inline constexpr std::array<const char*, 4> kShownHeights = {"mean", "p95", "max", "canopy_p95"};
 
 // One height, against the truth that it is named after.

@@ -21,7 +21,7 @@ namespace {
 // float32 relative to the area's centre resolves 0.5 mm at 5 km.
 constexpr double kLongestSide_m = 10000;
 
-// Of the first points of the area: a stray one among them must not become the origin.
+// Median height of the first points in the area: one stray point must not become the origin.
 double median_z(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> z(points.size());
   std::ranges::transform(points, z.begin(), [](const Eigen::Vector3d& point) { return point.z(); });

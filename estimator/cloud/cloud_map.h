@@ -33,7 +33,7 @@ class CloudMap {
   // whole metres gives the same relative positions.
   explicit CloudMap(const Area& area);
 
-  // Keeps those of the points (world frame, metres) that lie in the area.
+  // Keeps the points (world frame, metres) that lie in the area.
   void add(std::span<const Eigen::Vector3d> world_points);
 
   const Area& area() const { return area_; }
@@ -50,16 +50,15 @@ class CloudMap {
   std::size_t points_read_ = 0;
 };
 
-// What is asked for of a cloud, and what messages call it.
+// The part of a cloud to read, and its name in messages.
 struct NamedArea {
   Area area{};
   std::string name = "crop box";
 };
 
-// Streams a cloud into a map of the area; without one, of the bounds of the densely scanned field
-// (FieldHull), found in a first pass over the files. Memory is bounded by the points inside the
-// area.
-// Throws InputError on a broken cloud or when no point lies in the area.
+// Streams a cloud into a map of the area. Without an area, a first pass over the files finds the
+// densely scanned field (find_field), whose bounds are the area. Memory is bounded by the points
+// inside the area. Throws InputError on a broken cloud or when no point lies in the area.
 CloudMap read_map(const CloudFiles& cloud, const std::optional<NamedArea>& area,
                   const ProgressReport& progress = {});
 

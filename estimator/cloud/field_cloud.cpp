@@ -46,7 +46,7 @@ TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int thread
   return {std::move(tiles.tiles), std::move(tiles.begin), std::move(points)};
 }
 
-// "; they lie in -25,-22,25,26", of the tiles' outer edges; "" without any.
+// "; they lie in -25,-22,25,26" (the tiles' outer edges); "" without tiles.
 std::string extent_text(std::span<const TileCount> tiles) {
   if (tiles.empty()) return "";
   Tile low = tiles.front().tile;
@@ -59,7 +59,7 @@ std::string extent_text(std::span<const TileCount> tiles) {
                                      high.x + 1.0, high.y + 1.0});
 }
 
-// A tile at the area's edge reaches out of it.
+// Drops the points outside the area: a tile at its edge reaches beyond it.
 void crop(FieldCloud& field) {
   const Eigen::Array2d low(field.area[0], field.area[1]);
   const Eigen::Array2d high(field.area[2], field.area[3]);
@@ -113,11 +113,12 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-// Adds points to a store while whoever brings them fetches the next ones.
+// Adds points to a store in the background, while the caller reads the next ones.
 class AddingBehind {
  public:
   AddingBehind(TileStore& store, int threads) : store_(store), arena_(threads) {}
-  // What fails in adding is thrown by add() and finish(); here the reading has failed already.
+  // Ignores errors: add() and finish() throw those of the adding; one left here follows a failed
+  // read.
   ~AddingBehind() {
     try {
       finish();

@@ -27,7 +27,7 @@ struct FieldOptions {
   int threads = 1;
 };
 
-// What became of a cloud's points: `read` is the sum of the others.
+// How many of a cloud's points were kept, or dropped and why: `read` is the sum of all others.
 struct FieldCounts {
   std::uint64_t read = 0;
   std::uint64_t not_finite = 0;
@@ -40,19 +40,18 @@ struct FieldCounts {
   std::uint64_t kept = 0;
 };
 
-// A field's points, ready to measure: whatever the cloud's density, order and coordinates, of a
-// size bounded by the field's area. Points are rounded to 2^-14 m = 0.06 mm; they are sorted by the
-// tile of 1 m in which they lie (south to north, in a row west to east), in it by cell of 0.125 m
-// (likewise), in it as good as at random: neighbours in the plane are neighbours in memory, and any
-// beginning of a cell is a fair sample of it. The same points in any order, or moved by whole
-// metres, give the same positions.
+// A field's points, ready to measure; the field's area bounds their number. Points are rounded to
+// 2^-14 m = 0.06 mm and sorted by tile of 1 m (south to north, in a row west to east), within a
+// tile by cell of 0.125 m (likewise), within a cell in a practically random order: neighbours in
+// the plane are neighbours in memory, and the first points of a cell are a fair sample of it. The
+// same points in any order, or moved by whole metres, give the same positions.
 struct FieldCloud {
   Area area{};                                       // bounds of the field, world frame, metres
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // whole metres
   std::vector<Eigen::Vector3f> points = {};          // relative to origin
   FieldCounts counts = {};
   double density_m2 = 0;  // points in the median square metre (field_density)
-  // Where the user says which points may carry the ground: these, relative to origin; else empty.
+  // The points that the user allows as ground, relative to origin; empty if he names none.
   std::vector<Eigen::Vector3f> ground_points = {};
 };
 
@@ -61,8 +60,8 @@ struct FieldCloud {
 FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress = {});
 
-// The field of points that were added to a store, which is spent by that. `name` stands in messages
-// for the cloud.
+// The field of the points in a store, which cannot be used afterwards. `name` is the cloud's name
+// in messages.
 FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::string& name);
 
 }  // namespace plotscan::cloud

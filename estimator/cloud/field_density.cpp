@@ -19,7 +19,7 @@ constexpr int kCoarsest_m = 256;
 constexpr double kTypicalCount = 16;
 constexpr double kMostSquares = 1e6;
 
-// Points by square, numbered by its south-west corner over its edge.
+// Points by square; a square's number is its south-west corner divided by its edge.
 std::map<Tile, std::uint64_t> squares_of(std::span<const TileCount> counts, int edge_m) {
   const auto below = [&](std::int32_t at) {
     return static_cast<std::int32_t>(std::floor(static_cast<double>(at) / edge_m));
@@ -29,8 +29,8 @@ std::map<Tile, std::uint64_t> squares_of(std::span<const TileCount> counts, int 
   return squares;
 }
 
-// Counts of the squares that lie in the hull, with all that touch them where `whole` says so: the
-// hull reaches over the scanned edge by a square.
+// Counts of the squares in the hull; with `whole`, only those whose neighbours lie in it too, as
+// the hull reaches one square beyond the scanned edge.
 std::vector<double> counts_inside(const std::map<Tile, std::uint64_t>& squares,
                                   const FieldHull& hull, int edge_m, bool whole) {
   const auto holds = [&](int x, int y) {

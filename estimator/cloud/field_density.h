@@ -13,15 +13,15 @@
 
 namespace plotscan::cloud {
 
-// Points a square metre at which plots were found, and at which they were not any more
+// Densities, points per square metre, at which plots were still found and no longer found
 // (docs/real-clouds-tests.md).
 inline constexpr double kPlotsFound_m2 = 65;
 inline constexpr double kPlotsLost_m2 = 20;
-// Plots are not searched below, even ones much larger than those.
+// Below this density plots are not searched, even if they are much larger than the tested ones.
 inline constexpr double kLeastSearched_m2 = kPlotsLost_m2 / 2;
 
-// Counts points by tile, but for those farther away than a tile's number reaches. Memory follows
-// the area over which they lie.
+// Counts points by tile, except points too far away for a tile's number. Memory grows with the area
+// over which the points lie.
 class TileCounter {
  public:
   void add(std::span<const Eigen::Vector3d> points);  // metres
@@ -36,8 +36,8 @@ class TileCounter {
 struct FieldDensity {
   Area field{};        // bounds of the densely scanned field (find_field), metres
   double area_m2 = 0;  // of its outline
-  // Of the squares inside of the outline, an empty one too: points a square metre, median and 5 %
-  // quantile.
+  // Points per square metre over all squares inside the outline, empty ones included: median and 5
+  // % quantile.
   double median = 0;
   double least5 = 0;
   int square_m = 1;  // the smallest of 1, 2, 4, ... 256 m with 16 points in the median square

@@ -40,7 +40,7 @@ constexpr std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ bits >> (kMixedBits / 2);
 }
 
-// Of an odd number modulo 2^64 (Newton's iteration doubles the bits that are right).
+// Inverse of an odd number modulo 2^64 (each Newton iteration doubles the correct bits).
 constexpr std::uint64_t inverse(std::uint64_t odd) {
   std::uint64_t result = odd;
   for (int i = 0; i < 5; ++i) result *= 2 - odd * result;

@@ -22,9 +22,9 @@ struct Tile {
 // have one key if and only if they are the same to a step. From the top, a key holds the point's
 // cell (a tile has 8 x 8, row by row), 36 bits mixed from its place within the cell and within a
 // metre of height, and the whole metres of its height. Keys in their order are thus sorted by cell,
-// and in a cell they are in an order as good as drawn by lot, which neither the points' order nor a
-// shift of the cloud by whole metres changes: the first k of a cell are a bottom-k sample (Cohen
-// and Kaplan, "Summarizing data using bottom-k sketches", PODC 2007, 225-234).
+// and within a cell in a practically random order, which neither the points' order nor a shift of
+// the cloud by whole metres changes: the first k of a cell are a bottom-k sample (Cohen and Kaplan,
+// "Summarizing data using bottom-k sketches", PODC 2007, 225-234).
 struct PlacedKey {
   Tile tile;
   std::uint64_t key = 0;
@@ -35,13 +35,14 @@ inline constexpr double kStepsAMetre = 1 << kStepBits;
 inline constexpr int kCellsAMetre = 8;
 inline constexpr int kCellsATile = kCellsAMetre * kCellsAMetre;
 
-// Nothing where a coordinate is out of range: 1,000,000 km in x and y, 2,000 km in z.
+// The key of a point; nothing where a coordinate is out of range: 1,000,000 km in x and y, 2,000 km
+// in z.
 std::optional<PlacedKey> key_of(const Eigen::Vector3d& point);
 
 // The point that a key stands for, relative to `origin`.
 Eigen::Vector3f point_of(Tile tile, std::uint64_t key, const Eigen::Vector3d& origin);
 
-// Of the tile's cells.
+// The number of the key's cell within its tile.
 inline int cell_of(std::uint64_t key) { return static_cast<int>(key >> 58); }
 
 }  // namespace plotscan::cloud

@@ -23,9 +23,9 @@ struct Thinned {
   std::size_t repeated = 0;
 };
 
-// Sorts keys into about as many buckets by their upper bits, and then each of these: the keys of a
-// cell are as good as drawn by lot, so that a bucket has few. Very many are sorted in their place,
-// as buckets take as much memory again.
+// Sorts keys into about as many buckets as keys by their upper bits, then each bucket: the keys of
+// a cell are practically random, so a bucket holds few. Very many keys are sorted in place, as
+// buckets would double the memory.
 void sort_keys(std::span<std::uint64_t> keys) {
   constexpr std::size_t kMostInBuckets = 1 << 20;
   if (keys.size() > kMostInBuckets) return std::sort(keys.begin(), keys.end());

@@ -34,14 +34,14 @@ struct TiledKeys {
 
 struct TileStoreOptions {
   std::size_t points_per_cell = 256;
-  // New points are merged with the kept ones when so many have come: 340 MB of memory with 2^24.
+  // New points are merged with the kept ones once this many are buffered: 2^24 take 340 MB.
   std::size_t buffered_points = std::size_t{1} << 24;
   int threads = 1;
 };
 
-// Takes points as they come and keeps, in each cell of 0.125 m, at most points_per_cell of them: a
-// sample as good as drawn by lot that depends neither on their order nor on the number of threads.
-// A point that repeats another to 0.06 mm counts once. Memory is bounded by the area over which the
+// Takes points in any order and keeps, in each cell of 0.125 m, at most points_per_cell of them: a
+// practically random sample that depends neither on their order nor on the number of threads. A
+// point that repeats another to 0.06 mm counts once. Memory is bounded by the area over which the
 // points lie: at most 16 bytes for each point kept, and the buffer of new ones.
 class TileStore {
  public:
@@ -56,12 +56,12 @@ class TileStore {
   explicit TileStore(const TileStoreOptions& options);
 
   void add(std::span<const Eigen::Vector3d> points);  // frame of any kind, z up, metres
-  // Of every point added, in the tiles' order.
+  // The number of points added to each tile, in the tiles' order.
   std::vector<TileCount> tile_counts() const;
-  // Hands over the tiles that `wanted` accepts; once, and nothing is added any more.
+  // Hands over the tiles that `wanted` accepts. Can be called once; after it nothing can be added.
   TiledKeys take(const std::function<bool(Tile)>& wanted);
   std::size_t points_held() const { return kept_size_ + new_keys_.size(); }
-  // Whole after take().
+  // Complete only after take().
   const Counts& counts() const { return counts_; }
 
  private:
@@ -78,8 +78,8 @@ class TileStore {
   };
 
   Slot slot_of(Tile tile);
-  // Groups the kept and the new keys by slot, slots in `order`, and sorts and thins each slot's;
-  // slots that are not named lose theirs.
+  // Groups the kept and the new keys by slot, slots in `order`, and sorts and thins each slot's
+  // keys. Keys of slots that are not in `order` are dropped.
   void merge(const std::vector<Slot>& order);
   std::vector<Slot> all_slots() const;
 

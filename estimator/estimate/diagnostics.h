@@ -60,8 +60,8 @@ struct GivenNames {
   std::vector<PlotId> not_found = {};
 };
 
-// What was learnt on the way to an estimate. What a part of the program goes by has a member;
-// files and the library get them all by to_json.
+// Facts found while an estimate was made. Those that another part of the program uses have a member
+// of their own; files and the library get all of them from to_json.
 struct Diagnostics {
   std::optional<std::vector<std::string>> notes = {};  // how the cloud was read, a sentence each
   std::optional<PointAccount> points = {};
@@ -71,7 +71,7 @@ struct Diagnostics {
   std::string why_no_plots = {};             // "" where there are plots
   std::optional<GivenBoxes> boxes = {};
   std::optional<GivenNames> names = {};
-  // What only the method itself knows: as the manifest has it, and as lines for people.
+  // What only this method reports: as JSON for the manifest, and as lines for people.
   nlohmann::json of_method = nlohmann::json::object();
   std::vector<std::string> lines = {};
 };

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-// Of a plane of ground (PlotGround): z, the slopes east and north, the tolerance.
+// Properties of a plane of ground (PlotGround): z, the slopes east and north, the tolerance.
 constexpr std::array<const char*, 4> kPlane = {"ground_z_m", "ground_slope_x", "ground_slope_y",
                                                "ground_tolerance_m"};
 
@@ -144,13 +144,13 @@ std::vector<std::string> stated_flags(const json& properties) {
   return flags;
 }
 
-// What stands at that place of the document; "" where there is no text.
+// The text at that place of the document; "" where there is none.
 std::string text_at(const json& document, const json::json_pointer& place) {
   const bool is_text = document.contains(place) && document[place].is_string();
   return is_text ? document[place].get<std::string>() : "";
 }
 
-// Of the folder's manifest, where it has one.
+// Reads from the folder's manifest, if there is one, what made the estimate.
 void read_made_by(const fs::path& folder, Estimate& estimate) {
   if (!fs::exists(folder / "manifest.json")) return;
   const json manifest = read_manifest(folder);

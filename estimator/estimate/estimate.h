@@ -18,14 +18,14 @@
 
 namespace plotscan::estimate {
 
-// How sure a method is of one of its heights, metres.
+// The uncertainty that a method states for one of its heights, metres.
 struct HeightError {
   double standard_error_m = 0;
   double low95_m = 0;  // ends of the 95 % interval
   double high95_m = 0;
 };
 
-// The plane that a method took for the ground under a plot, in the cloud's frame.
+// The plane that a method uses as the ground under a plot, in the cloud's frame.
 struct PlotGround {
   double z_m = 0;                                   // at the box's centre
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  // rise to a metre east, to a metre north
@@ -46,22 +46,24 @@ struct PlotEstimate {
   std::optional<double> confidence = std::nullopt;  // that this is a plot, 0 to 1
   std::vector<std::string> flags = {};  // why not to trust the heights; none: they may be trusted
   std::optional<PlotGround> ground = std::nullopt;  // of a method that has a plane for each plot
-  // What was given with the plot's box (PlotMap), to be given back; not read by read_estimate.
+  // Attributes that came with the plot's box (PlotMap), written to the output unchanged;
+  // read_estimate does not read them.
   nlohmann::json attributes = nlohmann::json::object();
 };
 
-// What a method says of a whole field.
+// The result of a method for a whole field.
 struct Estimate {
   std::string method;  // "dhami2020"
   std::vector<PlotEstimate> plots = {};
   std::string id_property = "plot_number";  // the property and column that holds the plots' ids
   std::string crs = {};  // coordinate system of the boxes (write_plot_features); "" where unknown
-  // Of the cloud's file, where they are not metres: the files below have them, all else is metres.
+  // Units of the cloud's file, where not metres. Written files use them; all else here is in
+  // metres.
   std::optional<CoordinateUnits> units = {};
   Diagnostics diagnostics = {};                          // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;  // in the cloud's frame
-  // What the plots were made of, where a method first boxes clusters of points: dhami2020's boxes
-  // before the vote.
+  // Boxes of the point clusters that the plots were made from (dhami2020: before the vote); else
+  // empty.
   std::vector<PlotBox> clusters = {};
 };
 
@@ -81,13 +83,14 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // that no method of ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path);
 
-// What a feature of a given map says of its plot, to be given back (PlotEstimate::attributes): all
-// its properties but the five of its box. Those that an estimate writes itself (heights, their
-// errors, points, confidence, flags) are called given_<name>, so that nobody takes what the map
-// said for what was measured.
+// The attributes of a feature in the user's map, to be written back (PlotEstimate::attributes): all
+// its properties except the five of its box. Properties with a name that an estimate writes itself
+// (heights, their errors, points, confidence, flags) are renamed given_<name>, so that nobody takes
+// the map's values for measured ones.
 nlohmann::json given_attributes(const PlotFeature& feature);
 
-// What one feature of a plots.geojson says; `number` is its place in the file, from 1.
+// The plot that one feature of a plots.geojson describes; `number` is its place in the file, from
+// 1.
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);
 
 }  // namespace plotscan::estimate

@@ -40,10 +40,10 @@ void write_grid(const fs::path& path, const ground::Surface& surface, double uni
   if (!out.flush()) throw WriteError(path);
 }
 
-// To a tenth of a millimetre, in feet finer.
+// Rounded to four decimals: 0.1 mm in metres, finer in feet.
 std::string rounded(float metres, double unit_m) { return fmt::format("{:.4f}", metres / unit_m); }
 
-// A grid in metres, but for its values.
+// Reads a grid; its coordinates become metres, its values stay as they are in the file.
 EsriGrid read_grid(const fs::path& path, double unit_m) {
   EsriGrid grid = read_esri_grid(path);
   grid.first *= unit_m;

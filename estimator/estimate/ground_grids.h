@@ -9,10 +9,10 @@
 namespace plotscan::estimate {
 
 // Writes a surface as three ESRI ASCII grids, one node a cell, into an existing folder, for QGIS,
-// GDAL and R: ground.asc (height), ground_se.asc (its standard error), -9999 out of
-// reach, and ground_seen.asc (1 where ground returns show it, 0 where it is interpolated, -9999 out
-// of reach). Throws WriteError when they cannot be written.
-// The files' numbers are in `units`, those of z for ground.asc and ground_se.asc.
+// GDAL and R: ground.asc (height), ground_se.asc (its standard error), -9999 out of reach, and
+// ground_seen.asc (1 where ground returns show it, 0 where it is interpolated, -9999 out of reach).
+// Throws WriteError when they cannot be written. The files' numbers are in `units`; heights and
+// standard errors in the unit of z.
 void write_ground(const std::filesystem::path& folder, const ground::Surface& surface,
                   const CoordinateUnits& units = {});
 

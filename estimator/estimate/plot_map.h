@@ -13,7 +13,7 @@
 
 namespace plotscan::estimate {
 
-// Plots that people give: boxes, ids, and whatever else they know of each.
+// Plots given by the user: boxes, ids and further attributes of each.
 struct PlotMap {
   std::vector<PlotFeature> plots = {};
   std::vector<PlotId> ids = {};  // of the plots, all different
@@ -37,7 +37,7 @@ struct NamedPlot {
   nlohmann::json attributes = nlohmann::json::object();
 };
 
-// What a field book says of the plots by their places in the field.
+// What a field book says of the plots, by row and column.
 struct NamedPlaces {
   std::map<std::pair<int, int>, NamedPlot> plots = {};  // by row and column, from 1
   std::string id_property = {};                         // the column that holds the ids

@@ -26,8 +26,8 @@ int most(const std::vector<PlotEstimate>& plots, Place place) {
   return most;
 }
 
-// Where the places count to: the sum of the directions between plots that are one place apart along
-// this axis and share the other's.
+// The direction in which the places count up: the sum of the steps between plots that are one place
+// apart along this axis and have the same place along the other.
 Eigen::Vector2d counting_direction(const std::vector<PlotEstimate>& plots, Place place,
                                    Place other) {
   std::map<std::pair<int, int>, Eigen::Vector2d> centers;

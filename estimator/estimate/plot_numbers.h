@@ -12,11 +12,11 @@
 
 namespace plotscan::estimate {
 
-// The corner of the field in which row 1 and column 1 meet. Of a turned field: the one that lies
-// farthest in that direction.
+// The corner of the field in which row 1 and column 1 meet. In a turned field it is the corner that
+// lies farthest in that direction.
 enum class Corner { sw, se, nw, ne };
 
-// How the plots that were found are to be numbered; as they were found where nothing is said.
+// How to number the plots that were found; without any option they keep the numbers they have.
 struct NumberingOptions {
   std::optional<std::uint32_t> first_number = {};   // else 1
   std::optional<PlotNumbering> numbering = {};      // else rows

@@ -146,7 +146,7 @@ std::vector<Column> columns_of(const Estimate& estimate) {
   return columns;
 }
 
-// What a database takes: what the plots are called, what was known of them, what was measured.
+// The columns for a database: the plots' names, their known attributes, their measured heights.
 std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
   std::vector<Column> columns = {
       {"observationunit_name", [](const auto& plot) { return csv_field(plot.id.text()); }}};

@@ -19,11 +19,11 @@ namespace plotscan::fieldpage {
 // Puts an estimate into a field: its plots and its ground.
 void show_estimate(report::ShownField& field, const estimate::Estimate& estimate);
 
-// Adds how the method came to its plots, where the estimate tells: clusters, planes of ground.
+// Adds intermediate results of the method, where the estimate has them: clusters, planes of ground.
 void show_working(report::ShownField& field, const estimate::Estimate& estimate);
 
-// Holds the field's plots, which are the estimate's, against true ones: which are found, their
-// truths, and the true boxes.
+// Compares the field's plots, which are the estimate's, with true ones: adds which are found, their
+// true heights, and the true boxes.
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth);
 

@@ -38,7 +38,7 @@ struct Raster {
   }
 };
 
-// Of every so-many-th point: enough to see the field's outline.
+// Counts a regular sample of at most about a million points, enough to see the field's outline.
 Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
   constexpr std::size_t kSample = 1000000;
   const std::size_t every = 1 + all_points.size() / kSample;
@@ -68,7 +68,7 @@ Raster raster_of(std::span<const Eigen::Vector3f> all_points) {
   return raster;
 }
 
-// Of the square in which the middle point lies.
+// The count of the square in which the middle point lies.
 double usual_count(const Raster& raster) { return self_weighted_median(raster.counts); }
 
 // Where a point lies on the grid: cells from its first node. Outside, or not finite: below -0.5.
@@ -93,7 +93,7 @@ std::int16_t part_of_cell(float offset) {
   return static_cast<std::int16_t>(std::clamp(offset * 65536, -32768.0f, 32767.0f));
 }
 
-// Least squares through a sample of the points: no more than a tilt to take off.
+// Least-squares plane through a sample of the points; it serves only to take off the tilt.
 BasePlane base_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   constexpr std::size_t kSample = 20000;
   Eigen::Matrix3d normal = 1e-9 * Eigen::Matrix3d::Identity();
@@ -188,7 +188,8 @@ std::vector<std::uint32_t> nodes_of(std::span<const Eigen::Vector3f> points, con
   return nodes;
 }
 
-// Nodes between which as many returns lie for each task; one more at the end.
+// First nodes of bands that hold about equally many returns, one band for each task; one more at
+// the end.
 std::vector<std::uint32_t> even_bands(const std::vector<std::uint32_t>& first, std::size_t bands) {
   std::vector<std::uint32_t> ends;
   for (std::size_t band = 0; band < bands; ++band) {
@@ -233,7 +234,7 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
 
 namespace {
 
-// Moves the returns of a column that may tell of the ground to its front. Gives how many.
+// Moves the returns of a column that may be ground to its front and returns their number.
 std::size_t keep_low(std::span<Return> returns, float reach_m, std::vector<float>& z) {
   if (returns.empty()) return 0;
   z.clear();

@@ -12,7 +12,8 @@
 
 namespace plotscan::ground {
 
-// A return in the square of cell_m about its node.
+// A return, stored with the node that it is nearest to: it lies in the square of edge cell_m about
+// it.
 struct Return {
   float z_m = 0;        // relative to Columns::base
   std::int16_t dx = 0;  // from the node, in 1/65536 of a cell
@@ -23,7 +24,7 @@ struct Return {
   static constexpr float kCells = 1.0f / 65536;
 };
 
-// The plane that heights are counted from, so that floats hold them well on a slope.
+// The plane from which heights are measured, so that floats stay precise on a slope. Metres.
 struct BasePlane {
   double z_m = 0;  // at the grid's origin
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
@@ -41,23 +42,23 @@ struct Columns {
   }
 };
 
-// The width of the grid's cells where most points lie as densely, points a square metre: usually
-// holds a few points, and no less than 0.2 m.
+// The width of the grid's cells, metres, for a typical density (points per square metre): a cell
+// usually holds a few points, and is 0.2 to 10 m wide.
 double cell_for(double density_m2);
 
-// The grid that covers what was surveyed densely: sparse surroundings and stray points lie outside.
-// Without a step, cells are as wide as cell_for says.
+// The grid over the densely surveyed area; sparse surroundings and stray points lie outside it.
+// Without cell_m, cells are as wide as cell_for says.
 Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> cell_m);
 
 // The points on the grid. Those that are not finite or outside of it are left out.
 Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid);
 
-// What is needed of the columns to find the ground: returns no higher than reach_m over the lowest
-// hundredth of their column; where all are as low, not more than settle it.
+// The returns needed to find the ground: those at most reach_m above the lowest hundredth of their
+// column. Of a column in which all returns are that low, only a sample that is large enough.
 Columns low_part(Columns columns, float reach_m);
 
-// The returns that lie within (low_m, high_m) of a surface; all of them at nodes of which `whole`
-// is not 0.
+// The returns whose height above a surface lies between low_m and high_m; at nodes where `whole` is
+// not 0, all returns.
 Columns near_part(Columns columns, const Field& surface, float low_m, float high_m,
                   const std::vector<std::uint8_t>& whole);
 

@@ -23,8 +23,8 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// Mean size of the bends where ground is seen: the scale of the Laplace law that they are taken to
-// follow.
+// Mean size of the bends where ground is seen: the scale of the Laplace distribution assumed for
+// bends.
 double usual_bend(const Field& bends, const Field& data) {
   double sum = 0;
   double count = 0;
@@ -36,8 +36,8 @@ double usual_bend(const Field& bends, const Field& data) {
   return std::max(2e-4, count > 0 ? sum / count : 0.01);
 }
 
-// One round of reweighting: |bend| / scale as a square about the last bends (Daubechies et al.,
-// 2010), so that few nodes bend much and the others hardly.
+// One round of iterative reweighting (Daubechies et al., 2010): |bend| / scale is replaced by a
+// square about the last bends, so that few nodes bend much and the others hardly.
 Field stiffness_of(const Field& bends, double scale) {
   Field stiffness(bends.size());
   const double least = 0.1 * scale;
@@ -47,7 +47,7 @@ Field stiffness_of(const Field& bends, double scale) {
   return stiffness;
 }
 
-// No ground where none of its returns is near, by a chamfer distance over the grid.
+// Removes the ground where no ground return is within reach, by a chamfer distance over the grid.
 void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Surface& surface) {
   Field distance_m(grid.nodes());
   for (std::size_t i = 0; i < grid.nodes(); ++i) {
@@ -63,7 +63,7 @@ void forget_beyond_reach(const Grid& grid, const Field& data, double reach_m, Su
   }
 }
 
-// Takes from the other evidence the nodes that it supports better.
+// Replaces the evidence at the nodes that `other` supports better.
 void take_better(const Evidence& other, Evidence& evidence) {
   constexpr float kBetter = 0.2f;
   for (std::size_t i = 0; i < evidence.data.size(); ++i) {
@@ -102,15 +102,16 @@ std::vector<std::uint8_t> poorly_supported(const Evidence& evidence) {
 constexpr int kFirstRounds = 3;
 constexpr int kRounds = 6;
 
-// What is known of the ground and the surface that it makes.
+// The evidence of the ground and the surface fitted to it.
 struct Ground {
   Field z_m;  // above the columns' base
   Evidence evidence;
   Layer layer;
 };
 
-// Where the surface is supported by nothing, it may have cut a ridge off, whose returns it then
-// took for canopy: half of the way up to the lowest layer, as far as this ground bends at all.
+// Where nothing supports the surface, it may cut off a ridge whose returns were taken for canopy.
+// The doubt added there is half of the way up to the lowest layer, limited by how much this ground
+// bends at all.
 void doubt_the_unsupported(const Grid& grid, const Field& layers, double noise_m, Ground& ground) {
   constexpr double kBends = 2;
   constexpr double kLeast = 0.1;  // of the noise, on the levellest ground
@@ -126,7 +127,7 @@ void doubt_the_unsupported(const Grid& grid, const Field& layers, double noise_m
   }
 }
 
-// Tells how much of the fit is done, step by step of about the same length.
+// Reports the progress of the fit; its steps take about the same time.
 class Steps {
  public:
   explicit Steps(const ProgressReport& progress) : progress_(progress) {}
@@ -168,9 +169,9 @@ Ground find_ground(Columns low, double noise_m, Steps& steps) {
   return ground;
 }
 
-// Ground returns may lie so many cells apart where they are few.
+// Cells that ground returns may lie apart where they are few.
 constexpr double kReachCells = 4;
-// A cell's bilinear patch leaves as much of a broken ground's heights, whatever the sensor's noise.
+// Deviations of rough ground from a cell's bilinear patch, whatever the sensor's noise.
 constexpr double kLeastSpread_m = 0.01;
 
 // What the ground is found from.

@@ -13,9 +13,9 @@
 
 namespace plotscan::ground {
 
-// Random surfaces that differ from the fitted one as the true ground does, if the ground bends
-// everywhere as it does where it is seen: the error of any sum over the surface has the spread of
-// that sum over the draws.
+// Random draws of the surface's error: each differs from the fitted surface as the true ground may,
+// if the ground bends everywhere as it does where it is seen. The standard error of any sum over
+// the surface is the spread of that sum over the draws.
 struct ErrorDraws {
   double cell_m = 0;  // node (column, row) lies at the surface's origin + cell_m * (column, row)
   int columns = 0;
@@ -39,15 +39,16 @@ struct Surface {
   double noise_m = 0;                   // sigma of the returns' heights about bare ground
   ErrorDraws errors = {};               // what the standard errors come from
 
-  // NaN outside of the grid, and where a node of the cell is NaN.
+  // Height, and its standard error, at a place (x, y), metres. NaN outside the grid, and where a
+  // node of the cell is NaN.
   double height(const Eigen::Vector2d& place) const;
   double standard_error(const Eigen::Vector2d& place) const;
-  // The part of it that each cell has for itself; 0 for a surface that does not know.
+  // The part of the standard error that is independent from cell to cell; 0 where it is unknown.
   double misfit(const Eigen::Vector2d& place) const;
-  // Of the mean of z_m over the box: errors of near places are alike, but for the misfit. NaN where
-  // the box's centre has no ground.
+  // Standard error, metres, of the mean of z_m over the box: errors of near places are correlated,
+  // except for the misfit. NaN where the box's centre has no ground.
   double mean_standard_error(const PlotBox& box) const;
-  // Of the cell's bilinear patch: (dz/dx, dz/dy).
+  // Gradient (dz/dx, dz/dy) of the cell's bilinear patch.
   Eigen::Vector2d slope(const Eigen::Vector2d& place) const;
 };
 

@@ -42,7 +42,7 @@ FromOthers from_others_of(const json& document) {
           .standardised = vector_of(document.at("standardised"))};
 }
 
-// The same with those of its farms that are kept, by their numbers.
+// The calibration with only the farms whose index `is_kept` accepts.
 Calibration with_farms(const Calibration& calibration, auto&& is_kept) {
   Calibration fewer{.features = calibration.features,
                     .heights = calibration.heights,

@@ -14,11 +14,11 @@
 
 namespace plotscan::heights {
 
-// What was told of a farm from others that are less like it: farms of other plant libraries, or of
+// How a farm is predicted from farms that are less like it: those of other plant libraries, or of
 // other crops.
 struct FromOthers {
   double novelty = 0;            // how little they know of its canopy (CropModel::novelty)
-  Eigen::VectorXd standardised;  // errors over standard deviations, the crop told from the canopy
+  Eigen::VectorXd standardised;  // errors / standard deviations, the crop not given
 };
 
 // Half of a 95 % interval in standard errors: Student's t with the 24 degrees of freedom that a
@@ -38,16 +38,16 @@ struct CalibrationFarm {
   double novelty = 0;                       // Prediction::novelty by the other farms
 };
 
-// How like two fields are: the weights of what is compared, and the covariance over the places that
-// they make.
+// How similar two fields are: the weights of the compared features, and the covariance between the
+// places (points) that the weighted features form.
 struct Kernel {
   Eigen::VectorXd weights;  // of each number that is compared
   Covariance covariance;
 };
 
 // The file that benchmarks/calibration writes (heights/calibration.json). A height's ratio to the
-// canopy's top is kriged from the field's features, for each crop by itself, and corrected by what
-// the plot's features differ from the field's.
+// canopy's top is kriged from the field's features, for each crop by itself, and corrected by the
+// difference between the plot's features and the field's.
 struct Calibration {
   std::vector<std::string> features = {};
   std::vector<std::string> heights = {};
@@ -70,7 +70,7 @@ struct Calibration {
   Eigen::MatrixXd features_of_farms() const;
   Eigen::MatrixXd ratios() const;
   std::vector<double> noise() const;
-  // The same with fewer farms: without these, with the crop's alone, and with every second one.
+  // The calibration with fewer farms: without those left out, only the crop's, every second one.
   Calibration without(std::span<const std::size_t> farms_left_out) const;
   Calibration of_crop(const std::string& crop) const;
   Calibration halved() const;
@@ -79,7 +79,7 @@ struct Calibration {
 nlohmann::json json_of(const Calibration& calibration);
 Calibration calibration_of(const nlohmann::json& document);
 
-// The library's own.
+// The calibration that is built into the library.
 const Calibration& shipped_calibration();
 
 // Median of each feature over a field's plots; `features` holds at least one.

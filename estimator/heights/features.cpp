@@ -23,8 +23,8 @@ constexpr std::array kAreaShares = {0.3,  0.5,   0.65, 0.75,  0.85,  0.9,  0.93,
 constexpr std::array kHeightShares = {0.08, 0.15, 0.3, 0.5, 0.6, 0.7, 0.8, 0.9, 1.05};
 // Cells whose highest returns are compared, metres.
 constexpr std::array kCells_m = {0.1, 0.2, 0.4};
-// A cell's top is the highest of so many of its returns, on average over all such draws, so that it
-// does not rise with their density.
+// A cell's top is the highest of this many returns drawn from the cell, averaged over all such
+// draws, so that it does not rise with the density of returns.
 constexpr int kDrawn = 4;
 constexpr double kLeastTop_m = 0.02;
 // Cells this high over the ground, as a share of the top, are canopy.

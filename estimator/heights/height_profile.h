@@ -11,8 +11,8 @@
 
 namespace plotscan::heights {
 
-// How much of a plot's area is seen at which height: a histogram of the returns' heights above the
-// ground, each return weighted by the area it stands for.
+// Share of a plot's area by height: a histogram of the returns' heights above the ground, each
+// return weighted by the area it represents.
 struct HeightProfile {
   double low_m = 0;                // lower edge of the first bin
   double bin_m = 0;                // width of a bin

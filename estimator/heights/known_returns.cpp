@@ -10,7 +10,7 @@
 namespace plotscan::heights {
 namespace {
 
-// A place of a plot: the heights that 5 % of its returns are under, and over.
+// A place of a plot: the 5 % and 95 % quantiles of its returns' heights.
 struct Place {
   double low_m = kNaN;
   double high_m = kNaN;
@@ -25,10 +25,10 @@ std::vector<double> ground_errors(std::span<const Eigen::Vector3f> points,
   return errors_m;
 }
 
-// A larger standard error of the ground is not known well enough.
+// The largest standard error with which the ground counts as known, metres.
 double largest_known_error(std::vector<double> errors_m) {
   constexpr double kKnown_m = 0.05;
-  constexpr double kTimesMedian = 1.5;  // what is left is always more than half of the plot
+  constexpr double kTimesMedian = 1.5;  // so at least half of the plot is kept
   std::erase_if(errors_m, [](double error_m) { return std::isnan(error_m); });
   if (errors_m.empty()) return kKnown_m;
   return std::max(kKnown_m, kTimesMedian * quantile(std::move(errors_m), 0.5));
@@ -48,8 +48,8 @@ std::vector<Place> places_of(const BoxCells& cells, std::span<const Eigen::Vecto
   return places;
 }
 
-// What stands out of the others: 2.5 sigma over the median, sigma from the side that no ridge is
-// on.
+// Values above this stand out from the others: median + 2.5 sigma, with sigma taken from the values
+// below the median, where there is no ridge.
 double highest_usual(std::vector<double> values_m) {
   constexpr double kSigmas = 2.5;
   constexpr double kLeastSigma_m = 0.02;
@@ -59,8 +59,8 @@ double highest_usual(std::vector<double> values_m) {
   return middle_m + kSigmas * std::max(kLeastSigma_m, sigma_m);
 }
 
-// The places whose highest returns stand out of the plot's, and their lowest too, or a
-// neighbour's.
+// The places whose highest returns stand out from the plot's, if the lowest returns stand out as
+// well: their own, or those of a neighbour that is on a ridge.
 std::vector<bool> on_ridge(const BoxCells& cells, std::span<const Place> places) {
   constexpr std::size_t kLeastPlaces = 12;
   std::vector<double> lows_m;

@@ -19,12 +19,12 @@ struct KnownReturns {
   PlotGround ground = {};
 };
 
-// Those of the plot's returns whose ground is known. Left out are returns over ground whose
-// standard error is larger than 5 cm, or than 1.5 times the plot's median where that is more, and
-// places where a ridge was cut off: there the lowest returns and the highest both stand out of
-// those of the plot's other places, as no plant makes them, or the highest do beside such a place;
-// more than a quarter of the plot is no ridge.
-// Own choice, docs/plot-heights.md.
+// The plot's returns over known ground. Left out are returns over ground whose standard error is
+// above 5 cm, or above 1.5 times the plot's median where that is more, and returns on a ridge that
+// the ground's model cut off: places of which both the lowest and the highest returns stand out
+// from the plot's other places (no plant does so), and places beside these of which the highest
+// returns stand out. If they are more than a quarter of the plot, they are no ridge and stay. Own
+// choice, docs/plot-heights.md.
 KnownReturns known_returns(const PlotBox& box, std::span<const Eigen::Vector3f> points,
                            const ground::Surface& surface);
 

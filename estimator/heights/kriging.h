@@ -8,7 +8,7 @@
 
 namespace plotscan::heights {
 
-// Covariance of two places a and b, as a share of what a value varies by:
+// Covariance of two places a and b, as a share of a value's variance:
 //   exp(-|a - b|^2 / 2) + linear^2 a.b + level^2
 // and `noise`, the standard deviation of a known value's own noise, in the same share.
 struct Covariance {
@@ -16,9 +16,9 @@ struct Covariance {
   double noise = 0.3;
 };
 
-// Several values of one place, and by how much what varies about them does so: a value's standard
-// deviation is its spread times its own scale. `novelty` is the part of it that is not noise: 0 in
-// the middle of what is known, 1 and more where nothing is.
+// Several predicted values at one place, and their uncertainty: a value's standard deviation is the
+// common spread times the value's own scale. `novelty` is the part of the spread that is not noise:
+// 0 amid known places, 1 and more where nothing is known.
 struct Prediction {
   Eigen::VectorXd values;
   Eigen::VectorXd sds;
@@ -30,16 +30,17 @@ struct Prediction {
 // known places the standard deviation grows, which is why it was chosen.
 class Kriging {
  public:
-  // A row a place; a row of its values; how much noisier than usual its values are.
+  // One row for each place in `places` and in `values`; `noise` is how many times noisier than
+  // usual a place's values are.
   Kriging(Eigen::MatrixXd places, const Eigen::MatrixXd& values, std::vector<double> noise,
           const Covariance& covariance);
 
   Eigen::VectorXd values_at(const Eigen::VectorXd& place) const;
-  // Of new values there, their own noise, so much more than usual, included.
+  // Prediction of new values at a place, with their own noise, `noise` times the usual one.
   Prediction at(const Eigen::VectorXd& place, double noise) const;
-  // Of the noiseless value alone: Prediction::novelty.
+  // Prediction::novelty at a place: the uncertainty of the value without noise.
   double novelty(const Eigen::VectorXd& place) const;
-  // Of this place to each known one.
+  // Squared distances from this place to each known one.
   Eigen::VectorXd squared_distances(const Eigen::VectorXd& place) const;
 
  private:
@@ -56,13 +57,14 @@ class Kriging {
   Eigen::VectorXd scales_;  // what each value varies by
 };
 
-// exp(-|a - b|^2 / 2) of all pairs of places, and their covariances without noise; a row a place.
+// exp(-|a - b|^2 / 2) of all pairs of places, and their covariances without noise; `places` has one
+// row for each place.
 Eigen::MatrixXd squared_exponentials_of(const Eigen::MatrixXd& places);
 Eigen::MatrixXd covariances_of(const Eigen::MatrixXd& places, double linear);
 
-// How much noisier the ratios of a canopy this high are than a very high one's: errors are in
-// proportion to the canopy above this height, and the same in metres below it. Half a metre did
-// best of 0, 0.25 and 0.5 m on farms left out.
+// How many times noisier the ratios of a canopy of height top_m are than those of a very high one.
+// Errors are proportional to the height of canopies well above 0.5 m, and constant in metres well
+// below. Of 0, 0.25 and 0.5 m, half a metre did best on left-out farms.
 double relative_noise(double top_m);
 
 }  // namespace plotscan::heights

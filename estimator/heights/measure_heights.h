@@ -44,7 +44,7 @@ struct HeightOptions {
 // The names of the crops that may be given.
 const std::vector<std::string>& crop_names();
 
-// The heights of a field's plots, in their order, and of which crop it is.
+// The heights of a field's plots, in their order, and how likely the field is of each crop.
 struct FieldHeights {
   std::vector<PlotHeights> plots = {};
   std::map<std::string, double> crops = {};  // how likely each is; empty without calibration

@@ -8,8 +8,8 @@ namespace plotscan::heights {
 
 // What is known of the ground under a plot.
 struct PlotGround {
-  // Of its mean height: mean over what is measured of the plot, as errors go together, but for each
-  // cell's own.
+  // Of the ground's mean height: the mean over the measured places of the plot, since their errors
+  // are correlated, except for the part that is each cell's own. Metres.
   double standard_error_m = 0;
   double worst_error_m = 0;  // the same about the worst place of what is measured
   double reached_share = 0;  // of the plot that has a ground

@@ -35,7 +35,7 @@ Eigen::VectorXd spread_of(std::vector<Neighbour> neighbours) {
   return (squares / static_cast<double>(count)).cwiseSqrt();
 }
 
-// What is left within the farms at these distances.
+// Spread of the plots' ratios within a farm, from the farms nearest by these distances.
 Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
                               const Eigen::VectorXd& squared_distances) {
   std::vector<Neighbour> neighbours;
@@ -45,9 +45,9 @@ Eigen::VectorXd spread_within(std::span<const CalibrationFarm> farms,
   return spread_of(std::move(neighbours));
 }
 
-// What predictions from others missed by, of canopies of which as little was known. A user's plants
-// are of no library, and may be as unlike all of them as one crop is unlike the others: how little
-// is known of them says how much of each.
+// Standardised errors of predictions from other libraries and crops, of canopies that were as
+// little known. A user's plants are of no library, and may differ from all as much as one crop
+// differs from the others: their novelty says how much each kind of error counts.
 Eigen::VectorXd standardised_from_others(std::span<const CalibrationFarm> farms,
                                          const Eigen::VectorXd& squared_distances,
                                          const CropEvidence& crop) {

@@ -12,28 +12,28 @@
 
 namespace plotscan::heights {
 
-// Heights' ratios to the canopy's top, for the plots of a field in the middle of their features; in
-// the calibration's order.
+// Ratios of heights to the canopy's top, in the calibration's order, for a plot with the median
+// features of its field.
 struct FieldRatios {
   Eigen::VectorXd values;
   Eigen::VectorXd field_sds;   // of the field's ratios: what its kind of plants may change
   Eigen::VectorXd within_sds;  // of a plot's about the field's
 };
 
-// How heights follow from canopies, by a calibration's farms, for each crop by its own. Both
-// standard deviations are those that were found on the farms most like the field.
+// Predicts plant heights from the canopy, for each crop from the calibration's farms of that crop.
+// Both standard deviations are those found on the farms most like the field.
 class RatioModel {
  public:
   explicit RatioModel(const Calibration& calibration);
 
-  // Of a field's scaled features (Calibration::scaled), its canopy's top, and its crop. Crops that
-  // have no farm have a probability of 0.
+  // The ratios for a field's scaled features (Calibration::scaled), its canopy's top and its crop.
+  // Crops that have no farm must have a probability of 0.
   FieldRatios at(const Eigen::VectorXd& scaled, double top_m, const CropEvidence& crop) const;
-  // The same as the regression alone has it: a mixture over the crops that it may be.
+  // The regression's own prediction: a mixture over the possible crops.
   Prediction mixture(const Eigen::VectorXd& scaled, double top_m,
                      const Eigen::VectorXd& crops) const;
-  // How much less is known of a canopy with these scaled features, of its likeliest crop, than of
-  // farms that were left out: over 1, it is farther from what is known than 95 of 100 of them were.
+  // How unknown a canopy with these scaled features is, for its likeliest crop, against farms that
+  // were left out: above 1, it is farther from what is known than 95 of 100 of those were.
   double novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace plotscan::inspect {
 
-// A cloud before anything is measured in it.
+// What is known of a cloud before anything is measured in it.
 struct CloudReport {
   scan::CloudFacts facts;
   cloud::FieldDensity density;

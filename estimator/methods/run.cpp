@@ -68,7 +68,7 @@ json options_json(const RunOptions& options) {
   return document;
 }
 
-// What every method is told, beside what is its own; the seed where it draws random numbers.
+// Sets the options that all methods share; the seed only for a method that draws random numbers.
 template <class Options>
 Options completed(Options options, const RunOptions& run, const std::vector<PlotFeature>& boxes) {
   options.crop_box = run.crop_box;
@@ -122,7 +122,7 @@ void require_own_place(const fs::path& table, const fs::path& folder,
     throw InputError(table, "lies in the estimate folder, which has a heights.csv of its own");
 }
 
-// The plots as the user wants them called.
+// Names or numbers the plots as the user asked.
 void name(const RunOptions& options, const estimate::PlotMap& map,
           const estimate::NamedPlaces& places, estimate::Estimate& estimate) {
   if (options.boxes) {
@@ -212,7 +212,7 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
 
 namespace {
 
-// What helps where there are no plots, by what was seen.
+// Advice for an estimate without plots, by what was found.
 std::string next_step(const estimate::Estimate& estimate) {
   const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
   std::vector<std::string> steps;

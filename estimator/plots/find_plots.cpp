@@ -68,8 +68,8 @@ void take_given_sides(Lattice& lattice, const Hints& hints) {
   width.size_m = hints.width_m.value_or(width.size_m);
 }
 
-// The rows that the plots are sown in. Leaves say little of the sown width of a few of them: rows
-// times spacing does.
+// The rows that the plots are sown in. For plots of few rows leaves say little of the sown width:
+// the number of rows times their spacing is used instead.
 std::optional<SownRows> take_sown_rows(Lattice& lattice) {
   std::optional<SownRows> rows = sown_rows_along(lattice);
   if (rows) {
@@ -125,7 +125,7 @@ std::string text_of(const Layout& layout) {
   return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
 }
 
-// What the canopy shows more clearly than the layout that was told; "" where nothing.
+// The layout that the canopy shows more clearly than the user's; "" where there is none.
 std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
   constexpr double kClearly = 1.1;
   const Layout shown = best_layout(canopy);
@@ -133,7 +133,7 @@ std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
   return clearer ? text_of(shown) : "";
 }
 
-// What a pair of axes shows.
+// The result of a search along one pair of axes.
 struct Look {
   PlotField field;
   double evidence = 0;  // of its plots; 0 where there are none

@@ -13,8 +13,8 @@ namespace plotscan::plots {
 
 // Finds the plots of a field from its points as (x, y, height above the ground), metres; boxes are
 // in the frame of x and y. noise_m is the sigma of the heights; with ground_error, ridges that the
-// ground may have cut off are no canopy. Without plots `why_none` of the field says why. The same
-// for any number of threads.
+// ground's model may have cut off do not count as canopy. Without plots, `why_none` of the result
+// says why. Same result for any number of threads.
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error = {});
 

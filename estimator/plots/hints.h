@@ -5,8 +5,8 @@
 
 namespace plotscan::plots {
 
-// What the user knows of the field; all of it is taken at its word. Rows follow each other along
-// the plots' length, columns along their width.
+// What the user knows of the field; the search takes all of it as true. Rows follow each other
+// along the plots' length, columns along their width.
 struct Hints {
   std::optional<double> heading_rad = std::nullopt;  // of the plots' length axis
   std::optional<double> width_m = std::nullopt;      // of a plot

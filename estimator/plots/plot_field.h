@@ -20,12 +20,12 @@ struct FoundPlot {
   bool cut_off = false;   // the box reaches over the edge of what was scanned
 };
 
-// What tells a field of plots from an orchard, parked cars, bushes, a room.
+// Signs that distinguish a field of plots from an orchard, parked cars, bushes or a room.
 struct FieldSigns {
   std::size_t plots = 0;
   double held_share = 0;     // of the canopy, in the plots
   double filled_share = 0;   // of the rows' places from their first plot to their last
-  double surface_share = 0;  // of what stands on the field, that is smooth as walls and roofs are
+  double surface_share = 0;  // of what stands on the field: as smooth as walls and roofs
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
   double straightness = 0;   // the same of all canopy in and around them (squareness.h)
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
@@ -58,7 +58,7 @@ struct FieldFit {
 struct PlotField {
   std::vector<FoundPlot> plots = {};
   std::string why_none = {};  // why there are no plots here; "" when there are
-  // The layout that the canopy shows more clearly than the one that was told; "" where none.
+  // The layout that the canopy shows more clearly than the user's; "" where there is none.
   std::string rival = {};
   std::optional<FieldFit> fit = std::nullopt;
   std::optional<FieldSigns> signs = std::nullopt;  // of the plots, or of what was taken for them

@@ -14,14 +14,14 @@ namespace plotscan::score {
 std::set<std::string> estimated_heights(const FieldScore& field);
 std::set<std::string> true_heights(const FieldScore& field);
 
-// The truth that a height claims to be by its name: "height_max_m" for "max", "canopy_p95_m" for
+// The truth that a height's name refers to: "height_max_m" for "max", "canopy_p95_m" for
 // "canopy_p95". Intervals are scored against this one alone.
 std::string named_truth(const std::string& height);
 
 // An error beyond this is large.
 inline constexpr double kLargeError_m = 0.05;
 
-// What an estimate says of its own errors beside what they are: counts of found plots that have the
+// How far an estimate's own intervals and flags can be trusted: counts of found plots that have the
 // height and the truth.
 struct Trust {
   std::size_t intervals = 0;        // with a 95 % interval; 0 where the height is not named so
@@ -72,8 +72,9 @@ HeightScore score_height(const std::string& height, const std::string& truth,
 // Every estimated height of the field against every true one, by name.
 std::vector<HeightScore> score_heights(const FieldScore& field);
 
-// Which of an estimate's heights stand beside a truth: the one that is named after it, else, for
-// height_hand3_m, the mean, which is its expectation; where there is no such height, all of them.
+// Which of an estimate's heights are compared with a truth: the one with its name; else, for
+// height_hand3_m, the mean, which is its expected value; where there is no such height, all of
+// them.
 std::set<std::string> heights_beside(const std::string& truth,
                                      const std::set<std::string>& heights);
 

@@ -15,14 +15,14 @@
 
 namespace plotscan::score {
 
-// One plot as it is.
+// One true plot.
 struct TruePlot {
-  PlotId id = 0;   // as the truth has it, else from 1
+  PlotId id = 0;   // as in the truth, else from 1
   int row = 0;     // from 1; 0 when unknown
   int column = 0;  // from 1; 0 when unknown
   PlotBox box;
   std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m", "canopy_p95_m"
-  bool scored = true;  // else whatever is said of the plot counts neither for nor against
+  bool scored = true;  // false: an estimate of this plot counts neither for nor against
 };
 
 // Reads the true plots of a farm folder (its truth/plots.geojson), or of any GeoJSON file whose
@@ -30,7 +30,7 @@ struct TruePlot {
 // InputError as read_plot_features does, and when there is no plot.
 std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
 
-// What an estimate says of a plot that it found.
+// A true plot's match in the estimate: its errors and its estimated heights.
 struct FoundPlot {
   PlotId estimate = 0;  // PlotEstimate::id
   double iou = 0;       // of the two boxes
@@ -47,7 +47,7 @@ struct PlotScore {
   std::optional<FoundPlot> found;  // absent: missed
 };
 
-// An estimate of one field beside its truth.
+// An estimate of one field compared with its truth.
 struct FieldScore {
   std::string method;
   std::vector<PlotScore> plots;  // every true plot that is scored
@@ -58,8 +58,8 @@ struct ScoreOptions {
   double min_iou = 0.5;  // least intersection over union for a plot to count as found
 };
 
-// An estimate that is a pair with a plot that is not scored, or lies by half its area in such
-// plots, is no extra one.
+// Compares an estimate with the truth. Estimated plots that match an unscored true plot, or have
+// half of their area in unscored plots, do not count as extra.
 FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
                        const ScoreOptions& options = {});
 

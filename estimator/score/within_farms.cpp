@@ -12,7 +12,7 @@
 namespace plotscan::score {
 namespace {
 
-// Of each value, from 1; equal values share the mean of their ranks.
+// Rank of each value, from 1; equal values share the mean of their ranks.
 std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

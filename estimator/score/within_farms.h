@@ -8,9 +8,9 @@
 
 namespace plotscan::score {
 
-// The errors of one height against one truth, taken apart into what all plots of a farm share and
-// what is left within it. An error is estimate minus truth. NaN where there is nothing to compute
-// it from.
+// The errors of one height against one truth, split into the part that all plots of a farm share
+// and the rest within the farm. An error is estimate minus truth. NaN where there is nothing to
+// compute it from.
 struct WithinFarms {
   std::size_t farms = 0;    // with a plot that has both heights
   double farm_bias_m = 0;   // root mean square, over farms, of each one's mean error

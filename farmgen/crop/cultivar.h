@@ -15,7 +15,7 @@ namespace plotscan::crop {
 // A botanical parameter as its crop's file states it (docs/plants.md).
 struct Parameter {
   std::string name;
-  double value = 0;       // not meant where every stage has its own
+  double value = 0;       // unused where every stage has its own
   bool by_stage = false;  // every stage gives its value
   Range range{};
   std::string unit;  // "m", "deg", "share", ...; "count": whole numbers
@@ -27,7 +27,7 @@ struct Parameter {
   std::string allowed() const;
 };
 
-// A growth stage: what it changes, and what was published of a default plot at it.
+// A growth stage: the parameters that it changes, and published facts of a default plot at it.
 struct Stage {
   std::string name;
   std::string meaning;
@@ -47,7 +47,8 @@ struct Cultivar {
   double row_spacing_m = 0;
   std::string plot_source;
   std::map<std::string, Eigen::Vector3f> colours;  // by material
-  // At 903 nm, by material; of the others by their names (mesh/reflectance.h).
+  // Diffuse reflectance at 903 nm, by material; other materials have that of their name
+  // (mesh/reflectance.h).
   std::map<std::string, float> reflectance = {};
   std::vector<Parameter> parameters;
   std::vector<Stage> stages;  // in the order in which the crop passes through them
@@ -56,8 +57,8 @@ struct Cultivar {
   const Stage& stage(const std::string& name) const;
 };
 
-// Reads a crop's whole file, CROP.yaml, from its text; `file` names it in errors. Throws
-// InputError, where it names another crop too.
+// Reads a crop's whole file, CROP.yaml, from its text; `file` is its name in errors. Throws
+// InputError on an unsound file, and on one that names another crop.
 Cultivar parse_cultivar(const std::string& text, const std::filesystem::path& file);
 // A user's file of the same format, in which all but `crop` may be left out, over the crop's own.
 // Parameters and stages must be the crop's, ranges within the crop's. Throws InputError.

@@ -29,7 +29,7 @@ std::vector<std::string> stages(const std::string& crop);
 // named. Throws InputError on an unknown crop or a file that is not sound.
 Cultivar cultivar(const std::string& crop, const std::string& file = "");
 
-// What was published of a crop's default plot at a stage.
+// Published facts of a crop's default plot at a stage.
 struct StageFacts {
   Stage stage;
   double plants_per_m2 = 0;

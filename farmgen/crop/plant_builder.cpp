@@ -68,7 +68,7 @@ double flat_area(const std::vector<Vector3d>& midrib, const std::vector<double>&
   return area;
 }
 
-// The blade in few points, as wide as keeps its area.
+// The blade with few points, widened so that it keeps its area.
 Blade thinned(const Blade& blade) {
   const auto kept =
       spread_indices(blade.midrib.size(), static_cast<std::size_t>(blade.light_points));

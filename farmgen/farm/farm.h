@@ -24,7 +24,7 @@ struct PlantModel {
   mesh::Mesh mesh;
   double height_m = 0;                   // highest vertex over the origin, measured from the mesh
   std::optional<mesh::Mesh> light = {};  // the same plant in few triangles, where there is one
-  // What its import left out, one line each; not kept in the farm's folder.
+  // What the import of its mesh left out, one line each; not stored in the farm's folder.
   std::vector<std::string> notes = {};
 };
 
@@ -67,7 +67,7 @@ struct CanopyHeights {
   double p99 = 0;
 };
 
-// A plot and what a breeder's field book says of it.
+// A plot, with the facts that a breeder's field book has.
 struct Plot {
   std::uint32_t id = 0;                               // the plot number; no two alike
   int row = 0;                                        // from 1
@@ -96,7 +96,7 @@ struct Farm {
   // The origin in the coordinates of the XYZ file that the terrain was made from, where they were
   // shifted.
   std::optional<Eigen::Vector3d> terrain_origin_m = {};
-  // Of the ground, diffuse, at 903 nm, in [0, 1]; absent: mesh::kSoilReflectance.
+  // Diffuse reflectance of the ground at 903 nm, in [0, 1]; absent: mesh::kSoilReflectance.
   std::optional<double> soil_reflectance = {};
 };
 

@@ -13,7 +13,7 @@ namespace plotscan::farm {
 double placed_height(const PlantModel& model, const Plant& plant, double ground_z);
 
 // The named truths of a plot with these plants' heights; all zero without plants. The three plants
-// of hand3 are drawn, without putting back, by (seed, plot id); all of them where there are fewer.
+// of hand3 are drawn without replacement by (seed, plot id); all plants where there are fewer.
 PlotHeights plot_heights(const std::vector<double>& plant_heights, std::uint64_t seed,
                          std::uint32_t plot_id);
 

@@ -17,7 +17,7 @@ inline SurfaceClass class_of(PlantKind kind) {
   return kind == PlantKind::weed ? SurfaceClass::weed : SurfaceClass::crop;
 }
 
-// Of each model: that of its first plant; crop where it has none.
+// The class of each model: that of its first plant; crop where it has no plant.
 std::vector<SurfaceClass> classes_of_models(const Farm& farm);
 
 }  // namespace plotscan::farm

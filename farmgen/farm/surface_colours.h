@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-// What surfaces look like whose meshes do not say: diffuse red, green, blue.
+// Default colours of surfaces whose meshes state none: diffuse red, green, blue.
 namespace plotscan::farm {
 
 inline const Eigen::Vector3f kLeafGreen(0.24F, 0.46F, 0.16F);

@@ -88,7 +88,7 @@ void require_different_ids(const std::filesystem::path& path,
   }
 }
 
-// What truth/plots.geojson says of a plot beside its box (docs/farm-format.md).
+// The attributes of a plot in truth/plots.geojson, besides its box (docs/farm-format.md).
 nlohmann::json plot_attributes(const farm::Plot& plot) {
   nlohmann::json attributes = {
       {"plot_number", plot.id},     {"row_number", plot.row},

@@ -23,7 +23,7 @@ namespace {
 constexpr double kTruthShare = 0.35;
 constexpr double kWorldShare = 0.9;
 
-// With every surface that has no material in one of the given name and colour.
+// The mesh; surfaces without a material get one of the given name and colour.
 mesh::Mesh coloured(mesh::Mesh mesh, const std::string& name, const Eigen::Vector3f& colour) {
   if (mesh.materials.empty()) mesh.materials.emplace_back();
   for (mesh::Material& material : mesh.materials) {

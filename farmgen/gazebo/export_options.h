@@ -26,7 +26,7 @@ enum class Collision {
   mesh,  // the surfaces themselves
 };
 
-// What the drone's lidar of Gazebo Classic sees. Gazebo Sim has only the first.
+// What the drone's lidar sees in Gazebo Classic. Gazebo Sim has only `gpu`.
 enum class Lidar {
   gpu,  // what is drawn: needs a display, without a graphics card slow
   cpu,  // collisions: needs no display, meets the meshes of Collision::mesh to a tenth of a

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// In place of read_world.cpp where there was no libsdformat to build with.
+// SPDX-License-Identifier: Apache-2.0 Replaces read_world.cpp in a build without libsdformat.
 #include "core/error.h"
 #include "gazebo/read_world.h"
 

@@ -12,17 +12,18 @@
 
 namespace plotscan::mesh {
 
-// Where a surface is there at all: an image of which every texel lets rays through or does not.
+// Where a surface is opaque: an image each texel of which either stops rays or lets them through.
 class AlphaMask {
  public:
-  // By the image's alpha; by its brightness where it has none. Texels of less than `cutoff`, in
-  // [0, 1], let rays through. Throws InputError, naming the image as `file`, when it is broken or
-  // has more than kMostTexels.
+  // Made from the image's alpha, or from its brightness where it has no alpha. Texels below
+  // `cutoff`, in [0, 1], let rays through. Throws InputError, naming the image as `file`, when it
+  // is broken or has more than kMostTexels.
   AlphaMask(std::shared_ptr<const Image> image, float cutoff, const std::filesystem::path& file);
 
-  // At (u, v), v upward from the image's lower edge: its nearest texel; the image is repeated.
+  // Whether the texel nearest to (u, v) is opaque, v upward from the image's lower edge; the image
+  // is repeated.
   bool is_opaque(const Eigen::Vector2f& uv) const;
-  // Of all texels.
+  // Share of all texels that are opaque.
   double opaque_share() const;
 
   const std::shared_ptr<const Image>& image() const { return image_; }
@@ -40,7 +41,7 @@ class AlphaMask {
   std::vector<bool> opaque_;  // row by row from the top
 };
 
-// Whether the image's header says that it has an alpha: a PNG's, which alone may.
+// Whether the image's header says that it has alpha; only a PNG may have it.
 bool may_have_alpha(const Image& image);
 
 inline constexpr float kAlphaCutoff = 0.5F;  // where a file states none; as glTF has it

@@ -29,7 +29,7 @@ struct Material {
   std::optional<float> reflectance = {};
   std::shared_ptr<const AlphaMask> mask = {};  // where the surface is there; null: everywhere
 };
-// The same name, colour, images and reflectance.
+// True for the same name, colour, images and reflectance.
 bool operator==(const Material& a, const Material& b);
 
 // Triangles over shared vertices, metres, z up, counter-clockwise seen from outside.
@@ -48,11 +48,11 @@ struct Mesh {
   }
 };
 
-// Triangles that show the same surface with about `triangles` of them or fewer. Each connected part
-// of each material (a leaf, a stem) keeps its share of the triangles, its place, its texture and,
-// by being widened a little, its area; the mesh keeps its extent and height. Where the triangles
-// do not suffice for all parts, the smaller ones are left out, but never all. The mesh itself where
-// it has no more.
+// The same surface with at most about `triangles` triangles. Each connected part of each material
+// (a leaf, a stem) keeps its share of the triangles, its place, its texture and, by being widened a
+// little, its area; the mesh keeps its extent and height. Where the triangles do not suffice for
+// all parts, the smaller ones are left out, but never all. Returns the mesh itself where it has no
+// more triangles than asked for.
 Mesh simplified(const Mesh& mesh, std::size_t triangles);
 
 }  // namespace plotscan::mesh

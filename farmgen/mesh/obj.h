@@ -17,9 +17,9 @@ namespace plotscan::mesh {
 // their own names. Throws WriteError when a file cannot be written.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh);
 
-// What a material of an MTL file says beside its look, for the file's writer: `map_d` with the
-// mask's image in the folder `images` ("" or "folder/"), and the comments "# reflectance_903nm" and
-// "# alpha_cutoff" with a number each, where it states them. import_mesh reads them back.
+// Writes what a material of an MTL file states besides its look: `map_d` with the mask's image in
+// the folder `images` ("" or "folder/"), and the comments "# reflectance_903nm" and "#
+// alpha_cutoff" with a number each, where it states them. import_mesh reads them back.
 void write_optics(TextFile& mtl, const Material& material, const std::string& images);
 
 }  // namespace plotscan::mesh

@@ -18,8 +18,8 @@
 
 namespace plotscan::planting {
 
-// A farm as its author describes it: what docs/farm-format.md says of farm.yaml, with the ranges
-// checked, angles in radians and paths resolved against the file's folder.
+// A farm's description: the content of farm.yaml (docs/farm-format.md), with ranges checked, angles
+// in radians and paths resolved against the file's folder.
 
 // Plants placed one by one by a table.
 struct LayoutDescription {

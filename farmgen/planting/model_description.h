@@ -12,7 +12,7 @@
 
 namespace plotscan::planting {
 
-// A plant that is grown in place of read (crop::grow).
+// A plant that is grown (crop::grow) instead of read from a file.
 struct GrownPlant {
   std::string crop;
   std::string stage;  // empty: the crop's default stage

@@ -14,13 +14,13 @@
 
 namespace plotscan::planting {
 
-// How large a plant may be, of its model.
+// Range of a plant's size relative to its model.
 inline constexpr Range kPlantScale{0.01, 100};
 
 enum class PlantPattern { random, drilled };
 
-// Heights of a cultivar's plants: normal, without what is further than three standard deviations
-// from the mean.
+// Heights of a cultivar's plants: a normal distribution, cut off three standard deviations from the
+// mean.
 struct HeightDescription {
   double mean_m = 0;
   double sd_m = 0;  // of the whole normal distribution

@@ -14,19 +14,18 @@
 
 namespace plotscan::planting {
 
-// The grid's places in the order of their numbers, those that are missing among them.
+// The grid's places in the order of their numbers, missing plots included.
 TrialLayout layout_of(const PlotGridDescription& grid);
 
-// All plots of a grid in the order of their numbers, without plants, those that are missing among
-// them. Each box's length axis is the axis from row to row.
+// All plots of a grid in the order of their numbers, without plants; missing plots are included.
+// Each box's length axis is the axis from row to row.
 std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid);
 
-// The grid with the heading that the seed draws for it, uniform in [0, 360) degrees, where it is to
-// be random; else as it is.
+// The grid; where its heading is to be random, with a heading that the seed draws, uniform in [0,
+// 360) degrees.
 PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed);
 
-// The numbers of two plots of which one lies on the other, the lower first; nothing where none
-// does.
+// The numbers of two plots that overlap, the lower number first; nothing where no plots overlap.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
     const std::vector<farm::Plot>& plots);
 

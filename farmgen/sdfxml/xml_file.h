@@ -37,7 +37,7 @@ class XmlFile : public XmlWriter {
   // Throws WriteError when the file cannot be written.
   explicit XmlFile(const std::filesystem::path& path);
 
-  // Whole elements, as XmlElements prints them for so many open ones as there are.
+  // Appends whole elements that XmlElements printed for the number of elements now open.
   void append(const std::string& elements);
 
   // Throws WriteError when anything could not be written.

@@ -13,8 +13,8 @@ class Border {
  public:
   explicit Border(const Terrain& terrain);
 
-  // False where none of it meets the rectangle: the terrain then lies under all of the rectangle or
-  // under none of it. May be true of a rectangle near an edge that is askew.
+  // False where no border edge meets the rectangle: the terrain then lies under all of the
+  // rectangle or under none of it. May also be true for a rectangle near an oblique edge.
   bool may_meet(const Eigen::AlignedBox2d& rectangle) const;
 
  private:

@@ -28,12 +28,13 @@ class Terrain {
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
 
-  // Height of the surface at (x, y), of the highest where triangles lie over each other: exact at
-  // vertices, to rounding along edges; absent outside the triangles. Constant expected time.
+  // Height of the surface at (x, y), metres; the highest where triangles overlap. Exact at
+  // vertices, exact except for rounding along edges; absent outside the triangles. Constant
+  // expected time.
   std::optional<double> height(double x, double y) const;
-  // The same, faster where places follow each other closely: looks first in `triangle`, any one to
-  // begin with, and sets it to that in which the place lies. Where triangles lie over each other,
-  // the height of any of them.
+  // The same, faster for a sequence of near places: looks first in `triangle` (initially any index)
+  // and sets it to the triangle that holds the place. Where triangles overlap, the height of any of
+  // them.
   std::optional<double> height_near(double x, double y, std::uint32_t& triangle) const;
 
  private:

@@ -33,7 +33,7 @@ class TriangleGrid {
     std::array<std::uint32_t, 2> size;  // cells along x and y
     std::uint32_t first_cell;
   };
-  // Either a list, listed_[begin .. end), or with end == kDivided the level `begin`.
+  // Either the list listed_[begin .. end), or, if end == kDivided, divided by level `begin`.
   struct Cell {
     std::uint32_t begin;
     std::uint32_t end;

@@ -9,7 +9,7 @@ namespace plotscan::boundary {
 
 FieldEstimate outer(const estimate::Estimate& estimate);
 
-// What scores need of an estimate: its method, and its plots' boxes, heights and flags.
+// The parts of an estimate that scoring uses: its method, and its plots' boxes, heights and flags.
 estimate::Estimate inner(const FieldEstimate& estimate);
 
 }  // namespace plotscan::boundary

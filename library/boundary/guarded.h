@@ -10,9 +10,9 @@
 
 namespace plotscan::boundary {
 
-// What `work` returns; the errors that a program prints and ends with exit code 2 or 3 leave the
-// library as its own, with the same text. A disk that is full, read only or broken stays a
-// std::runtime_error, as every other failure does.
+// Returns what `work` returns. Errors for which a program ends with exit code 2 or 3 become the
+// library's own errors, with the same text. Other failures, such as a disk that is full, read-only
+// or broken, stay std::runtime_error.
 template <class Work>
 auto guarded(Work&& work) {
   try {

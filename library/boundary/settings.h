@@ -64,7 +64,8 @@ std::vector<Setting> outer(const std::vector<TableEntry>& table, const Options& 
 }
 
 // Sets the given values, by their keys, in the options of a "flight" or a method; ranges are
-// checked when the work begins. Throws InputError on a key that the table has not, and as `take`.
+// checked when the work begins. Throws InputError on a key that is not in the table, and as the
+// functions `take` above.
 template <class TableEntry, class Options>
 void take(const std::string& owner, const std::map<std::string, SettingValue>& given,
           const std::vector<TableEntry>& table, Options& options) {

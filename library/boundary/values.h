@@ -7,13 +7,13 @@
 
 namespace plotscan::boundary {
 
-// The one for the other; the heading is brought into [0, 180) degrees on its way out.
+// Converts between the two boxes; `outer` brings the heading into [0, 180) degrees.
 PlotBox inner(const Box& box);
 Box outer(const PlotBox& box);
 PlotBoxError inner(const BoxError& error);
 BoxError outer(const PlotBoxError& error);
 
-// A number of threads as the rooms take it: of 0, the processors.
+// The number of threads to use: for 0, that of the processors.
 int threads_of(int threads);
 
 }  // namespace plotscan::boundary

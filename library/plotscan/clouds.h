@@ -55,8 +55,8 @@ struct WriteCloudOptions {
 };
 
 // Writes points as PCD, PLY or LAS, by the extension of the file, which appears whole or not at
-// all. Throws BadInput on an extension or encoding that there is not, on one that needs a flight
-// (pcap, bag, MCAP: convert_cloud writes these of scan folders), and on a file that exists.
+// all. Throws BadInput on an unknown extension or encoding, on one that needs a flight (pcap, bag,
+// MCAP: convert_cloud writes these from scan folders), and on a file that exists.
 PLOTSCAN_API void write_cloud(const std::filesystem::path& file, std::span<const Point> points,
                               const WriteCloudOptions& options = {}, const Progress& progress = {});
 
@@ -67,9 +67,10 @@ struct ConvertCloudOptions {
   bool replace = false;       // a file that exists
 };
 
-// What `lidarsim convert` does: a scan folder, cloud, recording or trajectory to the format of the
-// extension of `out`; points stream. Returns how many points, or poses of a trajectory, were
-// written. Throws BadInput on broken input, and where `out` needs what `in` does not say.
+// Does what `lidarsim convert` does: converts a scan folder, cloud, recording or trajectory to the
+// format that the extension of `out` names, without holding all points in memory. Returns how many
+// points, or poses of a trajectory, were written. Throws BadInput on broken input, and where `out`
+// needs what `in` does not say.
 PLOTSCAN_API std::uint64_t convert_cloud(const std::filesystem::path& in,
                                          const std::filesystem::path& out,
                                          const ConvertCloudOptions& options = {},

@@ -7,9 +7,9 @@
 
 namespace plotscan {
 
-// What functions throw: BadInput and NothingMeasured as below. Whatever else goes wrong leaves as
-// std::runtime_error, whose what() names the file where there is one (a disk that is full or cannot
-// be written), or as std::bad_alloc.
+// The functions throw BadInput and NothingMeasured, see below. Any other failure is a
+// std::runtime_error, whose what() names the file if one is concerned (a disk that is full or
+// cannot be written), or a std::bad_alloc.
 
 // Bad input: a file, a line of it, a value, an option. what() says which one, what is wrong and
 // what would be right, in the words in which the programs print it.
@@ -18,7 +18,7 @@ class PLOTSCAN_API BadInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Input that is sound and shows nothing of what is to be measured. what() says why, and what to do.
+// The input is sound but shows nothing that can be measured. what() says why, and what to do.
 class PLOTSCAN_API NothingMeasured : public BadInput {
  public:
   using BadInput::BadInput;

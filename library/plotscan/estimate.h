@@ -22,7 +22,7 @@ namespace plotscan {
 // (docs/methods.md). Throws BadInput on another name.
 PLOTSCAN_API std::vector<Setting> estimate_settings(const std::string& method = "lattice");
 
-// What is known of a field.
+// Options for estimating a field.
 struct EstimateOptions {
   // Use only the points in here: x0, y0, x1, y1, in the cloud's units; else the densely scanned
   // field is found.
@@ -44,7 +44,7 @@ struct GroundGrid {
   std::vector<float> sd_m = {};  // standard error of z_m; NaN where that is
 };
 
-// What a method says of a whole field, in the cloud's frame, metres.
+// A method's result for a whole field, in the cloud's frame, metres.
 struct FieldEstimate {
   std::string method;
   std::vector<Plot> plots = {};
@@ -57,15 +57,16 @@ struct FieldEstimate {
 
 // Finds the plots of a cloud held in memory and measures their heights, by the method `lattice`:
 // what `estimator run` does with the same points in a file. A field without plots has an estimate
-// without plots, which says why. Points stay where they are: what is kept of them takes 8 to 16
-// bytes each (docs/library.md). Throws BadInput on options out of their range and when no point is
-// finite or lies in the area, NothingMeasured when the points show no ground.
+// without plots, which says why. The points stay in the caller's memory; the copy that the method
+// keeps takes 8 to 16 bytes per point (docs/library.md). Throws BadInput on options out of their
+// range and when no point is finite or lies in the area, NothingMeasured when the points show no
+// ground.
 PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
                                           const EstimateOptions& options = {},
                                           const Progress& progress = {});
 
-// How clouds in files become an estimate folder; beside the options above, those that
-// `estimator run --help` explains.
+// Options for estimating clouds in files into an estimate folder; `estimator run --help` explains
+// them.
 struct EstimateFilesOptions {
   EstimateOptions field = {};      // its boxes are not used: `boxes` names their file
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`

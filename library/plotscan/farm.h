@@ -46,8 +46,8 @@ PLOTSCAN_API FarmSummary generate_farm(const std::filesystem::path& description,
                                        const FarmOptions& options = {},
                                        const Progress& progress = {});
 
-// The plots of a farm folder as they are, or of a GeoJSON file whose plots carry numbers
-// height_<name>_m. Throws BadInput where there is no plot.
+// The true plots of a farm folder, or of a GeoJSON file whose plots have numbers height_<name>_m.
+// Throws BadInput where there is no plot.
 PLOTSCAN_API std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
 
 }  // namespace plotscan

@@ -49,7 +49,7 @@ struct Plot {
   std::vector<std::string> flags = {};     // why not to trust the heights; none: they may be
 };
 
-// One plot as it is.
+// One true plot.
 struct TruePlot {
   std::string id;
   int row = 0;     // from 1; 0 where unknown

@@ -8,14 +8,15 @@
 
 namespace plotscan {
 
-// Positions that lie somewhere in memory and stay there: x, y and z of a point follow each other,
-// metres, z up; `stride_bytes` are from one point's x to the next one's. Points that are not finite
-// are passed over by who reads them.
+// A view of positions in the caller's memory, which must stay valid: x, y and z of a point follow
+// each other, metres, z up; `stride_bytes` is the distance from one point's x to the next one's.
+// Readers skip points that are not finite.
 class PointsView {
  public:
   PointsView(const double* x, std::size_t points, std::size_t stride_bytes = 3 * sizeof(double))
       : doubles_(reinterpret_cast<const char*>(x)), points_(points), stride_bytes_(stride_bytes) {}
-  // Relative to an origin, as floats do not hold coordinates of hundreds of kilometres.
+  // Floats are relative to origin_m, as they are too coarse for coordinates of hundreds of
+  // kilometres.
   PointsView(const float* x, std::size_t points, std::size_t stride_bytes = 3 * sizeof(float),
              const std::array<double, 3>& origin_m = {})
       : floats_(reinterpret_cast<const char*>(x)),

@@ -8,7 +8,8 @@
 
 namespace plotscan {
 
-// A number, whole ones too; yes or no; a text; or numbers: three of a mount, four of a rectangle.
+// A number (also for whole ones), yes or no, a text, or a list: three numbers of a mount, four of a
+// rectangle.
 using SettingValue = std::variant<double, bool, std::string, std::vector<double>>;
 
 // One setting of a flight or of a method, as the programs' --help and suites know it.

@@ -28,7 +28,8 @@ constexpr double kLabelShare = 0.85;  // of the other text
 constexpr double kLineShare = 0.06;   // of the boxes' shorter side
 constexpr Rgb kPlotColour = kBlue;
 constexpr Rgb kFlaggedColour = kVermilion;
-// The colours end here: the share of pixels below, so that stray points do not bleach all others.
+// The colour scale ends at this quantile of the pixels, so that stray points do not bleach all
+// others.
 constexpr double kColouredShare = 0.995;
 constexpr double kLeastTop_m = 0.1;
 
@@ -85,7 +86,7 @@ FieldPage lay_out_page(const Eigen::AlignedBox2d& shown, const FieldPictureOptio
   return layout;
 }
 
-// Of the boxes' lines: thinner where boxes are small.
+// Width of the boxes' lines: thinner where boxes are small.
 double line_px(const Axes& axes, const estimate::Estimate& estimate, double text_px) {
   double shortest_m = std::numeric_limits<double>::infinity();
   for (const estimate::PlotEstimate& plot : estimate.plots)

@@ -16,7 +16,7 @@ struct FieldPictureOptions {
 // Draws an estimate's field as seen from straight above, north up, and writes a PNG: the cloud
 // (PCD, PLY, LAS) coloured by height above the estimate's ground, each plot's box with its number,
 // boxes of flagged plots in another colour. Numbers that would not fit their boxes are thinned out.
-// Of an estimate without plots the ground's whole extent is shown. Needs a display as draw_picture
+// For an estimate without plots the ground's whole extent is shown. Needs a display as draw_picture
 // does. Throws InputError on options out of range, an estimate without ground, a cloud that is
 // broken or has no point there, or a missing display; WriteError when the file cannot be written.
 void draw_field(const std::filesystem::path& cloud, const estimate::Estimate& estimate,

@@ -8,7 +8,7 @@
 
 namespace plotscan::farmbench {
 
-// What a program of somebody else's may use.
+// Limits on what another party's program may use.
 struct ProcessLimits {
   double seconds = 3600;                                // of the clock
   std::uint64_t memory_bytes = std::uint64_t{8} << 30;  // of addresses, each of its processes
@@ -18,14 +18,14 @@ struct ProcessLimits {
 struct FinishedProcess {
   std::string failure;  // "" where it ended with exit code 0, else one sentence
   double seconds = 0;   // of the clock
-  // Most memory resident, of the largest of its processes, as far as it was seen: every 10 ms.
+  // Peak resident memory of its largest process, as sampled every 10 ms.
   std::uint64_t peak_bytes = 0;
 };
 
-// Runs a program (found along PATH where its name has no slash) with these arguments, no shell
-// between, in `folder`, until it has ended. Its stdin is empty, its stdout and stderr go to the
-// file `log`. What is left of it and its children when it ends or its time is over is killed.
-// Throws std::system_error where no process can be made.
+// Runs a program (found along PATH if its name has no slash) with these arguments, without a shell,
+// in `folder`, and waits for its end. Its stdin is empty, its stdout and stderr go to the file
+// `log`. When it ends or its time is over, it and its remaining children are killed. Throws
+// std::system_error where no process can be made.
 FinishedProcess run_process(const std::vector<std::string>& arguments,
                             const std::filesystem::path& folder, const std::filesystem::path& log,
                             const ProcessLimits& limits);

@@ -8,8 +8,8 @@
 namespace plotscan::farmbench {
 
 // Splits a command at blanks; what stands in single or double quotes stays together and is taken as
-// it is. No shell is asked: nothing else has a meaning. Throws InputError on an open quote and on a
-// command without a word.
+// it is. No shell is involved: no other character has a special meaning. Throws InputError on an
+// open quote and on a command without a word.
 std::vector<std::string> split_command(const std::string& command);
 
 // The words with every {name} replaced by its value, whatever that holds: a value with blanks or

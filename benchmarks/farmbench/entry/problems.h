@@ -8,7 +8,7 @@
 
 namespace plotscan::farmbench {
 
-// All that is wrong with a submission, to be told at once.
+// Collects all errors of a submission, to report them together.
 class Problems {
  public:
   // `where`: "3fa2.csv:4" or a file's name.

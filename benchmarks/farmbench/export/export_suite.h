@@ -24,10 +24,10 @@ struct ExportSummary {
   std::uint64_t points = 0;  // of all clouds
 };
 
-// Makes and flies every farm of the suite and writes of each a folder named by its code
-// (suite_choice.h) with what entrants get, then task.json, TASK.md and manifest.json
+// Makes and flies every farm of the suite and writes for each a folder, named by its code
+// (suite_choice.h), with the entrants' files, then task.json, TASK.md and manifest.json
 // (docs/submissions.md). Fields are made in the order of their codes and all files have the same
-// time, so that neither tells which case a field is of. The same suite, options and secret give the
+// time, so that neither reveals the case of a field. The same suite, options and secret give the
 // same bytes for any number of threads. Throws InputError on a bad suite, secret or format, on a
 // farm that cannot be made, and on an output folder as OutputFolder does; nothing is left then.
 ExportSummary export_suite(const ExportOptions& options, const ProgressReport& progress = {});

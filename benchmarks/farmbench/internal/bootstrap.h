@@ -24,15 +24,15 @@ struct Interval {
 inline constexpr std::size_t kResamples = 2000;
 
 // The 95 % percentile bootstrap interval of the root mean squared error over all plots (Efron and
-// Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13). Farms are drawn, with putting
-// back, as wholes: the plots of a farm share its terrain and its flight, so that they are no
-// independent draws. NaN for fewer than two farms with errors. The same farms are drawn for every
-// method, so that methods are compared on the same resamples.
+// Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13). Whole farms are drawn, with
+// replacement: the plots of a farm share its terrain and its flight, so they are not independent.
+// NaN for fewer than two farms with errors. The same farms are drawn for every method, so that
+// methods are compared on the same resamples.
 Interval bootstrap_rmse(const std::vector<SquaredErrors>& farms, std::uint64_t seed);
 
-// The same of how much the root mean squared error changes from `before` to `after`, which hold the
-// same farms in the same order: farms are drawn in pairs. NaN where either has fewer than two farms
-// with errors.
+// The same interval for the change of the root mean squared error from `before` to `after`, which
+// hold the same farms in the same order: farms are drawn in pairs. NaN where either has fewer than
+// two farms with errors.
 Interval bootstrap_rmse_change(const std::vector<SquaredErrors>& before,
                                const std::vector<SquaredErrors>& after, std::uint64_t seed);
 

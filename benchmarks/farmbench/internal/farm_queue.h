@@ -9,8 +9,8 @@
 namespace plotscan::farmbench {
 
 // Calls work(i, its progress) for i in [0, count), up to `jobs` at a time, each on its own thread,
-// in order of their starts. The progress of all is their mean. The first exception keeps further
-// work from starting and is thrown when the work under way has ended.
+// started in the order of i. `progress` gets the mean of all. After the first exception no further
+// work starts; it is thrown when the running work has ended.
 void run_queue(std::size_t count, int jobs, const ProgressReport& progress,
                const std::function<void(std::size_t, const ProgressReport&)>& work);
 

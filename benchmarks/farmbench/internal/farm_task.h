@@ -41,13 +41,13 @@ FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t 
 // already unless options.force is set.
 std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options);
 
-// The farm's result where there is one made from the same; a broken file is as good as none.
+// The farm's earlier result, if it was made from the same inputs; a broken file counts as none.
 std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task);
 
 // Reads the times of output/times into the result, where there are any.
 void read_times(const std::filesystem::path& output, FarmResult& result);
 
-// Throws InputError where what stands in the place of a farm's kept clouds is no earlier run's.
+// Throws InputError if the place for a farm's kept clouds holds something not from an earlier run.
 void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks);
 
 // Where a farm is run.
@@ -64,12 +64,11 @@ void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, con
 // The folders that run_task writes into.
 void make_result_folders(const std::filesystem::path& output);
 
-// The folder's manifest.json. From its start a run's folder says whose it is, so that no other
-// folder is ever taken for it.
+// The folder's manifest.json. It is there from the start of a run, so that no other folder can be
+// taken for a results folder.
 void write_run_manifest(const RunOptions& options, std::size_t farms, bool finished);
 
-// Writes what is made of the farms that have results: output/results.json, the reports and
-// manifest.json.
+// Writes output/results.json, the reports and manifest.json from the farms that have results.
 RunSummary write_results(const RunOptions& options, const Suite& suite,
                          std::vector<FarmTask> tasks);
 

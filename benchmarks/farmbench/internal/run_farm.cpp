@@ -117,8 +117,8 @@ FieldScan scan_field(const FarmPlace& place, const farm::Farm& farm, const cloud
   return {std::move(scanned), std::move(map)};
 }
 
-// A flight of a sweep that cannot be flown, or saw nothing, is an answer too: no method finds a
-// plot. What was wrong is said without the folder of work, which no two runs share.
+// The result of a sweep's flight that cannot be flown or saw nothing: no method finds a plot. The
+// message omits the work folder, which differs from run to run.
 FarmResult not_flown(const FarmRun& run, const std::vector<score::TruePlot>& plots,
                      std::string why) {
   const std::string work = run.folder.string() + "/";

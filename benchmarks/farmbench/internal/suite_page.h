@@ -11,8 +11,8 @@
 
 namespace plotscan::farmbench {
 
-// What the page shows of a suite (docs/report-format.md): its table, and every plot's truths beside
-// what each method says of it.
+// The content of a suite's page (docs/report-format.md): its table, and every plot's true heights
+// beside each method's estimates.
 nlohmann::json suite_document(const SuiteResult& result, const std::vector<TableRow>& table);
 
 // Writes folder/report.html: the suite, and of each case the farm whose view (farm_view.h) lies in

@@ -14,7 +14,7 @@
 // Surveys of a part of a field (docs/benchmark.md).
 namespace plotscan::farmbench {
 
-// Leaves those plots scored that lie wholly in what was surveyed. Throws InputError when none does.
+// Only plots that lie wholly in the survey stay scored. Throws InputError when none does.
 void leave_to_survey(std::vector<score::TruePlot>& plots, const cloud::Area& survey);
 
 // Flies strips over the rectangle in place of the farm's plots, whose plants stand still. Throws

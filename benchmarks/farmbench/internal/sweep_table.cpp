@@ -45,7 +45,7 @@ Cells axis_keys(const SuiteResult& result) {
   return keys;
 }
 
-// To so many decimals; what could not be computed is an empty field.
+// A value with this many decimals; an empty field where it could not be computed.
 std::string rounded(double value, int decimals) {
   const double power = std::pow(10.0, decimals);
   return std::isnan(value) ? "" : format_number(std::round(value * power) / power);

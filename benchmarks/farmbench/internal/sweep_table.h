@@ -17,7 +17,7 @@ struct FlightCost {
   double points = 0;  // of the scan
 };
 
-// Of each case of the result, in their order.
+// The cost of each case of the result, in their order.
 std::vector<FlightCost> flight_costs(const SuiteResult& result);
 
 // The functions below take the result of a sweep and its table.

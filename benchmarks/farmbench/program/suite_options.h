@@ -6,7 +6,7 @@
 
 namespace plotscan {
 
-// Adds what of a suite or a sweep is run, with which methods.
+// Adds the options that choose the farms of a suite or sweep, and the methods to run.
 inline void add_choice_options(CLI::App& command, farmbench::RunOptions& options) {
   command.add_option(
       "--seeds", options.seeds,

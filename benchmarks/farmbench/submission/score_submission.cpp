@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-// What is true of a field.
+// The truth of a field.
 struct FieldTruth {
   std::vector<score::TruePlot> plots;
   std::string farm_sha256;

@@ -29,10 +29,10 @@ struct ScoredSubmission {
   std::vector<std::string> missing;  // fields without a file: nothing of them was found
 };
 
-// Makes the suite's farms again, without flying them, and scores what was handed in as run_farm
-// scores a method; adds it to the results folder's results.json, tables and report. Throws
-// InputError, before anything is written, with all that is wrong with the submission, and where it
-// was made for other farms or the folder holds results of others.
+// Makes the suite's farms again, without flying them, scores the submission as run_farm scores a
+// method, and adds it to the results folder's results.json, tables and report. Throws InputError,
+// before anything is written, with all errors of the submission, and if it was made for other farms
+// or the folder holds results of other farms.
 ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
                                   const ProgressReport& progress = {});
 

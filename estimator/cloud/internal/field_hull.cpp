@@ -31,16 +31,16 @@ std::vector<TileCount> coarsened(std::span<const TileCount> counts) {
   return result;
 }
 
-// What the square of the median point holds: unlike the median square's, it is not drawn down by
-// wide and thinly scanned surroundings.
+// The count of the square that holds the median point. Unlike the median of all squares, it does
+// not fall when the surroundings are wide and thinly scanned.
 std::uint64_t typical_count(std::span<const TileCount> counts) {
   std::vector<std::uint64_t> points;
   for (const TileCount& count : counts) points.push_back(count.points);
   return self_weighted_median(std::move(points));
 }
 
-// The dense squares of which enough neighbours are dense: a square of thin surroundings is so by
-// chance now and then. All of them where the cloud is too small for that.
+// The dense squares with enough dense neighbours: a single square of thin surroundings may be dense
+// by chance. All dense squares where the cloud is too small for that.
 std::vector<Tile> dense_squares(std::span<const TileCount> counts) {
   const double threshold = kDenseShare * static_cast<double>(typical_count(counts));
   std::vector<Tile> dense;
@@ -57,7 +57,7 @@ std::vector<Tile> dense_squares(std::span<const TileCount> counts) {
   return firm.empty() ? dense : firm;
 }
 
-// Of squares that lie in coarse squares which touch each other.
+// The largest group of squares whose coarse squares touch each other.
 std::vector<Tile> largest_group(const std::vector<Tile>& squares) {
   std::map<Tile, std::vector<Tile>> left;
   for (const Tile square : squares) left[coarse(square, kGroupBits)].push_back(square);

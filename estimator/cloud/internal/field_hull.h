@@ -13,7 +13,7 @@ namespace plotscan::cloud {
 // The convex outline of a field, counter-clockwise, whole metres.
 class FieldHull {
  public:
-  // Of the tiles with all their corners. At least one tile.
+  // The hull of all corners of the tiles, of which there must be at least one.
   explicit FieldHull(std::span<const Tile> tiles);
   // Whether the tile's centre lies inside.
   bool holds(Tile tile) const;
@@ -24,13 +24,13 @@ class FieldHull {
   std::vector<Eigen::Vector2d> corners_;
 };
 
-// The densely scanned field in a cloud of which a lidar also saw the thin surroundings: the hull of
-// the dense squares of the largest group of these, grown by a square. A square is dense when it
-// holds at least a quarter of what the square of the median point holds, and two of its eight
-// neighbours do; squares have the edge of
-// 1, 2, 4, 8 or 16 m at which the latter is at least 16 points. Groups are apart when no dense
-// squares of theirs are nearer than 4 to 8 squares, so that the strips of one survey are one field,
-// with the gaps between them. Throws InputError when there is no tile.
+// The densely scanned field in a cloud that also shows thinly scanned surroundings: the hull of the
+// largest group of dense squares, grown by one square. A square is dense when it and two of its
+// eight neighbours each hold at least a quarter of the typical count, which is that of the square
+// of the median point. The edge of the squares is the smallest of 1, 2, 4, 8 and 16 m at which the
+// typical count is at least 16 points. Two groups are separate when their dense squares are at
+// least 4 to 8 squares apart; the strips of one survey are thus one field, with the gaps between
+// them. Throws InputError when there is no tile.
 FieldHull find_field(std::span<const TileCount> counts);
 
 }  // namespace plotscan::cloud

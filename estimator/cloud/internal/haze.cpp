@@ -39,7 +39,7 @@ class Voxels {
         up_(static_cast<int>(std::ceil(height_m * a_metre)) + 2),
         counts_(static_cast<std::size_t>(across_) * across_ * up_, 0) {}
 
-  // Most points of the tiles around lie beyond the voxels.
+  // A quick test: most points of the neighbouring tiles lie outside the voxels.
   bool may_hold(const Eigen::Vector3f& point) const {
     return point.x() >= low_.x() && point.x() <= high_.x() && point.y() >= low_.y() &&
            point.y() <= high_.y();
@@ -62,7 +62,7 @@ class Voxels {
                                                 .z = std::clamp(at.z, 1, up_ - 2)}));
   }
 
-  // Of the cube around a voxel, up to `most` and then any number above it.
+  // Count of points in the cube around a voxel: exact up to `most`, else any number above it.
   std::size_t around(std::uint32_t middle, std::size_t most) const {
     std::size_t count = counts_[middle];
     for (int dy = -1; dy <= 1 && count <= most; ++dy) {
@@ -86,7 +86,8 @@ class Voxels {
             .z = voxel_of(point.z() - corner_.z())};
   }
 
-  // Rounded down, by a shift to where truncation does that; of the voxel around, 0.
+  // Index of a voxel along an axis, the border's is 0. Rounds down: shifted to be positive, then
+  // truncated.
   int voxel_of(float offset_m) const {
     constexpr float kShift = 16, kBeyond = 1e6f;
     const float at = std::clamp(offset_m * a_metre_ + (kShift + 1), 0.0f, kBeyond);
@@ -121,7 +122,7 @@ class Air {
 
   std::ptrdiff_t slabs() const { return slabs_; }
 
-  // Not of the profile where a point lies beyond the air.
+  // Beyond the profile's ends where a point lies outside the tile's air.
   std::ptrdiff_t slab_of(std::size_t tile, const Eigen::Vector3f& point) const {
     const double slab = std::floor((point.z() - bottom_m_[tile]) / kHazeSlab_m);
     return static_cast<std::ptrdiff_t>(std::clamp(slab, -1.0, static_cast<double>(slabs_)));
@@ -134,7 +135,7 @@ class Air {
     return {(at.x - west_) / kBlock, (at.y - cloud_.tiles.front().y) / kBlock};
   }
 
-  // Of the tile's points: those that are alone in their cubes.
+  // The tile's points that are alone in their cubes.
   Marked alone(std::size_t tile) const {
     const auto density_m2 = static_cast<double>(cloud_.size(tile));
     const double voxels_m = std::round(3 * std::sqrt(density_m2 / options_.column_points));
@@ -168,7 +169,7 @@ class Air {
   std::int32_t west_ = std::numeric_limits<std::int32_t>::max();
 };
 
-// Of each block that has any: how many points are alone, in it and the 8 around it.
+// For each block with lonely points: how many there are, by slab, in it and the 8 around it.
 std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air,
                                      const std::vector<Marked>& alone) {
   std::map<Block, Profile> own;
@@ -201,12 +202,12 @@ double quartile(const Profile& alone, std::ptrdiff_t first) {
   return selected_low<std::uint32_t>(outwards, kOutwards / 4);
 }
 
-// Whether strays, so many expected, may be most of what is alone.
+// Whether most of the `alone` points may be strays, given the number of `expected` strays.
 bool may_be_strays(double alone, double expected) {
   return expected > 0 && alone <= 2 * expected + 3 * std::sqrt(2 * expected);
 }
 
-// By slab: whether what is alone there is taken for strays.
+// By slab: whether its lonely points are taken for strays.
 std::vector<char> hazy_slabs(const Profile& alone) {
   const auto slabs = static_cast<std::ptrdiff_t>(alone.size());
   std::vector<char> result(alone.size(), 0);

@@ -31,7 +31,7 @@ class Columns {
     count_slabs();
   }
 
-  // Of the tile's points: those that are outliers.
+  // The tile's points that are outliers.
   Marked outliers(std::size_t tile) const {
     const std::vector<char> lonely = lonely_slabs(tile);
     const bool any_lonely = std::ranges::find(lonely, 1) != lonely.end();
@@ -60,7 +60,7 @@ class Columns {
     double high_m = -kNowhere;
   };
 
-  // Nothing where a point lies too far from its level.
+  // The slab of a point; nothing where the point lies too far from the tile's level.
   std::optional<std::size_t> slab_in(std::size_t tile, double z_m) const {
     const int slab = slab_of(z_m) - first_slab_[tile];
     if (slab < 0 || slab >= static_cast<int>(slabs_)) return std::nullopt;
@@ -105,7 +105,7 @@ class Columns {
            static_cast<double>(near) <= options_.lonely_share * static_cast<double>(over);
   }
 
-  // Of everything around a tile that is not lonely.
+  // Lowest and highest height, metres, of the slabs around a tile with points that are not lonely.
   Extent extent_around(std::size_t tile) const {
     Extent extent;
     rows_.visit_around(tile, kExtentReach, [&](std::size_t other) {

@@ -23,15 +23,15 @@ struct TiledPoints {
   }
 };
 
-// Places of points, ascending.
+// Indices of points, ascending.
 using Marked = std::vector<std::size_t>;
 
-// Finds the tiles around a tile. The tiles must outlive it, and be one at least.
+// Finds the tiles around a tile. The tiles must outlive this object; there must be at least one.
 class TileRows {
  public:
   explicit TileRows(const std::vector<Tile>& tiles);
 
-  // Calls visit(tile) for those that lie at most `reach` tiles away, itself too.
+  // Calls visit(tile) for each tile at most `reach` tiles away, and for the tile itself.
   template <class Visit>
   void visit_around(std::size_t tile, int reach, const Visit& visit) const {
     const Tile middle = tiles_[tile];
@@ -51,12 +51,12 @@ class TileRows {
   std::vector<std::size_t> rows_;  // first tile of each row of tiles; one more ends the last
 };
 
-// Each tile's level: the median of the median heights of the tiles at most 2 away, each of which is
-// that of a sample of its points.
+// Each tile's level, metres: the median, over the tiles at most 2 away, of the median height of a
+// sample of their points.
 std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads);
 
-// Takes out the points that are marked, of each tile those of it, and tiles without any other.
-// Returns how many points.
+// Removes the marked points (one list for each tile), and tiles that become empty. Returns how many
+// points were removed.
 std::size_t take_out(TiledPoints& cloud, const std::vector<Marked>& marked);
 
 }  // namespace plotscan::cloud

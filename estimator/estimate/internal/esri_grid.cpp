@@ -36,7 +36,7 @@ class Words {
     while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
     return text_.substr(start, at_ - start);
   }
-  // Of the next word; it stays there.
+  // Whether the next word begins with a letter; the word is not consumed.
   bool letter_follows() {
     while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n';
     // nan and inf are no numbers of this format: they are taken for a header's word, and refused.
@@ -88,7 +88,7 @@ class Header {
     if (count != std::floor(count)) words_.fail(key + " is not a whole number");
     return static_cast<int>(count);
   }
-  // Of the first node along an axis, 'x' or 'y'.
+  // Coordinate of the first node along an axis, 'x' or 'y'.
   double first(char axis, double cell) const {
     const std::string center = std::string(1, axis) + "llcenter";
     if (find(center)) return value(center, -kFarthest_m, kFarthest_m);

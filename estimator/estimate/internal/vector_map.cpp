@@ -32,7 +32,7 @@ namespace {
 
 using nlohmann::json;
 
-// GDAL tells errors on stderr unless told otherwise.
+// Keeps GDAL from printing its errors on stderr while this object lives.
 class QuietGdal {
  public:
   QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
@@ -50,7 +50,7 @@ std::unique_ptr<GDALDataset> open_map(const fs::path& file) {
   return map;
 }
 
-// A layer of any geometry may hold them, too.
+// A layer of unknown geometry type may hold polygons, too.
 bool may_be_polygons(OGRwkbGeometryType type) {
   const OGRwkbGeometryType flat = wkbFlatten(type);
   return flat == wkbPolygon || flat == wkbMultiPolygon || flat == wkbUnknown;

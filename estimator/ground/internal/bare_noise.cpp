@@ -80,7 +80,7 @@ Block block_at(const Columns& columns, int column, int row, int width) {
 
 double bare_noise_m(const Columns& columns) {
   constexpr double kPercentile = 0.2;
-  // Of a large sparse field only chance fills some, with canopy as soon as with ground.
+  // In a large sparse field only chance fills some blocks, with canopy as likely as with ground.
   constexpr std::size_t kLeastBlocks = 30;
   constexpr double kUsual_m = 0.03;
   constexpr std::size_t kEveryBlock = 3;  // is looked at

@@ -35,7 +35,7 @@ float lowest_hundredth(std::vector<float>& z) {
   return least;
 }
 
-// The mean of what is no further from the middle than the reach; the middle where nothing is.
+// The mean of the values at most `reach` from `middle`; `middle` where there are none.
 float mean_about(std::span<const float> z, float middle, float reach) {
   float sum = 0;
   int count = 0;
@@ -48,8 +48,8 @@ float mean_about(std::span<const float> z, float middle, float reach) {
   return count > 0 ? sum / static_cast<float>(count) : middle;
 }
 
-// The layer at the bottom of one column: the mean of what lies about it, from the lowest hundredth
-// upward, and the share that it has of what lies about and right above it.
+// The layer at the bottom of one column: the mean of the returns near it, starting from the lowest
+// hundredth, and their share among all returns near and right above it.
 OneLayer layer_of(std::span<const Return> returns, const Eigen::Vector2f& tilt, float noise,
                   std::vector<float>& z) {
   if (returns.empty()) return {};
@@ -107,7 +107,7 @@ Layer lowest_layer(const Columns& columns, const Field& surface, float noise) {
   return layer;
 }
 
-// Takes out layers so far below what is around them that no ground connects them: birds' echoes,
+// Removes layers so far below their surroundings that no ground can connect them: echoes of birds,
 // multipath.
 void drop_strays(const Grid& grid, float noise, Layer& layer) {
   const float deepest = 6 * noise + 2.0f * 1.5f * static_cast<float>(grid.cell_m);
@@ -152,7 +152,7 @@ Field median_around(const Grid& grid, const Field& z) {
   return medians;
 }
 
-// Asymmetric, redescending: what lies above the surface soon counts for nothing.
+// Asymmetric, redescending weights: layers above the surface soon have no weight.
 Field asymmetric_weights(const Layer& layer, const Field& surface, float scale) {
   Field weights(surface.size(), 0);
   for (std::size_t i = 0; i < surface.size(); ++i) {
@@ -165,7 +165,7 @@ Field asymmetric_weights(const Layer& layer, const Field& surface, float scale) 
   return weights;
 }
 
-// The same to both sides.
+// Redescending weights that are the same on both sides.
 Field robust_weights(const Layer& layer, const Field& surface, float scale) {
   Field weights(surface.size(), 0);
   for (std::size_t i = 0; i < surface.size(); ++i) {

@@ -18,11 +18,11 @@ struct Layer {
   Field scatter;  // mean square of their distances from it, m^2
 };
 
-// That of columns that stand upright on their base, before any surface tells how they tilt.
+// The lowest layer of columns that are not tilted, for use before a surface gives their tilt.
 Layer upright_layer(const Columns& columns, double noise_m);
 
-// A first surface that keeps to the lowest returns, within a few sigma of the ground where ground
-// is seen (docs/ground.md, step 3). Metres above the columns' base.
+// A first surface that follows the lowest returns; it lies within a few sigma of the ground where
+// ground is seen (docs/ground.md, step 3). Metres above the columns' base.
 Field lower_surface(const Columns& columns, const Layer& upright, double noise_m);
 
 // A surface through the lowest layers wherever these are, canopy or ground: it follows ridges that

@@ -14,11 +14,12 @@ namespace {
 constexpr int kNear = 2;
 constexpr int kFar = 6;
 constexpr float kPrior = 0.3f;
-// Layers above the surface count up to so many standard errors.
+// Layers above the surface count up to this many standard errors.
 constexpr float kMostAbove = 2.5f;
-// A layer that holds the surface almost by itself tells little of what it would be without.
+// Limit for a layer that determines the surface almost alone: it says little of the surface without
+// it.
 constexpr float kMostLeverage = 0.8f;
-// From so many returns a layer on, noise and ground can be told apart.
+// From this many returns per layer on, noise and ground can be told apart.
 constexpr double kTelling = 8;
 // The spread of errors over the squared mean of their square roots: 1.48 of normal ones, less of
 // what lies between few returns (docs/ground.md, step 7).
@@ -38,8 +39,9 @@ struct Sizes {
   Field nodes;  // 1 where there is one; pooled: how many
 };
 
-// What is pooled of a squared distance: itself, from which noise is taken; where returns are few,
-// its fourth root, since a few roofs and woods would make a mean of squares.
+// What is pooled for a squared distance: the square itself, from which noise is subtracted later;
+// where returns are few, its fourth root, since a few roofs and woods would dominate a mean of
+// squares.
 float size_of(float square_m2, bool many) {
   return many ? square_m2 : std::sqrt(std::sqrt(square_m2));
 }
@@ -57,8 +59,8 @@ bool shows_noise(const Layer& layer) {
   return returns >= kTelling * layers;
 }
 
-// Many returns show a mean, whose noise is known and no error of the surface. Few do not tell noise
-// from ground: all that they scatter counts as ground.
+// With many returns the mean is known, and its noise is no error of the surface. With few, noise
+// and ground cannot be told apart: all their scatter counts as ground.
 Shown shown_at(std::size_t i, const Layer& layer, const Fitted& fitted, bool many) {
   const Evidence& evidence = fitted.evidence;
   if (many && evidence.data[i] > 0)

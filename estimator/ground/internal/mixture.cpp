@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kPooledAround = 2;  // cells on either side over which shares are pooled
 
-// Of the canopy's density near the ground, which moves the ground's peak by as much of a sigma for
-// a contrast of one.
+// Uncertainty of the canopy's density near the ground: it moves the ground's peak by this share of
+// a sigma at a contrast of one.
 constexpr float kDoubt = 0.3f;
 
 // Counts of returns by height above the surface, in sigmas.
@@ -136,15 +136,16 @@ Shares shares_at(const Counts& counts, std::size_t i) {
   return shares;
 }
 
-// Whether a column has the ground returns that those around it promise: a surface that cuts a ridge
-// off misses its own column's, though the columns around support it.
+// How well a column's ground returns agree with what the columns around it predict: a surface that
+// cuts off a ridge misses those of its own column, though the columns around support it.
 float agreement(float found, float expected) {
   constexpr float kFew = 5;
   if (expected < kFew) return 1;
   return std::clamp((found / expected - 0.1f) / 0.3f, 0.0f, 1.0f);
 }
 
-// Those where ground may be, in their order. No branch: heights come in any order.
+// Keeps the heights at which ground may be, in their order. Written without a branch, as heights
+// come in any order.
 void keep_near(std::vector<float>& heights) {
   constexpr float kFarthest = 4;
   std::size_t count = 0;

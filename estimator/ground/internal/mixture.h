@@ -7,7 +7,7 @@
 
 namespace plotscan::ground {
 
-// What the returns about a surface say of the ground at each node.
+// Evidence for the ground at each node from the returns near a surface.
 struct Evidence {
   Field target_m;  // where the ground returns put the node
   Field data;      // 1 / m^2: the precision of that; 0 where no return supports it

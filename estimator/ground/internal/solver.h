@@ -21,7 +21,7 @@ struct SolveOptions {
 };
 
 // Minimises the above by conjugate gradients (Hestenes and Stiefel, 1952) with the diagonal as
-// preconditioner, from `surface`. Gives the iterations taken.
+// preconditioner, starting from `surface`. Returns the number of iterations.
 int solve(const Grid& grid, const Fit& fit, const SolveOptions& options, Field& surface);
 
 // The same for another right-hand side than data * target.

@@ -64,8 +64,8 @@ Field coarse_doubt(const Grid& grid, const Grid& coarse, const Evidence& evidenc
   return sums;
 }
 
-// Mean square of the bends to expect at each node: as much from those around it as from all, both
-// where there is evidence.
+// Mean square of the bends to expect at each node: half from the bends around it, half from all
+// bends where there is evidence.
 Field bend_variances(const Grid& grid, const Field& surface, const Field& data) {
   const Field bends = curvature(grid, surface);
   double sum = 0, count = 0;

@@ -7,9 +7,9 @@
 
 namespace plotscan::ground {
 
-// Draws of the surface's error (docs/ground.md, step 6): from the normal law of a surface whose
-// second differences are white noise of the size that they have where the ground is seen, given
-// this evidence. `surface` is in metres above any plane.
+// Draws of the surface's error (docs/ground.md, step 6): from the normal distribution, given this
+// evidence, of a surface whose second differences are white noise, as large as they are where the
+// ground is seen. `surface` is in metres above any plane.
 ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& evidence,
                        double noise_m);
 

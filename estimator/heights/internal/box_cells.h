@@ -12,8 +12,8 @@
 
 namespace plotscan::heights {
 
-// A plot's box cut into equal cells about so wide: whole ones, so that none is part of the box
-// only.
+// A plot's box divided into equal cells, about as wide as asked for; all cells lie wholly in the
+// box.
 class BoxCells {
  public:
   BoxCells(const PlotBox& box, double cell_m)
@@ -26,7 +26,8 @@ class BoxCells {
   std::size_t count() const {
     return static_cast<std::size_t>(along_) * static_cast<std::size_t>(across_);
   }
-  // Of the cell, counted along rows across the plot, that holds the point, or is nearest to it.
+  // Index of the cell that holds the point, or is nearest to it; counted along rows across the
+  // plot.
   std::size_t index(const Eigen::Vector3f& point) const {
     const Eigen::Vector2d from_center = point.head<2>().cast<double>() - box_.center;
     const int i = place(from_center.dot(length_axis_) / box_.length_m, along_);
@@ -35,7 +36,7 @@ class BoxCells {
            static_cast<std::size_t>(j);
   }
 
-  // That cell and those that touch it, of one index each.
+  // The indices of that cell and of the cells that touch it.
   std::vector<std::size_t> around(std::size_t index) const {
     const int i = static_cast<int>(index) / across_;
     const int j = static_cast<int>(index) % across_;

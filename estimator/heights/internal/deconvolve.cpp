@@ -12,7 +12,7 @@ namespace {
 constexpr double kReachSigmas = 4;
 constexpr double kLeastSigma = 0.5;
 
-// Of a Gaussian over whole bins: element k is the mass k bins from the centre, k from 0.
+// Half of a Gaussian over whole bins: element k is the mass k bins from the centre, k from 0.
 std::vector<double> half_kernel(double sigma_bins) {
   const auto reach = static_cast<std::size_t>(std::ceil(kReachSigmas * sigma_bins));
   const double scale = 1 / (sigma_bins * std::numbers::sqrt2);

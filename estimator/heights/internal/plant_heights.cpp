@@ -43,8 +43,8 @@ void put_in_order(std::span<Height* const> heights) {
   }
 }
 
-// What the heights are by definition: no percentile over a higher one or over the tallest plant,
-// nor the mean over the tallest.
+// Restores the order that heights have by definition: no percentile exceeds a higher percentile or
+// the tallest plant, and the mean does not exceed the tallest.
 void put_in_order(std::map<std::string, Height>& heights) {
   const std::array plants = {&heights.at("p50"), &heights.at("p90"), &heights.at("p95"),
                              &heights.at("p99"), &heights.at("max")};

@@ -40,12 +40,12 @@ struct FieldPlants {
   std::map<std::string, double> crops = {};
 };
 
-// By the canopies' own quantiles, whatever the crop.
+// Heights that are the canopies' own quantiles, whatever the crop.
 FieldPlants quantile_heights(std::span<const PlotCanopy> field);
 
-// By what the calibration's farms teach of canopies like the field's, in their order: no percentile
-// over a higher one, none over the tallest. The crop is the given one, or told from the canopies.
-// Throws InputError on a given one that the calibration does not know.
+// Heights by the calibration's farms. They are put in order: no percentile exceeds a higher
+// percentile or the maximum. The crop is the given one, else derived from the canopies. Throws
+// InputError on a given crop that the calibration does not know.
 FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
                                const std::optional<std::string>& crop = {});
 

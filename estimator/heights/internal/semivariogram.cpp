@@ -16,7 +16,7 @@ constexpr double kNearer = 0.7, kFarther = 1.4;  // of a lag: the pairs that cou
 constexpr double kMost = 1.5;
 // Fewer pairs say nothing.
 constexpr std::size_t kLeastPairs = 30;
-// Of a lag are compared so many returns, or so many a cell where that is more.
+// For each lag this many returns are compared, or this many in each cell where that is more.
 constexpr double kCompared = 1500, kComparedOfCell = 2;
 
 struct Pairs {
@@ -95,7 +95,8 @@ class LagPairs {
         farthest_m2_(kFarther * kFarther * lag_m * lag_m),
         top_m_(top_m) {}
 
-  // Of a return with others. First those that lie a lag away are picked, without branches.
+  // Adds the pairs of a return with others. First those that lie a lag away are picked, without
+  // branches.
   void add(const Places& one, std::size_t k, const Places& others) {
     distance_m2_.resize(std::max(distance_m2_.size(), others.size()));
     picked_.resize(distance_m2_.size());
@@ -147,7 +148,7 @@ PairsAbove pairs_apart(const PlotBox& box, std::span<const Eigen::Vector3f> desc
   return pairs.above();
 }
 
-// Of one lag over the far one; `longer` where either is unknown.
+// Semivariance of one lag over that of the far lag; `longer` where either is unknown.
 double semivariance_ratio(const Pairs& pairs, const Pairs& far, double noise_m, double longer) {
   const double value = pairs.semivariance(noise_m) / far.semivariance(noise_m);
   return far.semivariance(noise_m) > 0 && std::isfinite(value) ? std::clamp(value, 0.0, kMost)

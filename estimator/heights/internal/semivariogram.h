@@ -15,8 +15,8 @@ namespace plotscan::heights {
 
 // Distances of returns whose heights are compared, metres: from a straw's width to a leaf's.
 inline constexpr std::array kLags_m = {0.02, 0.04, 0.08, 0.16};
-// Pairs of which both returns are higher than these shares of the top: all, the canopy, its upper
-// part.
+// Pairs count if both returns are higher than this share of the top: all pairs, the canopy's, its
+// upper part's.
 inline constexpr std::array<double, 3> kPairsAbove = {-INFINITY, 0.4, 0.7};
 
 // How a canopy's heights differ over short distances: a broad leaf keeps a height that straws lose.
@@ -29,7 +29,7 @@ std::vector<double> relative_semivariances(const PlotBox& box,
                                            std::span<const Eigen::Vector3f> descending,
                                            double top_m, double noise_m);
 
-// Of the same order.
+// The names of relative_semivariances, in the same order.
 std::vector<std::string> semivariance_names();
 
 }  // namespace plotscan::heights

@@ -45,9 +45,9 @@ void require_sound(const Options& options);
 estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& options,
                                   const ProgressReport& progress = {});
 
-// The same from a cloud, of which it reads what lies in crop_box; else, with given
-// boxes, in their surroundings; else in the field that it finds. Throws InputError on a broken
-// cloud, and as above.
+// The same from a cloud. Reads only the points in crop_box; without it, those around the given
+// boxes; without boxes, those in the field that it finds. Throws InputError on a broken cloud, and
+// as above.
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress = {});
 

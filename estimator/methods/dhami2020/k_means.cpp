@@ -116,7 +116,7 @@ ChunkSums assign_points(Points points, Clustering& clustering, tbb::task_arena& 
   return total;
 }
 
-// Moves the centres to their clusters' means; the longest way one of them went.
+// Moves the centres to their clusters' means. Returns the longest distance that one moved.
 float move_centers(Points points, const ChunkSums& sums, std::vector<Eigen::Vector3f>& centers) {
   float longest_m = 0;
   bool refilled = false;

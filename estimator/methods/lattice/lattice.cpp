@@ -49,7 +49,7 @@ ground::Surface ground_of(const cloud::FieldCloud& cloud, const Options& options
       points, {.noise_m = options.noise_m, .threads = options.threads, .progress = so_far});
 }
 
-// What is ahead, for whoever wants to know.
+// Reports the work ahead to the caller, if it asked for that.
 void tell_work(const cloud::FieldCloud& cloud, const Options& options) {
   if (!options.tell) return;
   const cloud::Area& area = cloud.area;
@@ -59,7 +59,7 @@ void tell_work(const cloud::FieldCloud& cloud, const Options& options) {
                              options.threads));
 }
 
-// The points of the field that are of the ground's classes, in its frame.
+// The field's points of the user's ground classes, in the field's frame.
 Points ground_told(const CloudFiles& cloud, const cloud::FieldCloud& field,
                    const Options& options) {
   CloudFiles of_classes = cloud;
@@ -185,7 +185,7 @@ estimate::PointAccount account_of(const cloud::FieldCloud& cloud, std::size_t wi
 
 constexpr std::size_t kLeastOfGround = 3;  // points with ground beneath them: fewer are no surface
 
-// Of a cloud hardly any of whose points has ground beneath it.
+// The message for a cloud in which hardly any point has ground beneath it.
 std::string no_ground_because(const cloud::FieldCloud& cloud,
                               const estimate::PointAccount& points) {
   const cloud::Area& area = cloud.area;

@@ -16,7 +16,7 @@
 
 namespace plotscan::methods::lattice {
 
-// What may be told to the lattice method; it needs none of it. Ranges: settings.cpp.
+// Options of the lattice method, all optional. Their ranges are in settings.cpp.
 struct Options {
   std::optional<cloud::Area> crop_box = {};  // use only the points in here
   std::optional<double> heading_deg = {};    // of the plots' length, counter-clockwise from x
@@ -29,9 +29,9 @@ struct Options {
   std::optional<double> noise_m = {};        // sigma of the points' heights, else estimated
   bool calibrated = true;                    // plants' heights from the canopy's (docs/methods.md)
   std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
-  std::optional<std::string> crop = {};  // one of heights::crop_names(), else told from the canopy
+  std::optional<std::string> crop = {};  // one of heights::crop_names(), else from the canopy
   int threads = 1;
-  // Told once the field is read, before the work of it.
+  // Called once the field is read, before it is processed.
   std::function<void(const WorkEstimate&)> tell = {};
 };
 
@@ -47,8 +47,8 @@ void require_sound(const Options& options);
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress = {});
 
-// The part of a cloud that the method looks at: the crop box; else the given boxes and the ground
-// around them; else nothing, which is the scanned field.
+// The part of a cloud that the method reads: the crop box; else the given boxes and the ground
+// around them; else nothing, which stands for the whole scanned field.
 std::optional<cloud::Area> area_to_read(const Options& options);
 
 // The same from a cloud, of area_to_read. Throws InputError on a broken cloud, and as above.

@@ -16,7 +16,7 @@ constexpr double kSecondsOfPoint = 0.3e-6;
 constexpr double kSecondsOfNode = 7e-6;
 constexpr double kSecondsOfPlots_ha = 4;
 constexpr double kPlotsPower = 1.7;
-// As much of each further thread's time is gained.
+// Share of each further thread's time that is gained.
 constexpr double kThreadGain = 0.5;
 constexpr int kMostGain = 8;
 // Bytes: of the program, of a point while it is read, and of the first of them while they are
@@ -25,10 +25,11 @@ constexpr double kProgram = 60e6;
 constexpr double kReadPoint = 16, kMergedPoint = 20, kMostMerged = 16.8e6;
 constexpr double kGroundPoint = 14, kGroundNode = 390;
 constexpr double kSearchPoint = 24, kSearch_ha = 190e6;
-// Above so much the search's cells are twice as wide, and again (plots/internal/canopy_raster.cpp).
+// Above this area the search's cells are twice as wide, and so on
+// (plots/internal/canopy_raster.cpp).
 constexpr double kFineSearch_ha = 6.25;
 
-// As many hectares of the finest cells are as much work; 0 where no plots are sought.
+// The area of finest cells, hectares, whose search takes equal work; 0 where no plots are searched.
 double searched_ha(const FieldSize& field) {
   if (field.density_m2 < cloud::kLeastSearched_m2) return 0;
   double hectares = field.rectangle_m2 / 1e4;

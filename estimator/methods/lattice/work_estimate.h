@@ -5,7 +5,7 @@
 
 namespace plotscan::methods::lattice {
 
-// What the work of the method lattice grows with.
+// The sizes of a field that determine the work of the method lattice.
 struct FieldSize {
   std::uint64_t points = 0;
   double rectangle_m2 = 0;  // around the field
@@ -17,8 +17,9 @@ struct WorkEstimate {
   double gigabytes = 0;  // at most resident, 1e9 bytes
 };
 
-// Roughly what the method lattice will take for a field that was read, from growth measured on one
-// machine (docs/real-clouds.md): right to a factor of two there, a guess on others.
+// Estimates the time and memory that the method lattice takes for a field that was read, from
+// measurements on one machine (docs/real-clouds.md): within a factor of two there, a guess on other
+// machines.
 WorkEstimate estimate_work(const FieldSize& field, int threads);
 
 }  // namespace plotscan::methods::lattice

@@ -30,7 +30,8 @@ int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
 }
 
-// Steps that are no whole number of the usual one: each is a parameter, and so is its place.
+// Number of steps that are no whole multiple of the usual step. Each adds two parameters: its size
+// and its place.
 double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
@@ -42,7 +43,7 @@ double irregular_steps(const std::vector<int>& begins, const BandShape& shape, d
   }));
 }
 
-// The same bands on all profiles, or on each its own.
+// Fits bands of one shape; with `shared` the same on all profiles, else each profile's own.
 AxisFit fit_shape(const Line& line, const BandShape& shape, bool shared) {
   const int gap = cells(kLeastGap_m, line.cell_m);
   AxisFit fit{.shape = shape};
@@ -65,7 +66,7 @@ AxisFit fit_shape(const Line& line, const BandShape& shape, bool shared) {
   return fit;
 }
 
-// Of the side that the user gave, if any.
+// Whether a size agrees with the side that the user gave, if any.
 bool may_be(int size, const Line& line) {
   const std::optional<double>& side_m = line.hint.side_m;
   return !side_m || std::abs(size * line.cell_m - *side_m) <= 0.5 * line.cell_m + 0.01 * *side_m;
@@ -98,8 +99,8 @@ std::vector<BandShape> shapes_like(const BandShape& shape) {
   return shapes;
 }
 
-// Whether most steps are one pitch, but for an alley: bands that a canopy's texture suggests lie
-// anywhere.
+// Whether most steps equal one pitch; one alley may differ. Bands that come from a canopy's texture
+// lie anywhere.
 bool is_regular(const Line& line, const AxisFit& fit) {
   double irregular = 0, steps = 0;
   for (const std::vector<int>& begins : fit.begins) {
@@ -109,8 +110,8 @@ bool is_regular(const Line& line, const AxisFit& fit) {
   return irregular <= std::max(kAlleys, kMostIrregular * steps);
 }
 
-// As many bands as the user said that plots follow each other; rows with offsets of their own may
-// lack some.
+// Whether the number of bands is the user's number of plots along the axis. Rows with offsets of
+// their own may lack some, so the longest counts.
 bool has_told_count(const Line& line, const AxisFit& fit) {
   const auto most = std::ranges::max(fit.begins, {}, &std::vector<int>::size).size();
   return line.hint.count && most == static_cast<std::size_t>(*line.hint.count);

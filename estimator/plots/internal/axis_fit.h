@@ -30,7 +30,7 @@ struct AxisFit {
   double cost(double price) const { return misfit + price * parameters; }
 };
 
-// A line's profiles, and what a parameter is to gain: Schwarz's criterion.
+// A line's profiles, and the price of a parameter by Schwarz's criterion.
 struct Line {
   double cell_m = 0;
   AxisHint hint = {};
@@ -43,16 +43,17 @@ struct Line {
 Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
              const AxisHint& hint);
 
-// The bands that explain the line best, of those that are plots or drill rows of plots: the same on
-// all profiles, or on each its own. Its misfit is infinite where there are none.
+// The bands that explain the line best, among those that are plots or drill rows of plots. With
+// `shared` all profiles have the same bands, else each its own. The misfit is infinite where there
+// are none.
 AxisFit fit_axis(const Line& line, bool shared);
 
-// The same where its bands are drill rows, or other parts of plots: of whole plots.
+// The fit with bands that are whole plots, where they were drill rows or other parts of plots.
 AxisFit put_together(const Line& line, AxisFit fit);
 
 std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile);
 
-// What the same bands cost on another line.
+// The cost of these bands on a line other than their own.
 double bands_cost(const Line& line, const Segmentation& bands);
 
 }  // namespace plotscan::plots

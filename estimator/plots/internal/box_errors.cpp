@@ -10,13 +10,13 @@ namespace {
 // Chosen on 51 farms of one word, as docs/plot-finding-tests.md says.
 constexpr double kOfSpread =
     0.65;  // of the leaves' spread over an edge, in which the sown one lies
-// Errors of centres near each other are alike, so that what is fitted to them has more error than
-// to as many independent ones: so many times.
+// Errors of neighbouring centres are correlated, so a fit to them has this many times the error of
+// a fit to independent ones.
 constexpr double kAlikeErrors = 2;
 constexpr double kLeastCentre_m = 0.005;
 
-// A fitted value's standard error: what is left about the fit, times the root of its share of the
-// parameters (the mean leverage).
+// Standard error of a fitted value: the residuals' rms times the square root of the mean leverage
+// (parameters per plot).
 double centre_error_m(const Side& side, std::size_t plots) {
   const double leverage = std::min(1.0, side.parameters / static_cast<double>(plots));
   return std::max(kLeastCentre_m, kAlikeErrors * side.rms_m * std::sqrt(leverage));

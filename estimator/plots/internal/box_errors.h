@@ -9,8 +9,8 @@
 
 namespace plotscan::plots {
 
-// The same for all plots of the lattice. A centre's errors are those of the lattice through all
-// centres; sides that were told have none.
+// Standard errors of a box, the same for all plots of the lattice. Errors of a centre are those of
+// the lattice fitted to all centres; a side that the user gave has none.
 PlotBoxError box_error(const Lattice& lattice, const Hints& hints);
 
 }  // namespace plotscan::plots

@@ -8,7 +8,7 @@
 namespace plotscan::plots {
 namespace {
 
-// All chosen.
+// All values are our choice.
 constexpr double kBlock_m = 0.5;      // across the line: as wide as plants, that differ by chance
 constexpr double kTrend_m = 0.75;     // on either side: a block's own trend, which is no noise
 constexpr double kLeastError = 0.02;  // of the profile's greatest mean: no model is better
@@ -31,7 +31,7 @@ std::vector<double> smoothed(const std::vector<double>& values, const std::vecto
   return smooth;
 }
 
-// A block's canopy along the line less the profile and its own trend.
+// A block's canopy along the line minus the profile and the block's own trend.
 std::vector<double> noise_of(const std::vector<double>& block, const std::vector<double>& seen,
                              const std::vector<double>& mean, int trend) {
   std::vector<double> noise(block.size());
@@ -41,7 +41,7 @@ std::vector<double> noise_of(const std::vector<double>& block, const std::vector
   return noise;
 }
 
-// Ratio of the variance of sums over near cells to what independent ones would have.
+// Variance of sums over neighbouring cells, over the variance if the cells were independent.
 double likeness(const std::vector<std::vector<double>>& noises, int near) {
   double single = 0, together = 0;
   for (const std::vector<double>& noise : noises) {

@@ -11,14 +11,14 @@
 namespace plotscan::plots {
 
 // Mean canopy by cell along a view's r, over the cells across it. Weights are inverse variances of
-// the means, from how the blocks across differ, less their own trend; neighbouring cells see the
-// same leaves, and weigh so much the less.
+// the means, estimated from how the blocks across differ, without their own trend. Neighbouring
+// cells see the same leaves, which lowers their weights.
 struct CanopyProfile {
   std::vector<double> mean, weight;
   double independent = 0;  // how many independent cells the profile is worth
 };
 
-// Over the given bands of c only.
+// The profile over the given bands of c only.
 CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across);
 
 // Sums over a profile's cells in constant time.

@@ -37,9 +37,9 @@ class CanopyRaster {
   int a_cells() const { return a_cells_; }
   int b_cells() const { return b_cells_; }
 
-  // Over the cells [a0, a1) x [b0, b1), clipped to the grid.
+  // Number of cells with returns in [a0, a1) x [b0, b1), clipped to the grid.
   double seen_cells(int a0, int a1, int b0, int b1) const;
-  // Mean cover in [0, 1] of the seen ones; 0 where none is.
+  // Mean cover, 0 to 1, of these cells; 0 where there are none.
   double cover(int a0, int a1, int b0, int b1) const;
 
  private:
@@ -52,8 +52,8 @@ class CanopyRaster {
   std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
 };
 
-// The field's canopy in the directions of `axes`, whose origin is moved to the lowest a and b; a
-// raster a scale.
+// The field's canopy along `axes`, whose origin is moved to the lowest a and b; one raster for each
+// scale.
 std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
                                     std::span<const CanopyScale> scales, int threads);
 

@@ -48,7 +48,7 @@ double edge_weight(double inside_m) {
   return std::abs(x) < 4 ? x * std::exp(-0.5 * x * x) : 0;
 }
 
-// A plot's cover without what its neighbours add.
+// A plot's cover after the neighbours' part is subtracted.
 struct OwnCover {
   std::vector<double> x_m, cover;
 

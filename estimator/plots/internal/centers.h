@@ -10,9 +10,9 @@
 
 namespace plotscan::plots {
 
-// By how much every place's canopy is off its centre along r, metres: where both edges of a box are
-// steepest together in its cover, what its neighbours add taken away first. Nothing where that lies
-// at the end of what is tried.
+// How far each place's canopy lies from the place's centre along r, metres: the shift at which both
+// edges of a box are steepest together in the cover, after the neighbours' part is subtracted.
+// Nothing where that is the largest shift that is tried.
 std::vector<std::optional<double>> measured_shifts(const Lattice& lattice);
 
 }  // namespace plotscan::plots

@@ -25,8 +25,8 @@ struct Neighbours {
   double pitch_m = 0;
   double share = 0;  // of the plots that have one
 
-  // What neighbours whose depth is `canopy` about their centres add at x_m, in the mean of all
-  // plots.
+  // The depth that neighbours add at x_m, mean over all plots; `canopy` is the depth about a
+  // neighbour's centre.
   template <class Canopy>
   double depth(const Canopy& canopy, double x_m) const {
     return share > 0 ? share * (canopy(x_m - pitch_m) + canopy(x_m + pitch_m)) : 0;

@@ -23,9 +23,9 @@ struct Steps {
   double spacing = 0;  // mean of those within
 };
 
-// Where the sorted steps jump by the greatest factors, with enough of them on either side: from row
-// to row and from plot to plot, or from plot to plot and over missing plots. Of a few plots of many
-// rows few steps lead from plot to plot.
+// The places where the sorted steps jump by the greatest factors, with enough steps on either side:
+// between row steps and plot steps, or between plot steps and steps over missing plots. A few plots
+// of many rows have few plot steps.
 std::vector<Steps> steps_of(const Lines& middles) {
   constexpr std::size_t kTried = 4;
   std::vector<double> steps;
@@ -74,7 +74,7 @@ Groups groups_of(const std::vector<double>& line, double widest_step) {
   return groups;
 }
 
-// Places at equal steps between others: plots of which not all rows were seen.
+// Adds places at equal steps between others, where not all rows of a plot were seen.
 void fill_in(std::vector<double>& places) {
   constexpr double kTolerance = 0.15;  // of a step
   std::vector<double> steps;

@@ -26,19 +26,20 @@ constexpr std::size_t kMostBlocks = 1 << 18;
 constexpr int kMostPatches = 3;          // of a block's side
 constexpr double kPatchReturns = 12;     // of the usual patch, at least: fewer lie near some plane
 constexpr float kLeastPatchReturns = 4;  // of a patch that is judged
-// Of the noise: what scatters less is a surface. Beams straight down have 1.25 times the noise of
-// the field; roofs and cars: 1.0 in the median; soybeans under 5 cm of range noise: 2.1.
+// Canopy scatters more than this many sigmas of the noise; what scatters less is a surface. Beams
+// straight down have 1.25 times the noise of the field; roofs and cars: 1.0 in the median; soybeans
+// under 5 cm of range noise: 2.1.
 constexpr double kSurfaceSigmas = 1.5;
 constexpr int kCells = 5;  // of a block's side: that of the ground's grid
-// Standard error of ground that is too unsure, as a share of the usual canopy's height: what stands
-// there is known to 12.5 % (95 %). In plots it is 0.05 at most (99 % of the canopy's returns of 44
+// Standard error of ground that is too unsure, as a share of the usual canopy's height: heights
+// there are known to 12.5 % (95 %). In plots it is 0.05 at most (99 % of the canopy's returns of 44
 // farms), on ridges that a ground cuts off 0.04 to 0.3. Where all ground is unsure, as in sparse
-// clouds, it must be so many times that under the usual canopy.
+// clouds, it must be kUnsureTimes that under the usual canopy.
 constexpr double kUnsureShare = 0.0625, kUnsureTimes = 3;
 
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 
-// Heights told apart by 10 %.
+// Counts of heights in bins 10 % wide.
 class HeightCounts {
  public:
   explicit HeightCounts(double least_m) : least_m_(least_m) {}
@@ -71,7 +72,7 @@ class Patch {
   }
   float count() const { return count_; }
   float mean_height() const { return sum_.z() / std::max(1.0F, count_); }
-  // Of the returns about the plane through them, whatever way it stands.
+  // Standard deviation of the returns about the best plane through them, of any orientation.
   double sd_about_plane() const {
     const Eigen::Matrix3d covariance =
         (products_ - sum_ * sum_.transpose() / count_).cast<double>();
@@ -85,12 +86,12 @@ class Patch {
   Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
 };
 
-// The height that half of the canopy's volume has its top under: however many blocks of low weeds,
-// or of ground that strips of the survey give different heights, lie around the crop, it is the
-// crop's.
+// Half of the canopy's volume has its top below this height. It stays the crop's height even with
+// many blocks around it of low weeds, or of ground to which the survey's strips give different
+// heights.
 double usual_top_m(std::vector<double> tops_m) { return self_weighted_median(std::move(tops_m)); }
 
-// Of a block's side, so many that the usual patch holds enough returns.
+// Number of patches along a block's side with which the usual patch holds enough returns.
 std::size_t patches_for(std::span<const std::uint32_t> block_of_point, std::size_t blocks) {
   std::vector<double> counts(blocks);
   for (const std::uint32_t block : block_of_point)
@@ -184,7 +185,7 @@ std::size_t FieldCanopy::cell_of(const Eigen::Vector3f& point) const {
          static_cast<std::size_t>(at.y());
 }
 
-// With their neighbours: a surface's edge fills its blocks in part.
+// Leaves out surfaces and the blocks beside them, which a surface's edge may fill in part.
 void FieldCanopy::leave_out_surfaces() {
   const std::size_t along_y = blocks_along_y_, along_x = surface_.size() / along_y;
   for (std::size_t i = 0; i < surface_.size(); ++i) {

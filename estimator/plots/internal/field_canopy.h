@@ -21,23 +21,23 @@ struct CanopyScale {
 };
 
 // A field's points as (x, y, height above the ground), metres. Left out are points that are not
-// finite, blocks of a survey's margin with less than a tenth of the field's density, blocks that a
-// surface fills: canopy scatters heights by more than the sensor's noise, what does not is a wall,
-// a car's roof, a sheet, or ground that the ground's model missed; and places whose ground is known
-// too badly to tell its ridges from canopy.
+// finite, blocks of a survey's margin with less than a tenth of the field's density, blocks filled
+// by a smooth surface (canopy scatters heights by more than the sensor's noise; else it is a wall,
+// a car's roof, a sheet, or ground that the ground's model missed), and places whose ground is too
+// uncertain to distinguish ridges from canopy.
 class FieldCanopy {
  public:
   // noise_m is the sigma of the points' heights.
   FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
               const GroundError& ground_error = {});
 
-  // Those that are not left out, in their order.
+  // The points that are not left out, in their order.
   std::span<const Eigen::Vector3f> points() const { return kept_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
-  // From the noise to the usual height of the canopy's top, over the places that have one.
+  // From the noise to the usual height of the canopy's top, over the blocks that have canopy.
   const CanopyScale& scale() const { return scale_; }
-  // Share of the blocks that stand out from the ground, within reach of the places, that a surface
-  // fills.
+  // Share of smooth surfaces among the blocks that stand out from the ground within reach_m of the
+  // places.
   double surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const;
 
  private:

@@ -29,12 +29,12 @@ constexpr double kMostAspect = 10;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
 constexpr double kStraight = 2;           // or this of the canopy: crowns and mounds up to 1.2
-// So few may lie at equal steps by chance: each must be a rectangle rather than an ellipse.
+// This few plots may lie at equal steps by chance: they must be rectangles rather than ellipses.
 constexpr std::size_t kFewPlots = 4;
 constexpr double kLeastSquarenessOfFew = 1.05;
-// Closed plots reach 0.3, plots of few single plants 0.5 as these stand at random: not in the mean
-// of all plots, and little stands beside the plots. Trees two by two: 0.7, in the mean too; bushes:
-// 0.5 and more, which hold up to 0.7 of the canopy.
+// Closed plots reach 0.3. Plots of few single plants reach 0.5, as these stand at random; but the
+// mean of all plots does not, and little canopy stands beside the plots. Trees two by two: 0.7, in
+// the mean too. Bushes: 0.5 and more, and they hold up to 0.7 of the canopy.
 constexpr double kMostUneven = 0.45;
 constexpr double kLeastHeldOfUneven = 0.85;
 constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
@@ -56,7 +56,8 @@ double least_gap_m(const Lattice& lattice) {
                   gap(lattice.c.pitch_m, lattice.c.size_m));
 }
 
-// Of plots as wide as their standard error allows: two drill rows hide part of what is sown.
+// Length over width of plots that are wider by a standard error: two drill rows hide part of the
+// sown width.
 double least_aspect(const Lattice& lattice) {
   const auto [width_m, length_m] = std::minmax(lattice.r.size_m, lattice.c.size_m);
   return length_m / (width_m + box_error(lattice, {}).width_m);
@@ -117,7 +118,7 @@ double spread_over_mean(const std::vector<double>& canopy) {
   return std::sqrt(std::max(0.0, variance)) / std::max(1e-9, middle);
 }
 
-// Median over the plots.
+// Unevenness, median over the plots.
 double unevenness_of(const Lattice& lattice, const Pieces& pieces) {
   std::vector<double> spreads;
   for (const Place& place : lattice.places) spreads.push_back(spread_over_mean(pieces.of(place)));

@@ -105,7 +105,7 @@ class LineFamily {
   std::vector<float> sums_;  // cover and cells, by bin
 };
 
-// Of the lines in each direction.
+// Sharpness of the lines in each direction.
 std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vector<double>& angles,
                                 double bin_m, int threads) {
   std::vector<double> values(angles.size());
@@ -136,8 +136,8 @@ struct Pair {
   double worth = 0;  // product of their sharpnesses: a field has both families
 };
 
-// The best perpendicular pair; a skewed one only where it is far better, as rows with offsets of
-// their own look like one.
+// The best perpendicular pair; a skewed pair only where it is far better, since rows with different
+// offsets look skewed too.
 Pair best_pair(const std::vector<double>& values, const std::optional<double>& hint_rad) {
   Pair best;
   for (int first = 0; first < kAngles; ++first) {
@@ -172,7 +172,7 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   const Pair pair = best_pair(values, hint_rad);
   FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
   if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
-  // One rigid pair, as either family has it: offsets of rows can tilt the lines of one.
+  // A perpendicular pair from each family alone: offsets of rows can tilt the lines of one family.
   const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
   const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
   if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};

@@ -29,7 +29,8 @@ double inner_cover(const Lattice& lattice, const Place& place) {
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
-// Mean over the sides: cover within less cover beyond, along the side's middle three quarters.
+// Mean over the four sides of the cover inside minus the cover outside, along the side's middle
+// three quarters.
 double outline_contrast(const Lattice& lattice, const Place& place) {
   const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
@@ -48,8 +49,8 @@ struct Column {
   std::size_t plots = 0;
 };
 
-// Plots do not overlap: of two columns nearer to each other than a plot's side that of fewer plots
-// is none, but plots that lean over or are seen in part.
+// Plots do not overlap. Of two columns closer than a plot's side, the one with fewer plots is
+// removed: it is made of plots that lean over or are only partly seen.
 void leave_out_overlapping(std::vector<Column>& columns, double size_m) {
   for (std::size_t i = 1; i < columns.size();) {
     if (columns[i].c_m - columns[i - 1].c_m >= size_m) {
@@ -96,8 +97,8 @@ void place_plots(const Layout& layout, Lattice& lattice) {
   lattice.c.pitch_m = usual_step(steps);
 }
 
-// Every place has the nearest of the columns that run through all rows. False where two places of a
-// row would have the same.
+// Gives each place the nearest column that runs through all rows. False where two places of a row
+// would get the same column.
 bool number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   std::set<std::pair<int, int>> taken;
   for (Place& place : lattice.places) {
@@ -110,7 +111,7 @@ bool number_columns(const std::vector<Column>& columns, Lattice& lattice) {
   return true;
 }
 
-// Every row by itself, from the place nearest to the first of all plots.
+// Numbers each row by itself, from the place nearest to the first of all plots.
 void number_each_row(double pitch_m, Lattice& lattice) {
   const double start_m = std::ranges::min(lattice.places, {}, &Place::c_m).c_m;
   const Place* last = nullptr;
@@ -147,8 +148,8 @@ const Place& nearest_to(const std::vector<Place>& places, int Place::*number, in
       places, {}, [&](const Place& place) { return std::abs(place.*number - at); });
 }
 
-// Where each column crosses each row a plot may stand that no band shows. Columns of each row's own
-// lie a pitch from number to number.
+// Adds a place where a column crosses a row and no band was seen: a plot may stand there. Columns
+// that a row has for itself lie one pitch apart from number to number.
 void add_crossings(Lattice& lattice) {
   const auto rows = by_line(lattice.places, &Place::row);
   const auto columns = by_line(lattice.places, &Place::column);
@@ -191,7 +192,8 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
-// A single place three pitches away from every other holds something else: a ridge, a bush.
+// Removes places at least three pitches from every other: they hold something else, a ridge or a
+// bush.
 void leave_out_strays(Lattice& lattice) {
   constexpr double kPitches = 3;
   constexpr int kLeastPlots = 4;  // tell a pitch
@@ -206,7 +208,7 @@ void leave_out_strays(Lattice& lattice) {
   for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
 }
 
-// Numbers from 0, without those that no plot has.
+// Renumbers from 0 without gaps. Returns the count.
 int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;
   used.reserve(places.size());
@@ -218,7 +220,7 @@ int close_up(std::vector<Place>& places, int Place::*number) {
   return static_cast<int>(used.size());
 }
 
-// Numbers from 0; they are steps along a row, so none is left out.
+// Shifts the numbers to begin at 0. They are steps along a row, so gaps stay. Returns the count.
 int begin_at_0(std::vector<Place>& places, int Place::*number) {
   if (places.empty()) return 0;
   const auto [least, most] = std::ranges::minmax(places, {}, number);
@@ -227,7 +229,7 @@ int begin_at_0(std::vector<Place>& places, int Place::*number) {
   return count;
 }
 
-// From each plot to that of the next number and the same line; that of the bands where no two
+// The usual step from a plot to the next on the same line; the bands' pitch where no two plots
 // follow each other.
 double usual_pitch_m(const std::vector<TrialPlace>& places, int TrialPlace::*number,
                      int TrialPlace::*line, Eigen::Index axis, double of_bands_m) {
@@ -242,8 +244,8 @@ double usual_pitch_m(const std::vector<TrialPlace>& places, int TrialPlace::*num
   return steps.empty() ? of_bands_m : usual_step(std::move(steps));
 }
 
-// Of the places that hold a plot. Columns of their own in each row lie a pitch from number to
-// number.
+// Renumbers the places that hold a plot. Columns that each row has for itself lie one pitch apart
+// from number to number.
 void renumber(Lattice& lattice) {
   std::erase_if(lattice.places, [](const Place& place) { return !place.full; });
   lattice.rows = close_up(lattice.places, &Place::row);

@@ -50,19 +50,19 @@ struct CellBox {
   int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
 };
 
-// Those of a place's plot, and so much around it.
+// The cells of a place's plot, widened by around_m on each side.
 CellBox cells_about(const Lattice& lattice, const Place& place, double around_m);
 
-// The lattice through those of a layout's plots that hold canopy; where their number was told,
-// through those with the most.
+// The lattice through those of a layout's plots that hold canopy; where the user gave the number of
+// plots, through the plots with the most canopy.
 Lattice fit_lattice(const Layout& layout, const Hints& hints);
 
 // The same as a layout of plots, their length the longer side.
 TrialLayout layout_of(const Lattice& lattice);
 
-// Moves the places to where their canopy lies, smoothed by the lattice: rows are straight, columns
-// too where they are aligned, and steps are equal but for alleys that clearly differ; else every
-// row has its offset and the common pitch.
+// Moves the places to where their canopy lies, smoothed by the lattice. Rows are straight, and
+// steps are equal except at alleys that clearly differ. Columns are straight where they are
+// aligned; else every row has its own offset and the common pitch.
 void straighten(Lattice& lattice);
 
 }  // namespace plotscan::plots

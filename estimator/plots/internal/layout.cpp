@@ -25,7 +25,7 @@ std::vector<std::vector<Band>> each_alone(const std::vector<Band>& bands) {
   return lists;
 }
 
-// Of a row's plots those that are there.
+// Removes the plots that are missing in each row.
 void leave_out_missing(Layout& layout) {
   std::vector<double> covers;
   const auto cover = [&](const Row& row, const Band& plot) {
@@ -106,7 +106,7 @@ std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints) {
   return layouts;
 }
 
-// Places of the layout that may hold so many plots, some of which failed.
+// Whether the layout's places may hold this many plots, of which some failed.
 bool may_hold(const Layout& layout, int plots) {
   constexpr double kLeastOfPlaces = 0.6;
   std::size_t columns = 0;
@@ -115,7 +115,8 @@ bool may_hold(const Layout& layout, int plots) {
   return plots <= places && plots >= kLeastOfPlaces * places;
 }
 
-// As many plots as told: those that the canopy suggests, else whole rows and columns of so many.
+// Layouts with the user's number of plots: those that the canopy suggests, else full grids of that
+// many.
 std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
   std::vector<Layout> layouts = layouts_as_told(view, hints);
   const auto keep_told = [&] {
@@ -141,8 +142,8 @@ std::vector<Layout> layouts_in(const RowView& view, const Hints& hints) {
   return hints.tell_layout() ? layouts_as_told(view, hints) : layouts_on(view, {});
 }
 
-// Of the layouts with columns through all rows the one that explains the whole field best, along
-// both axes, where all plots' edges add up, and cell by cell.
+// Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
+// along both axes, where all plots' edges add up, and cell by cell.
 void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
   const Line a = line_of(view, {whole(view.c_cells())}, {});
   const Line b = line_of(view.turned(), {whole(view.r_cells())}, {});
@@ -172,8 +173,8 @@ bool are_rows_of(const Layout& layout, const Layout& drilled) {
   return length > kLeastAspect * width && width < kAlike * row && row < kAlike * width;
 }
 
-// Where rows of plots have offsets of their own, their drill rows may lie in columns through the
-// whole field by chance: they are no plots where groups of them are.
+// Where rows of plots have different offsets, their drill rows may by chance form columns through
+// the whole field. Such drill rows are not taken for plots where groups of them are plots.
 void leave_out_drill_rows(std::vector<Layout>& layouts) {
   const std::vector<Layout> all = layouts;
   std::erase_if(layouts, [&](const Layout& layout) {

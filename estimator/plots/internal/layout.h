@@ -26,13 +26,13 @@ struct Layout {
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy
 };
 
-// Whether plots that were sought row by row go on from row to row all the same.
+// Whether plots that were searched row by row form columns through the rows nevertheless.
 bool is_in_columns(const Layout& layout);
 
 // The layout that explains the canopy along both axes best, for its number of parameters: bands
 // over the whole field along either axis, or over the whole field along one and in each row by
-// itself along the other. Without rows where nothing stands out, or nothing that is as the hints
-// say.
+// itself along the other. The result has no rows where nothing stands out, or nothing that agrees
+// with the hints.
 Layout best_layout(const CanopyRaster& raster, const Hints& hints = {});
 
 }  // namespace plotscan::plots

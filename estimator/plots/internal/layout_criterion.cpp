@@ -68,8 +68,8 @@ Band gap_between(const Band& one, const Band& next, double cell_m) {
   return {one.end, std::max(one.end, next.begin)};
 }
 
-// What is left of the canopy's variation when every piece of the plots and of the gaps between them
-// has a level, and all else one.
+// The canopy's residual variation when each piece of the plots and of the gaps between them has its
+// own level, and all the rest one common level.
 double variation_left(const Layout& layout) {
   const RowView& view = layout.view;
   Sums beyond = sums_over(view, {0, view.r_cells()}, {0, view.c_cells()});

@@ -7,9 +7,9 @@
 
 namespace plotscan::plots {
 
-// Schwarz's criterion of the layout: its likelihood, and the lines on which plots begin. Levels are
-// no parameters: whatever the layout, every piece of canopy has its own, so that none fits an
-// uneven canopy better for having more plots.
+// Schwarz's criterion of the layout: its likelihood, with the lines on which plots begin as
+// parameters. Canopy levels do not count as parameters: in every layout each piece of canopy has
+// its own, so a layout with more plots does not fit an uneven canopy better.
 double criterion(const Layout& layout);
 
 }  // namespace plotscan::plots

@@ -11,7 +11,7 @@
 namespace plotscan::plots {
 namespace {
 
-// All chosen.
+// All values are our choice.
 constexpr double kEdgeReach_m = 0.3;       // about an edge, of what the box is fitted to
 constexpr double kHalfDepthReach_m = 0.1;  // about an edge, of the line through half the depth,
 constexpr int kEdgeRounds = 4;             // which is sought so often,
@@ -24,7 +24,7 @@ struct EdgeFit {
   double blur_m = 0;  // sigma of the leaves' spread over the edge
 };
 
-// Squares about depth * box + level in the edges' reach, the level at least 0.
+// Residual squares about depth * box + level within reach of the edges; the level is at least 0.
 double squares_of(const DepthProfile& profile, double depth, const BlurredBox& box,
                   const Neighbours& near, double edge_m) {
   double n = 0, rest = 0, squares = 0;

@@ -61,7 +61,8 @@ class PlaceOfCell {
   std::vector<std::int32_t> number_;
 };
 
-// An odd step meets all lasers of a sensor, which fire in turn.
+// Samples the points by place. The step is odd, so that it meets all lasers of a sensor, which fire
+// in turn.
 std::vector<std::vector<Eigen::Vector3f>> returns_by_place(
     const Lattice& lattice, std::span<const Eigen::Vector3f> points) {
   const PlaceOfCell place_of(lattice);
@@ -75,7 +76,7 @@ std::vector<std::vector<Eigen::Vector3f>> returns_by_place(
   return returns;
 }
 
-// Of heights about the plane that fits them best, metres.
+// Scatter of the heights about the plane that fits them best, metres.
 double scatter_about_plane(std::span<const Eigen::Vector3f> points) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& point : points) middle += point.cast<double>();

@@ -31,8 +31,8 @@ struct BandGap {
   double misfit = 0;
 };
 
-// From the end of one band, at its level, to the begin of the next; -1 where the line begins or
-// ends instead.
+// The gap from the end of one band, at its level, to the beginning of the next; -1 in place of a
+// band stands for the line's begin or end.
 BandGap gap_between(const ProfileSums& sums, int blur, int end, double from, int begin, double to) {
   const int low = end < 0 ? 0 : end + blur;
   const int high = begin < 0 ? sums.cells() : begin - blur;
@@ -97,7 +97,7 @@ double level_of(const Start& start) {
   return level;
 }
 
-// Of all profiles together; null where the line begins or ends.
+// The gap on all profiles together; a null pointer stands for the line's begin or end.
 BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
                     const Start* from, const Start* to) {
   const int end = from != nullptr ? from->begin + shape.size : -1;
@@ -113,7 +113,7 @@ BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shap
   return sum;
 }
 
-// The same, never between bands that it does not lie below.
+// The cost of a gap; infinite where the gap is not lower than both bands beside it.
 double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
                 const Start* to) {
   const BandGap gap = gap_between(profiles, shape, from, to);

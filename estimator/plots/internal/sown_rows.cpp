@@ -22,11 +22,11 @@ constexpr double kMostOff_m = 0.45;  // rows times spacing, from the size that t
 constexpr double kCoarse_m = 0.02, kFine_m = 0.005;  // steps of the spacing
 constexpr double kClearly = 0.5;  // of the squares that an even canopy leaves: rows leave fewer
 
-// Of leaves about their row: stems and whorls near it, blades farther off.
+// Spreads of leaves about their row: stems and whorls are near it, blades farther away.
 constexpr std::array kBlurs_m = {0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4};
 constexpr double kBroader = 1.3;
 
-// Least squares that curves leave of a profile, none of them with a negative weight.
+// Residual squares of a profile after a least-squares fit of curves with non-negative weights.
 class Curves {
  public:
   Curves(const Eigen::MatrixXd& curves, const Eigen::VectorXd& depth)
@@ -70,8 +70,8 @@ Eigen::VectorXd depth_of(const DepthProfile& profile) {
                                            static_cast<Eigen::Index>(profile.depth.size()));
 }
 
-// What a canopy leaves of which `canopy(blur_m)` is the shape that leaves of one spread make: the
-// best two of them together, over a level.
+// Residual squares of a canopy; `canopy(blur_m)` is its shape for leaves of one spread. The best
+// two spreads together are fitted, over a constant level.
 template <class Canopy>
 double squares_of(const DepthProfile& profile, const Neighbours& near, const Canopy& canopy) {
   constexpr auto kBlurs = static_cast<int>(kBlurs_m.size());
@@ -92,7 +92,7 @@ double squares_of(const DepthProfile& profile, const Neighbours& near, const Can
   return least;
 }
 
-// What the best even canopy leaves, its edges as free as the rows' are.
+// Residual squares of the best even canopy, its edges as free as those of the rows.
 double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& near, double size_m) {
   double least = std::numeric_limits<double>::infinity();
   const double smallest_m = std::max(0.2, size_m - kMostOff_m);
@@ -106,7 +106,7 @@ double squares_of_even_canopy(const DepthProfile& profile, const Neighbours& nea
   return least;
 }
 
-// What rows at equal steps leave, whatever the shape of their leaves.
+// Residual squares of rows at equal steps, whatever the shape of their leaves.
 double squares_of_rows(const DepthProfile& profile, const Neighbours& near, const SownRows& rows) {
   return squares_of(profile, near, [&](double blur_m) {
     return [&, blur_m](double x_m) {
@@ -125,7 +125,7 @@ struct RowsFit {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-// The best spacing of so many rows within [low_m, high_m].
+// The best spacing, within [low_m, high_m], of this number of rows.
 RowsFit best_spacing(const DepthProfile& profile, const Neighbours& near, int rows, double low_m,
                      double high_m, double step_m) {
   RowsFit best;

@@ -11,7 +11,8 @@
 namespace plotscan::plots {
 namespace {
 
-// Of a plot, that takes part in its outline: half the gap to the next one.
+// Range around a plot that its outline is judged on: half the gap to the next plot, within these
+// limits.
 constexpr double kLeastAround_m = 0.1, kAround_m = 0.4;
 constexpr int kFitRounds = 20;      // of least squares in turn
 constexpr double kMostStretch = 2;  // of ellipses, from the ratio of the plots' own sides,
@@ -47,7 +48,8 @@ MeanPlot mean_plot(const Lattice& lattice, double around_m) {
   return plot;
 }
 
-// Squares about one level within an outline and one beyond it, the least over the outline's size.
+// Residual squares about one level inside an outline and one outside, least over the outline's
+// size.
 template <class Inside>
 double squares_of_outline(const MeanPlot& plot, const Inside& inside) {
   const auto rows = static_cast<double>(plot.canopy.rows());
@@ -76,7 +78,7 @@ double squares_of_outline(const MeanPlot& plot, const Inside& inside) {
   return best;
 }
 
-// What level + along(r) across(c) leaves, all at least 0: least squares of each in turn.
+// Residual squares of level + along(r) * across(c), all at least 0; each is fitted in turn.
 double squares_of_product(const MeanPlot& plot) {
   Eigen::ArrayXd along = Eigen::ArrayXd::Ones(plot.canopy.rows());
   Eigen::ArrayXd across = Eigen::ArrayXd::Ones(plot.canopy.cols());
@@ -98,8 +100,8 @@ double squares_of_product(const MeanPlot& plot) {
   return squares;
 }
 
-// What a level for each ring leaves, the rings a cell wide, in ellipses of this ratio of axes to
-// the plot's own.
+// Residual squares with one level for each elliptic ring, a cell wide; `stretch` changes the ratio
+// of the axes from the plot's own.
 double squares_of_rings(const MeanPlot& plot, double stretch) {
   const Eigen::Index rows = plot.canopy.rows(), columns = plot.canopy.cols();
   const auto rings = static_cast<std::size_t>((rows + columns) / 2);

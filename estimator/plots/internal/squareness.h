@@ -7,15 +7,15 @@
 
 namespace plotscan::plots {
 
-// The mean canopy of all plots and what lies around them, as round things and as plots explain it:
-// above 1 where sides are straight.
+// How much better rectangular shapes than round ones explain the mean canopy in and around all
+// plots: a ratio of misfits, above 1 where sides are straight.
 struct Squareness {
-  // Squares that two levels, in an ellipse and around it, leave over those of a rectangle. Few
+  // Residual squares of two levels, inside and outside an ellipse, over those with a rectangle. Few
   // returns suffice.
   double of_outline = 0;
-  // Squares that any function of the distance in ellipses leaves (crowns, mounds), over those of
-  // any product of a function along and one across (rows, sides that leaves hang over). Clearer
-  // where there are many returns; few leave 1, as their noise is no product.
+  // Residual squares of any function of the elliptic distance from the centre (crowns, mounds),
+  // over those of any product of a function along and one across (rows, sides that leaves hang
+  // over). Clear with many returns; with few it is near 1, as noise is no such product.
   double of_canopy = 0;
 };
 Squareness squareness_of(const Lattice& lattice);

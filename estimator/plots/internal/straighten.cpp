@@ -30,7 +30,7 @@ class PlotGroups {
   std::vector<double> means(const std::vector<double>& values) const {
     return means(values, std::vector<double>(plots(), 1));
   }
-  // Of weighted plots; of all where a group's weigh nothing.
+  // Weighted mean of each group; unweighted where all weights of a group are 0.
   std::vector<double> means(const std::vector<double>& values,
                             const std::vector<double>& weights) const {
     std::vector<double> sums(count()), weighted(count()), weight(count());
@@ -43,14 +43,14 @@ class PlotGroups {
       sums[g] = weight[g] > 0 ? weighted[g] / weight[g] : sums[g] / std::max(1.0, counts_[g]);
     return sums;
   }
-  // The plots' values less those of their groups.
+  // The plots' values minus those of their groups.
   std::vector<double> less(const std::vector<double>& values,
                            const std::vector<double>& of_groups) const {
     std::vector<double> rest(values);
     for (std::size_t i = 0; i < plots(); ++i) rest[i] -= of_groups[of(i)];
     return rest;
   }
-  // Each plot has its group's.
+  // Gives each plot the value of its group.
   std::vector<double> spread_out(const std::vector<double>& of_groups) const {
     std::vector<double> values;
     for (std::size_t i = 0; i < plots(); ++i) values.push_back(of_groups[of(i)]);
@@ -74,7 +74,7 @@ double spread_of(std::vector<double> values) {
   return sum_of_squares(values);
 }
 
-// Of what is left of plots' values about one mean for each group and one slope.
+// Root mean square of residuals about a fit of one mean for each group and one slope.
 double rms_of(const std::vector<double>& rest, const PlotGroups& groups) {
   const double free = static_cast<double>(rest.size()) - static_cast<double>(groups.count()) - 1;
   return std::sqrt(sum_of_squares(rest) / std::max(1.0, free));
@@ -101,7 +101,7 @@ LinesOfGroups fit_lines(const PlotGroups& groups, const std::vector<double>& x,
   return lines;
 }
 
-// Where rows or columns lie, and by how many parameters that was fitted.
+// The positions of rows or columns, and the number of parameters of their fit.
 struct Positions {
   std::vector<double> at;
   double parameters = 0;
@@ -125,9 +125,9 @@ std::vector<int> unusual_steps(const std::vector<double>& positions,
   return unusual;
 }
 
-// Between a step that is too wide and one that is too narrow, while the next steps are as usual:
-// its plots are lodged, or their leaves were taken for them. (Where wide and narrow steps
-// alternate, it was sown so.)
+// Whether a row lies between a step that is too wide and one that is too narrow, while the steps
+// beyond are as usual: its plots are lodged, or leaves were taken for plots. (Where wide and narrow
+// steps alternate, the field was sown so.)
 bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
   if (row == 0 || row == unusual.size() || unusual[row - 1] * unusual[row] != -1) return false;
   const bool alone_before = row < 2 || unusual[row - 2] == 0;
@@ -136,7 +136,7 @@ bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
 }
 
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
-// steps, but for those alleys that clearly differ.
+// steps, except at alleys that clearly differ.
 Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
                            double sigma_m) {
   const auto size = static_cast<Eigen::Index>(positions.size());
@@ -202,7 +202,7 @@ struct Columns {
   double rms_m = 0;
 };
 
-// Of plots whose rows' offsets were taken out of c.
+// Positions of the columns, from plots' c without their rows' offsets.
 Positions columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
   if (aligned) {
     std::vector<double> at = centers.column.means(c);
@@ -217,7 +217,7 @@ Positions columns_at(bool aligned, const Centers& centers, const std::vector<dou
   return {.at = std::move(numbers), .parameters = 1};
 }
 
-// Columns and rows' offsets in turn.
+// Fits the columns' places and the rows' offsets in turn.
 Columns fit_columns(const Centers& centers, bool aligned) {
   constexpr int kRounds = 8;
   Columns fit;
@@ -231,7 +231,7 @@ Columns fit_columns(const Centers& centers, bool aligned) {
   return fit;
 }
 
-// c that every metre along r adds, where the rows' offsets lie on a line.
+// The change of c per metre along r, where the rows' offsets lie on a line.
 struct Skew {
   double c_per_r = 0, error = 0;
   bool straight = false;
@@ -301,7 +301,8 @@ void straighten(Lattice& lattice) {
   const Centers centers = measured_centers(lattice);
   const LinesOfGroups rows = fit_lines(centers.row, centers.c, centers.r);
   Columns columns = fit_columns(centers, lattice.aligned);
-  // Offsets of each row's own say nothing of the plots' sides, even where they lie on a line.
+  // Rows with offsets of their own do not show the direction of the plots' sides, even if the
+  // offsets lie on a line.
   const Skew skew = lattice.aligned ? fit_skew(centers, rows.at, columns) : Skew{};
   const Directions directions =
       directions_of(centers, rows, skew, lattice.view.r_axis().dot(lattice.view.c_axis()));

@@ -7,7 +7,7 @@
 
 namespace plotscan::score {
 
-// Sums over pairs (a, b), each less its mean.
+// Sums of products over pairs (a, b) after each mean is subtracted.
 struct Moments {
   double aa = 0;
   double ab = 0;
@@ -18,11 +18,11 @@ struct Moments {
   double correlation() const;  // NaN unless both vary
 };
 
-// Of as many a as b. Values that are all equal have moments of exactly 0, whatever their mean
-// rounds to.
+// `a` and `b` have equal length. If all values are equal, the moments are exactly 0, even if their
+// mean is rounded.
 Moments moments(const std::vector<double>& a, const std::vector<double>& b);
 
-// Estimates less truths.
+// Estimates minus truths.
 std::vector<double> errors_of(const HeightPairs& pairs);
 
 }  // namespace plotscan::score

@@ -38,7 +38,7 @@ struct GrassBlade {
 // (Montgomery 1911; Stewart & Dwyer 1999).
 double grass_width_share(double share, double base_width_share, double widest_at);
 
-// The sheet. Where the blade would go through the ground (z = 0) it lies on it.
+// The leaf as a sheet. Where the blade would go below the ground (z = 0) it lies on the ground.
 Blade grass_blade(const GrassBlade& blade);
 
 // A quantity along a stem's ranks (1, 2, ... from the base): `first` at rank 1, 1 at the peak rank,

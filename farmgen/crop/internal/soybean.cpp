@@ -111,7 +111,7 @@ class Soybean {
     return 1 - (1 - traits_["last_share"]) * std::min(1.0, (place - peak) / (last - peak));
   }
 
-  // The share of its full length of an organ so many nodes above the highest that has reached it.
+  // Share of its full length that an organ has, this many nodes above the highest full-grown one.
   double unfolding(const char* young_share, int nodes_above) const {
     return std::pow(traits_[young_share], std::max(0, nodes_above));
   }

@@ -176,7 +176,7 @@ Raster drawn(const Size& size, const Shading& shading) {
   return raster;
 }
 
-// From a darker colour over the own one to that of veins, which hold less chlorophyll.
+// Colours from darker through the organ's own to that of veins, which hold less chlorophyll.
 Palette palette_about(const Eigen::Vector3f& colour) {
   const Eigen::Vector3f dark = 0.55F * colour;
   const Eigen::Vector3f vein = 0.45F * colour + 0.55F * Eigen::Vector3f(0.78F, 0.82F, 0.52F);

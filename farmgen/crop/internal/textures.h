@@ -24,10 +24,10 @@ enum class Pattern {
 // fibres.
 Pattern pattern_of(Form form, const std::string& material);
 
-// A PNG drawn about `colour` (red, green, blue in [0, 1]), which is also
-// about its mean, for texture coordinates as PlantBuilder gives them: u across the organ, v from
-// its base to its tip. The name states crop and colour: "soybean_leaf_3f7d2a.png". The same
-// arguments give the same bytes (with the same zlib).
+// A PNG in shades of `colour` (red, green, blue in [0, 1]), which is about its mean. Texture
+// coordinates are those of PlantBuilder: u across the organ, v from its base to its tip. The name
+// states crop and colour: "soybean_leaf_3f7d2a.png". The same arguments give the same bytes (with
+// the same zlib).
 std::shared_ptr<const mesh::Image> organ_texture(Form form, const std::string& crop,
                                                  const std::string& material,
                                                  const Eigen::Vector3f& colour);

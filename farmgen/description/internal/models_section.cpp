@@ -25,7 +25,8 @@ std::map<std::string, float> read_reflectance(const YamlSection& section) {
   return reflectance;
 }
 
-// Of a crop's materials, all of which its file names; a plant may lack some at its stage.
+// Reflectances of a crop's materials. The crop's file names all of them; a plant may lack some at
+// its stage.
 std::map<std::string, float> read_crop_reflectance(const YamlSection& section,
                                                    const std::string& crop) {
   if (!section.has("reflectance")) return {};

@@ -30,7 +30,7 @@ constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::uint64_t kMostPlants = 10'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
 
-// A cultivar's section; what it does not say, `plants` says.
+// A cultivar's section; keys that it lacks are taken from `plants`.
 class Inherited {
  public:
   Inherited(const YamlSection& own, const YamlSection& plants) : own_(own), plants_(plants) {}

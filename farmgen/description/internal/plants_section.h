@@ -11,8 +11,8 @@ class YamlSection;
 
 namespace plotscan::description {
 
-// The `plants` section of farm.yaml (docs/farm-format.md); its models go behind `models`. Throws
-// InputError as load_description does.
+// The `plants` section of farm.yaml (docs/farm-format.md); its models are appended to `models`.
+// Throws InputError as load_description does.
 planting::PlantsDescription read_plants(const YamlSection& section,
                                         const planting::PlotGridDescription& grid,
                                         std::vector<planting::ModelDescription>& models);

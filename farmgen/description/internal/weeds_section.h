@@ -12,8 +12,8 @@ class YamlSection;
 
 namespace plotscan::description {
 
-// The `weeds` section of farm.yaml (docs/farm-format.md); its models go behind `models`. Throws
-// InputError as load_description does.
+// The `weeds` section of farm.yaml (docs/farm-format.md); its models are appended to `models`.
+// Throws InputError as load_description does.
 planting::WeedsDescription read_weeds(const YamlSection& section,
                                       std::vector<planting::ModelDescription>& models);
 

@@ -39,7 +39,7 @@ class Drone {
   std::uint64_t visuals() const { return visuals_; }
 
  private:
-  // What Gazebo Classic needs of a model that is not static: mass, and that nothing pulls it.
+  // What Gazebo Classic needs for a model that is not static: a mass, and no gravity.
   void write_kinematics() {
     xml_.text("gravity", "false");
     xml_.text("kinematic", "true");

@@ -12,8 +12,8 @@ namespace {
 // How long the drone stands at the first pose of Gazebo Classic: a lidar that is made while the
 // world is paused publishes its first scans without the plants.
 constexpr double kLead_s = 1;
-// Of the lidar, and the least time of a pose: Gazebo Classic moves actors every 34 ms, the rest is
-// left to the lidar.
+// One turn of the lidar, and the least time of a pose: Gazebo Classic moves actors every 34 ms, the
+// rest of the time is for the lidar.
 constexpr double kTurn_s = 0.1;
 
 constexpr const char* kUsage = R"sh(

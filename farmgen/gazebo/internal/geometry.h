@@ -25,7 +25,7 @@ class ShapeCache {
   // when a mesh is missing or broken, or a polyline encloses no area.
   std::uint32_t of(const ShapeSpec& given, const std::string& what);
 
-  // Of a shape's mesh, in its own frame.
+  // Bounding box of a shape's mesh, in its own frame.
   const Eigen::AlignedBox3d& bounds(std::uint32_t mesh) const { return bounds_[mesh]; }
   // The mesh files read.
   const std::vector<std::filesystem::path>& files() const { return files_; }

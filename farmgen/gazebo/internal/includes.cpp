@@ -49,7 +49,7 @@ bool is_too_new(const std::string& version) {
          ignition::math::SemanticVersion(sdf::SDF::Version());
 }
 
-// Of anything else libsdformat would print what it is not.
+// Refuses other files before libsdformat, which would print messages about them.
 void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
   const std::string_view name = root.Name();
   if (name == "robot") return;  // URDF, which libsdformat reads, too

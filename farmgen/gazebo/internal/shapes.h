@@ -8,7 +8,7 @@
 #include "mesh/mesh.h"
 
 // SDF's geometric primitives as triangles. Round ones have their vertices on the true surface and
-// 360 of them around the axis: their triangles lie within 8e-5 of a radius under it.
+// 360 of them around the axis: their triangles lie at most 8e-5 radii below it.
 namespace plotscan::gazebo {
 
 // Centred on the origin, sides of 1 m.

@@ -12,7 +12,7 @@ namespace plotscan::gazebo {
 // A world's visuals as bytes, for another process of the same program.
 std::string bytes_of(const WorldVisuals& world);
 
-// The visuals back. Throws std::runtime_error where the bytes are none.
+// The visuals back. Throws std::runtime_error where the bytes hold no visuals.
 WorldVisuals world_visuals_of(std::string_view bytes);
 
 }  // namespace plotscan::gazebo

@@ -29,7 +29,7 @@ struct World {
 // holds besides the models it includes.
 EntityCounts write_world(const std::filesystem::path& path, const World& world, PluginNames names);
 
-// Of each physics step, seconds.
+// Duration of a physics step, seconds.
 inline constexpr double kStep_s = 0.001;
 
 }  // namespace plotscan::gazebo

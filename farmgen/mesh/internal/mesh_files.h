@@ -9,8 +9,8 @@
 // Private to the library; holds Assimp's types.
 namespace plotscan::mesh {
 
-// The files that Assimp may open for a mesh: itself, and regular files that it names; of glTF those
-// in its own folder alone, as nobody looks for buffers elsewhere.
+// The files that Assimp may open for a mesh: the mesh's own and regular files that it names. For
+// glTF only those in its own folder, as buffers lie nowhere else.
 class MeshFiles : public Assimp::DefaultIOSystem {
  public:
   explicit MeshFiles(std::filesystem::path mesh);

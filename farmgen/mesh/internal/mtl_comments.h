@@ -18,9 +18,9 @@ struct MtlComments {
   std::optional<float> cutoff;
 };
 
-// What the material libraries that an OBJ file names say in such comments, by material; nothing of
-// other files. Throws
-// InputError, naming library and line, where the number is none in [0, 1].
+// Reads such comments, by material, from the material libraries that an OBJ file names; empty for
+// other files. Throws InputError, naming library and line, where the value is not a number in [0,
+// 1].
 std::map<std::string, MtlComments> read_mtl_comments(const std::filesystem::path& obj);
 
 }  // namespace plotscan::mesh

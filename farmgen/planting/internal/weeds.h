@@ -11,10 +11,10 @@
 
 namespace plotscan::planting {
 
-// Weeds at random places of the field, as many as per_m2 asks for before those are taken away that
-// stand where no weeds are wanted or off the terrain. Their ids are 0; what is drawn for a weed
-// depends on the seed and its number alone. Throws InputError (naming `source`) when there are more
-// than a million.
+// Weeds at random places of the field. per_m2 gives their number before weeds are removed that
+// stand off the terrain or where none are wanted. Their ids are 0; what is drawn for a weed depends
+// on the seed and its number alone. Throws InputError (naming `source`) when there are more than a
+// million.
 std::vector<farm::Plant> draw_weeds(const WeedsDescription& description,
                                     const std::vector<farm::Plot>& plots,
                                     const std::vector<farm::PlantModel>& models,

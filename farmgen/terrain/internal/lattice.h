@@ -7,7 +7,8 @@
 namespace plotscan::terrain {
 
 // Points in rows, every other row shifted by half a step: no four neighbours lie on one circle, so
-// that their Delaunay triangulation is unique, and no direction is left out as much as by squares.
+// that their Delaunay triangulation is unique, and directions are covered more evenly than by
+// squares.
 struct Lattice {
   Eigen::Vector2d origin;  // of row 0 and column 0, world frame, metres
   Eigen::Vector2d along;   // from column to column

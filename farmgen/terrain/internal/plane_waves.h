@@ -22,14 +22,14 @@ struct PlaneWave {
   double amplitude_m = 0;
 };
 
-// Standard deviation rms_m, wavelengths in [shortest_m, longest_m] alone, as much variance in each
-// octave of them.
+// Waves with standard deviation rms_m and wavelengths only in [shortest_m, longest_m], with equal
+// variance in each octave.
 std::vector<PlaneWave> rolling_waves(const RollingDescription& rolling, std::uint64_t seed);
 
 // Standard deviation height_m (the random roughness of soil: Allmaras et al., Total porosity and
-// random roughness of the interrow zone, 1966) and correlation exp(-(r / size_m)^2), but for the
-// shortest waves: those below shortest_clod_wave_m, 1.8 % of the variance, are left out, so that
-// vertices can be close enough.
+// random roughness of the interrow zone, 1966) and correlation exp(-(r / size_m)^2), except that
+// waves shorter than shortest_clod_wave_m, 1.8 % of the variance, are left out, since vertices
+// cannot be close enough for them.
 std::vector<PlaneWave> clod_waves(const ClodsDescription& clods, std::uint64_t seed);
 double shortest_clod_wave_m(const ClodsDescription& clods);
 

@@ -11,7 +11,7 @@
 
 namespace plotscan::terrain {
 
-// More vertices are taken for a mistake: truth/terrain.ply would have 170 MB and more.
+// More vertices are refused as a likely mistake: truth/terrain.ply would have over 170 MB.
 inline constexpr std::size_t kMostTerrainVertices = 4'000'000;
 
 // A rectangle in which a terrain gets new vertices, on a lattice.
@@ -20,7 +20,7 @@ struct Patch {
   LatticeLayout layout;
 };
 
-// About how many vertices the base has with the patches, those along its edges apart.
+// Estimated number of vertices of the base with the patches, not counting those along its edges.
 double refined_vertices(const Terrain& base, const std::vector<Patch>& patches);
 
 // The base with the relief added to its heights. In the patches (the later ones count where they

@@ -13,8 +13,8 @@
 
 namespace plotscan::terrain {
 
-// What a description adds to its base's heights: slope and rolling everywhere, furrows and clods in
-// a rectangle at whose border they fade out.
+// The relief that a description adds to its base's heights: slope and rolling everywhere, furrows
+// and clods within a rectangle, fading out at its border.
 class Relief {
  public:
   // `detail` bounds furrows and clods; they reach full height fade_m inside it.

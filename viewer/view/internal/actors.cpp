@@ -30,7 +30,7 @@
 namespace plotscan::view {
 namespace {
 
-// The colour bar ends here: the share of points below, so that one stray point does not bleach all
+// The colour bar ends at this quantile of the points, so that one stray point does not bleach all
 // others.
 constexpr double kTopShare = 0.999;
 

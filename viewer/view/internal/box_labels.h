@@ -10,7 +10,7 @@
 
 namespace plotscan::view {
 
-// A text to stand in a box on the page.
+// A text to be placed in a box on the page.
 struct BoxLabel {
   std::string text;
   PlotBox box_px;          // pixels in place of metres
@@ -24,8 +24,8 @@ struct PlacedLabel {
   std::vector<Eigen::Vector2d> corners = {};  // of its background
 };
 
-// Labels in the middle of their boxes, all of one size and direction: level where that leaves them
-// large enough, else along the boxes' length. Where even the smallest legible text is larger than
+// Labels in the middle of their boxes, all of one size and direction: level if they are large
+// enough so, else along the boxes' longer side. Where even the smallest legible text is larger than
 // the boxes, it may cross their sides, and labels that would touch another are left out.
 std::vector<PlacedLabel> place_labels(const std::vector<BoxLabel>& labels, double largest_px);
 

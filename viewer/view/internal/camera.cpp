@@ -16,8 +16,8 @@ namespace {
 constexpr double kUpSlope = 0.21;  // half of the view's angle: 24 degrees in all
 constexpr double kMargin = 1.02;   // the picture's size over that of what it shows
 
-// The interval of one coordinate in which points appear from a distance: for every point its place
-// less or plus what the lines of sight gain on the way to it.
+// Bounds on one coordinate of the camera: over all points, the coordinate minus, or plus, what the
+// edge lines of sight gain on the way to the point.
 struct Sides {
   double most = -std::numeric_limits<double>::infinity();
   double least = std::numeric_limits<double>::infinity();

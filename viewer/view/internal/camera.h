@@ -23,7 +23,8 @@ struct Camera {
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   double right_slope = 0, up_slope = 0;  // of the lines of sight to the picture's edges
 
-  // Of a point in the picture: -1 to 1 from left to right and from the lower to the upper edge.
+  // A point's place in the picture: -1 to 1 from left to right and from the lower to the upper
+  // edge.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 };
 

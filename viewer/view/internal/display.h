@@ -3,8 +3,8 @@
 
 namespace plotscan::view {
 
-// A connection to the X display, held while a picture is drawn: VTK ends the whole program where no
-// display answers, and an Xvfb whose last client leaves starts anew under the next one's feet.
+// A connection to the X display, held while a picture is drawn: VTK ends the whole program if no
+// display answers, and an Xvfb restarts when its last client leaves, which breaks the next client.
 class Display {
  public:
   // Throws InputError when no display answers.

@@ -25,8 +25,8 @@ std::vector<ProfilePoint> ground_profile(const ground::Surface& ground, const Pl
 // A part of a profile without gaps.
 using ProfileRun = std::span<const ProfilePoint>;
 
-// The profile's parts with ground; with `by_seen` broken also where seen turns to interpolated, at
-// a place that belongs to both.
+// The profile's parts with ground; with `by_seen` also split where seen changes to interpolated, at
+// a point that belongs to both parts.
 std::vector<ProfileRun> runs_of(const std::vector<ProfilePoint>& profile, bool by_seen);
 
 // The run's points as places on a page.

@@ -28,7 +28,7 @@ inline constexpr Rgb kInk{34, 34, 34};
 inline constexpr Rgb kGrey{150, 150, 150};
 inline constexpr Rgb kWhite{255, 255, 255};
 
-// Of a picture's width: 7 points on a page 17 cm wide.
+// Text size as a share of a picture's width: 7 points on a page 17 cm wide.
 inline constexpr double kTextShare = 0.0145;
 
 // A picture of square pixels, rows from the lower one up.
@@ -55,7 +55,7 @@ struct Lettering {
   bool bold = false;
 };
 
-// A page that is drawn on, each thing over those before. Places are pixels from the lower
+// A page to draw on; each new thing covers those drawn before. Places are pixels from the lower
 // left corner.
 class Page {
  public:
@@ -65,7 +65,7 @@ class Page {
   void line(const std::vector<Eigen::Vector2d>& places, const Stroke& stroke);
   // A filled convex polygon.
   void area(const std::vector<Eigen::Vector2d>& corners, const Rgb& colour, double opacity = 1);
-  // What lies between two lines of as many places.
+  // The area between two lines with equally many points.
   void band(const std::vector<Eigen::Vector2d>& low, const std::vector<Eigen::Vector2d>& high,
             const Rgb& colour, double opacity);
   void text(const Eigen::Vector2d& place, const std::string& words, const Lettering& lettering);
@@ -83,7 +83,7 @@ class Page {
 std::vector<std::string> wrapped(const std::string& words, double width_px,
                                  const Lettering& lettering);
 
-// Of the text as it is drawn: width along the text, and height.
+// Size of the text as it is drawn: width along the text, and height.
 Eigen::Vector2d text_size_px(const std::string& words, const Lettering& lettering);
 
 }  // namespace plotscan::view

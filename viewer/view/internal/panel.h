@@ -12,9 +12,9 @@ namespace plotscan::view {
 // Pixels drawn each way for one of a panel.
 inline constexpr int kPanelSamples = 3;
 
-// What the renderer's camera sees, anti-aliased. Where shade_m is above 0, corners and places
-// between things that stand no farther than that from each other are darker, as under a cloudy sky
-// (screen-space ambient occlusion). Needs a Display.
+// The renderer's view, anti-aliased. With shade_m above 0, corners and gaps between things at most
+// shade_m apart are darker, as under a cloudy sky (screen-space ambient occlusion). Needs a
+// Display.
 Raster drawn_panel(vtkRenderer& renderer, const Eigen::Vector2i& size_px, double shade_m);
 
 }  // namespace plotscan::view

@@ -84,7 +84,7 @@ double scale_of(const std::vector<PlantExtent>& plants, const std::vector<PlantR
   return low;
 }
 
-// Shares what is left of the picture out between the plants of a row and between the rows.
+// Divides the remaining room of the picture among the gaps between plants and between rows.
 void place(const std::vector<PlantExtent>& plants, const Eigen::Vector2d& picture_px,
            PlantLayout& layout) {
   const Size size = size_of(plants, layout.rows, layout.px_per_m);

@@ -14,7 +14,7 @@ struct Ticks {
   double step = 1;
   std::vector<double> values = {};
 
-  // With the decimals that the step needs; `origin` is taken off.
+  // value - origin as text, with the decimals that the step needs.
   std::string text(double value, double origin = 0) const;
 };
 

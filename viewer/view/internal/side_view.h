@@ -18,8 +18,8 @@ class SideView {
  public:
   SideView(const PlotBox& box, double beyond_m) : box_(box), beyond_m_(beyond_m) {}
 
-  // Keeps those between the box's long sides, and as far beyond its ends; evenly thinned where
-  // there are more than a picture can show.
+  // Keeps the points between the box's long sides, up to a distance beyond its ends; evenly thinned
+  // if there are more than a picture can show.
   void add(std::span<const Eigen::Vector3d> points);
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
   // Points in the box, inside colour, and beyond its ends, the darker the more there are.
@@ -29,7 +29,7 @@ class SideView {
   PlotBox box_;
   double beyond_m_;
   std::vector<Eigen::Vector2d> points_;
-  std::size_t stride_ = 1;  // of the points that belong here, one in so many is kept
+  std::size_t stride_ = 1;  // one in this many points is kept
   std::size_t seen_ = 0;
 };
 

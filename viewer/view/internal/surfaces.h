@@ -20,9 +20,9 @@ struct Surface {
   vtkSmartPointer<vtkTexture> texture;  // null: the material has none
 };
 
-// One surface a material that has triangles; what has no material, or one
-// without name and texture, is plain green. Throws InputError when a texture is neither a PNG nor a
-// JPEG that can be decoded.
+// One surface for each material that has triangles; triangles without a material, or with one that
+// has neither name nor texture, are plain green. Throws InputError when a texture is neither a PNG
+// nor a JPEG that can be decoded.
 std::vector<Surface> surfaces_of(const mesh::Mesh& mesh);
 
 // Gives the actor the surface's colour and texture, matt, so that both sides of a leaf show it.

@@ -23,7 +23,7 @@ class TopHeights {
 
   // Points outside of what is shown are left out.
   void add(std::span<const Eigen::Vector3d> points, const ground::Surface& ground);
-  // Shown ones.
+  // Number of points that lie in the shown area.
   std::size_t points() const { return points_; }
   // Whether some shown point has no ground under it.
   bool groundless() const { return groundless_; }

@@ -7,7 +7,7 @@
 
 namespace plotscan::farmbench {
 
-// TASK.md of an export: what entrants get, what is asked and how it is handed in. `task` is its
+// TASK.md of an export: the given files, the task and how to submit results. `task` is its
 // task.json (docs/submissions.md).
 std::string task_sheet(const nlohmann::json& task);
 

@@ -7,7 +7,7 @@
 
 namespace plotscan::methods::dhami2020 {
 
-// The whole field's ground as z = offset_m + slope . (x, y): what "levelled" means.
+// The whole field's ground as z = offset_m + slope . (x, y); a levelled map has it subtracted.
 struct GroundLevel {
   double offset_m = 0;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();

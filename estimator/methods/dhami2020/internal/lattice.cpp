@@ -110,8 +110,8 @@ std::optional<Lattice> grow(Lattice lattice, Centers centers, const PlotBox& plo
   return lattice;
 }
 
-// The steps from a centre to its nearest neighbours in a cone about an axis, pointing along it; the
-// plot's side doubled, where it has none.
+// The steps from a centre to its nearest neighbours in a cone about an axis, pointing along it;
+// twice the plot's side where there is no neighbour.
 std::vector<Eigen::Vector2d> steps_along(Centers centers, const Eigen::Vector2d& from,
                                          const Eigen::Vector2d& axis, double side_m) {
   std::vector<std::pair<double, Eigen::Vector2d>> found;

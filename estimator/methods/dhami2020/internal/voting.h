@@ -6,7 +6,7 @@
 
 namespace plotscan::methods::dhami2020 {
 
-// What a vote decided (section IV-B2).
+// The result of a vote (section IV-B2).
 struct Vote {
   double value = 0;       // the mean of the values in the bin with most of them
   std::size_t votes = 0;  // how many values that bin holds

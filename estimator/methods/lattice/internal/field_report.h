@@ -10,7 +10,7 @@
 
 namespace plotscan::methods::lattice {
 
-// What a manifest says of a field: its layout and the signs that its plots are some
+// A field's entry in the manifest: its layout, and the signs that its plots are really plots
 // (docs/estimate-format.md).
 nlohmann::json json_of(const plots::PlotField& field);
 // The same for people; none where there are no plots.
