@@ -7,9 +7,9 @@
 
 namespace plotscan {
 
-// What work in a process of its own may use.
+// The resources that work in a process of its own may use.
 struct IsolationLimits {
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // beyond what this process has
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // in addition to what this process has
   int processor_s = 60;  // of processor time; waiting is cut off at twenty times as much
 };
 

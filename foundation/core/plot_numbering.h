@@ -11,7 +11,8 @@ enum class PlotNumbering {
   serpentine,  // every other row from its last column, as one walks
 };
 
-// The column that comes at a place of a row, and as well the place of a column; all from 0.
+// The column of the plot at a place in a row's numbering, or the reverse: the place of a column
+// (the map is its own inverse). All count from 0.
 inline std::uint32_t column_at(PlotNumbering numbering, std::size_t row, std::uint32_t place,
                                std::uint32_t columns) {
   const bool backward = numbering == PlotNumbering::serpentine && row % 2 == 1;
