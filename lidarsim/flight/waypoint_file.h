@@ -11,12 +11,13 @@ namespace plotscan::flight {
 
 // One entry of a waypoint file (docs/flight.md).
 struct StatedWaypoint {
-  Waypoint waypoint;                      // z is set where no altitude is
-  std::optional<double> altitude_m = {};  // over the ground below it
+  Waypoint waypoint;                      // its z is set only if there is no altitude_m
+  std::optional<double> altitude_m = {};  // above the ground below the waypoint
 };
 
-// Throws InputError, naming file and line, on an unknown key, a number out of its range, both or
-// neither of z_m and altitude_m, fewer than two waypoints, or a speed at the last one.
+// Reads a waypoint file. Throws InputError, naming file and line, on an unknown key, a number out
+// of its range, both or neither of z_m and altitude_m, fewer than two waypoints, or a speed at the
+// last one.
 std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file);
 
 }  // namespace plotscan::flight

@@ -5,7 +5,8 @@
 
 namespace plotscan::lidar {
 
-// The nearest whole number to a value that is not negative; std::nearbyint is a library call.
+// The nearest whole number to a value that is not negative. Faster than std::nearbyint, which is a
+// library call.
 inline double rounded(double value) {
   return static_cast<double>(
       static_cast<std::int64_t>(value + 0.5));  // NOLINT(bugprone-incorrect-roundings)

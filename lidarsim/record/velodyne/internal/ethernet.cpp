@@ -41,7 +41,7 @@ void put_checksum(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_
   bytes[at + 1] = static_cast<std::uint8_t>(~sum);
 }
 
-// Where the IPv4 packet begins; nothing where the frame carries none.
+// The frame from its IPv4 packet on; nothing if it carries none.
 std::optional<Bytes> ip_packet(FrameKind kind, Bytes frame) {
   if (kind == FrameKind::ip) return frame;
   std::size_t at = kind == FrameKind::ethernet ? kEthernetSize : kCookedSize;
