@@ -17,7 +17,7 @@ struct Site {
   std::string kind;  // "farm" or "world"
   std::string name;
   std::vector<PlotBox> areas;      // world frame
-  std::optional<double> ground_m;  // mean height of the ground under the areas; absent: none there
+  std::optional<double> ground_m;  // mean height of the ground under the areas; absent: no ground
   std::optional<Anchor> anchor = {};  // of the world frame's origin
 };
 

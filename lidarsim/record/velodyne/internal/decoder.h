@@ -45,7 +45,7 @@ class VelodyneDecoder {
   sensor::Sensor sensor_;
   double distance_step_m_ = 0;
   std::optional<Placement> placement_;
-  double last_turn_ = 0;  // hundredths of a degree from block to block, where a packet tells none
+  double last_turn_ = 0;  // 0.01 degrees from block to block, for a packet's last block
 };
 
 }  // namespace plotscan::record
