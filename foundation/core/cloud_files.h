@@ -14,12 +14,11 @@ namespace plotscan {
 
 // What the user adds to a recording of a sensor or a robot that does not say it by itself.
 struct RecordingOptions {
-  // The body's trajectory, a file in TUM format or a trajectory.csv; the recording begins at its
-  // first pose. A pcap needs it; bags and MCAP files hold their own.
+  // The body's trajectory (TUM or trajectory.csv), at whose first pose the recording begins. A pcap
+  // needs it; bags and MCAP files hold their own.
   std::optional<std::filesystem::path> trajectory = {};
   std::optional<std::string> sensor = {};  // its name or file; absent: as the packets tell
-  // How the sensor is mounted in the body's frame: roll, pitch, yaw. Absent: as lidarsim fly mounts
-  // it.
+  // The sensor's mount in the body's frame: roll, pitch, yaw. Absent: that of lidarsim fly.
   std::optional<Eigen::Vector3d> mount_rpy_deg = {};
   std::string topic = {};  // which topic holds the clouds, where several do
 
@@ -29,8 +28,7 @@ struct RecordingOptions {
 // A cloud as a user names it: one file, or several files that are read as one cloud.
 struct CloudFiles {
   std::vector<std::filesystem::path> files = {};
-  // The units of all files, given where the files state none or wrong ones. Absent: the units that
-  // the files state, else metres.
+  // The units of all files, if these state none or wrong ones. Absent: those stated, else metres.
   std::optional<CoordinateUnits> units = {};
   // The coordinate system of all files, given for the same reasons: "EPSG:<code>" of UTM's metres
   // (utm_system) or of longitude and latitude (is_geographic).

@@ -13,8 +13,7 @@ namespace plotscan {
 
 // An object of latitude_deg, longitude_deg, altitude_m.
 nlohmann::json anchor_json(const Anchor& anchor);
-// Reads what anchor_json makes. Throws nlohmann::json::exception if a member is missing or no
-// number.
+// Throws nlohmann::json::exception if a member is missing or no number.
 Anchor anchor_from(const nlohmann::json& document);
 
 // A box's properties: metres, and degrees of the length axis counter-clockwise from east.

@@ -202,7 +202,7 @@ bool within_degrees(const json& coordinates) {
   return std::ranges::all_of(coordinates, within_degrees);
 }
 
-// Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
+// Whether positions are longitude and latitude. `over_utm`: the cloud is in metres of UTM.
 bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
   if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;

@@ -5,8 +5,7 @@
 
 namespace plotscan {
 
-// Called by long work with the share done, in [0, 1], from one thread at a time. May be empty: then
-// nothing is reported.
+// Called by long work with the share done, in [0, 1], from one thread at a time. May be empty.
 using ProgressReport = std::function<void(double share_done)>;
 
 }  // namespace plotscan

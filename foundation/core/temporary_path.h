@@ -9,9 +9,8 @@ namespace plotscan {
 // interrupted (Program watches for SIGINT and SIGTERM).
 class TemporaryPath {
  public:
-  // Creates nothing. If the path is hidden and has this process' number in its name, it also
-  // removes what killed runs left of the same work: paths with the same name but for the number,
-  // which belongs to no living process.
+  // Creates nothing. If the path is hidden and its name has this process' number, removes what
+  // killed runs left: paths that differ only in the number, which no living process has.
   explicit TemporaryPath(std::filesystem::path path);
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
@@ -33,8 +32,8 @@ class TemporaryPath {
 std::filesystem::path partial_path(const std::filesystem::path& final_path);
 
 // The inverse of partial_path, for a partial path of this process and what lies in it; other paths
-// stay unchanged. Errors name files this way: code that writes a file knows only its partial path,
-// and the user only the final one.
+// stay. Errors name files this way: a writer knows only the partial path, the user only the final
+// one.
 std::filesystem::path shown_path(const std::filesystem::path& path);
 
 }  // namespace plotscan

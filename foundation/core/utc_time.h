@@ -19,9 +19,8 @@ std::string format_utc(UtcTime time);
 // The instant so many seconds later, to the nearest microsecond.
 UtcTime later(UtcTime time, double seconds);
 
-// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC plus 18 leap seconds. That is
-// exact from 2017 on; earlier times come out too late by the leap seconds since (17 held from July
-// 2015, 16 from July 2012).
+// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC plus 18 leap seconds, exact since
+// 2017 (it was 17 from July 2015, 16 from July 2012).
 double gps_seconds(UtcTime time);
 
 }  // namespace plotscan

@@ -15,9 +15,8 @@ struct StatedWaypoint {
   std::optional<double> altitude_m = {};  // above the ground below the waypoint
 };
 
-// Reads a waypoint file. Throws InputError, naming file and line, on an unknown key, a number out
-// of its range, both or neither of z_m and altitude_m, fewer than two waypoints, or a speed at the
-// last one.
+// Throws InputError, naming file and line, on an unknown key, a number out of its range, both or
+// neither of z_m and altitude_m, fewer than two waypoints, or a speed at the last one.
 std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file);
 
 }  // namespace plotscan::flight

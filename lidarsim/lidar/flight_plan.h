@@ -30,12 +30,11 @@ struct FlightPlanOptions {
 std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
                                          const FlightPlanOptions& options);
 
-// The waypoints of a file (flight::read_waypoints), world frame. Altitudes become heights above the
-// ground below each waypoint: the first surface labelled ground, seen from above. Throws
-// InputError, naming the file, where read_waypoints does, and when there is no ground below an
-// altitude, a waypoint lies less than 0.5 or more than 120 m over its ground or at the same place
-// as the one before it, the path is longer than 100 km, or anything within half a metre to its side
-// reaches up to its height.
+// The waypoints of a file (flight::read_waypoints), world frame. Altitudes count from the ground
+// below each, the first surface labelled ground from above. Throws InputError, naming the file,
+// where read_waypoints does, and when there is no ground below an altitude, a waypoint lies less
+// than 0.5 or more than 120 m over its ground or at the same place as the one before it, the path
+// is longer than 100 km, or anything within half a metre to its side reaches up to its height.
 std::vector<flight::Waypoint> plan_waypoints(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace plotscan::lidar

@@ -31,7 +31,7 @@ class MeshOptics {
  private:
   std::vector<float> reflectance_;                // of each material; negative: not stated
   std::vector<std::uint16_t> triangle_material_;  // empty: all have the first
-  // Of each material, null where it has none; all empty where no material has one.
+  // The mask of each material, null if it has none; empty if no material has one.
   std::vector<std::shared_ptr<const mesh::AlphaMask>> masks_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Eigen::Vector2f> texture_coordinates_;

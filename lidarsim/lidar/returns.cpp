@@ -20,7 +20,7 @@ namespace {
 constexpr double kLight_m_s = 299'792'458;
 // A Gaussian's full width at half maximum over its standard deviation: 2 sqrt(2 ln 2).
 constexpr double kWidthOfSigma = 2.3548200450309493;
-// Nothing is nearer than the sensor's window.
+// The least range of a hit: nothing is nearer than the sensor's window.
 constexpr double kNearest_m = 0.01;
 
 double square(double value) { return value * value; }

@@ -38,7 +38,7 @@ struct Columns {
   }
 };
 
-// NaN counts as 0.
+// NaN and negative numbers count as 0.
 std::size_t bin_of(double number) {
   return number > 0 ? static_cast<std::size_t>(std::min(number, 255.0)) : 0;
 }

@@ -18,7 +18,7 @@ using PositionSink = std::function<void(std::span<const Eigen::Vector3d>)>;
 // What was read.
 struct CloudSummary {
   std::size_t points = 0;      // passed to the sink
-  std::size_t not_finite = 0;  // left out: a coordinate was not finite, or no place on Earth
+  std::size_t not_finite = 0;  // left out: not finite, or degrees too far from the zone
   std::size_t marked = 0;      // left out: marked as not to be processed (PositionOptions)
   std::size_t left_out = 0;    // left out: of a class that CloudFiles excludes
   CloudSystem system = {};     // the coordinate system of the files

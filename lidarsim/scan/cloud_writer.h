@@ -44,7 +44,7 @@ class CloudWriter : public PointWriter {
   PointRecord record_;
   bool ascii_;
   Header header_;
-  std::string text_;  // of the points at hand
+  std::string text_;  // of the current points
   std::uint64_t points_ = 0;
 };
 

@@ -10,8 +10,8 @@ namespace plotscan::scan {
 // What a simulated point lies on. The numbers are those written to files.
 enum class PointClass : std::uint8_t { unlabelled = 0, ground = 1, crop = 2, weed = 3, other = 4 };
 
-// One return as written by the simulator: x, y, z, intensity, ring and time (PCL's usual
-// PointXYZIRT) in the world frame, the return's number among those of its shot, and labels.
+// One return as written by the simulator: x, y, z, intensity, ring and time (the usual PointXYZIRT)
+// in the world frame, the return's number among those of its shot, and labels.
 struct LabelledPoint {
   float x = 0, y = 0, z = 0;       // world frame, metres
   float intensity = 0;             // 0..255

@@ -87,7 +87,7 @@ const std::vector<KnownField>& known_fields() {
   return fields;
 }
 
-// Stands in for "class" where a file has none.
+// Replaces the field "class" in files that do not have it.
 const KnownField& asprs_class() {
   static const KnownField field = {"class", {"classification"}, [](LabelledPoint& p, double v) {
                                      p.label = class_of_asprs(v);

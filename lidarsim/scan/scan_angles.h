@@ -8,18 +8,16 @@
 
 namespace plotscan::scan {
 
-// The scan angles of shots as LAS defines them: measured in the plane across the flight from
-// straight down, positive to the right (counter-clockwise seen from behind). The direction of
-// flight is from the position half a second before to that half a second after; while hovering,
-// that of the body's nose.
+// The scan angles of shots as LAS defines them: in the plane across the flight, from straight down,
+// positive to the right. The direction of flight is from the position half a second before to that
+// half a second after; while hovering, that of the body's nose.
 class ScanAngles {
  public:
   // `reported` must outlive this object.
   ScanAngles(const Trajectory& reported, const Eigen::Isometry3d& body_from_lidar)
       : reported_(reported), body_from_lidar_(body_from_lidar) {}
 
-  // The angle in (-pi, pi] for a point in the trajectory's frame and time. Fastest if points come
-  // in the order of time.
+  // In (-pi, pi], of a point in the trajectory's frame and time. Fastest in the order of time.
   double angle_rad(const LabelledPoint& point);
 
  private:

@@ -74,7 +74,7 @@ struct Sensor {
   double spin_jitter_rad = 0;
   std::optional<Beam> beam = {};             // if the file states one
   std::optional<PacketFormat> packets = {};  // absent: it sends other packets
-  std::string description;  // the text of the sensor's file, kept with a scan
+  std::string description;                   // the text of the sensor's file, kept with a scan
 };
 
 inline constexpr std::size_t kMaxLasers = 128;

@@ -5,8 +5,7 @@
 
 namespace plotscan {
 
-// Whether an errno means that there is no room: the disk is full, or a quota or a limit on file
-// sizes is reached.
+// Whether an errno means no room: a full disk, a quota or a limit on file sizes is reached.
 inline bool is_full(int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
 
 // Whether an errno means that the disk is full, read only or broken, so that the input is not to

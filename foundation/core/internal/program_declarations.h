@@ -11,7 +11,7 @@ namespace plotscan {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& program);
 
-// Those that --help shows, in the order of their declaration.
+// The options that --help shows, in the order of their declaration.
 std::vector<const CLI::Option*> options_of(const CLI::App& app);
 
 // The values that an option accepts, if they are a list of names; else empty.

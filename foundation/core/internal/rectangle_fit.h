@@ -16,10 +16,9 @@ struct RectangleFit {
   double off_m = 0;  // greatest distance of a vertex from the rectangle: corners from its corners
 };
 
-// Fits a rectangle to a ring of vertices (metres, closed or not, in either sense of rotation). The
-// vertices that bend the outline least are dropped until four corners remain; the rectangle has the
-// least sum of squared distances to these. Nothing when there are fewer than four vertices, or more
-// than 1000.
+// Fits a rectangle to a ring of vertices (metres, closed or not, either way round). Vertices that
+// bend the outline least are dropped until four corners remain; the rectangle has the least sum of
+// squared distances to these. Nothing when there are fewer than four vertices, or more than 1000.
 std::optional<RectangleFit> fit_rectangle(std::vector<Eigen::Vector2d> ring);
 
 // The greatest RectangleFit::off_m with which a polygon counts as a plot, metres: 0.1, or 3 % of

@@ -7,9 +7,8 @@
 
 namespace plotscan::record {
 
-// What a GPS receiver at the body's origin reports for a whole second, from the reported trajectory
-// (its end poses beyond its ends). Without an anchor the place on Earth is unknown, and the fix has
-// no position.
+// What a GPS receiver at the body's origin reports for a whole second, from the reported
+// trajectory, held at its ends. Without an anchor the fix has no position.
 GpsFix gps_fix(const FlightRecord& flight, UtcTime second);
 
 // The position packet that the sensor sends `time_s` after the flight's start: it holds the fix of
