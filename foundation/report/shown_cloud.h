@@ -17,7 +17,7 @@ struct ShownPoint {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();  // relative to ShownCloud::origin, metres
   float intensity = 0;                              // 0 to 255
   float time_s = 0;
-  std::uint32_t plot = 0;  // the plot's label; 0: none
+  std::uint32_t plot = 0;  // the plot's number; 0: none
   std::uint8_t label = 0;  // scan::PointClass
 };
 
