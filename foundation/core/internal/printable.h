@@ -8,7 +8,7 @@
 namespace plotscan {
 
 // The text of a file or an argument, made safe to print on a terminal: control characters, which
-// could move its cursor or rename its window, and bytes that are no UTF-8 are written as "\\x1b".
+// could move its cursor or rename its window, and bytes that are no UTF-8 are written as "\x1b".
 // Line ends and tabs stay.
 std::string printable(std::string_view text);
 
