@@ -76,7 +76,8 @@ CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting, const 
   return fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
 }
 
-// --help and completions read the choices of the type's name; FlyOptions are checked as a whole.
+// --help and completions read the choices from the type's name; the values are checked with
+// FlyOptions as a whole.
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
                          const lidar::TextSetting& value, lidar::FlyOptions& options) {
   CLI::Option* option =

@@ -6,7 +6,7 @@
 namespace plotscan {
 
 inline constexpr double kPi = std::numbers::pi;
-// In radians: 30 * kDegrees.
+// One degree in radians: 30 * kDegrees is an angle of 30 degrees.
 inline constexpr double kDegrees = kPi / 180;
 
 constexpr double radians(double angle_deg) { return angle_deg * kPi / 180; }

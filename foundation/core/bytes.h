@@ -11,8 +11,8 @@
 
 namespace plotscan {
 
-// Values one behind the other, as they lie in this machine's memory: what one process of a program
-// hands to another. Lists and texts have their number of entries before them.
+// Packs values one after the other in this machine's own memory layout, to pass them from one
+// process of a program to another. A list or text is preceded by its number of entries.
 class ByteWriter {
  public:
   template <class Value>
@@ -24,7 +24,7 @@ class ByteWriter {
     put(static_cast<std::uint64_t>(text.size()));
     bytes_.append(text);
   }
-  // Of numbers, or of fixed numbers of them (std::array, Eigen's vectors).
+  // Entries are numbers, or hold a fixed number of them (std::array, Eigen's vectors).
   template <class Entry>
   void put_list(const std::vector<Entry>& list) {
     static_assert(std::is_standard_layout_v<Entry>);
@@ -39,7 +39,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// Reads them back in the same order. Throws std::runtime_error where the bytes do not suffice.
+// Reads the values of a ByteWriter back, in the same order. Throws std::runtime_error when the
+// bytes end too early.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}

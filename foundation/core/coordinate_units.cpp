@@ -22,7 +22,7 @@ std::optional<double> unit_named(const std::string& name) {
 }
 
 double exact_unit(double unit_m) {
-  // The two feet differ by 2e-6 of their length.
+  // Small enough to tell the two feet apart, whose lengths differ by a share of 2e-6.
   constexpr double kTolerance = 3e-7;
   for (const double known : {1.0, kFoot_m, kUsSurveyFoot_m})
     if (std::abs(unit_m / known - 1) < kTolerance) return known;

@@ -10,7 +10,7 @@ namespace plotscan {
 inline constexpr double kFoot_m = 0.3048;
 inline constexpr double kUsSurveyFoot_m = 1200.0 / 3937.0;
 
-// What coordinates of a file count in: metres to one unit of x and y, and to one of z.
+// The units of a file's coordinates: how many metres one unit of x and y is, and one unit of z.
 struct CoordinateUnits {
   double horizontal_m = 1;
   double vertical_m = 1;
@@ -20,11 +20,11 @@ struct CoordinateUnits {
 // "metres", "feet", "US survey feet", or "units of 0.3 m".
 std::string unit_name(double unit_m);
 
-// Of "m", "ft" and "us-ft"; nothing for any other name.
+// Metres in the unit called "m", "ft" or "us-ft"; nothing for any other name.
 std::optional<double> unit_named(const std::string& name);
 
-// The foot that a file's rounded number means (files give it with 7 digits and more), else the
-// number.
+// The exact metre or foot that a file's rounded number stands for (files give 7 digits and more);
+// any other number as it is.
 double exact_unit(double unit_m);
 
 }  // namespace plotscan

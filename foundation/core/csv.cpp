@@ -33,7 +33,7 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-// The whole text of a table, which is UTF-8: its values go into JSON.
+// The whole text of a table. It must be UTF-8, since its values go into JSON.
 std::string table_text(const std::filesystem::path& file) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::string text = read_text(file);
@@ -142,7 +142,7 @@ void read_csv(const std::filesystem::path& file, const std::vector<std::string>&
 
 namespace {
 
-// The fields of a table, record by record, out of its whole text.
+// Splits the whole text of a table into records, and these into fields.
 class TableText {
  public:
   TableText(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
@@ -152,7 +152,7 @@ class TableText {
     }
   }
 
-  // Nothing at the end of the text.
+  // The next record; nothing at the end of the text.
   std::optional<CsvTable::Line> next() {
     while (at_ < text_.size()) {
       CsvTable::Line record{.line = line_, .fields = {field()}};
@@ -168,7 +168,7 @@ class TableText {
   }
 
  private:
-  // Up to the separator or line end after it.
+  // The field from at_ to the next separator or line end.
   std::string field() {
     const std::size_t start = text_.find_first_not_of(" \r", at_);
     if (start != std::string_view::npos && text_[start] == '"') return quoted_field(start + 1);
@@ -190,7 +190,7 @@ class TableText {
                            "there is text behind the closing quote of \"" + text + '"');
         return text;
       }
-      if (text_[at] == '"') ++at;  // two are one
+      if (text_[at] == '"') ++at;  // a doubled quote stands for one
       if (text_[at] == '\n') ++line_;
       text += text_[at];
     }

@@ -12,11 +12,10 @@ namespace plotscan {
 // The shortest text that reads back as the same number ("0.1", "1e-07"); "nan" for NaN.
 std::string format_number(double value);
 
-// A text as a field of a CSV line (RFC 4180): in quotes where it holds commas, quotes or line ends.
+// The text as a field of a CSV line (RFC 4180): in quotes if it holds commas, quotes or line ends.
 std::string csv_field(const std::string& text);
 
-// One line of a table while it is read: its fields by column, each error naming file, line and
-// column.
+// One line of a table that is being read: its fields by column. Errors name file, line and column.
 class CsvRow {
  public:
   CsvRow(const std::filesystem::path& file, std::size_t line,
@@ -39,16 +38,16 @@ class CsvRow {
   const std::vector<std::string_view>& fields_;
 };
 
-// A comma-separated table with a header line, without quoted fields; '#' lines and empty lines are
-// passed over. Calls `row` for each line with its fields in the order of `columns` (then of
-// `optional_columns`, whose fields are
-// "" where the table lacks them), whatever their order in the file. Throws InputError on a missing
-// file or column, an unknown column, or a line with another number of fields.
+// A comma-separated table with a header line, without quoted fields; lines that begin with '#' and
+// empty lines are skipped. Calls `row` for each line. Its fields are in the order of `columns`,
+// then of `optional_columns` ("" where the table lacks them), whatever their order in the file.
+// Throws InputError on a missing file or column, an unknown column, or a line with another number
+// of fields.
 void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
               const std::vector<std::string>& optional_columns,
               const std::function<void(const CsvRow&)>& row);
 
-// A table as it is: any columns, all fields text.
+// A whole table, with any columns; every field is kept as text.
 struct CsvTable {
   struct Line {
     std::size_t line = 0;  // in the file, from 1
@@ -59,9 +58,9 @@ struct CsvTable {
 };
 
 // Reads a table as spreadsheets save it: a header line, fields between commas, or semicolons or
-// tabs where the header has these and no comma, quotes as RFC 4180 has them, blanks around fields
-// passed over, and so are empty lines. Throws InputError on a missing or empty file, a column
-// without a name or named twice, a line with another number of fields, or an open quote.
+// tabs where the header has these and no comma, quotes as in RFC 4180. Blanks around fields and
+// empty lines are skipped. Throws InputError on a missing or empty file, a column without a name or
+// named twice, a line with another number of fields, or an open quote.
 CsvTable read_csv_table(const std::filesystem::path& file);
 
 }  // namespace plotscan

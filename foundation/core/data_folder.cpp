@@ -13,19 +13,19 @@ namespace plotscan {
 namespace fs = std::filesystem;
 namespace {
 
-// Every room of the data has some file of its own here.
+// Whether the folder is a data folder: one that has worlds/ and models/.
 bool holds_data(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_directory(folder / "worlds", ignored) &&
          fs::is_directory(folder / "models", ignored);
 }
 
-// The shared library that holds this code, else the program.
+// The shared library that holds this code; if it is in none, the program.
 fs::path own_file() {
   Dl_info info = {};
   const bool known = dladdr(reinterpret_cast<const void*>(&holds_data), &info) != 0;  // NOLINT
   const fs::path file = known && info.dli_fname != nullptr ? info.dli_fname : "";
-  // Of a program, dladdr tells what it was called by, which may be a name on PATH.
+  // For a program, dladdr gives the name it was started by, which PATH may have resolved.
   std::error_code ignored;
   return fs::canonical(file.is_absolute() ? file : "/proc/self/exe", ignored);
 }

@@ -5,17 +5,17 @@
 
 namespace plotscan {
 
-// The folder of the data that Plotscan ships: worlds/, models/, benchmarks/suites/. It is the one
-// that the environment variable PLOTSCAN_DATA names; else share/plotscan of the nearest folder
-// above the program or shared library that this code is part of, so that an installed tree may
-// lie, and be moved, anywhere. A build tree has a link there to its sources. Throws InputError when
-// PLOTSCAN_DATA names another kind of folder, and when there is none.
+// The folder of the data that Plotscan ships: worlds/, models/, benchmarks/suites/. It is the
+// folder that the environment variable PLOTSCAN_DATA names. Without that, share/plotscan is looked
+// for in the folders above the program or shared library that holds this code, the nearest first:
+// an installed tree may be moved anywhere. In a build tree, share/plotscan links to the sources.
+// Throws InputError when PLOTSCAN_DATA names another kind of folder, and when there is none.
 std::filesystem::path data_folder();
 
-// A file as a user names it: itself where it exists, else what lies under that name in the data
-// folder or in its `room` ("worlds"), with ".yaml" behind it or without. The name as it is where
-// there is no such file, so that who opens it says so. Throws InputError when PLOTSCAN_DATA names
-// another kind of folder.
+// The file that a user names: `name` itself if it exists, else the file of that name, with or
+// without ".yaml" added, in the data folder or its subfolder `room` ("worlds"). Returns `name`
+// unchanged if there is no such file: opening it then fails with a message. Throws InputError when
+// PLOTSCAN_DATA names another kind of folder.
 std::filesystem::path found_file(const std::filesystem::path& name,
                                  const std::filesystem::path& room);
 

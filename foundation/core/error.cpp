@@ -24,7 +24,7 @@ InputError::InputError(const std::filesystem::path& file, std::size_t line,
 
 namespace {
 
-// What stands in the way of writing, as in errno; 0: nothing does.
+// The errno of what prevents writing to the file; 0: nothing does.
 int obstacle(const std::filesystem::path& file) {
   const int opened = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
   if (opened < 0) return errno;

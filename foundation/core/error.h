@@ -13,34 +13,35 @@ namespace plotscan {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& message) : std::runtime_error(message) {}
-  // "file: message"; of a file that is being written, the name that it will have
+  // "file: message"; a file that is still being written is called by its final name
   InputError(const std::filesystem::path& file, const std::string& message);
   // "file:line: message", lines counted from 1
   InputError(const std::filesystem::path& file, std::size_t line, const std::string& message);
 };
 
-// Input that is sound and shows nothing of what is to be measured. The message says why, and what
-// to do next. Programs end with exit code 3.
+// The input is sound, but nothing that is to be measured can be seen in it. The message says why,
+// and what to do next. Programs end with exit code 3.
 class NothingToMeasure : public InputError {
  public:
   using InputError::InputError;
 };
 
 // Output that cannot be written: "no space left on FILE", or "FILE: cannot be written" with the
-// reason; FILE as in InputError. Programs end with exit code 1.
+// reason; FILE is named as in InputError. Programs end with exit code 1.
 class WriteError : public std::runtime_error {
  public:
-  // Finds the reason by writing once more; the file is lost anyway.
+  // Finds the reason by writing to the file once more, which is lost anyway.
   explicit WriteError(const std::filesystem::path& file);
-  // `error` as in errno.
+  // `error` is a value of errno.
   WriteError(const std::filesystem::path& file, int error);
 };
 
-// Throws an error of the file system as one of these: WriteError where the disk is full, read only
+// Throws a std::filesystem error again as one of ours: WriteError where the disk is full, read only
 // or broken, else InputError, "FILE: reason".
 [[noreturn]] void throw_as_ours(const std::filesystem::filesystem_error& error);
 
-// Throws std::logic_error with the text: a bug in Plotscan, never the user's fault.
+// Throws std::logic_error with the text `what` unless the condition holds: a bug in Plotscan, never
+// the user's fault.
 void check(bool condition, const std::string& what);
 
 // Opens nothing; throws InputError when the path is not a readable regular file.

@@ -9,8 +9,8 @@
 
 namespace plotscan {
 
-// The smallest rectangle along a frame's axes that holds the boxes, given as they are or as the
-// member of items; empty without any.
+// The smallest rectangle along a frame's axes (by default the world's) that holds all boxes; empty
+// if there are none. `box` picks an item's box: by default the item itself, or a member of it.
 template <class Items, class Member = std::identity>
 Eigen::AlignedBox2d extent_of(
     const Items& items, const Member& box = {},

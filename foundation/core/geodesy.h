@@ -38,7 +38,7 @@ UtmZone utm_zone(const GeodeticPoint& point);
 Eigen::Vector3d utm_from_geodetic(const UtmZone& zone, const GeodeticPoint& point);
 GeodeticPoint geodetic_from_utm(const UtmZone& zone, const Eigen::Vector3d& point);
 
-// A coordinate system whose eastings and northings are UTM's.
+// A coordinate system whose x and y are UTM eastings and northings.
 struct UtmSystem {
   UtmZone zone;
   // "WGS 84", or a datum that is taken for it: its ellipsoid is the same to 0.1 mm, its places on
@@ -46,8 +46,8 @@ struct UtmSystem {
   std::string datum;
 };
 
-// Of "EPSG:<code>": UTM on WGS 84, ETRS89, NAD83, NAD83(2011), GDA94 and GDA2020 (codes as in
-// PROJ's registry); nothing for any other system.
+// The system that "EPSG:<code>" names: UTM on WGS 84, ETRS89, NAD83, NAD83(2011), GDA94 and GDA2020
+// (codes as in PROJ's registry); nothing for any other system.
 std::optional<UtmSystem> utm_system(const std::string& crs);
 
 // Whether "EPSG:<code>" is longitude and latitude on one of these datums.

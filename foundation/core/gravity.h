@@ -3,7 +3,7 @@
 
 namespace plotscan {
 
-// Standard gravity (3rd CGPM, 1901).
+// Standard acceleration of gravity (3rd CGPM, 1901).
 inline constexpr double kGravity_m_s2 = 9.80665;
 
 }  // namespace plotscan

@@ -45,7 +45,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
   setrlimit(resource, &value);
 }
 
-// The addresses that this process has taken, in bytes.
+// The bytes of address space that this process uses.
 std::uint64_t taken_bytes() {
   std::uint64_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -53,12 +53,12 @@ std::uint64_t taken_bytes() {
 }
 
 void confine(const IsolationLimits& limits, pid_t parent) {
-  // What interrupts the parent ends it, and with it the child.
+  // When the parent dies, by an interrupt for example, the kernel kills the child.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<rlim_t>(limits.processor_s));
-  if (PLOTSCAN_SANITIZED != 0) return;  // whose findings are printed
+  if (PLOTSCAN_SANITIZED != 0) return;  // a sanitizer must be able to print its findings
   limit(RLIMIT_AS, taken_bytes() + limits.memory_bytes);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
@@ -79,7 +79,7 @@ void send(int pipe, Outcome outcome, const std::string& text) {
   write_all(text.data(), text.size());
 }
 
-// In the child, to its end: nothing of the parent's is destroyed twice.
+// Runs in the child and ends it without destructors: the parent's objects are not destroyed twice.
 [[noreturn]] void work_and_exit(int pipe, const std::function<std::string()>& work) {
   try {
     send(pipe, Outcome::done, work());
@@ -95,7 +95,7 @@ void send(int pipe, Outcome outcome, const std::string& text) {
   _exit(0);
 }
 
-// How the process ended, -1 where the system does not tell.
+// Waits for the process and returns its wait status; -1 if the system does not tell.
 int reaped(pid_t process) {
   int status = -1;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -103,7 +103,8 @@ int reaped(pid_t process) {
   return status;
 }
 
-// A process and the end of the pipe that it sends to. One that nobody waited for is ended.
+// A child process and the reading end of its pipe. The destructor kills a child that nobody waited
+// for.
 class Child {
  public:
   Child(pid_t process, int pipe) : process_(process), pipe_(pipe) {}
@@ -114,7 +115,7 @@ class Child {
   }
 
   int pipe() const { return pipe_; }
-  // Its status, once it has come to its end.
+  // Waits for its end and returns its wait status.
   int wait() {
     close(pipe_);
     return reaped(std::exchange(process_, -1));
@@ -129,7 +130,7 @@ class Child {
   int pipe_;
 };
 
-// No two start at once: a child that inherits another's end of a pipe would keep it open.
+// Children start one at a time: one that inherited another's end of a pipe would keep it open.
 Child start(const IsolationLimits& limits, const std::function<std::string()>& work) {
   static std::mutex starting;
   const std::lock_guard lock(starting);
@@ -152,7 +153,7 @@ Child start(const IsolationLimits& limits, const std::function<std::string()>& w
   return Child(process, ends[0]);
 }
 
-// Everything that the child sends; false when it does not come to an end in time.
+// Receives everything that the child sends; false if it has not finished in time.
 bool receive(int pipe, std::chrono::seconds patience, std::string& received) {
   const auto end = std::chrono::steady_clock::now() + patience;
   std::string part(std::size_t{1} << 18, '\0');

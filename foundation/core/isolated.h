@@ -7,19 +7,19 @@
 
 namespace plotscan {
 
-// What work in a process of its own may use.
+// The resources that work in a process of its own may use.
 struct IsolationLimits {
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // beyond what this process has
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // in addition to what this process has
   int processor_s = 60;  // of processor time; waiting is cut off at twenty times as much
 };
 
-// Runs `work` in a child process and returns what it returns: other people's parsers crash, loop
-// and swallow memory on files that are made for it, and none of that reaches this process. The
-// child's stdout and stderr lead nowhere; it leaves nothing but what it returns. Throws InputError
+// Runs `work` in a child process and returns what it returns: third-party parsers may crash, loop
+// or use up memory on malicious files, and this process stays unharmed. The child's stdout and
+// stderr are discarded: it leaves only what it returns. Throws InputError
 // - with the text of an InputError that `work` throws;
 // - "WHAT: its reader ..." where it crashes, throws anything else or uses more than the limits.
-// Builds with a sanitizer, which needs terabytes of addresses and tells what it finds, neither
-// limit the memory nor quieten the child.
+// Builds with a sanitizer neither limit the memory nor silence the child, as sanitizers need
+// terabytes of address space and print what they find.
 std::string run_isolated(const std::string& what, const IsolationLimits& limits,
                          const std::function<std::string()>& work);
 

@@ -12,7 +12,7 @@ std::string read_json_text(const std::filesystem::path& path) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (quoted && text[i] == '\\')
-      ++i;  // what it escapes ends nothing
+      ++i;  // skips the escaped character: a quote there ends no text
     else if (text[i] == '"')
       quoted = !quoted;
     else if (!quoted && (text[i] == '[' || text[i] == '{'))

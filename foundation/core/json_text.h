@@ -9,10 +9,10 @@
 namespace plotscan {
 
 // A JSON file's text, not yet parsed. Throws InputError when it cannot be read, and where it is
-// nested deeper than 100: what goes through it calls itself once a level.
+// nested deeper than 100 levels: code that walks through it recurses once per level.
 std::string read_json_text(const std::filesystem::path& path);
 
-// The document in it. Throws InputError as above, and when it is not JSON.
+// The parsed document of a JSON file. Throws InputError as above, and when it is not JSON.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 }  // namespace plotscan

@@ -22,24 +22,25 @@ struct Manifest {
   std::string command;  // "farmgen generate"
   std::uint64_t seed = 0;
   nlohmann::json options = nlohmann::json::object();
-  // Files read, hashed when the manifest is written.
+  // Files that the run read; they are hashed when the manifest is written.
   std::vector<std::filesystem::path> inputs = {};
-  // The member "inputs" of another manifest, of files that were read then; it stands before these.
+  // The member "inputs" of an earlier run's manifest, written before this run's own inputs.
   nlohmann::json earlier_inputs = nlohmann::json::array();
   nlohmann::json results =
       nlohmann::json::object();  // counts worth knowing without opening the files
 };
 
-// Writes folder/manifest.json with format (core/format.h), version, command, seed, options, the
-// inputs' names and hashes, and the hash of every other file in `folder`, hidden ones apart.
+// Writes folder/manifest.json with format (core/format.h), version, command, seed, options,
+// results, the inputs' names and hashes, and the hash of every other file below `folder` that is
+// not hidden.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
 
-// Throws InputError naming the file when one below folder/`part` ("truth"; "" for all of the
-// folder) is not as write_manifest hashed it.
+// Throws InputError naming the file when a file below folder/`part` (such as "truth"; "" is the
+// whole folder) no longer has the hash in the manifest.
 void require_unchanged(const std::filesystem::path& folder, const std::string& part);
 
-// Files and links below the folder that its manifest does not list, hidden ones too, relative to
-// it, in their order. Throws InputError as read_manifest does.
+// Files and links below the folder that its manifest does not list, hidden ones included: sorted
+// paths relative to the folder. Throws InputError as read_manifest does.
 std::vector<std::filesystem::path> unlisted_files(const std::filesystem::path& folder);
 
 // Throws InputError when the folder has no manifest.json that can be parsed, or one of a newer

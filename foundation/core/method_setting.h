@@ -11,7 +11,7 @@
 
 namespace plotscan {
 
-// One option of a method: the command line, suites and manifests all know it from here.
+// One option of a method. The command line, suites and manifests all take it from this one table.
 template <class Options>
 struct MethodSetting {
   std::string key;   // in suites and manifests, "plot_width_m"
@@ -21,11 +21,11 @@ struct MethodSetting {
                OptionalWholeSetting<Options>, WholesSetting<Options>, OptionalTextSetting<Options>,
                FlagSetting<Options>, AreaSetting<Options>>
       value;
-  bool searches = false;  // means nothing when the plots' boxes are given
+  bool searches = false;  // has no effect when the plots' boxes are given
 };
 
-// Sets the value that the text gives. Throws InputError, beginning with `name`, when the text is
-// none, or is not in the setting's range or one of its choices.
+// Sets the option to the value that the text states. Throws InputError, beginning with `name`, when
+// the text is no such value, or the value is outside the setting's range or choices.
 template <class Options>
 void assign(const MethodSetting<Options>& setting, const std::string& name, const std::string& text,
             Options& options) {

@@ -7,7 +7,7 @@
 namespace plotscan {
 namespace {
 
-// Letters put in, left out or exchanged, row by row of the usual table.
+// Levenshtein distance: letters inserted, removed or replaced, by the usual table row by row.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -8,7 +8,7 @@
 
 namespace plotscan {
 
-// The shortest text that reads back as the same number ("0.1", "1e-07"), where it stands.
+// The shortest text that reads back as the same number ("0.1", "1e-07"), kept in this object.
 class NumberText {
  public:
   template <class Number>

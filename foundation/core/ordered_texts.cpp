@@ -28,7 +28,7 @@ void make_in_order(std::size_t count, int threads,
   };
   const auto text_of = [&](std::size_t at) { return NumberedText{at, make(at)}; };
   const auto hand_on = [&](const NumberedText& made) { take(made.number, made.text); };
-  // oneTBB warns of more threads than processors.
+  // With more threads than processors oneTBB would print a warning.
   tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   arena.execute([&] {
     using Mode = tbb::filter_mode;

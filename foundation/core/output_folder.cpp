@@ -31,12 +31,12 @@ bool is_taken(const fs::path& path) {
   return !empty;
 }
 
-// Whether `path` is `folder` or lies in it; both without links.
+// Whether `path` is `folder` or lies in it; both are free of links.
 bool is_within(const fs::path& path, const fs::path& folder) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
 }
 
-// Without links and dots, as far as the path exists.
+// The path with links and dots resolved, as far as it exists.
 fs::path resolved(const fs::path& path) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(without_trailing_slash(path), error);
@@ -106,10 +106,10 @@ OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::
 
 void OutputFolder::commit() {
   require_replaceable_folder(final_, command_);
-  // Where the file system can, old and new change places in one step: there is no moment without a
-  // whole folder, and what goes with this object is the old one.
+  // If the file system can, old and new change places in one step: at no moment is there no whole
+  // folder, and this object's destructor then removes the old one.
   if (renameat2(AT_FDCWD, path().c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) == 0) return;
-  // There is no old one, or the file system cannot. Any other failure leaves the old one be.
+  // There is no old folder, or the file system cannot exchange. Other failures keep the old folder.
   if (errno != ENOENT && errno != EINVAL && errno != ENOSYS) throw WriteError(final_, errno);
   std::error_code error;
   fs::remove_all(final_, error);

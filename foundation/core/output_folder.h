@@ -16,8 +16,7 @@ class OutputFolder {
  public:
   // `inputs`: files and folders that the command reads; a folder's manifest.json stands for the
   // folder. Throws InputError
-  // - when `final_path` exists and is not an empty folder, unless `replace` is set, the same
-  // command
+  // - when `final_path` exists and is not an empty folder, unless `replace` is set, `command`
   //   wrote it (its manifest.json says so), and it holds no file that the manifest does not list;
   // - when it is one of the inputs, lies in one, or has one below it;
   // - when its parent cannot be written; WriteError where the disk is full, read only or broken.
@@ -26,8 +25,8 @@ class OutputFolder {
 
   // Where to write until commit().
   const std::filesystem::path& path() const { return temporary_.path(); }
-  // Throws InputError when files of others came into the folder meanwhile, and WriteError when it
-  // cannot be renamed.
+  // Throws InputError when foreign files have come into the old folder meanwhile, and WriteError
+  // when the new one cannot be renamed.
   void commit();
 
  private:
@@ -40,10 +39,11 @@ class OutputFolder {
 // written by the same command.
 void require_own_folder(const std::filesystem::path& folder, const std::string& command);
 
-// The same, for a folder that is to be replaced as a whole: it holds no file but its own either.
+// As require_own_folder, for a folder that is to be replaced as a whole: it must also hold no file
+// that its manifest does not list.
 void require_replaceable_folder(const std::filesystem::path& folder, const std::string& command);
 
-// Throws InputError when `output` is one of the inputs, lies in one or has one below it.
+// Throws InputError when `output` is one of the inputs, lies in one, or has one below it.
 void require_apart(const std::filesystem::path& output,
                    std::span<const std::filesystem::path> inputs);
 

@@ -8,9 +8,9 @@
 
 namespace plotscan {
 
-// The number that the whole text writes, whatever the locale: decimal digits, a minus sign, and for
-// floating-point numbers an exponent, "inf" or "nan". Absent where the text holds anything else, or
-// more than the type does.
+// The number that the whole text stands for, in any locale: decimal digits, a minus sign, and for
+// floating-point numbers an exponent, "inf" or "nan". Absent if the text holds anything else, or
+// the number does not fit the type.
 template <class Number>
 std::optional<Number> parsed(std::string_view text) {
   Number value{};
@@ -20,7 +20,7 @@ std::optional<Number> parsed(std::string_view text) {
   return value;
 }
 
-// A plus sign, which other programs write before numbers, is none that `parsed` takes.
+// The text without a leading plus sign, which other programs write and `parsed` does not accept.
 inline std::string_view without_plus(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   return text;

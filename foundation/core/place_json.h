@@ -8,12 +8,12 @@
 #include "core/geodesy.h"
 #include "core/plot_box.h"
 
-// Places as they stand in JSON files and in tables.
+// Places as JSON files and tables hold them.
 namespace plotscan {
 
-// latitude_deg, longitude_deg, altitude_m.
+// An object of latitude_deg, longitude_deg, altitude_m.
 nlohmann::json anchor_json(const Anchor& anchor);
-// Throws nlohmann::json::exception where one is missing or no number.
+// Throws nlohmann::json::exception if a member is missing or no number.
 Anchor anchor_from(const nlohmann::json& document);
 
 // A box's properties: metres, and degrees of the length axis counter-clockwise from east.

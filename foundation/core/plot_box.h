@@ -19,15 +19,15 @@ struct PlotBox {
   Eigen::Vector2d length_axis() const;
   Eigen::Vector2d width_axis() const;
   double area_m2() const { return width_m * length_m; }
-  // (along length, along width) of a world point, from the centre, metres.
+  // A world point in the box's frame: (along the length, along the width) from its centre, metres.
   Eigen::Vector2d box_from_world(const Eigen::Vector2d& world) const;
   bool contains(const Eigen::Vector2d& world) const;
-  // Counter-clockwise.
+  // In the world frame, counter-clockwise.
   std::array<Eigen::Vector2d, 4> corners() const;
 };
 
-// Standard errors of a box, each along the box's own axes and independent of the others: in that
-// frame its covariance is diagonal.
+// Standard errors of a box along its own axes. They are independent of each other: in that frame
+// the box's covariance matrix is diagonal.
 struct PlotBoxError {
   double along_m = 0;   // of the centre, along the length
   double across_m = 0;  // of the centre, along the width

@@ -24,7 +24,7 @@ using nlohmann::json;
 // Some hundred thousand plots; parsed, they take about fifteen times as much memory.
 constexpr std::uintmax_t kMostBytes = 64'000'000;
 
-// What write_plot_features_wgs84 calls its positions.
+// How "coordinate_system" begins in a file of write_plot_features_wgs84.
 constexpr std::string_view kDegreesStated = "WGS84 longitude, latitude";
 
 using Projection = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
@@ -52,7 +52,7 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
   return feature;
 }
 
-// As GeoJSON 2008 names systems; well-known text that names no code stands there as it is.
+// The member "crs" of GeoJSON 2008. Well-known text that names no code is written as it is.
 json crs_member(const std::string& crs) {
   constexpr std::string_view kPrefix = "EPSG:";
   const std::string name =
@@ -181,8 +181,8 @@ std::optional<CoordinateUnits> units_of(const json& document, const std::filesys
   return units;
 }
 
-// The system that a file names in its member crs, as "EPSG:<code>" where that is there; "" where it
-// names none.
+// The system that a file names in its member crs: "EPSG:<code>" if it has a code; "" if it names
+// none.
 std::string stated_crs(const json& document) {
   if (!document.contains("crs") || !document["crs"].is_object()) return "";
   const json properties = document["crs"].value("properties", json::object());
@@ -193,7 +193,7 @@ std::string stated_crs(const json& document) {
 }
 
 bool within_degrees(const json& coordinates) {
-  // To a loop, a text is a list of one entry: itself.
+  // Only lists: a loop over a JSON text would visit the text itself, endlessly.
   if (!coordinates.is_array()) return false;
   if (!coordinates.empty() && coordinates[0].is_number()) {
     return std::abs(coordinates.at(0).get<double>()) <= 180 &&
@@ -202,7 +202,7 @@ bool within_degrees(const json& coordinates) {
   return std::ranges::all_of(coordinates, within_degrees);
 }
 
-// Whether positions are longitude and latitude; `over_utm` where the cloud is in UTM's metres.
+// Whether positions are longitude and latitude. `over_utm`: the cloud is in metres of UTM.
 bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
   if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;
@@ -216,7 +216,8 @@ bool is_in_degrees(const json& document, bool over_utm) {
   });
 }
 
-// Both are names of one zone's metres, or no two names.
+// Whether both names may mean one system: either is "", they are equal, or both are UTM in one
+// zone.
 bool may_be_same(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty() || a == b) return true;
   const std::optional<UtmSystem> utm_a = utm_system(a);
@@ -237,7 +238,7 @@ Projection from_units(double unit_m) {
   return [unit_m](const Eigen::Vector2d& position) -> Eigen::Vector2d { return unit_m * position; };
 }
 
-// As read_plot_features says.
+// Decides it as read_plot_features documents.
 Positions positions_of(const json& document, const std::filesystem::path& path,
                        const std::string& crs, double unit_m) {
   const std::optional<UtmSystem> utm = unit_m == 1 ? utm_system(crs) : std::nullopt;

@@ -40,46 +40,49 @@ void write_plot_features(const std::filesystem::path& path, const std::vector<Pl
 nlohmann::json plot_collection(const std::vector<PlotFeature>& plots, const std::string& crs = "",
                                const std::optional<CoordinateUnits>& units = {});
 
-// The same with each corner as WGS84 longitude and latitude, degrees, as RFC 7946 wants them:
-// `lonlat_deg_from_world` gives them. The box among the attributes stays in local metres.
+// As write_plot_features, but with each corner in WGS84 longitude and latitude, degrees, as RFC
+// 7946 wants them: `lonlat_deg_from_world` gives them. The box in the attributes stays in local
+// metres.
 void write_plot_features_wgs84(
     const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
     const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& lonlat_deg_from_world);
 
-// Whether write_plot_features gives every feature a property of that name, one of its box.
+// Whether the name is one of kBoxProperties, which write_plot_features adds to every feature.
 bool is_box_property(const std::string& name);
 
-// Properties that hold a plot's id in field books, Breedbase and BrAPI, the likeliest first.
+// Names of properties that hold a plot's id in field books, Breedbase and BrAPI; the likeliest
+// first.
 const std::vector<std::string>& plot_id_properties();
 
-// A feature's id in a property; "id" may be its own member as well.
+// The id in that property of the feature; for "id", also the feature's own member "id".
 std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property);
 
 // Reads what write_plot_features writes, and any FeatureCollection of polygons that are nearly
-// rectangles (from QGIS, say), in metres or the units that the file names: the box is the rectangle
-// nearest to the polygon, length the longer side (core/internal/rectangle_fit.h). Throws InputError
-// on a missing file, broken JSON, a polygon that is farther from a rectangle than
-// rectangle_tolerance_m, a non-finite number, and a file that is in longitude and latitude.
+// rectangles (from QGIS, say), in metres or the units that the file names: the box is the exact one
+// in the properties, with which the polygon must agree, else the rectangle nearest to the polygon,
+// length the longer side (core/internal/rectangle_fit.h). Throws InputError on a missing file,
+// broken JSON, a polygon that is farther from a rectangle than rectangle_tolerance_m, a non-finite
+// number, and a file that is in longitude and latitude.
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path);
 
 // Plots in the metres of a coordinate system.
 struct PlacedPlots {
   std::vector<PlotFeature> plots = {};
   bool from_degrees = false;  // the file has longitude and latitude, which were converted
-  std::optional<CoordinateUnits> units = {};  // that the file names (write_plot_features)
+  std::optional<CoordinateUnits> units = {};  // as the file states (write_plot_features)
 };
 
-// The same as a map over a cloud: `crs` is the cloud's ("EPSG:<code>", "" where unknown), `unit_m`
-// the metres to one unit of its x and y. Positions are in the units that the file names, else in
-// `unit_m`. They are longitude and latitude in degrees where the file says so (its member crs, or
-// ours), and where it says nothing (RFC 7946), `crs` is UTM's in metres, and no number is beyond
-// 180 and 90: they are converted, and a box among the properties, which is of another frame, is
-// passed over. Throws InputError as above; on degrees where `crs` is not UTM's in metres; and on a
-// file of another system.
+// Reads a map of plots that lies over a cloud. `crs` is the cloud's system ("EPSG:<code>", "" if
+// unknown), `unit_m` the metres in one unit of its x and y. The file's positions are in the units
+// that it names, else in `unit_m`. They are longitude and latitude in degrees if the file says so
+// (its member crs or coordinate_system). A file that says nothing (RFC 7946) is also taken for
+// degrees if `crs` is UTM in metres and no number exceeds 180 and 90. Degrees are converted, and a
+// box in the properties is then ignored, as it is of another frame. Throws InputError as above; on
+// degrees if `crs` is not UTM in metres; and on a file of another system.
 PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
                                double unit_m = 1);
 
-// The same of a document that is in memory; `path` names it in messages.
+// The same for a document in memory; `path` names it in messages.
 PlacedPlots plot_features_of(const nlohmann::json& document, const std::filesystem::path& path,
                              const std::string& crs, double unit_m = 1);
 

@@ -10,9 +10,8 @@
 
 namespace plotscan {
 
-// A plot's id as people write it, a number or a text, and what it is stays what it is: 101 is
-// written as the number 101, "A-12" and "0101" as these texts. Two ids that read alike are the
-// same.
+// A plot's id as people write it: a number or a text. It keeps its kind when written: 101 as a
+// number, "A-12" and "0101" as texts. Two ids that read alike are equal, whatever their kind.
 class PlotId {
  public:
   // Implicit: programs number the plots that they find.

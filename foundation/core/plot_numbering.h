@@ -11,7 +11,7 @@ enum class PlotNumbering {
   serpentine,  // every other row from its last column, as one walks
 };
 
-// The column that comes at a place of a row, and as well the place of a column; all from 0.
+// The column at a place in a row's numbering; also the place of a column. All from 0.
 inline std::uint32_t column_at(PlotNumbering numbering, std::size_t row, std::uint32_t place,
                                std::uint32_t columns) {
   const bool backward = numbering == PlotNumbering::serpentine && row % 2 == 1;

@@ -3,8 +3,8 @@
 
 namespace plotscan {
 
-// Seconds of processors that this process has used so far, user and system: on all its threads, and
-// in the children that it has waited for.
+// Processor seconds (user and system) that this process has used so far: all its threads, and the
+// child processes that it has waited for.
 double processor_time_s();
 
 }  // namespace plotscan

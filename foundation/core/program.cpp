@@ -48,12 +48,12 @@ void log_to_stderr(int verbosity, const std::string& name) {
   spdlog::register_logger(logger);
 }
 
-// Errors come from files and arguments of others.
+// `message` may quote files and arguments of unknown origin, so it is made printable.
 void say_error(const std::string& program, const std::string& message) {
   std::cerr << program << ": " << printable(message) << '\n';
 }
 
-// Of a plain decimal: CLI11's own conversion takes what is too large for the largest seed.
+// Takes only plain decimals: CLI11's own conversion turns too large numbers into the largest seed.
 std::uint64_t seed_of(const std::string& text) {
   if (const auto seed = parsed<std::uint64_t>(text)) return *seed;
   throw CLI::ValidationError("--seed",
@@ -132,10 +132,10 @@ void Program::add_common_options(CLI::App& command, const Uses& uses) {
 }
 
 int Program::run(int argc, char** argv) {
-  // Else a file size limit would kill the process in place of telling it.
+  // Without this, a limit on file sizes would kill the process instead of failing the write.
   std::signal(SIGXFSZ, SIG_IGN);
-  // Else a reader that leaves would kill it, unfinished work and all. Not ignored but caught:
-  // programs that this one starts get the default again.
+  // Without this, a pipe's reader that goes away would kill it and leave unfinished work behind.
+  // Caught rather than ignored: programs that this one starts get the default again.
   std::signal(SIGPIPE, [](int /*signal*/) {});
   remove_unfinished_work_on_interrupt();
   for (const auto& [command, uses] : std::exchange(commands_, {}))
@@ -145,7 +145,7 @@ int Program::run(int argc, char** argv) {
   std::cout.flush();
   if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   int error = errno;
-  // What was flushed before has told its reason to nobody; one more byte meets the same.
+  // An earlier flush that failed kept no reason; writing one more byte fails for the same one.
   if (error == 0 && write(STDOUT_FILENO, "\n", 1) < 0) error = errno;
   say_error(name_, std::string("stdout cannot be written") +
                        (error != 0 ? ": " + std::generic_category().message(error) : ""));

@@ -14,7 +14,7 @@
 
 namespace plotscan {
 
-// What a command uses, and so takes, besides -v and -q.
+// Which of the common options a command takes besides -v and -q.
 struct Uses {
   const char* seed =
       nullptr;           // --seed: what it is the seed of, and its default where that is not 1
@@ -51,8 +51,8 @@ class Program {
  public:
   Program(std::string name, const std::string& description);
 
-  // Adds a sub-command, which takes those of the common options that it uses, behind its own; `run`
-  // is called when it is chosen.
+  // Adds a sub-command. After its own options it takes the common options in `uses`. `run` is
+  // called when the user chooses it.
   CLI::App& command(const std::string& name, const std::string& description,
                     std::function<void()> run, const Uses& uses = {});
 
@@ -70,7 +70,7 @@ class Program {
   // A line about work to come on stderr, terminal or not; silent with -q and --json.
   void announce(const std::string& line) const;
   // Progress with the time left on stderr: a bar on a terminal, elsewhere a line every ten seconds.
-  // With -q or --json an empty report.
+  // With -q or --json the report is empty.
   ProgressReport progress(const std::string& label) const;
 
  private:

@@ -12,8 +12,8 @@
 
 namespace plotscan {
 
-// Names what a random number is for. FNV-1a of the text, so that "plant/yaw" is a different stream
-// from "plant/scale" and adding a stream changes no other.
+// A number for the purpose that the text names: its FNV-1a hash. So "plant/yaw" and "plant/scale"
+// are different streams, and adding a stream changes no other.
 constexpr std::uint32_t random_purpose(std::string_view what) {
   std::uint32_t hash = 2166136261u;
   for (const char c : what) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;

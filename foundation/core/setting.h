@@ -11,11 +11,11 @@
 
 #include "core/range.h"
 
-// What one option of a method is, whatever asks for it: a command line, a suite, a manifest. A
-// setting hands out the member of the options that it sets, and knows what that may hold.
+// The kinds of options that methods have, the same for a command line, a suite or a manifest. A
+// setting gives access to the member of the options that it sets, and knows its allowed values.
 namespace plotscan {
 
-// Every number of the value, where it has any, lies in the range.
+// Every number in the value must lie in the range; an absent value is allowed.
 template <class Options, class Value>
 struct RangedSetting {
   Range range;
@@ -55,13 +55,13 @@ struct AreaSetting {
   std::optional<std::array<double, 4>>& (*of)(Options&);
 };
 
-// The settings hand out references into what they are given; nothing is written through this one.
+// The value of the setting in const options. `of` takes them mutable; nothing is written here.
 template <class Setting, class Options>
 const auto& value_of(const Setting& setting, const Options& options) {
   return setting.of(const_cast<Options&>(options));  // NOLINT(*-const-cast)
 }
 
-// As manifests hold it; null where it is not set.
+// The value as manifests hold it; null if it is not set.
 template <class Value>
 nlohmann::json setting_json(const Value& value) {
   return value;
@@ -82,7 +82,7 @@ void require_in_range(const std::string& name, const Eigen::Vector3d& values, co
 void require_chosen(const std::string& name, const std::optional<std::string>& value,
                     const std::vector<std::string>& choices);
 
-// Whether a setting's value is one that it may have; throws as above.
+// Throws as above unless the setting's value is allowed.
 template <class Options, class Value>
 void require_valid(const std::string& name, const RangedSetting<Options, Value>& setting,
                    const Options& options) {
@@ -96,8 +96,8 @@ void require_valid(const std::string& name, const ChosenSetting<Options, Value>&
 template <class Setting, class Options>
 void require_valid(const std::string&, const Setting&, const Options&) {}
 
-// Reads a value from its text: a number, numbers with commas, true or false. Throw InputError,
-// "NAME \"x\" is not a number".
+// Read a value from its text: a number, numbers separated by commas, true or false. Throw
+// InputError, "NAME \"x\" is not a number".
 void read_setting(const std::string& name, const std::string& text, double& value);
 void read_setting(const std::string& name, const std::string& text, int& value);
 void read_setting(const std::string& name, const std::string& text, bool& value);

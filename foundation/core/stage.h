@@ -8,9 +8,9 @@
 
 namespace plotscan {
 
-// A stage of long work. Where it ends, -v tells its name, the seconds it took, those of processors
-// that the whole program used meanwhile, and what it counted: spdlog's logger "plotscan" does,
-// which programs register; where there is none, nothing is said.
+// A stage of long work. Its destructor logs its name, the seconds it took, the processor seconds
+// that the whole program used meanwhile, and what found() was told. It logs to spdlog's logger
+// "plotscan", which programs register and -v shows; without that logger nothing is logged.
 class Stage {
  public:
   explicit Stage(std::string name);
@@ -18,7 +18,7 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  // What came out of it, such as "30 plots".
+  // Sets what the stage's log line counts, such as "30 plots".
   void found(std::string what) { found_ = std::move(what); }
 
  private:

@@ -11,12 +11,12 @@ namespace plotscan {
 
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The share-quantile (0..1) of the values, linear between order statistics (Hyndman and Fan's type
-// 7, NumPy's and R's default). NaN when there are none.
+// The quantile of the values at `share` (0 to 1), linear between order statistics (Hyndman and
+// Fan's type 7, NumPy's and R's default). NaN if there are no values.
 double quantile(std::vector<double> values, double share);
 
-// The value that `place` others come before in ascending order, below values.size(): the least at
-// 0, the upper median at half. Changes the order.
+// The value at index `place` (from 0) in ascending order: 0 gives the least value, values.size() /
+// 2 the upper median. `place` must be below values.size(). Reorders the values.
 template <class Value>
 Value selected(std::span<Value> values, std::size_t place) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
@@ -24,7 +24,7 @@ Value selected(std::span<Value> values, std::size_t place) {
   return *at;
 }
 
-// The same for a place near the least, at hardly more than a comparison a value.
+// As selected, but faster for a small `place`: it needs little more than one comparison per value.
 template <class Value>
 Value selected_low(std::span<Value> values, std::size_t place) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
@@ -32,9 +32,8 @@ Value selected_low(std::span<Value> values, std::size_t place) {
   return *at;
 }
 
-// The median of values that each count as much as they are: of the counts of points in squares,
-// that of the square in which the middle point lies. Of values of at least 0; 0 when there are
-// none.
+// The median of values (at least 0), each weighted by itself. For the numbers of points in squares:
+// the number in the square that holds the middle point. 0 if there are no values.
 template <class Value>
 Value self_weighted_median(std::vector<Value> values) {
   std::ranges::sort(values);
@@ -48,7 +47,7 @@ Value self_weighted_median(std::vector<Value> values) {
   return Value{};
 }
 
-// NaN of a whole that is none.
+// part / whole; NaN unless the whole is above 0.
 inline double ratio(double part, double whole) { return whole > 0 ? part / whole : kNaN; }
 
 // NaN when there are none.

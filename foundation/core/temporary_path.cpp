@@ -20,7 +20,7 @@
 namespace plotscan {
 namespace {
 
-// An interrupt comes from outside and knows no object, so the living paths are kept here.
+// A signal handler has no access to the objects, so the paths of all living ones are kept here.
 struct LivingPaths {
   std::mutex mutex;
   std::multiset<std::string> paths;
@@ -31,7 +31,7 @@ LivingPaths& living() {
   return paths;
 }
 
-// The number between a name's beginning and end; absent where the name is not made of these.
+// The number in a name made of `begin`, a positive number and `end`; absent for any other name.
 std::optional<pid_t> number_between(std::string_view name, std::string_view begin,
                                     std::string_view end) {
   const bool framed =
@@ -43,7 +43,7 @@ std::optional<pid_t> number_between(std::string_view name, std::string_view begi
   return number && *number > 0 ? number : std::nullopt;
 }
 
-// A process that has ended and that its parent has not asked after is gone, too.
+// A zombie, which has ended but was not yet waited for by its parent, counts as gone.
 bool is_gone(pid_t process) {
   if (kill(process, 0) != 0) return errno == ESRCH;
   // "PROCESS (NAME) STATE ..."; the name may hold anything.
@@ -53,7 +53,7 @@ bool is_gone(pid_t process) {
   return name_end != std::string::npos && status.substr(name_end + 2).starts_with('Z');
 }
 
-// What processes that are gone left under the same name but for their number.
+// Removes what processes that are gone left under the same name but for the process number.
 void sweep(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   const std::string own = "-" + std::to_string(getpid());
@@ -72,7 +72,7 @@ void sweep(const std::filesystem::path& path) {
 // What partial_path puts between a name and its extension.
 std::string own_mark() { return ".partial-" + std::to_string(getpid()); }
 
-// The name that is final, of a partial one; any other stays.
+// The final name for a partial one; any other name unchanged.
 std::string shown_name(const std::string& name) {
   const std::string mark = own_mark();
   const std::size_t at = name.find(mark, 1);

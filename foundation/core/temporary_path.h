@@ -9,9 +9,8 @@ namespace plotscan {
 // interrupted (Program watches for SIGINT and SIGTERM).
 class TemporaryPath {
  public:
-  // Creates nothing. Where the path is hidden and has this process' number in its name, removes
-  // what a killed run left of the same work: what differs in that number alone, which is no living
-  // process' number.
+  // Creates nothing. If the path is hidden and its name has this process' number, removes what
+  // killed runs left: paths that differ only in the number, which no living process has.
   explicit TemporaryPath(std::filesystem::path path);
   ~TemporaryPath();
   TemporaryPath(const TemporaryPath&) = delete;
@@ -19,20 +18,22 @@ class TemporaryPath {
 
   const std::filesystem::path& path() const { return path_; }
 
-  // Removes what every living TemporaryPath of the process names: the last thing before the process
-  // ends. `halt` is called when no path comes or goes any more; it sees to it that no other thread
-  // runs on.
+  // Removes what every living TemporaryPath of the process names; to be called last, before the
+  // process ends. Calls `halt`, which must stop all other threads, once no path can be added or
+  // removed.
   static void remove_all(void (*halt)());
 
  private:
   std::filesystem::path path_;
 };
 
-// Where this process writes what becomes `final_path`: hidden, beside it, with its extension.
+// The path to which this process writes until the work becomes `final_path`: a hidden one beside
+// it, with its extension.
 std::filesystem::path partial_path(const std::filesystem::path& final_path);
 
-// The way back, for a partial path of this process and what lies in it; other paths stay. Errors
-// name files so: who writes one knows its partial path alone, and the user only the final one.
+// The inverse of partial_path, for a partial path of this process and what lies in it; other paths
+// stay. Errors name files this way: a writer knows only the partial path, the user only the final
+// one.
 std::filesystem::path shown_path(const std::filesystem::path& path);
 
 }  // namespace plotscan

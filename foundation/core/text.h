@@ -16,7 +16,7 @@ inline std::string joined(const std::vector<std::string>& names, const char* sep
   return text;
 }
 
-// Its ASCII letters in lower case.
+// The text with its ASCII letters in lower case.
 inline std::string lower_case(std::string_view text) {
   std::string lower(text);
   for (char& c : lower)
@@ -24,7 +24,7 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
-// Of a file's name, its dot with it: ".las" of "FIELD.LAS".
+// The file's extension in lower case, with its dot: ".las" of "FIELD.LAS".
 inline std::string lower_extension(const std::filesystem::path& file) {
   return lower_case(file.extension().string());
 }

@@ -11,7 +11,7 @@
 
 namespace plotscan {
 
-// A text file being written, its numbers as the shortest text that reads back as the same number.
+// Writes a text file. Numbers are written as the shortest text that reads back as the same number.
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& path)

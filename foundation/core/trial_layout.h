@@ -9,26 +9,27 @@
 
 namespace plotscan {
 
-// Of a field, in descriptions, options and tables: far more than any trial has.
+// The most plots a field may have in descriptions, options and tables: far more than any trial has.
 inline constexpr int kMostPlots = 100'000;
 
 // Where a plot of a trial lies.
 struct TrialPlace {
-  int row = 0;     // from 1: rows follow each other along the plots' length
-  int column = 0;  // from 1: columns follow each other along their width
-  // Of the plot's centre, along the layout's row axis and its column axis, metres.
+  int row = 0;     // from 1: rows are counted along the plots' length
+  int column = 0;  // from 1: columns are counted along their width
+  // The plot's centre from the layout's origin, along its row axis and its column axis, metres.
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
 };
 
 // How the plots of a trial lie: all of one size, in rows whose direction need not be perpendicular
-// to the plots' length. What a farm is planted by, and what is found of one; nothing of its plants.
+// to the plots' length. Farms are planted by it, and plot finding returns it; it says nothing about
+// plants.
 struct TrialLayout {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in the world's or a cloud's frame, metres
   // Unit vectors: along a row, from column to column; and along the plots' length, from row to row.
   Eigen::Vector2d row_axis = Eigen::Vector2d::UnitX();
   Eigen::Vector2d column_axis = Eigen::Vector2d::UnitY();
   double width_m = 0, length_m = 0;            // of a plot
-  double column_pitch_m = 0, row_pitch_m = 0;  // usual step to the next; 0 where there is one only
+  double column_pitch_m = 0, row_pitch_m = 0;  // usual step to the next; 0 if there is only one
   std::vector<TrialPlace> places = {};
 
   double heading_rad() const;  // of the plots' length, in [0, pi)

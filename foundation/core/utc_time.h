@@ -10,17 +10,17 @@ namespace plotscan {
 // An instant of Coordinated Universal Time; leap seconds are not counted (as in Unix time).
 using UtcTime = std::chrono::sys_time<std::chrono::microseconds>;
 
-// "2026-06-01T10:00:00Z", seconds with up to six decimals; nothing where it is no such instant of
-// the years 1980 to 2099.
+// The instant in a text like "2026-06-01T10:00:00Z", seconds with up to six decimals; nothing if
+// the text is not such an instant of the years 1980 to 2099.
 std::optional<UtcTime> parse_utc(const std::string& text);
-// The same, with as many decimals as it takes.
+// The text of an instant in that form, with as many decimals as needed.
 std::string format_utc(UtcTime time);
 
 // The instant so many seconds later, to the nearest microsecond.
 UtcTime later(UtcTime time, double seconds);
 
-// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC and the 18 leap seconds that it
-// has been behind since 2017 (17 from July 2015, 16 from July 2012: earlier times are as much off).
+// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC plus 18 leap seconds, exact since
+// 2017 (it was 17 from July 2015, 16 from July 2012).
 double gps_seconds(UtcTime time);
 
 }  // namespace plotscan

@@ -65,7 +65,7 @@ void apply_override(const YAML::Node& root, const std::string& assignment) {
   }
 }
 
-// yaml-cpp takes some 70 bytes for one of the file.
+// yaml-cpp needs some 70 bytes of memory for each byte of the file.
 constexpr std::size_t kMostBytes = 4'000'000;
 
 void require_size(std::uintmax_t bytes, const std::filesystem::path& file) {
@@ -74,7 +74,7 @@ void require_size(std::uintmax_t bytes, const std::filesystem::path& file) {
                              std::to_string(kMostBytes));
 }
 
-// Where a document begins; what it holds is not kept.
+// Keeps where a document begins, and nothing of what it holds.
 struct DocumentStart : YAML::EventHandler {
   YAML::Mark mark = {};
   void OnDocumentStart(const YAML::Mark& start) override { mark = start; }
@@ -91,8 +91,8 @@ struct DocumentStart : YAML::EventHandler {
   void OnMapEnd() override {}
 };
 
-// Not by YAML::LoadAll: a bracket or comma that belongs to nothing is an empty document to it, over
-// and over, until there is no memory left.
+// YAML::LoadAll is not used: it takes a stray bracket or comma for an empty document again and
+// again, until no memory is left.
 void refuse_second_document(const std::string& text, const std::filesystem::path& file) {
   std::istringstream in(text);
   YAML::Parser parser(in);
@@ -120,7 +120,7 @@ std::string path_below(const std::string& path, const std::string& key) {
   return path + "." + key;
 }
 
-// A scalar as a map with that one key.
+// A scalar wrapped in a map with that one key; other entries unchanged.
 YAML::Node as_map(const YAML::Node& entry, const std::string& scalar_key) {
   if (!entry.IsScalar() || scalar_key.empty()) return entry;
   YAML::Node wrapped(YAML::NodeType::Map);
@@ -207,7 +207,7 @@ void YamlSection::fail(const std::string& key, const std::string& message) const
   document_->fail(at ? at.Mark() : reading_->node.Mark(), path_of(key), message);
 }
 
-// A key that nobody has asked for and that is spelt nearly so was meant.
+// If a key that nobody asked for is spelt almost like this one, the user probably meant this one.
 void YamlSection::fail_missing(const std::string& key) const {
   std::vector<std::string> unread;
   for (const auto& entry : reading_->node) {

@@ -5,7 +5,7 @@
 
 namespace plotscan::report {
 
-// The number to so many decimals: a page need not hold more than are seen.
+// The number rounded to `count` decimals: a page need not hold more than it shows.
 inline double decimals(double number, int count) {
   const double power = std::pow(10.0, count);
   return std::round(number * power) / power;

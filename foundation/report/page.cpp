@@ -34,7 +34,7 @@ std::string base64(const Bytes& bytes) {
   return text;
 }
 
-// Takes the binary values out of the document, which keeps their numbers: {"blob": 3}.
+// Moves the binary values out of the document, where their index remains: {"blob": 3}.
 void take_blobs(json& value, std::vector<Bytes>& blobs) {
   if (value.is_binary()) {
     blobs.push_back(std::move(value.get_binary()));

@@ -9,7 +9,7 @@
 
 namespace plotscan::report {
 
-// The most points that a page draws smoothly and keeps under 40 MB.
+// The most points of a page: it still draws smoothly and stays under 40 MB.
 inline constexpr std::size_t kMostPoints = 5'000'000;
 
 // A point as a page shows it.
@@ -17,7 +17,7 @@ struct ShownPoint {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();  // relative to ShownCloud::origin, metres
   float intensity = 0;                              // 0 to 255
   float time_s = 0;
-  std::uint32_t plot = 0;  // label; 0: none
+  std::uint32_t plot = 0;  // the plot's number; 0: none
   std::uint8_t label = 0;  // scan::PointClass
 };
 
@@ -25,15 +25,15 @@ struct ShownPoint {
 struct ShownCloud {
   std::vector<ShownPoint> points = {};
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // in the cloud's frame, metres
-  std::uint64_t read = 0;                            // points of the whole cloud
+  std::uint64_t read = 0;                            // points in the whole cloud, shown or not
   bool has_class = false;
   bool has_plot = false;
   bool has_intensity = false;
   bool has_time = false;
 };
 
-// Takes a fair sample of a stream of points, in memory bounded by the sample: the same points in
-// the same order give the same sample.
+// Takes a random sample of a stream of points, in which each point is equally likely. Memory is
+// bounded by the sample's size. The same points in the same order give the same sample.
 class CloudSample {
  public:
   // Throws InputError unless `most` is 1 to kMostPoints.
@@ -41,7 +41,8 @@ class CloudSample {
 
   void add(const ShownPoint& point);
   std::uint64_t read() const { return read_; }
-  // At most `most` of the points that were added, each as likely as any other. The sample is spent.
+  // At most `most` of the points that were added, each as likely as any other. Call it once: the
+  // sample is moved out.
   std::vector<ShownPoint> take();
 
  private:

@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kDecimals = 5;             // of metres
-constexpr std::size_t kMostPath = 2000;  // places of the drone that are shown
+constexpr std::size_t kMostPath = 2000;  // most drone positions that are shown
 
 json number(double value) {
   return std::isfinite(value) ? json(decimals(value, kDecimals)) : json();

@@ -15,7 +15,7 @@
 
 namespace plotscan::report {
 
-// A height, metres; NaN where the method does not say.
+// A height and its uncertainty, metres; NaN where the method gives none.
 struct ShownHeight {
   double value_m = 0;
   double standard_error_m = 0;
@@ -23,7 +23,7 @@ struct ShownHeight {
   double high95_m = 0;
 };
 
-// What became of a plot once it is held against the truth.
+// What a comparison with the truth says of a plot.
 enum class PlotState : std::uint8_t { unscored, found, extra };
 
 // A plot of an estimate or, in a scan's page, of a map.
@@ -31,7 +31,7 @@ struct ShownPlot {
   std::string id;
   int row = 0;     // from 1; 0: unknown
   int column = 0;  // from 1; 0: unknown
-  PlotBox box;     // the frame of the field's cloud, metres
+  PlotBox box;     // in the frame of the field's cloud, metres
   std::optional<std::uint64_t> points = {};
   std::map<std::string, ShownHeight> heights = {};  // by name, "max"
   std::optional<double> confidence = {};
@@ -56,8 +56,8 @@ struct ShownPlane {
   double tolerance_m = 0;  // points no farther from it count as ground
 };
 
-// How a method came to its plots: boxes of clusters, from which the plots' boxes were made, and the
-// planes under these. Either may be empty.
+// How a method found its plots: the boxes of the clusters from which it made the plots' boxes, and
+// the ground planes under these. Either may be empty.
 struct ShownWorking {
   std::string method;
   std::vector<PlotBox> clusters = {};
@@ -67,7 +67,7 @@ struct ShownWorking {
 
 // Heights of the nodes of a square grid, rows from south to north; NaN where there is none.
 struct ShownGrid {
-  Eigen::Vector2d first = Eigen::Vector2d::Zero();  // the south-western node, the cloud's frame
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();  // the south-western node, cloud frame, metres
   double cell_m = 0;
   int columns = 0;
   int rows = 0;
@@ -76,7 +76,7 @@ struct ShownGrid {
   std::vector<float> seen = {};              // 1 or 0; empty: not known
 };
 
-// Something to be told of a field, "points read: 7,735,305".
+// A fact to show about a field, such as "points read: 7,735,305".
 struct Fact {
   std::string name;
   std::string value;
@@ -93,10 +93,10 @@ struct ShownField {
   std::vector<Eigen::Vector3d> path = {};  // of the drone
   std::vector<ShownPlot> plots = {};
   std::vector<ShownBox> true_boxes = {};
-  std::vector<ShownWorking> workings = {};  // of methods that have any
+  std::vector<ShownWorking> workings = {};  // of methods that report any
 };
 
-// As pages hold it (docs/report-format.md), with binary values.
+// The field as pages hold it (docs/report-format.md), with binary values for write_page.
 nlohmann::json packed_field(const ShownField& field);
 
 }  // namespace plotscan::report

@@ -7,8 +7,8 @@
 
 namespace plotscan::report {
 
-// A fitted ground (ground::Surface, which this room does not know), moved by `move_m` into the
-// frame of the page's cloud.
+// A fitted ground, moved by `move_m` (metres) into the frame of the page's cloud. A template, since
+// this folder does not depend on ground::Surface.
 template <class Surface>
 ShownGrid shown_grid(const Surface& surface, const Eigen::Vector3d& move_m) {
   ShownGrid grid{.first = surface.origin + move_m.template head<2>(),

@@ -14,7 +14,7 @@ constexpr double kStep_s = 1.0 / (kPosesPerSecond * kStepsPerPose);
 constexpr double kReserve_m_s2 = 0.5;
 constexpr double kGustDeviations = 2;
 
-// Columns; thrust and integral as accelerations, thrust over mass.
+// The columns of State. Thrust and integral are accelerations: thrust divided by mass, m/s^2.
 enum Column { kPosition, kVelocity, kThrust, kIntegral };
 using State = Eigen::Matrix<double, 3, 4>;
 
@@ -29,7 +29,7 @@ class Loop {
   Loop(const Quadrotor& quadrotor, const Route& route, const Air& air, const Autopilot& autopilot)
       : quadrotor_(quadrotor), route_(route), air_(air), autopilot_(autopilot) {}
 
-  // Hovering in the expected wind, where the route starts.
+  // The state of hovering in the expected wind where the route starts.
   State start() const {
     State state = State::Zero();
     state.col(kPosition) = route_.at(0).position_m;
@@ -54,12 +54,12 @@ class Loop {
   }
 
  private:
-  // What thrust over mass must add to fly at the velocity through the air.
+  // The thrust over mass that cancels drag at this velocity through the air.
   Eigen::Vector3d drag(const Eigen::Vector3d& through_air_m_s) const {
     return quadrotor_.drag_n_s2_m2 / quadrotor_.mass_kg * through_air_m_s.norm() * through_air_m_s;
   }
 
-  // Height comes first, as in PX4: what the limits of thrust and tilt leave to it goes level.
+  // Limits thrust and tilt. Height has priority, as in PX4: horizontal thrust gets what is left.
   Thrust limited(const Eigen::Vector3d& wanted_m_s2) const {
     Thrust thrust{.m_s2 = wanted_m_s2};
     const double greatest = autopilot_.greatest_thrust_g * kGravity_m_s2;
@@ -92,7 +92,7 @@ class Loop {
     slope.col(kVelocity) = acceleration;
     slope.col(kThrust) = (asked.m_s2 - state.col(kThrust)) / autopilot_.thrust_lag_s;
     slope.col(kIntegral) = autopilot_.integral_1_s2.cwiseProduct(speed_error);
-    // At a limit the integral would only wind up.
+    // Anti-windup: at a limit the integral does not grow.
     if (asked.level_limited) slope.col(kIntegral).head<2>().setZero();
     if (asked.height_limited) slope(2, kIntegral) = 0;
     return slope;

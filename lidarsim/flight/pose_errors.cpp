@@ -16,8 +16,8 @@ namespace {
 constexpr double kFix_s = 0.1;
 constexpr double kPose_s = 0.01;
 
-// A number that errs with time: white noise at every fix and a Gauss-Markov drift, both linear from
-// fix to fix.
+// One component of the errors over time: white noise at every fix plus a Gauss-Markov drift, both
+// linear from fix to fix.
 class ErrorSeries {
  public:
   ErrorSeries(double noise, double drift, double drift_s, double duration_s, std::uint64_t seed,
@@ -45,7 +45,7 @@ class ErrorSeries {
   std::vector<double> values_;
 };
 
-// Times from the trajectory's start: of its poses, and every kPose_s.
+// In the trajectory's time: the times of its poses and, between these, at least one every kPose_s.
 std::vector<double> report_times(const scan::Trajectory& truth) {
   std::vector<double> times;
   for (const scan::StampedPose& pose : truth.poses()) {

@@ -7,7 +7,7 @@
 namespace plotscan::flight {
 namespace {
 
-// The acceleration grows for this long on the way from rest to `speed`.
+// How long the acceleration grows while speeding up from rest to `speed`.
 double jerk_time(double speed, const MotionLimits& limits) {
   return std::min(limits.acceleration / limits.jerk, std::sqrt(speed / limits.jerk));
 }
@@ -17,7 +17,7 @@ double speed_up_time(double speed, const MotionLimits& limits) {
   return jerk_s > 0 ? jerk_s + speed / (limits.jerk * jerk_s) : 0;
 }
 
-// The speed at which speeding up and braking take the whole distance.
+// The top speed at which speeding up and braking together take exactly the whole distance.
 double peak_speed(double distance, const MotionLimits& limits) {
   const double jerk_s = std::cbrt(distance / (2 * limits.jerk));
   if (limits.jerk * jerk_s <= limits.acceleration) return limits.jerk * jerk_s * jerk_s;
@@ -33,7 +33,7 @@ RestToRest::RestToRest(double distance, const MotionLimits& limits)
   top_speed_ = std::min(limits.speed, peak_speed(distance, limits));
   jerk_time_s_ = jerk_time(top_speed_, limits);
   speed_up_s_ = speed_up_time(top_speed_, limits);
-  // Speeding up and braking cover what half their time at the top speed would.
+  // Speeding up (or braking) covers half the distance that the same time at top speed would.
   duration_s_ = top_speed_ > 0 ? speed_up_s_ + distance / top_speed_ : 0;
 }
 

@@ -22,14 +22,14 @@ class RestToRest {
     double acceleration = 0;
   };
 
-  // distance >= 0, limits > 0.
+  // Needs distance >= 0 and limits > 0.
   RestToRest(double distance, const MotionLimits& limits);
 
   double duration_s() const { return duration_s_; }
   // At rest before 0 and after duration_s().
   State at(double time_s) const;
 
-  // The way from rest to `speed`.
+  // The distance in which rest becomes `speed`, m.
   static double run_up(double speed, const MotionLimits& limits);
 
  private:

@@ -12,7 +12,7 @@ namespace {
 
 double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
 
-// Of the nose along the way; nothing for a vertical one.
+// The heading of a nose that points along the way; nothing if the way is vertical.
 std::optional<double> heading_along(const Eigen::Vector3d& way) {
   if (way.head<2>().norm() <= 1e-9 * way.norm()) return std::nullopt;
   return std::atan2(way.y(), way.x());

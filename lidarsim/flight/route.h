@@ -12,14 +12,14 @@
 
 namespace plotscan::flight {
 
-// A place to pass. What it says of the flight holds from here to the next one.
+// A place to fly through. Its speed and heading hold from here to the next waypoint.
 struct Waypoint {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // world frame
-  std::optional<double> speed_m_s = {};                  // absent: the route's
-  // Of the nose, counter-clockwise from east. Absent: along the leg from here; where that is
-  // vertical, or there is none, as it was.
+  std::optional<double> speed_m_s = {};                  // absent: the route's speed
+  // Heading of the nose, counter-clockwise from east. Absent: along the leg from here; if that leg
+  // is vertical, or there is none, the heading stays as it was.
   std::optional<double> heading_rad = {};
-  double hold_s = 0;  // waits here, after turning
+  double hold_s = 0;  // how long to wait here after turning
 };
 
 std::vector<Waypoint> waypoints_at(const std::vector<Eigen::Vector3d>& positions_m);
@@ -33,12 +33,13 @@ struct Reference {
 };
 
 // Straight legs from waypoint to waypoint, from rest to rest: at each the drone brakes to a stop,
-// turns on the spot, waits, and flies on. Steep legs are flown slower, as the quadrotor's greatest
-// climb and descent ask.
+// turns on the spot, waits, and flies on. Steep legs are flown slower, to keep within the
+// quadrotor's greatest climb and descent.
 class Route {
  public:
-  // At least two waypoints, neighbours apart. `wind_m_s`: the mean wind against which tilt must
-  // suffice, see leg_limits. Throws InputError on speeds the quadrotor does not fly.
+  // Needs at least two waypoints, and neighbours must differ in position. `wind_m_s`: the mean wind
+  // against which the tilt must suffice, see leg_limits. Throws InputError on speeds that
+  // leg_limits rejects.
   Route(const Quadrotor& quadrotor, const std::vector<Waypoint>& waypoints, double speed_m_s,
         double wind_m_s = 0);
 
@@ -70,7 +71,8 @@ class Route {
 
 inline constexpr int kPosesPerSecond = 100;
 
-// The route flown without any error, in still air. One pose each 0.01 s from time 0.
+// The trajectory of the route flown without any error in still air. One pose each 0.01 s from time
+// 0.
 scan::Trajectory fly_exactly(const Quadrotor& quadrotor, const Route& route);
 
 }  // namespace plotscan::flight

@@ -66,7 +66,7 @@ std::vector<Eigen::Vector3d> strips_along(const Field& field, const StripOptions
   return path;
 }
 
-// Before any strip is made: there may be more of them than memory holds.
+// Checked before strips are made, as there may be more of them than memory holds.
 void require_length(const std::vector<Field>& fields, const StripOptions& options) {
   double length_m = 0;
   for (const Field& field : fields) {

@@ -11,8 +11,8 @@ namespace plotscan::flight {
 
 // One entry of a waypoint file (docs/flight.md).
 struct StatedWaypoint {
-  Waypoint waypoint;                      // z is set where no altitude is
-  std::optional<double> altitude_m = {};  // over the ground below it
+  Waypoint waypoint;                      // its z is set only if there is no altitude_m
+  std::optional<double> altitude_m = {};  // above the ground below the waypoint
 };
 
 // Throws InputError, naming file and line, on an unknown key, a number out of its range, both or

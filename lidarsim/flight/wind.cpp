@@ -12,12 +12,12 @@
 namespace plotscan::flight {
 namespace {
 
-// One component of the gusts, in units of its standard deviation and its time T: white noise
-// through 1/(1 + Ts) is x1, this through 1/(1 + Ts) again is x2. x1 and x2 have the covariance
-// [1/2 1/4; 1/4 1/4] for good, so that what a step leaves of it is what the step's noise adds.
+// One component of the gusts, in units of its standard deviation and its time T. The state is x1,
+// white noise filtered by 1/(1 + Ts), and x2, x1 filtered by the same again. Their stationary
+// covariance is [1/2 1/4; 1/4 1/4]: each step's noise restores what the step takes away from it.
 class Component {
  public:
-  // `along`: the first-order filter, otherwise the second-order one.
+  // `along` selects the first-order filter, otherwise it is the second-order one.
   Component(double steps_per_time, bool along)
       : output_(along ? Eigen::Vector2d(std::numbers::sqrt2, 0)
                       : Eigen::Vector2d(std::numbers::sqrt3, 1 - std::numbers::sqrt3)) {
@@ -41,7 +41,8 @@ class Component {
     return {pair.first, pair.second};
   }
 
-  // Lower triangular. Short steps leave the last entry to rounding: it is next to nothing then.
+  // The lower triangular (Cholesky) root. For short steps the last entry is almost 0, and rounding
+  // may make its square negative.
   static Eigen::Matrix2d root_of(const Eigen::Matrix2d& covariance) {
     const double a = std::sqrt(covariance(0, 0));
     const double b = covariance(1, 0) / a;
@@ -57,7 +58,7 @@ class Component {
   Eigen::Vector2d state_ = Eigen::Vector2d::Zero();
 };
 
-// Columns: along the wind, to its left, up.
+// A rotation with the columns: along the wind, to its left, up.
 Eigen::Matrix3d world_from_wind(double from_deg) {
   const double from_rad = radians(from_deg);
   const Eigen::Vector3d along(-std::sin(from_rad), -std::cos(from_rad), 0);

@@ -20,13 +20,13 @@ using QueryContext = RTCRayQueryContext;
 using QueryContext = RTCIntersectContext;
 #endif
 
-// What Embree hands on to the callbacks of a cast, which get it as a QueryContext.
+// The context of a cast. Embree passes it to the cast's callbacks as a QueryContext.
 struct CastContext {
   QueryContext query;
-  double time_s = 0;  // of the ray, from take-off
+  double time_s = 0;  // of the ray, seconds from take-off
 };
 
-// Casts one ray for the nearest hit, at a time that moving things ask for.
+// Casts one ray for its nearest hit, at the given time, on which moving geometry depends.
 inline void intersect(RTCScene scene, RTCRayHit& ray, double time_s = 0) {
   CastContext context;
   context.time_s = time_s;
@@ -42,8 +42,8 @@ inline void intersect(RTCScene scene, RTCRayHit& ray, double time_s = 0) {
 #endif
 }
 
-// The same for up to kPacket rays of one time that lie close together, those of which `valid` is
-// -1.
+// The same for a packet of up to kPacket rays close together, all at one time. Only rays whose
+// entry in `valid` is -1 are cast.
 inline constexpr std::size_t kPacket = 8;
 inline void intersect(RTCScene scene, const int* valid, RTCRayHit8& rays, double time_s) {
   CastContext context;

@@ -36,7 +36,7 @@ double ground_of(const Site& site) {
   return *site.ground_m;
 }
 
-// Casts rays down all along a leg and `aside` of it, a unit vector.
+// Casts rays down along a leg and on both sides of it; the unit vector `aside` points sideways.
 void require_clear_beside(const Scene& scene, const Eigen::Vector3d& from,
                           const Eigen::Vector3d& way, const Eigen::Vector3d& aside) {
   constexpr int kAside = static_cast<int>(kClearance_m / kClearanceStep_m);
@@ -79,7 +79,7 @@ void require_clearance(const Scene& scene, const std::vector<Eigen::Vector3d>& p
   }
 }
 
-// The highest ground there, whatever grows or stands over it.
+// The height of the highest ground there, whatever grows or stands over it.
 std::optional<double> ground_below(const Scene& scene, const Eigen::Vector3d& place) {
   constexpr float kPastSurface_m = 1e-3F;
   constexpr float kEndless = std::numeric_limits<float>::infinity();
@@ -93,7 +93,7 @@ std::optional<double> ground_below(const Scene& scene, const Eigen::Vector3d& pl
     if (scene.surface(hit).label == scan::PointClass::ground)
       return static_cast<double>(z - hit.range_m);
     const float surface_z = z - hit.range_m;
-    // Far from the origin a millimetre may be less than a float's step.
+    // Far from the origin a float's step may exceed a millimetre.
     z = std::min(surface_z - kPastSurface_m, std::nextafter(surface_z, -kEndless));
   }
   return std::nullopt;

@@ -54,7 +54,7 @@ Manifest manifest_of(const Site& site, const sensor::Sensor& sensor, const FlyOp
                      const FlySummary& summary) {
   Manifest manifest{.command = "lidarsim fly", .seed = options.seed, .inputs = inputs_of(options)};
   manifest.options = settings_json(options);
-  manifest.options["sensor"] = sensor.name;  // sensor.yaml has all of it
+  manifest.options["sensor"] = sensor.name;  // sensor.yaml holds the sensor's whole description
   if (!sensor.wedges) manifest.options["spin_hz"] = sensor::chosen_spin_hz(sensor, options.spin_hz);
   manifest.options[site.kind] = site.name;
   if (site.anchor) manifest.options["anchor"] = anchor_json(*site.anchor);
@@ -81,7 +81,7 @@ SimulateOptions simulate_options(const FlyOptions& options) {
           .part = options.part};
 }
 
-// The scene in the wind of the flight; null where nothing sways.
+// The scene with plants that sway in the flight's wind; null if nothing sways.
 std::unique_ptr<const Scene> swaying_scene(const SceneContent* plants, const FlyOptions& options,
                                            double duration_s) {
   if (plants == nullptr || !wind_moves_plants(options)) return nullptr;
@@ -89,7 +89,7 @@ std::unique_ptr<const Scene> swaying_scene(const SceneContent* plants, const Fly
       *plants, Sway(options.sway, wind_of(options), duration_s, crop_of(*plants)));
 }
 
-// The trajectory that was flown, the one that the drone says it flew, and the sensor.
+// Writes the trajectory that was flown, the one that the drone reports, and the sensor.
 void write_flight(const std::filesystem::path& folder, const DroneFlight& flight,
                   const sensor::Sensor& sensor) {
   scan::write_trajectory(folder / "trajectory.csv", flight.truth);
@@ -99,7 +99,7 @@ void write_flight(const std::filesystem::path& folder, const DroneFlight& flight
   description.close();
 }
 
-// What is flown over; `plants` is what the scene was made from, where it can sway.
+// What is flown over. `plants` is the content that the scene was made from, if it can sway.
 struct FlownPlace {
   const Site& site;
   const Scene& scene;

@@ -23,19 +23,19 @@ namespace plotscan::lidar {
 // How a farm or a world is flown and scanned.
 struct FlyOptions {
   std::string sensor = "vlp16";       // a name or a file, as sensor::load_sensor takes it
-  double altitude_m = 8.0;            // over the mean ground under the plots
+  double altitude_m = 8.0;            // above the mean ground under the plots
   double speed_m_s = 2.0;             // along the strips
   double spacing_m = 6.0;             // between neighbouring strips
   std::string pattern = "lawnmower";  // or "crosshatch", "single": flight::Pattern
-  // Of the strips, counter-clockwise from east; absent: along the plots' longer side.
+  // The strips' heading, counter-clockwise from east. Absent: along the longer side of the plots'
+  // bounding rectangle.
   std::optional<double> heading_deg = {};
-  // A waypoint file (docs/flight.md) in place of strips; its speed where it states none is the
-  // flight's.
+  // A waypoint file (docs/flight.md) in place of strips. Where it states no speed, speed_m_s holds.
   std::optional<std::filesystem::path> waypoints = {};
   // A trajectory (TUM, or a scan's trajectory.csv) in place of the planned path. Its first pose is
   // the flight's time 0.
   std::optional<std::filesystem::path> flight = {};
-  // Its seed and height are set from this flight's; without wind all is still.
+  // Its seed and height are replaced by those of this flight. By default there is no wind.
   flight::WindOptions wind = {};
   std::string wind_acts_on = "both";               // "both", "drone" or "plants"
   SwayOptions sway = {};                           // of a farm's plants in the wind
@@ -44,15 +44,15 @@ struct FlyOptions {
   std::string spin_jitter = "sensor";  // as its file states it; "none": the head turns steadily
   double range_noise_m = 0.03;         // standard deviation of the range noise, 0 to 1
   int sub_rays = 1;                    // rays that stand for a beam, 1 (its axis) to 1024
-  std::string returns = "strongest";   // of a shot that are kept: strongest, last or dual
-  // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). As it is, the spin
+  std::string returns = "strongest";   // which returns of a shot are kept: strongest, last or dual
+  // body_from_lidar = Rz(yaw) Ry(pitch) Rx(roll) of this (roll, pitch, yaw). By default the spin
   // axis lies along the flight and azimuth 0 points down.
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
   std::string pose_error = "none";      // a preset's name
-  flight::PoseErrors pose_errors = {};  // on top of the preset's
-  // Of files written beside cloud.pcd, as record::write_formats takes them.
+  flight::PoseErrors pose_errors = {};  // added to the preset's (flight::combined)
+  // Formats of further files beside cloud.pcd, named as in record::write_formats.
   std::vector<std::string> formats = {};
-  FlightPart part = {};  // of the flight, that is scanned; record::join_scans joins them
+  FlightPart part = {};  // the part that is scanned; record::join_scans joins the parts
   std::uint64_t seed = 1;
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
@@ -66,14 +66,14 @@ struct FlySummary {
 
 // Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv
 // (reported), sensor.yaml, manifest.json, and the files of options.formats (docs/scan-format.md).
-// The same scene, site and options give the same bytes for any number of
-// threads. Throws InputError on impossible options, a broken trajectory, or an existing folder that
-// `replace` does not cover.
+// The same scene, site and options give the same bytes, for any number of threads. Throws
+// InputError on impossible options, a broken trajectory, or an existing folder that `replace` does
+// not cover.
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 
-// The same for a farm, whose plants sway where the wind acts on them. Throws InputError when a
-// plant names a missing model, too.
+// The same for a farm, whose plants sway if the wind acts on them. Also throws InputError when a
+// plant names a missing model.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 

@@ -12,13 +12,13 @@ namespace plotscan::lidar {
 
 struct FlyPlaceOptions {
   FlyOptions flight = {};
-  std::vector<std::filesystem::path> resource_paths = {};  // of a world's models, searched first
-  bool replace = false;                                    // a scan that is there
+  std::vector<std::filesystem::path> resource_paths = {};  // searched first for a world's models
+  bool replace = false;                                    // replaces an existing scan
 };
 
 struct PlaceScan {
   FlySummary summary;
-  std::vector<std::string> notes;  // what of a world is not scanned, one line each
+  std::vector<std::string> notes;  // what in the world is not scanned, one line each
 };
 
 // Scans a place by its path: a farm's folder, or the file of any SDF world or model, and writes the

@@ -12,27 +12,27 @@
 
 namespace plotscan::lidar {
 
-// What is not set of an optional one is the sensor's or the flight's own.
+// An OptionalSetting that is not set keeps the default of the sensor or the flight.
 using NumberSetting = plotscan::NumberSetting<FlyOptions>;
 using OptionalSetting = plotscan::OptionalSetting<FlyOptions>;
 using WholeSetting = plotscan::WholeSetting<FlyOptions>;
 using VectorSetting = plotscan::VectorSetting<FlyOptions>;
 using TextSetting = plotscan::TextSetting<FlyOptions>;
 
-// One option of a flight: the command line, suites and manifests all know it from here.
+// One option of a flight. The command line, suites and manifests all take it from this one table.
 struct FlySetting {
   std::string key;   // in suites and manifests, "altitude_m"
   std::string flag;  // on the command line, "--altitude"
   std::string help;  // unit, range, meaning
   std::variant<NumberSetting, OptionalSetting, WholeSetting, VectorSetting, TextSetting> value;
-  bool plans_flight = false;                // means nothing when a trajectory is given
-  bool plans_strips = false;                // means nothing when waypoints are given
+  bool plans_flight = false;                // has no effect when a trajectory is given
+  bool plans_strips = false;                // has no effect when waypoints are given
   std::string group = "Flight and sensor";  // heading in --help
 };
 
 const std::vector<FlySetting>& fly_settings();
 
-// Whether the setting means something beside the trajectory or waypoints that the options name.
+// Whether the setting has an effect, given the trajectory or waypoints in the options.
 bool counts(const FlySetting& setting, const FlyOptions& options);
 
 // The value of every setting that counts, by its key.

@@ -12,10 +12,10 @@ namespace plotscan::lidar {
 struct Ray {
   Eigen::Vector3f origin_m;   // world frame
   Eigen::Vector3f direction;  // unit vector
-  double time_s = 0;          // from take-off; where plants sway it decides what is met
+  double time_s = 0;          // from take-off; decides what is hit where plants sway
 };
 
-// Rays with each coordinate in an array of its own, as vector instructions take them.
+// Rays as a structure of arrays, one per coordinate, for vector instructions.
 struct RayArrays {
   std::array<std::vector<float>, 3> origin_m;   // x, y, z
   std::array<std::vector<float>, 3> direction;  // of unit length

@@ -18,14 +18,14 @@ namespace plotscan::lidar {
 namespace {
 
 constexpr double kLight_m_s = 299'792'458;
-// Of a Gaussian: full width at half maximum over standard deviation, 2 sqrt(2 ln 2).
+// A Gaussian's full width at half maximum over its standard deviation: 2 sqrt(2 ln 2).
 constexpr double kWidthOfSigma = 2.3548200450309493;
-// Nothing is nearer than the sensor's window.
+// The least range of a hit: nothing is nearer than the sensor's window.
 constexpr double kNearest_m = 0.01;
 
 double square(double value) { return value * value; }
 
-// The two returns of a dual return mode, or one.
+// The returns that the mode reports: two in dual mode (fewer if there are not two), else one.
 std::vector<Peak> reported(std::vector<Peak> strongest_first, ReturnMode mode) {
   std::vector<Peak>& peaks = strongest_first;
   if (peaks.size() < 2) return peaks;
@@ -73,9 +73,9 @@ std::span<const Return> Detector::detect(std::span<const Hit> hits) {
   return returns_;
 }
 
-// The power of a sub-ray's echo from a Lambertian surface, in units of that of a white one that
-// faces the whole beam 1 m away (the lidar equation: Wagner et al., ISPRS J. 60, 2006, for targets
-// that no sub-ray overfills).
+// An echo's power is that of a sub-ray from a Lambertian surface. The unit is the whole beam's echo
+// from a white surface that faces it 1 m away (the lidar equation: Wagner et al., ISPRS J. 60,
+// 2006, for targets that no sub-ray overfills).
 void Detector::listen(std::size_t sub_rays) {
   echoes_.clear();
   for (const Hit& hit : hits_) {
@@ -86,8 +86,8 @@ void Detector::listen(std::size_t sub_rays) {
   }
 }
 
-// The maxima above the threshold, the strongest first; of closer ones than the least separation
-// only the stronger.
+// The maxima above the threshold, the strongest first. Of two that are closer than the least
+// separation only the stronger is kept.
 std::vector<Peak> Detector::detected_peaks() const {
   std::vector<Peak> peaks = find_peaks(echoes_, sigma_m_);
   std::erase_if(peaks, [&](const Peak& peak) { return peak.power < threshold_; });
@@ -102,7 +102,7 @@ std::vector<Peak> Detector::detected_peaks() const {
   return apart;
 }
 
-// The sensor knows one range for all of a return's energy and corrects it by that one.
+// The sensor corrects all of a return's energy by the one range that it measured.
 Return Detector::return_of(const Peak& peak) {
   double energy = 0;
   for (std::size_t i = peak.begin; i < peak.end; ++i) energy += echoes_[i].power;

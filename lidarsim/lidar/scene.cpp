@@ -17,7 +17,7 @@ namespace plotscan::lidar {
 struct Scene::Trees {
   Device device;
   std::optional<SwayingPlants> swaying;
-  std::vector<SceneHandle> meshes;  // null where no instance needs one
+  std::vector<SceneHandle> meshes;  // null if no instance needs it
   SceneHandle world;
 };
 
@@ -29,7 +29,7 @@ void require_success(RTCDevice device, const std::string& what) {
   check(error == RTC_ERROR_NONE, what + " fails in Embree with error " + std::to_string(error));
 }
 
-// Takes back hits where the material's mask lets rays through.
+// Rejects hits where the material's mask has a hole (an Embree filter function).
 void pass_holes(const RTCFilterFunctionNArguments* hits) {
   const auto& optics = *static_cast<const MeshOptics*>(hits->geometryUserPtr);
   for (unsigned i = 0; i < hits->N; ++i) {
@@ -41,7 +41,7 @@ void pass_holes(const RTCFilterFunctionNArguments* hits) {
   }
 }
 
-// `optics` has to stay where it is.
+// Keeps a pointer to `optics`, which must not move.
 Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh, MeshOptics& optics) {
   Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* vertex = static_cast<float*>(
@@ -94,7 +94,7 @@ Scene::Scene(const SceneContent& content, const Sway* sway) : trees_(std::make_u
     normal_from_mesh_.emplace_back(
         placed.world_from_mesh.linear().inverse().transpose().cast<float>());
   }
-  optics_.reserve(content.meshes.size());  // the trees keep their places
+  optics_.reserve(content.meshes.size());  // no reallocation: the trees keep pointers to them
   for (const mesh::Mesh& mesh : content.meshes) optics_.emplace_back(mesh);
   // One thread builds the trees: where two triangles are hit at the same distance the answer
   // depends on the tree, and the tree must not depend on the number of threads.
@@ -186,7 +186,7 @@ void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hi
 
 void Scene::cast_packet(const RayArrays& rays, std::size_t begin, std::size_t count,
                         float max_range_m, std::span<Hit> hits) const {
-  // The last ray stands in the lanes that are left.
+  // Unused lanes repeat the last ray.
   const auto take = [&](const std::vector<float>& of_rays, float* lanes) {
     for (std::size_t i = 0; i < kPacket; ++i) lanes[i] = of_rays[begin + std::min(i, count - 1)];
   };

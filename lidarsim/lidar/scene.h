@@ -15,20 +15,21 @@ namespace plotscan::lidar {
 
 class Sway;
 
-// Where a ray first meets a surface.
+// Where a ray first hits a surface.
 struct Hit {
-  float range_m = 0;          // infinite: nowhere
+  float range_m = 0;          // infinite: the ray hits nothing
   float cos_incidence = 0;    // of the angle between the ray and the surface's normal, in [0, 1]
   float reflectance = 0;      // of the surface there at 903 nm, diffuse, in [0, 1]
   std::uint32_t surface = 0;  // index for Scene::surface
 };
 
-// Meshes ready for ray tracing: each once, and instances of it where it is placed; a mesh that is
-// placed without a transform (a terrain) as it is. Rays pass where a material's mask has a hole.
+// Meshes ready for ray tracing (Embree). Each mesh is stored once and instanced where it is placed;
+// a mesh without a transform (a terrain) is used directly. Rays pass through the holes of a
+// material's mask.
 class Scene {
  public:
   explicit Scene(const SceneContent& content) : Scene(content, nullptr) {}
-  // The rooted meshes sway.
+  // A scene whose rooted meshes sway.
   Scene(const SceneContent& content, const Sway& sway) : Scene(content, &sway) {}
   ~Scene();
   Scene(const Scene&) = delete;
@@ -36,13 +37,13 @@ class Scene {
 
   // The nearest hit of each ray within max_range_m. May be called by several threads.
   void cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const;
-  // The same for rays of which every `bundle` that follow each other lie close together, which is
-  // twice as fast (but where plants sway). A ray within micrometres of an edge may end otherwise.
+  // The same for rays in bundles: each run of `bundle` consecutive rays lies close together. Twice
+  // as fast, except where plants sway. A ray within micrometres of an edge may give another hit.
   void cast_bundles(const RayArrays& rays, std::size_t bundle, float max_range_m,
                     std::span<Hit> hits) const;
   const Surface& surface(const Hit& hit) const { return surfaces_[hit.surface]; }
 
-  // Nothing lies higher or lower, metres.
+  // Bounds of z in the scene, world frame, metres.
   float top_m() const { return top_m_; }
   float bottom_m() const { return bottom_m_; }
 
@@ -51,10 +52,10 @@ class Scene {
 
  private:
   struct Trees;
-  // Of a ray with a triangle.
+  // Where a ray meets a triangle.
   struct Meeting {
     float range_m;
-    Eigen::Vector3f normal;  // of the mesh, of any length
+    Eigen::Vector3f normal;  // in the mesh's frame, of any length
     std::uint32_t surface;
     std::uint32_t triangle;
   };

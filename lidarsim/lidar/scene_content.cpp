@@ -20,7 +20,7 @@ float reflectance_of(scan::PointClass label) {
   return label == scan::PointClass::ground ? mesh::kSoilReflectance : mesh::kLeafReflectance;
 }
 
-// The mesh without what a laser does not see of it.
+// A copy of the mesh without what a laser does not see.
 mesh::Mesh unseen_left_out(const mesh::Mesh& mesh) {
   mesh::Mesh kept{.vertices = mesh.vertices,
                   .triangles = mesh.triangles,

@@ -13,12 +13,13 @@
 
 namespace plotscan::lidar {
 
-// What a hit lies on.
+// The properties of a surface that a hit lies on.
 struct Surface {
   scan::PointClass label = scan::PointClass::unlabelled;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // Plant::id; 0: none
-  // At 903 nm, diffuse, in [0, 1], of materials that state none and whose names say nothing.
+  // Diffuse, at 903 nm, in [0, 1]: for materials that state no reflectance and whose names tell
+  // none.
   float reflectance = 0;
 };
 
@@ -30,16 +31,16 @@ struct PlacedMesh {
   bool rooted = false;  // a plant whose foot is the mesh's origin: it may sway
 };
 
-// All that a laser can meet, wherever it comes from; metres, z up.
+// Everything that a laser can hit, from any source; world frame, metres, z up.
 struct SceneContent {
-  std::vector<mesh::Mesh> meshes;  // not their looks: triangles, reflectances, masks
+  std::vector<mesh::Mesh> meshes;  // only triangles, reflectances and masks, not their looks
   std::vector<PlacedMesh> placed;
 };
 
-// A farm's plants in their order, then its terrain. Throws InputError when a plant names a missing
-// model.
+// The content of a farm: its plants in their order, then its terrain. Throws InputError when a
+// plant names a missing model.
 SceneContent scene_content(const farm::Farm& farm);
-// A world's surfaces in their order.
+// The content of a world: its surfaces in their order.
 SceneContent scene_content(const gazebo::StaticWorld& world);
 
 }  // namespace plotscan::lidar

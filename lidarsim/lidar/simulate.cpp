@@ -19,14 +19,14 @@
 namespace plotscan::lidar {
 namespace {
 
-// Firing sequences that one task takes, by the number of sub-rays: about a millisecond of casting,
-// where there are not very many. Packets are cast full where a laser has some hundred sub-rays.
+// Firing sequences per task: about a millisecond of ray casting, unless there are very many
+// sub-rays. A laser's sub-rays in a batch, some hundred, fill Embree's packets.
 std::uint64_t batch_sequences(int sub_rays) {
   return static_cast<std::uint64_t>(sub_rays == 1 ? 64 : std::max(1, 160 / sub_rays));
 }
 
-// Batches under way for each thread: work for some milliseconds, so that one thread that waits for
-// the disk or a processor does not stop the others. At most 50 kB each.
+// Batches in flight per thread: some milliseconds of work, so that a thread that waits for the disk
+// or a processor does not stop the others. At most 50 kB each.
 constexpr std::size_t kBatchesPerThread = 32;
 // Hits are looked for this many standard deviations beyond the sensor's range: noise may bring them
 // back into it.
@@ -86,8 +86,8 @@ class Simulator {
     return hits;
   }
 
-  // Those of each laser's sub-rays together, shot by shot: from one shot to the next a laser turns
-  // by about a beam's width.
+  // Hits of the sub-rays, grouped by laser, then shot by shot: a laser turns by only about a beam's
+  // width between shots, so that such a bundle lies close together.
   std::vector<Hit> cast_beams(std::uint64_t begin_sequence, const std::vector<Ray>& axes) const {
     RayArrays rays(axes.size() * sub_rays_->count());
     const std::size_t lasers = shots_.fired.lasers();
@@ -103,14 +103,14 @@ class Simulator {
     return hits;
   }
 
-  // Where those of the i-th axis begin among all of a batch.
+  // The index of the i-th axis' first sub-ray among all of a batch.
   std::size_t first_sub_ray(std::size_t i, std::size_t axes) const {
     const std::size_t lasers = shots_.fired.lasers();
     const std::size_t sequences = axes / lasers;
     return (i % lasers * sequences + i / lasers) * sub_rays_->count();
   }
 
-  // Points of the axes' hits. The axes say where the points are put.
+  // The points of the axes' hits, placed along the axes.
   std::vector<scan::LabelledPoint> measure(std::uint64_t begin_sequence,
                                            const std::vector<Ray>& axes,
                                            const std::vector<Hit>& hits) const {
@@ -131,7 +131,7 @@ class Simulator {
     return points;
   }
 
-  // The same for the hits of the axes' sub-rays.
+  // The same for `hits` of all sub-rays of the axes.
   std::vector<scan::LabelledPoint> measure_beams(std::uint64_t begin_sequence,
                                                  const std::vector<Ray>& axes,
                                                  const std::vector<Hit>& hits) const {
@@ -174,7 +174,7 @@ class Simulator {
                       .plant = surface.plant});
   }
 
-  // What the sensor reports for a range; 0 where noise takes it behind the sensor.
+  // The range that the sensor reports, quantised; 0 if noise puts it behind the sensor.
   double measured_range(double range_m) const {
     if (range_m <= 0) return 0;
     if (sensor_.range_step_m == 0) return range_m;
@@ -185,13 +185,13 @@ class Simulator {
   const sensor::Sensor& sensor_;
   const Shots& shots_;
   const SimulateOptions& options_;
-  std::uint64_t end_sequence_;  // none from this one on is fired
+  std::uint64_t end_sequence_;  // end of the range that is fired
   std::optional<SubRays> sub_rays_;
 };
 
 }  // namespace
 
-// Parts begin where the whole flight's batches do: a batch's rays are cast together.
+// Parts begin at batches of the whole flight, since a batch's rays are cast together.
 SequenceRange fired_sequences(std::uint64_t sequences, const SimulateOptions& options) {
   return sequences_of(options.part, sequences, batch_sequences(options.sub_rays));
 }
@@ -223,8 +223,8 @@ void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& sho
       progress(static_cast<double>(batch.end_sequence - fired.begin) /
                static_cast<double>(fired.end - fired.begin));
   };
-  // oneTBB keeps to the number of processors unless it is asked for more; asking for less here
-  // would bind other work of the process too.
+  // oneTBB uses at most the number of processors unless asked for more. Asking for fewer here would
+  // also limit other work of the process.
   std::optional<tbb::global_control> more_threads;
   if (options.threads > tbb::info::default_concurrency()) {
     more_threads.emplace(tbb::global_control::max_allowed_parallelism,

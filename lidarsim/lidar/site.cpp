@@ -31,7 +31,7 @@ bool is_plant(const PlacedMesh& placed) {
   return label == scan::PointClass::crop || label == scan::PointClass::weed;
 }
 
-// The content's placed meshes in groups, by index.
+// Indices of the content's placed meshes, in groups.
 struct Groups {
   std::vector<std::size_t> plants;
   std::vector<std::size_t> ground;
@@ -79,7 +79,8 @@ SceneContent only(const SceneContent& content, const std::vector<std::size_t>& k
   return part;
 }
 
-// Of a grid of rays cast down over the area; absent where none meets the ground.
+// The mean height where a grid of rays, cast down over the area, hits the ground; absent if none
+// does.
 std::optional<double> mean_height(const SceneContent& ground, const Eigen::AlignedBox3d& area) {
   constexpr int kGrid = 9;
   const Scene scene(ground);

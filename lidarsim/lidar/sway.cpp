@@ -12,18 +12,20 @@ namespace plotscan::lidar {
 namespace {
 
 constexpr double kReferenceWind_m_s = 5;
-// Gusts travel over a crop faster than the mean wind at its top, 1.8 times, and are three quarters
-// of what they are further up, where the mean wind is a fraction (Finnigan, Annual Review of Fluid
-// Mechanics 32, 2000; Raupach, Finnigan and Brunet, Boundary-Layer Meteorology 78, 1996: standard
-// deviations along the wind of 1.8 friction velocities at a canopy's top, 2.5 above).
+// Gusts travel over a crop at 1.8 times the mean wind at its top, and have there about three
+// quarters of their strength further up, while the mean wind is only a fraction of that further up
+// (Finnigan, Annual Review of Fluid Mechanics 32, 2000; Raupach, Finnigan and Brunet,
+// Boundary-Layer Meteorology 78, 1996: standard deviations along the wind of 1.8 friction
+// velocities at a canopy's top, 2.5 above).
 constexpr double kGustSpeed = 1.8;
 constexpr double kGustShare = 1.8 / 2.5;
-// Across a field that a light wind takes longer than this to cross, gusts are not followed further.
+// The longest time that gusts take to cross a field: a wind that would need longer is treated as
+// faster.
 constexpr double kLongestDelay_s = 600;
-// A swinging ear describes an ellipse (Farquhar et al., Journal of Applied Mechanics 67, 2000); how
-// slender it is is ours.
+// A swinging ear describes an ellipse (Farquhar et al., Journal of Applied Mechanics 67, 2000); its
+// axis ratio is our choice.
 constexpr double kAcross = 1.0 / 3;
-// Lower plants have the wind and the frequency of one so high.
+// Lower plants get the wind and the frequency of a plant of this height.
 constexpr double kLeastHeight_m = 0.02;
 
 double slowness_s_m(const flight::WindOptions& wind, const Crop& crop) {
@@ -39,7 +41,7 @@ double longest_delay_s(const Crop& crop, double slowness) {
 }
 
 // The further a plant is bent, the less wind it catches (de Langre, Annual Review of Fluid
-// Mechanics 40, 2008); the law is ours.
+// Mechanics 40, 2008); this particular law is our choice.
 double limited(double lean_rad) {
   constexpr double kMost = kMaxLean_rad;
   return kMost * std::tanh(lean_rad / kMost);

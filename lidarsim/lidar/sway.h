@@ -12,55 +12,57 @@ namespace plotscan::lidar {
 
 // How readily plants bend; docs/sway.md says where the numbers come from.
 struct SwayOptions {
-  // From foot to tip, in a steady wind of 5 m/s at the plant's top.
+  // The lean from foot to tip in a steady wind of 5 m/s at the plant's top.
   double lean_deg_at_5m_s = 3;
-  // Natural frequency of a plant of 1 m; others swing at this / sqrt(height / 1 m).
+  // Natural frequency of a plant that is 1 m high; others swing at this / sqrt(height / 1 m).
   double hz_at_1m = 1.3;
-  // Amplitude of the swinging as a share of the lean: along the wind, and a third of it across.
+  // Amplitude of the swinging along the wind, as a share of the lean. Across the wind it is a third
+  // of that.
   double swing = 0.5;
 };
 
-// What stands in the wind.
+// The plants that stand in the wind, as a whole.
 struct Crop {
   double height_m = 0;              // mean of the plants
   Eigen::AlignedBox2d feet_m = {};  // world frame
 };
 
-// The content's rooted meshes.
+// The crop that the content's rooted meshes make up.
 Crop crop_of(const SceneContent& content);
 
-// Of a placed mesh, seen from its foot along the world's axes, metres.
+// The bounding box of a placed mesh relative to its foot, along the world's axes, metres.
 Eigen::AlignedBox3f box_over_foot(const mesh::Mesh& mesh, const PlacedMesh& placed);
 
 // The mean wind at the top of a crop as a share of the one at another height over the ground: the
-// logarithmic profile over a displacement of 0.67 and a roughness of 0.1 of the crop's height. At
-// heights within the crop, 1.
+// logarithmic profile with a displacement height of 0.67 and a roughness length of 0.1 of the
+// crop's height. 1 at heights within the crop.
 double canopy_wind_share(double crop_height_m, double height_m);
 
-// How each plant of a crop leans as time goes by.
+// The lean of each plant of a crop over time.
 class Sway {
  public:
-  // One plant's part in it.
+  // What differs from plant to plant.
   struct Motion {
-    double delay_s = 0;     // until a gust is here; negative, the most downwind plant has 0
-    double wind_share = 0;  // of the mean wind at the plant's top
-    double turn_rad_s = 0;  // of its swinging
+    double delay_s = 0;     // until a gust is here; at most 0, its value at the crop's downwind end
+    double wind_share = 0;  // mean wind at the plant's top over the stated one
+    double turn_rad_s = 0;  // angular frequency of its swinging
     double along_rad = 0;   // phases
     double across_rad = 0;
   };
 
-  // The wind at its height over the ground, and the flight's duration.
+  // `wind` holds at wind.height_m above the ground; `duration_s` is the flight's.
   Sway(const SwayOptions& options, const flight::WindOptions& wind, double duration_s,
        const Crop& crop);
 
-  // The foot in the world frame; height of the top over it.
+  // The foot is in the world frame; height_m is the height of the plant's top above it.
   Motion motion_of(std::uint32_t plant, const Eigen::Vector2d& foot_m, double height_m) const;
 
-  // The angle of the line from foot to tip from the vertical, radians, as a vector to where it
-  // leans, shorter than kMaxLean_rad; time from take-off.
+  // The lean as a vector that points to where the plant leans, world frame. Its length, below
+  // kMaxLean_rad, is the angle from the vertical to the line from foot to tip. Time is from
+  // take-off.
   Eigen::Vector2d lean_rad(const Motion& motion, double time_s) const;
 
-  // No lean of the flight is longer.
+  // An upper bound of the length of lean_rad during the flight.
   double greatest_lean_rad(const Motion& motion) const;
 
  private:

@@ -7,13 +7,13 @@
 namespace plotscan::lidar {
 namespace {
 
-// In standard deviations of the pulse. A pulse further away than its reach adds nothing
-// (exp(-18) = 1.5e-8 of its maximum), so echoes further apart than that are looked at alone.
+// Lengths in standard deviations of the pulse. Beyond its reach a pulse adds nothing (exp(-18) =
+// 1.5e-8 of its maximum), so echoes further apart are treated separately.
 constexpr double kReach = 6;
 constexpr double kStep = 0.125;
 constexpr double kRangeTolerance_m = 1e-6;
 
-// The received power and what leads to its extrema at one range.
+// The received power at one range, and its derivatives, which lead to the extrema.
 struct Sample {
   double power = 0;
   double slope = 0;  // of the power, times the pulse's variance
@@ -27,13 +27,14 @@ struct Extremum {
 
 class Waveform {
  public:
-  // The echoes lie between the nearest and the farthest; farther apart than kReach they are sorted.
+  // All echoes lie between the nearest and the farthest range. They must be sorted if these are
+  // more than kReach sigmas apart.
   Waveform(std::span<const Echo> echoes, double nearest_m, double farthest_m, double sigma_m)
       : echoes_(echoes),
         sigma_m_(sigma_m),
         all_within_reach_(farthest_m - nearest_m <= kReach * sigma_m) {}
 
-  // At a range between the nearest and the farthest.
+  // The waveform at a range between the nearest and the farthest.
   Sample at(double range_m) const {
     Sample sample;
     for (const Echo& echo : within_reach(range_m)) {
@@ -47,8 +48,9 @@ class Waveform {
     return sample;
   }
 
-  // The maximum, or the minimum, between two ranges with the slopes of one: Newton's method from
-  // their middle, or from the echoes' mean, kept within the bracket by halving it.
+  // The maximum (or minimum) between two ranges at which the slopes have the signs for one.
+  // Newton's method, from the echoes' mean range (or the middle); bisection keeps it within the
+  // bracket.
   Extremum extremum(double near_m, double far_m, bool is_maximum) const {
     double range_m = is_maximum ? mean_range(near_m, far_m) : 0.5 * (near_m + far_m);
     Sample sample = at(range_m);
@@ -73,8 +75,8 @@ class Waveform {
     return {begin, end};
   }
 
-  // Of the echoes by their power, where that lies between the two; else the middle. Of echoes much
-  // closer together than the pulse is long the waveform has its maximum there.
+  // The echoes' mean range, weighted by power, if it lies between the two ranges; else their
+  // middle. It is the maximum when the echoes are much closer together than the pulse is long.
   double mean_range(double near_m, double far_m) const {
     double power = 0, moment = 0;
     for (const Echo& echo : echoes_) {
@@ -90,7 +92,7 @@ class Waveform {
   bool all_within_reach_;
 };
 
-// The maxima of the echoes [begin, end), which overlap, and which of them belong to which.
+// Finds the maxima of the overlapping echoes [begin, end), and which echoes belong to which.
 void find_in_group(std::span<const Echo> echoes, std::size_t begin, std::size_t end, double sigma_m,
                    std::vector<Peak>& peaks) {
   const auto group = echoes.subspan(begin, end - begin);

@@ -39,7 +39,7 @@ ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& o
   return {.poses = trajectory.poses().size()};
 }
 
-// A trajectory's file, or the reported trajectory of a scan folder or a recording.
+// Reads a trajectory file, or the reported trajectory of a scan folder or a recording.
 scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options) {
   if (fs::is_directory(in)) return read_flight_record(in).reported;
   if (is_trajectory(in)) return scan::read_trajectory(in);

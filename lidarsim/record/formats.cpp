@@ -15,7 +15,7 @@ namespace {
 
 using std::filesystem::path;
 
-// PCD, PLY and LAS, by content.
+// Opens a cloud; its format is recognised by its content.
 Source open_cloud(const path& file, const ReadOptions& options) {
   const scan::CloudInfo info = scan::read_cloud_info(file);
   return {.path = file,
@@ -42,7 +42,7 @@ std::unique_ptr<scan::PointWriter> create_ply(const path& file, const Source& so
   return std::make_unique<scan::PlyWriter>(file, cloud_options(source, options));
 }
 
-// A bag or an MCAP file, by content.
+// Opens a bag or an MCAP file; which one is recognised by its content.
 Source open_ros(const path& file, const ReadOptions& options) {
   const auto recorded = std::make_shared<RosPoints>(file, options.topic);
   return {.path = file,
@@ -55,7 +55,7 @@ Source open_ros(const path& file, const ReadOptions& options) {
           .stream = [recorded](const scan::PointSink& sink) { recorded->stream(sink); }};
 }
 
-// A scan folder knows how the drone truly moved, and its points are shots of the flight.
+// Only a scan folder knows how the drone truly moved, and has points that are shots of the flight.
 std::unique_ptr<scan::PointWriter> create_ros(const Source& source,
                                               const RosRecorder::CreateFile& create) {
   RosRecorderOptions options{.packets = std::filesystem::is_directory(source.path)};
@@ -63,7 +63,7 @@ std::unique_ptr<scan::PointWriter> create_ros(const Source& source,
   return std::make_unique<RosRecorder>(*source.flight, options, create);
 }
 
-// `create_file` makes the file and its topics.
+// `create_file` makes the file with its topics.
 template <class CreateFile>
 Format ros_format(const std::string& name, const std::string& extension, CreateFile create_file) {
   return {.name = name,

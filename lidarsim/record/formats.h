@@ -9,16 +9,16 @@
 
 namespace plotscan::record {
 
-// Every format, one entry each: reading, writing, messages and help know them from here.
+// Every format, one entry each. Reading, writing, messages and help all take them from this table.
 const std::vector<Format>& formats();
 
 // The extensions of those that are `wanted`, in the table's order: ".pcd", ...
 std::vector<std::string> extensions_of(bool (*wanted)(const Format&));
 
-// The clouds that are read, as help lists them: ".pcd, .ply, .las, text".
+// The cloud formats that can be read, as help lists them: ".pcd, .ply, .las, text".
 std::string readable_clouds();
 
-// The format of a file by its extension, whatever its case; nothing when there is none.
+// The format of a file by its extension in upper or lower case; nullptr if it has none of them.
 const Format* find_format(const std::filesystem::path& file);
 
 }  // namespace plotscan::record

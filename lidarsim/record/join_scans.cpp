@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFlyCommand = "lidarsim fly";
-// What all parts of a flight have alike.
+// Files that are the same in all parts of a flight.
 constexpr const char* kCommonFiles[] = {"trajectory.csv", "poses.csv", "sensor.yaml"};
 
 struct Part {
@@ -31,7 +31,7 @@ struct Part {
   int of = 0;
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
-  json flight;  // the manifest but for what differs from part to part
+  json flight;  // the manifest without what differs from part to part
 };
 
 json hashes_of_common_files(const json& manifest) {
@@ -84,7 +84,7 @@ void require_one_flight(const Part& first, const Part& part) {
   }
 }
 
-// The parts in their order, all of one flight, each once.
+// The parts in order. Throws InputError unless they are all parts of one flight, each once.
 std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
   if (folders.empty()) throw InputError("no parts of a flight are given");
   std::vector<Part> parts;
@@ -115,7 +115,7 @@ std::uint64_t write_cloud(const std::vector<Part>& parts, const fs::path& file,
   for (const Part& part : parts) points += part.points;
   scan::PcdWriter cloud(file);
   for (const Part& part : parts) {
-    if (part.points == 0) continue;  // a cloud without points is none to read_points
+    if (part.points == 0) continue;  // read_points refuses a cloud without points
     const fs::path from = part.folder / "cloud.pcd";
     scan::read_points(
         from, scan::read_cloud_info(from), [&](std::span<const scan::LabelledPoint> read) {

@@ -12,8 +12,8 @@
 namespace plotscan::record {
 
 struct JoinOptions {
-  std::vector<std::string> formats = {};  // as write_formats takes them
-  bool replace = false;                   // a scan that is there
+  std::vector<std::string> formats = {};  // further files, named as in write_formats
+  bool replace = false;                   // replaces an existing scan
 };
 
 struct JoinSummary {
@@ -22,10 +22,10 @@ struct JoinSummary {
   std::uint64_t points = 0;
 };
 
-// Joins the scan folders of all parts of one flight (lidarsim fly --part), given in any order, to
-// the folder that the whole flight would have written, byte by byte. Memory does not grow with the
-// points. Throws InputError on a folder that is no part or was changed, on parts of several
-// flights, on one that is missing or given twice, and as write_formats and OutputFolder do.
+// Joins the scan folders of all parts of one flight (lidarsim fly --part), given in any order, into
+// the folder that the whole flight would have written, byte for byte. Memory does not grow with the
+// points. Throws InputError on a folder that is no part or was changed, on parts of different
+// flights, on a part that is missing or given twice, and as write_formats and OutputFolder do.
 JoinSummary join_scans(const std::vector<std::filesystem::path>& parts,
                        const std::filesystem::path& scan, const JoinOptions& options,
                        const ProgressReport& progress = {});

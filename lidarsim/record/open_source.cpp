@@ -52,13 +52,13 @@ Source open_scan_folder(const fs::path& folder, const SourceOptions& options) {
   return source;
 }
 
-// The trajectory in the frame of the points.
+// Moves the trajectory into the frame of the points, whose origin is info.origin_m.
 void make_relative(Source& source) {
   if (!source.flight || source.info.origin_m.isZero()) return;
   source.flight->reported = scan::moved(source.flight->reported, -source.info.origin_m);
 }
 
-// The points' times count from a trajectory that begins at 0.
+// Shifts times so that the trajectory begins at 0 and the points' times count from there.
 void count_from_first_pose(Source& source, bool is_recording, bool start_is_told) {
   if (!source.flight) return;
   FlightRecord& flight = *source.flight;
@@ -88,7 +88,7 @@ Source open_source(const fs::path& in, const SourceOptions& options) {
   if (fs::is_directory(in)) return open_scan_folder(in, options);
   require_file(in);
   const Format* format = find_format(in);
-  // A cloud is known by its content, whatever its name.
+  // Without a known extension it is read as a cloud, which is recognised by its content.
   if (format == nullptr) format = find_format("cloud.pcd");
   if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
   if (!options.topic.empty() && !format->has_topics)

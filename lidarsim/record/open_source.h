@@ -11,30 +11,31 @@
 
 namespace plotscan::record {
 
-// What a bare cloud or a pcap does not say of its flight; all but the trajectory has lidarsim fly's
-// defaults.
+// What the user adds about the flight of a bare cloud or a pcap. All but the trajectory has the
+// defaults of lidarsim fly.
 struct FlightOptions {
-  // Of the body, in the points' frame; in a cloud's time, while a recording begins at its first
-  // pose.
+  // The body's trajectory in the points' frame. For a cloud it is in the cloud's time; a recording
+  // begins at its first pose.
   std::optional<std::filesystem::path> trajectory = {};
-  // As sensor::load_sensor takes it; else the one that a recording's packets tell, or vlp16.
+  // A name or file for sensor::load_sensor. Absent: the sensor that a recording's packets tell, or
+  // vlp16.
   std::optional<std::string> sensor = {};
-  std::optional<double> spin_hz = {};  // else the sensor's own
+  std::optional<double> spin_hz = {};  // absent: the sensor's default
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
-  // When a cloud's time 0 was; else as the cloud says; else the trajectory begins at
-  // 2026-06-01T10:00:00Z. A recording says it by itself.
+  // When a cloud's time 0 was. Absent: as the cloud states; if it does not, the trajectory begins
+  // at 2026-06-01T10:00:00Z. Recordings state it themselves.
   std::optional<std::string> start_utc = {};
 };
 
 struct SourceOptions {
-  std::optional<FlightOptions> flight = {};  // for a source that is no scan folder
-  std::string topic = {};  // of the clouds in a bag or MCAP file, where there are several
+  std::optional<FlightOptions> flight = {};  // only for a source that is no scan folder
+  std::string topic = {};  // the topic of the clouds in a bag or MCAP file, if it has several
 };
 
-// Opens a scan folder, a cloud or a recording, and reads what comes in front of its points. Where
-// its flight is known, the points' times count from the trajectory's first pose.
-// Recordings are known by their extension, clouds by their content. Throws InputError on broken
-// input, and on options that mean nothing for it.
+// Opens a scan folder, a cloud or a recording, and reads what comes before its points. If its
+// flight is known, the points' times count from the trajectory's first pose. Recordings are
+// recognised by their extension, clouds by their content. Throws InputError on broken input, and on
+// options that do not apply to it.
 Source open_source(const std::filesystem::path& in, const SourceOptions& options);
 
 }  // namespace plotscan::record

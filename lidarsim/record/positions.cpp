@@ -17,7 +17,7 @@ bool is_recording(const fs::path& file) {
   return format != nullptr && format->is_recording;
 }
 
-// Throws InputError where recordings and clouds are mixed.
+// Whether the files are recordings. Throws InputError if recordings and clouds are mixed.
 bool are_recordings(const CloudFiles& cloud) {
   const auto other = std::ranges::find_if_not(cloud.files, is_recording);
   if (other == cloud.files.end()) return true;
@@ -34,7 +34,7 @@ bool are_recordings(const CloudFiles& cloud) {
   return false;
 }
 
-// Opens a recording, whose points then have a place in the world.
+// Opens a recording so that its points are placed in the world.
 Source open_recording(const fs::path& file, const RecordingOptions& told) {
   if (find_format(file)->has_topics) {
     if (told.trajectory || told.sensor || told.mount_rpy_deg)
@@ -58,7 +58,7 @@ std::vector<Source> open_recordings(const CloudFiles& cloud) {
   return sources;
 }
 
-// The body's first place, where it is known.
+// The body's first position, if it is known.
 std::optional<Eigen::Vector3d> first_place(const Source& source) {
   if (source.flight)
     return source.info.origin_m + source.flight->reported.poses().front().position_m;
@@ -66,7 +66,7 @@ std::optional<Eigen::Vector3d> first_place(const Source& source) {
   return std::nullopt;
 }
 
-// The same for all sources, each of which is checked against it.
+// The one coordinate system of all sources; the user's word is checked against each of them.
 scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& sources) {
   scan::CloudSystem system;
   std::vector<std::string> notes;
@@ -86,8 +86,8 @@ void require_no_classes(const CloudFiles& cloud) {
   throw InputError(cloud.files.front(), "is a recording: its points have no classes");
 }
 
-// Streams the sources' positions in metres; `take` sees each point and its place before that.
-// Counts those that have no place.
+// Streams the source's positions in metres to `sink`. `take` first gets each point and its position
+// in the file's units. Returns the number of points that could not be placed.
 using Take = std::function<void(const scan::LabelledPoint&, const Eigen::Vector3d& position)>;
 std::uint64_t stream(const Source& source, const scan::CloudSystem& system,
                      const scan::PositionSink& sink, const Take& take) {
@@ -149,8 +149,8 @@ scan::CloudSummary read_positions(const CloudFiles& cloud, const scan::PositionS
 }
 
 double expected_points(const CloudFiles& cloud) {
-  constexpr double kBytesInPacket = 3.3;  // 1,272 bytes of a frame for 384 returns
-  constexpr double kBytesInMessage = 26;  // of a point as `lidarsim convert` writes it
+  constexpr double kBytesInPacket = 3.3;  // bytes a point: frames of 1,272 bytes for 384 returns
+  constexpr double kBytesInMessage = 26;  // bytes a point as `lidarsim convert` writes it
   if (!are_recordings(cloud)) return scan::expected_points(cloud);
   double points = 0;
   for (const fs::path& file : cloud.files) {

@@ -7,23 +7,24 @@
 
 namespace plotscan::record {
 
-// What scan/cloud_reader.h and scan/cloud_facts.h read of clouds, of recordings as well: pcap of
-// Velodyne sensors, bags and MCAP files, each point placed where the sensor was at its instant, by
-// CloudFiles::recording (docs/formats.md). Nothing but positions is handed on, so that an estimator
-// cannot see labels. All files of a cloud are recordings, or none.
+// The functions of scan/cloud_reader.h and scan/cloud_facts.h, extended to recordings: pcap files
+// of Velodyne sensors, bags and MCAP files. Each point is placed from where the sensor was at that
+// instant; CloudFiles::recording adds what a file does not say (docs/formats.md). Only positions
+// are passed on, so that an estimator cannot see labels. Either all files of a cloud are
+// recordings, or none.
 
-// Throws InputError as scan::read_positions does, on a broken recording, one whose poses are not
-// known, recordings beside clouds, and RecordingOptions that mean nothing for the files.
+// Throws InputError as scan::read_positions does, on a broken recording, one whose poses are
+// unknown, recordings mixed with clouds, and RecordingOptions that do not apply to the files.
 scan::CloudSummary read_positions(const CloudFiles& cloud, const scan::PositionSink& sink,
                                   const scan::PositionOptions& options = {});
 
-// The same of scan::expected_points; of recordings, from their length.
+// As scan::expected_points; for recordings, estimated from the file's size.
 double expected_points(const CloudFiles& cloud);
 
-// The same of scan::read_cloud_system. A recording has metres and names no system.
+// As scan::read_cloud_system. A recording is in metres and names no coordinate system.
 scan::CloudSystem read_cloud_system(const CloudFiles& cloud);
 
-// The same of scan::read_cloud_facts.
+// As scan::read_cloud_facts.
 scan::CloudFacts read_cloud_facts(const CloudFiles& cloud, const scan::PositionSink& sink);
 
 }  // namespace plotscan::record

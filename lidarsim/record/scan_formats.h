@@ -10,24 +10,24 @@
 
 namespace plotscan::record {
 
-// A scan folder's flight in further formats beside its cloud.pcd, named by their extension without
-// the dot: "ply" and "las" as cloud.EXTENSION, "pcap", "bag" and "mcap" as flight.EXTENSION; "pcd"
-// is there anyway.
+// Writes a scan folder's flight in further formats beside its cloud.pcd. A format is named by its
+// extension without the dot: "ply" and "las" are written to cloud.EXTENSION, "pcap", "bag" and
+// "mcap" to flight.EXTENSION. "pcd" is always there.
 
-// What there is but "pcd", in the order of formats().
+// All such names except "pcd", in the order of formats().
 std::vector<std::string> further_formats();
 
-// Throws InputError where one of them is no format, or records packets that the sensor does not
-// send.
+// Throws InputError when a name is no format, or the format records packets that the sensor does
+// not send.
 void require_formats(const std::vector<std::string>& formats, const sensor::Sensor& sensor);
 
-// Writes the files: each is what convert() makes of the folder, by its defaults. Throws InputError
-// as require_formats and convert do.
+// Writes the files. Each is what convert() makes from the folder with its default options. Throws
+// InputError as require_formats and convert do.
 void write_formats(const std::vector<std::string>& formats,
                    const std::filesystem::path& scan_folder);
 
-// Writes the manifest of a scan folder that lacks nothing else, and the further formats, which are
-// made of the whole folder and are listed in the manifest, too. Throws as write_formats does.
+// Completes a scan folder that lacks only its manifest: writes the manifest, then the further
+// formats, which need the whole folder; the manifest lists them too. Throws as write_formats does.
 void finish_scan(const std::filesystem::path& scan_folder, const Manifest& manifest,
                  const std::vector<std::string>& formats);
 

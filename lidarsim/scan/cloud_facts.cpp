@@ -11,7 +11,7 @@
 namespace plotscan::scan {
 namespace {
 
-// A field beside x, y and z, and its place among those that are read.
+// A field besides x, y and z, and its index among the fields that are read.
 struct Column {
   const ScalarField* field = nullptr;
   std::size_t place = 0;
@@ -20,7 +20,7 @@ struct Column {
   double of(std::span<const double> row) const { return row[place]; }
 };
 
-// The fields that are read, x, y and z in front.
+// The fields to read: x, y and z first.
 struct Columns {
   std::vector<ScalarField> fields;
   Column returned, classified, withheld, time;
@@ -38,14 +38,14 @@ struct Columns {
   }
 };
 
-// What is no number counts as 0.
+// NaN and negative numbers count as 0.
 std::size_t bin_of(double number) {
   return number > 0 ? static_cast<std::size_t>(std::min(number, 255.0)) : 0;
 }
 
 bool is_noise(double number) { return number == las::kLowNoise || number == las::kHighNoise; }
 
-// Takes one row after the other.
+// Collects facts from rows, one after the other.
 class FactFinder {
  public:
   FactFinder(const CloudLayout& layout, const Columns& columns, CloudFacts& facts)

@@ -14,30 +14,30 @@
 
 namespace plotscan::scan {
 
-// Points by a number of 0 to 255, such as their class; a number beyond counts as 255.
+// How many points have each number from 0 to 255, such as a class; larger numbers count as 255.
 using CountByNumber = std::array<std::uint64_t, 256>;
 
-// Everything that a cloud's file tells of itself.
+// Everything that a cloud's files state about themselves.
 struct CloudFacts {
   std::string format;                 // "LAS 1.2, point format 3"
   std::uint64_t points = 0;           // with finite coordinates
-  std::uint64_t not_finite = 0;       // the others
+  std::uint64_t not_finite = 0;       // points with other coordinates
   std::uint64_t marked = 0;           // of `points`, withheld or of a noise class (LAS)
   Eigen::AlignedBox3d bounds = {};    // of the points, in the file's own coordinates
   Eigen::AlignedBox3d bounds_m = {};  // in metres (CloudSystem)
   CloudSystem system = {};
-  std::vector<std::string> fields = {};       // by the file's names, in its order
-  std::optional<CountByNumber> returns = {};  // by number of the return; nothing without the field
-  std::optional<CountByNumber> classes = {};  // by ASPRS class (LAS, fields of that name)
-  // Of the first and the last point in time: seconds as the file counts them, and UTC where it says
-  // from when (LAS with adjusted GPS time).
+  std::vector<std::string> fields = {};       // names and order as in the file
+  std::optional<CountByNumber> returns = {};  // by return number; nothing without that field
+  std::optional<CountByNumber> classes = {};  // by ASPRS class (LAS, or a field of that name)
+  // The earliest and the latest point's time: in seconds as the file counts them, and in UTC if the
+  // file says from when they count (LAS with adjusted GPS time).
   std::optional<std::array<double, 2>> time_s = {};
   std::optional<std::array<UtcTime, 2>> utc = {};
 };
 
-// Reads a cloud once, and hands its positions to the sink as read_positions does, all classes and
-// marked ones too. Format and fields are those of the first file.
-// Throws InputError as read_positions does.
+// Reads a cloud once, and passes its positions to the sink as read_positions does, but of all
+// classes and of marked points, too. Format and fields are those of the first file. Throws
+// InputError as read_positions does.
 CloudFacts read_cloud_facts(const CloudFiles& cloud, const PositionSink& sink);
 
 }  // namespace plotscan::scan

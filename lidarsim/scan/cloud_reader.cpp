@@ -17,7 +17,7 @@ namespace plotscan::scan {
 namespace {
 
 constexpr std::size_t kMaxHeaderLine = std::size_t{1} << 16;
-// Bytes by which a format is known.
+// How many bytes are read to recognise a format.
 constexpr std::size_t kStart = std::size_t{1} << 12;
 
 enum class CloudFormat { pcd, ply, las, text };
@@ -31,14 +31,14 @@ std::string start_of(const std::filesystem::path& file) {
   return start;
 }
 
-// The first line is "ply", blanks behind it or not.
+// Whether the first line is "ply", with or without blanks after it.
 bool is_ply(const std::string& start) {
   const std::size_t end = start.find_first_of("\r\n");
   return start.starts_with("ply") && end != std::string::npos &&
          start.find_first_not_of(" \t", 3) == end;
 }
 
-// PCD begins with a header entry, comments in front of it or not.
+// Whether the file begins with an entry of a PCD header, possibly after comments.
 bool is_pcd(const std::string& start) {
   std::istringstream in(start);
   for (std::string line, word; std::getline(in, line); word.clear()) {
@@ -55,7 +55,7 @@ bool is_text(std::string_view start) {
   });
 }
 
-// By content, since names lie.
+// The format by content, since names may be wrong.
 CloudFormat cloud_format(const std::filesystem::path& file) {
   const std::string start = start_of(file);
   if (is_ply(start)) return CloudFormat::ply;
@@ -89,12 +89,12 @@ std::string plain_name(const std::string& name) {
   return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
 }
 
-// What becomes of a point by its marks and its class.
+// Decides by marks and class whether a point is kept.
 class PointFilter {
  public:
   enum class Fate { kept, marked, left_out };
 
-  // Adds the fields that it looks at to those that are read.
+  // Adds the fields that it needs to those that are read.
   PointFilter(const std::filesystem::path& file, const CloudLayout& layout, const CloudFiles& cloud,
               const PositionOptions& options, std::vector<ScalarField>& fields) {
     marks_ = options.leave_out_marked && layout.is_las;
@@ -132,7 +132,7 @@ class PointFilter {
 
   bool marks_ = false;
   bool has_class_ = false;
-  bool only_ = false;         // some classes are read, whatever else there is is not
+  bool only_ = false;         // only the chosen classes are read
   std::size_t withheld_ = 0;  // places in a row
   std::size_t class_ = 0;
   std::array<bool, 256> left_out_{};
@@ -146,7 +146,7 @@ std::string numbers_text(const std::vector<int>& numbers) {
   return joined(texts, ", ");
 }
 
-// Adds one file to the sink and the summary, whose system it has.
+// Streams one file to the sink and adds it to the summary, whose system the file has.
 void read_file(const std::filesystem::path& file, const CloudFiles& cloud,
                const PositionOptions& options, const PositionSink& sink, CloudSummary& summary) {
   const CloudLayout layout = read_cloud_header(file);

@@ -11,17 +11,17 @@
 
 namespace plotscan::scan {
 
-// Receives a cloud's positions piece by piece, in the file's order, world frame, metres: as
+// Receives a cloud's positions piece by piece, in the file's order, in metres as
 // CloudSystem::metres_of gives them.
 using PositionSink = std::function<void(std::span<const Eigen::Vector3d>)>;
 
 // What was read.
 struct CloudSummary {
-  std::size_t points = 0;      // handed to the sink
-  std::size_t not_finite = 0;  // left out: a coordinate was no number, or no place
-  std::size_t marked = 0;      // left out: marked as no part of the scene (PositionOptions)
-  std::size_t left_out = 0;    // left out: of a class not to be read (CloudFiles)
-  CloudSystem system = {};     // of the files
+  std::size_t points = 0;      // passed to the sink
+  std::size_t not_finite = 0;  // left out: not finite, or degrees too far from the zone
+  std::size_t marked = 0;      // left out: marked as not to be processed (PositionOptions)
+  std::size_t left_out = 0;    // left out: of a class that CloudFiles excludes
+  CloudSystem system = {};     // the coordinate system of the files
 };
 
 struct PositionOptions {
@@ -32,16 +32,15 @@ struct PositionOptions {
 };
 
 // Streams the x, y, z of a PCD (ascii, binary, binary_compressed), PLY (ascii, binary), LAS (1.0 to
-// 1.4) or text cloud (a line a point), file after file, whatever other fields it has. Nothing but
-// positions is handed on, so that an estimator cannot see labels. All but compressed PCD is read in
-// constant memory. Throws InputError (file, what is wrong) on a missing, foreign, truncated or
-// empty cloud, as read_cloud_system does, and on a file without classes where only some are to be
-// read.
+// 1.4) or text cloud (a line a point), file after file, whatever other fields they have. Only
+// positions are passed on, so that an estimator cannot see labels. Memory is constant, except for
+// compressed PCD. Throws InputError (file, what is wrong) on a missing, foreign, truncated or empty
+// cloud, as read_cloud_system does, and on a file without classes where only some are to be read.
 CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
 
-// About how many points a cloud's files hold, from their headers; of text, from its length. Throws
-// InputError as read_positions does on what it reads of them.
+// About how many points a cloud's files hold: from their headers, or for text from its length.
+// Throws InputError as read_positions does, for what it reads of the files.
 double expected_points(const CloudFiles& cloud);
 
 }  // namespace plotscan::scan

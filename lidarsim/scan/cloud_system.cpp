@@ -13,9 +13,10 @@
 namespace plotscan::scan {
 namespace {
 
-// Points looked through for a finite one.
+// How many points are searched for a finite one.
 constexpr std::uint64_t kFirstPoints = 8192;
-// UTM is exact to a millimetre this far from its meridian, and makes no sense much farther.
+// Up to this distance from its meridian UTM is exact to a millimetre; much farther it is
+// meaningless.
 constexpr double kFarthest_deg = 12;
 
 GeodeticPoint geodetic(const Eigen::Vector3d& lon_lat_z) {
@@ -59,7 +60,7 @@ void project(const std::filesystem::path& cloud, const CloudLayout& layout, cons
                   system.zone->number, system.zone->north ? 'N' : 'S'));
 }
 
-// The user's system is one that is known, and counts in what the user says.
+// Throws InputError unless the user's system is known and counts in the units that the user says.
 void require_known(const CloudFiles& given) {
   const std::string& crs = *given.crs;
   if (!utm_system(crs) && !is_geographic(crs)) {
@@ -86,7 +87,7 @@ void require_within_utm(const std::filesystem::path& name, const std::string& cr
                              ": eastings are 100000 to 900000 m, northings 0 to 10000000 m");
 }
 
-// What the file states of x and y against the user's word; "" where the two agree.
+// What the file states about x and y if that contradicts the user's word; else "".
 std::string contradiction(const CloudLayout& layout, const std::string& crs) {
   const std::string stated = layout.crs();
   if (layout.in_degrees) return is_geographic(crs) ? "" : "degrees";
@@ -106,7 +107,7 @@ void note_units(bool given, CloudSystem& system) {
                          "; boxes and ground are written in the file's units");
 }
 
-// As the user says, whatever the file states but for the unit of z.
+// The system that the user names, whatever the file states; only the unit of z may be the file's.
 CloudSystem given_system(const std::filesystem::path& cloud, const CloudLayout& layout,
                          const CloudFiles& given) {
   CloudSystem system{.crs = *given.crs, .notes = layout.notes};

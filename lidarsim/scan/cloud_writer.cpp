@@ -14,8 +14,7 @@ namespace {
 
 using Fields = std::vector<PointRecord::Field>;
 
-// Header entries that stay as long as they are whatever the number of points: `comment` is filled
-// with blanks.
+// Pads `comment` with blanks, so that the header's length does not depend on the number of points.
 std::string padded(const std::string& before, std::string comment, const std::string& after) {
   constexpr std::size_t kHeaderSize = 512;
   const std::size_t size = before.size() + comment.size() + 1 + after.size();
@@ -56,7 +55,7 @@ std::string ply_header(std::uint64_t points, const Fields& fields, bool ascii) {
                 "element vertex " + std::to_string(points) + '\n' + properties + "end_header\n");
 }
 
-// The records' fields, column after column.
+// The records reordered: all values of the first field, then of the next, and so on.
 std::vector<char> columns_of(const std::vector<char>& records, const Fields& fields,
                              std::size_t record_size) {
   std::vector<char> columns;
@@ -129,7 +128,7 @@ void CompressedPcdWriter::close() {
   const std::vector<char> columns = columns_of(records_, record_.fields(), record_.size());
   const std::size_t points = records_.size() / record_.size();
   records_ = {};
-  // LZF grows what it cannot compress by a byte in 32.
+  // LZF makes data that it cannot compress longer, by one byte in 32.
   std::vector<char> compressed(std::min<std::size_t>(columns.size() + columns.size() / 16 + 64,
                                                      std::numeric_limits<std::uint32_t>::max()));
   const unsigned int size =

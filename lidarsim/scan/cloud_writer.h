@@ -17,14 +17,14 @@
 namespace plotscan::scan {
 
 struct CloudWriteOptions {
-  bool ascii = false;  // one point a line in place of binary records
+  bool ascii = false;  // one point a line instead of binary records
   // A point lies at origin_m + (x, y, z). Where it is not zero, x, y and z are written as doubles.
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
   bool labels = true;  // write class, plot and plant
 };
 
-// Streams labelled points to a file of one record, or line, a point. The number of points is known
-// only at the end: the header keeps a fixed length, and close() writes the number into it.
+// Streams labelled points to a file, one record or line per point. As the number of points is known
+// only at the end, the header has a fixed length, and close() writes the number into it.
 class CloudWriter : public PointWriter {
  public:
   // Throws std::runtime_error when the disk is full.
@@ -44,7 +44,7 @@ class CloudWriter : public PointWriter {
   PointRecord record_;
   bool ascii_;
   Header header_;
-  std::string text_;  // of the points at hand
+  std::string text_;  // of the current points
   std::uint64_t points_ = 0;
 };
 
@@ -62,9 +62,9 @@ class PlyWriter : public CloudWriter {
   explicit PlyWriter(const std::filesystem::path& path, const CloudWriteOptions& options = {});
 };
 
-// PCD 0.7, binary_compressed. The format is one block of all x, then all y and so on, so that the
-// whole cloud is kept in memory: 74 bytes a point, and 37 more while it is compressed. A block's
-// size has 32 bits: at most 116 million points (87 million with an origin).
+// PCD 0.7, binary_compressed. The format is one block of all x, then all y and so on, so the whole
+// cloud is kept in memory: 74 bytes a point, and 37 more while it is compressed. As a block's size
+// has 32 bits, it holds at most 116 million points (87 million with an origin).
 class CompressedPcdWriter : public PointWriter {
  public:
   // Throws std::runtime_error when the file cannot be created.

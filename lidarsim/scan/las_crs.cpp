@@ -12,7 +12,7 @@
 namespace plotscan::scan {
 namespace {
 
-// UNIT["metre", 1] of a node, or of its axes, as WKT 2 has it.
+// The factor in UNIT["metre", 1] of a node or, as in WKT 2, of its axes.
 std::optional<double> unit_of(const WktNode* node) {
   if (node == nullptr) return std::nullopt;
   for (const WktNode& child : node->children) {

@@ -8,7 +8,7 @@
 
 namespace plotscan::scan {
 
-// Coordinate systems as well-known text (OGC 01-009), which is what LAS 1.4 takes.
+// Coordinate systems as well-known text (OGC 01-009), as LAS 1.4 needs them.
 
 // The world frame: east, north, up, metres, origin at the farm's centre.
 std::string local_crs_wkt();
@@ -16,17 +16,17 @@ std::string local_crs_wkt();
 // WGS 84 / UTM in the zone, EPSG 326xx or 327xx, with heights over the ellipsoid.
 std::string utm_crs_wkt(const UtmZone& zone);
 
-// "EPSG:<code>" of the projected system that a text (WKT 1 or 2) describes, where it names the
-// code; else the text itself.
+// "EPSG:<code>" of the projected system that the text (WKT 1 or 2) describes, if it names the code;
+// else the text itself.
 std::string short_crs(const std::string& wkt);
 
-// Metres to one unit of x and y, and of z, where well-known text states them.
+// Metres in one unit of x and y, and of z, if well-known text states them.
 struct WktUnits {
   std::optional<double> horizontal_m = {};
   std::optional<double> vertical_m = {};
 };
 
-// Of a projected or local system, and of the heights beside it. Nothing of a text that is broken.
+// The units of a projected or local system, and of its heights. Empty if the text is broken.
 WktUnits units_of_wkt(const std::string& wkt);
 
 }  // namespace plotscan::scan

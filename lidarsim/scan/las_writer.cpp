@@ -101,8 +101,8 @@ std::string records_of(const LasOptions& options) {
   return records;
 }
 
-// Day of the year, from 1, and year; 0 where the day is not known. The clock's day would make
-// every file another.
+// Day of the year, from 1, and year; 0 if unknown. Today's date is not used: files of the same
+// input would differ.
 std::pair<std::uint16_t, std::uint16_t> creation_day(const std::optional<UtcTime>& start) {
   using namespace std::chrono;
   if (!start) return {0, 0};
@@ -185,7 +185,7 @@ void LasWriter::pack(const LabelledPoint& point, char* record) {
   put(static_cast<std::uint8_t>(point.label));
 }
 
-// Table 3 of the specification.
+// The header by table 3 of the specification.
 std::string LasWriter::header() const {
   const auto [day, year] = creation_day(options_.start);
   const std::uint16_t encoding =
@@ -198,7 +198,7 @@ std::string LasWriter::header() const {
   bytes.put(static_cast<std::uint16_t>(las::kHeaderSize));
   bytes.put(static_cast<std::uint32_t>(las::kHeaderSize + records_.size())).put(records);
   bytes.put(static_cast<std::uint8_t>(kPointFormat)).put(static_cast<std::uint16_t>(record_size()));
-  bytes.zeros(24);  // the counts of older versions
+  bytes.zeros(24);  // the legacy counts of older versions
   for (int axis = 0; axis < 3; ++axis) bytes.put(kStep_m);
   for (int axis = 0; axis < 3; ++axis) bytes.put(options_.offset_m[axis]);
   for (std::size_t axis = 0; axis < 3; ++axis) {

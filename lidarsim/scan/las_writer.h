@@ -17,21 +17,21 @@
 
 namespace plotscan::scan {
 
-// What a LAS file says beside its points.
+// What a LAS file states besides its points.
 struct LasOptions {
-  // Of time 0 of the points: times are adjusted standard GPS time. Without it they are written as
-  // they are, as GPS week time.
+  // The instant of the points' time 0: times are then written as adjusted standard GPS time.
+  // Absent: times are written unchanged, as GPS week time.
   std::optional<UtcTime> start = {};
   std::string crs_wkt;           // the coordinate system (OGC 01-009), see las_crs.h
   std::string system = "OTHER";  // what made the points, "Velodyne VLP-16 (Puck)"
-  // The file's coordinates count from here, in steps of a tenth of a millimetre: at most 214 km.
+  // The offset of the file's coordinates. They are stored in steps of 0.1 mm, up to 214 km from it.
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
-  // The file's coordinates of a point. Empty: offset_m + (x, y, z).
+  // Returns the coordinates that the file gets for a point. Empty: offset_m + (x, y, z).
   std::function<Eigen::Vector3d(const LabelledPoint&)> coordinates = {};
-  // From straight down, positive to the right of the flight. Empty: 0.
+  // Returns a point's scan angle from straight down, positive to the right of the flight. Empty: 0.
   std::function<double(const LabelledPoint&)> scan_angle_rad = {};
-  // Write the extra bytes plot, plant and class, and the standard class; else there is the extra
-  // byte ring alone, and every point is of the class 0, never classified.
+  // Whether to write the extra bytes plot, plant and class, and the standard class. If not, ring is
+  // the only extra byte, and every point has class 0 (never classified).
   bool labels = true;
 };
 
@@ -54,7 +54,7 @@ class LasWriter : public PointWriter {
 
   std::filesystem::path path_;
   LasOptions options_;
-  double gps_offset_s_ = 0;  // of the file's times over ours
+  double gps_offset_s_ = 0;  // the file's times minus ours
   std::string records_;      // the variable length records
   std::uint64_t points_ = 0;
   std::array<std::uint64_t, 15> by_return_{};

@@ -9,7 +9,7 @@
 namespace plotscan::scan {
 namespace {
 
-// The points of a LAS file, packed.
+// Packs a LAS file into a LAZ file.
 void pack(const std::filesystem::path& las, const std::filesystem::path& laz) {
   const LaszipFile reader(las);
   laszip_BOOL compressed = 0;
@@ -41,7 +41,7 @@ void LazWriter::close() {
   try {
     pack(unpacked_.path(), path_);
   } catch (const InputError&) {
-    // LASzip does not say why; of the file that was just written nothing else is to be expected.
+    // LASzip gives no reason; as the LAS file was just written, only writing can have failed.
     throw WriteError(path_);
   }
 }

@@ -10,8 +10,8 @@
 
 namespace plotscan::scan {
 
-// Streams points to LAZ: what LasWriter writes, into a file beside `path` that close() has LASzip
-// pack. Throws as LasWriter does, and InputError where LASzip fails.
+// Streams points to LAZ: they are written as by LasWriter to a file beside `path`, which close()
+// packs with LASzip. Throws as LasWriter does, and InputError where LASzip fails.
 class LazWriter : public PointWriter {
  public:
   LazWriter(const std::filesystem::path& path, LasOptions options);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kOriginStep_m = 1000;
 constexpr const char* kGpsTime = "gps_time";  // as read_las_header names it
-// Rows looked through for a finite point.
+// How many rows are searched for a finite point.
 constexpr std::uint64_t kFirstRows = 8192;
 
 // Puts a field's number into a point; false when it does not fit.
@@ -47,8 +47,8 @@ PointClass class_of_asprs(double number) {
 }
 
 struct KnownField {
-  std::string name;                  // in PCD and PLY files of ours
-  std::vector<std::string> aliases;  // as find_field takes them
+  std::string name;                  // in Plotscan's PCD and PLY files
+  std::vector<std::string> aliases;  // names for find_field
   Put put;
 };
 
@@ -87,7 +87,7 @@ const std::vector<KnownField>& known_fields() {
   return fields;
 }
 
-// Stands in for "class" where a file has none.
+// Replaces the field "class" in files that do not have it.
 const KnownField& asprs_class() {
   static const KnownField field = {"class", {"classification"}, [](LabelledPoint& p, double v) {
                                      p.label = class_of_asprs(v);
@@ -98,16 +98,16 @@ const KnownField& asprs_class() {
 
 struct SelectedField {
   const KnownField* known;
-  double unit;  // of the file's numbers in ours
+  double unit;  // factor from the file's numbers to ours
 };
 
-// The fields to read: x, y, z, and behind them the known ones that the file has.
+// The fields to read: x, y, z, followed by the known ones that the file has.
 struct Selection {
   std::vector<ScalarField> fields;
   std::vector<SelectedField> known;
 };
 
-// ROS drivers write whole numbers of nanoseconds where they do not write seconds.
+// ROS drivers write times as seconds (floats) or as whole numbers of nanoseconds.
 double unit_of(const KnownField& known, const ScalarField& field) {
   return known.name == "time" && field.kind != 'F' ? 1e-9 : 1;
 }
@@ -131,8 +131,8 @@ Selection select(const CloudLayout& layout) {
 
 Eigen::Vector3d position(std::span<const double> row) { return {row[0], row[1], row[2]}; }
 
-// The first finite point of the cloud's beginning, zero where there is none; its time where the
-// file has one.
+// The first finite point at the beginning of the cloud, zero if there is none, and its GPS time if
+// the file has it.
 struct FirstPoint {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   std::optional<double> time_s = {};
@@ -169,7 +169,7 @@ std::optional<UtcTime> second_of(double adjusted_s) {
   return utc_of_adjusted_gps(std::floor(adjusted_s));
 }
 
-// What turns the file's times into seconds from info.start.
+// What to add to the file's times to get seconds from info.start.
 double time_shift_s(const CloudLayout& layout, const CloudInfo& info) {
   return layout.adjusted_gps_time && info.start
              ? las::kGpsTimeAdjustment_s - gps_seconds(*info.start)

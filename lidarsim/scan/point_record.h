@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: a LabelledPoint as PCD and PLY hold it.
+// Private to the library: a LabelledPoint as PCD and PLY files store it.
 
 #include <cstddef>
 #include <string>
@@ -36,7 +36,7 @@ class PointRecord {
   }
   // Writes the point's record at `record`; returns its end.
   char* pack(const LabelledPoint& point, char* record) const;
-  // Appends the fields with blanks between them and a line's end; every number reads back the same.
+  // Appends the fields with blanks between them and a line's end; every number reads back exactly.
   void print(const LabelledPoint& point, std::string& text) const;
 
  private:

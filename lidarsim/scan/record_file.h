@@ -8,8 +8,8 @@
 
 namespace plotscan::scan {
 
-// A file written from start to end through a buffer, whose beginning is written over at the end:
-// the number of records is known only then.
+// A file that is written from start to end through a buffer. At the end its beginning is
+// overwritten, as the number of records is known only then.
 class RecordFile {
  public:
   // Throws WriteError, here and below, when the file cannot be created or written.
@@ -19,7 +19,8 @@ class RecordFile {
   RecordFile& operator=(const RecordFile&) = delete;
 
   void append(std::span<const char> bytes);
-  // Room for a record of up to `most` bytes; `used` says how many of them were written there.
+  // Returns room for a record of up to `most` bytes; call `used` with the number of bytes written
+  // there.
   char* room(std::size_t most);
   void used(std::size_t bytes) { buffered_ += bytes; }
   // Writes what is buffered.

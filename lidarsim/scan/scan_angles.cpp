@@ -7,9 +7,9 @@ namespace plotscan::scan {
 namespace {
 
 constexpr double kHalfWindow_s = 0.5;
-// Slower than this over the window counts as hovering.
+// A shorter way than this within the window counts as hovering.
 constexpr double kLeastWay_m = 0.25;
-// A direction is kept for so long.
+// How long a direction is reused.
 constexpr double kKept_s = 0.01;
 
 Eigen::Vector3d horizontal(Eigen::Vector3d vector) {

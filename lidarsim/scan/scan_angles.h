@@ -8,16 +8,16 @@
 
 namespace plotscan::scan {
 
-// The angles of a scan's shots as LAS tells them: in the plane across the flight, from straight
-// down, counter-clockwise seen from behind: positive to the right. The flight's direction is that
-// of half a second before to half a second after; the body's nose while it hovers.
+// The scan angles of shots as LAS defines them: in the plane across the flight, from straight down,
+// positive to the right. The direction of flight is from the position half a second before to that
+// half a second after; while hovering, that of the body's nose.
 class ScanAngles {
  public:
-  // Both have to live as long as this.
+  // `reported` must outlive this object.
   ScanAngles(const Trajectory& reported, const Eigen::Isometry3d& body_from_lidar)
       : reported_(reported), body_from_lidar_(body_from_lidar) {}
 
-  // In (-pi, pi]. Points in the trajectory's frame and time; fastest in the order of time.
+  // In (-pi, pi], of a point in the trajectory's frame and time. Fastest in the order of time.
   double angle_rad(const LabelledPoint& point);
 
  private:

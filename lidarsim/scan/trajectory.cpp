@@ -12,9 +12,10 @@
 namespace plotscan::scan {
 namespace {
 
-// Farther than any northing of a projected coordinate system.
+// Larger than any northing of a projected coordinate system.
 constexpr double kFarthest_m = 2e7;
-// Files carry quaternions of four decimals and more; further from 1 it is no attitude.
+// Files state quaternions with four or more decimals. If the norm is further than this from 1, they
+// are no attitudes.
 constexpr double kNormTolerance = 0.01;
 
 }  // namespace

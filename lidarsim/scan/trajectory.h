@@ -19,8 +19,8 @@ struct StampedPose {
 // within half a turn on either side of 0.
 Eigen::AngleAxisd shorter_turn(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
 
-// Where the body is at any time: linear in position, slerp in attitude (Shoemake 1985) between
-// stamped poses, the shorter way round.
+// Where the body is at any time: between stamped poses, linear in position and slerp in attitude
+// (Shoemake 1985), the shorter way round.
 class Trajectory {
  public:
   // Normalises the attitudes. Throws InputError on fewer than two poses, times that do not strictly
@@ -30,10 +30,10 @@ class Trajectory {
   const std::vector<StampedPose>& poses() const { return poses_; }
   double start_s() const { return poses_.front().time_s; }
   double end_s() const { return poses_.back().time_s; }
-  // i such that poses()[i].time_s <= time_s < poses()[i + 1].time_s; the first or last segment
-  // outside the trajectory.
+  // The i with poses()[i].time_s <= time_s < poses()[i + 1].time_s; outside the trajectory, that of
+  // the first or last segment.
   std::size_t segment(double time_s) const;
-  // Held at the first and last pose outside the trajectory.
+  // Outside the trajectory, the first or last pose.
   Eigen::Isometry3d world_from_body(double time_s) const;
 
  private:
@@ -46,8 +46,8 @@ Trajectory moved(const Trajectory& trajectory, const Eigen::Vector3d& by_m);
 // The same motion, every time later by `by_s`.
 Trajectory delayed(const Trajectory& trajectory, double by_s);
 
-// What is wrong with a pose that follows one at `previous_s` (-infinity for the first); "" when
-// nothing is.
+// What is wrong with a pose that follows one at `previous_s` (-infinity for the first); "" if
+// nothing is wrong.
 std::string pose_error(const StampedPose& pose, double previous_s);
 
 // Reads the TUM format (one "t x y z qx qy qz qw" a line, '#' comments; seconds, metres) or a
@@ -57,7 +57,7 @@ Trajectory read_trajectory(const std::filesystem::path& file);
 // Header t_s,x_m,y_m,z_m,qx,qy,qz,qw; every number reads back as the same double.
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory);
 
-// TUM text: "t x y z qx qy qz qw" a line behind a comment; the same numbers.
+// Writes the TUM format: a comment line, then one "t x y z qx qy qz qw" a line; the same numbers.
 void write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
 
 }  // namespace plotscan::scan

@@ -17,17 +17,18 @@ namespace plotscan::scanpage {
 // A scan as a page shows it.
 struct ShownScan {
   report::ShownCloud cloud;
-  std::vector<Eigen::Vector3d> path = {};  // of the drone where it is known, the cloud's frame
+  std::vector<Eigen::Vector3d> path = {};  // of the drone, if known; in the cloud's frame
 };
 
 struct ReadOptions {
-  std::size_t most = 1;                          // points that are kept
+  std::size_t most = 1;                          // most points that are kept
   std::optional<Eigen::AlignedBox2d> area = {};  // else all that there are
   record::SourceOptions source = {};
 };
 
-// Reads a scan folder, cloud or recording: a fair sample of its points (of those in the area), with
-// class, plot, intensity and time where the file has them. Throws InputError on broken input.
+// Reads a scan folder, cloud or recording: a random sample of its points (of those in the area),
+// each equally likely, with class, plot, intensity and time if the file has them. Throws InputError
+// on broken input.
 ShownScan read_shown_scan(const std::filesystem::path& scan, const ReadOptions& options,
                           const ProgressReport& progress = {});
 

@@ -19,8 +19,8 @@ namespace plotscan::scanpage {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kRead = 0.5;    // share of the work when the points are read
-constexpr double kFitted = 0.8;  // and when the ground is fitted
+constexpr double kRead = 0.5;    // progress when the points are read
+constexpr double kFitted = 0.8;  // progress when the ground is fitted
 
 report::ShownPlot shown(const PlotFeature& plot, std::size_t place) {
   const nlohmann::json& properties = plot.properties;

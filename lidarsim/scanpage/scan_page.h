@@ -15,23 +15,23 @@ struct PageOptions {
   std::filesystem::path scan;  // scan folder, cloud or recording
   std::filesystem::path html;
   record::SourceOptions source = {};
-  // Whose boxes are shown: a farm folder's true plots, or a map of plots (GeoJSON) in the cloud's
-  // frame.
+  // The plots whose boxes are shown: a farm folder's true plots, or a map of plots (GeoJSON) in the
+  // cloud's frame.
   std::optional<std::filesystem::path> plots = {};
-  std::size_t points = 3'000'000;  // at most, 1 to report::kMostPoints
+  std::size_t points = 3'000'000;  // most points shown, 1 to report::kMostPoints
   int threads = 1;
-  bool replace = false;  // an existing page
+  bool replace = false;  // replaces an existing page
 };
 
 struct PageSummary {
   std::uint64_t read = 0;   // points of the scan
-  std::uint64_t shown = 0;  // of these
+  std::uint64_t shown = 0;  // those of `read` that are shown
   std::size_t plots = 0;
 };
 
 // Writes one HTML page of a scan: its points in three dimensions over the ground that is fitted to
-// them, the drone's path, and plots where they are given (docs/report.md). Throws InputError on bad
-// input and a page that exists; nothing is left behind then.
+// them, the drone's path, and plots if they are given (docs/report.md). Throws InputError on bad
+// input and on a page that exists (unless `replace` is set), and then leaves nothing behind.
 PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress = {});
 
 }  // namespace plotscan::scanpage

@@ -9,8 +9,8 @@
 
 namespace plotscan::sensor {
 
-// One number a laser, in the order of firing; vectors are kept by component so that several lasers
-// are worked on at once.
+// One number per laser, in the order of firing. Vectors are stored by component, so that several
+// lasers are computed at once.
 using PerLaser = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxLasers, 1>;
 using VectorPerLaser = std::array<PerLaser, 3>;
 

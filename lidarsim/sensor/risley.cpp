@@ -28,7 +28,7 @@ Risley::Risley(const std::array<Wedge, 2>& wedges, const PerLaser& fires_s) {
   index_ = wedges[1].refractive_index;
 }
 
-// Cosine and sine of the angle from y towards z at which the prism's thick side is.
+// Cosine and sine of the angle, from y towards z, of the prism's thick side.
 std::array<PerLaser, 2> Risley::thick_side(const Turning& wedge, double time_s, Eigen::Index begin,
                                            Eigen::Index count) {
   const double turns = wedge.turns_hz * time_s;
@@ -48,14 +48,14 @@ VectorPerLaser Risley::directions(double time_s, Eigen::Index begin, Eigen::Inde
   const PerLaser incidence =
       along_ * cos_slant_ + bend_ * sin_slant_ * (first[0] * second[0] + first[1] * second[1]);
   const PerLaser change = (1 - ratio * ratio * (1 - incidence.square())).sqrt() - ratio * incidence;
-  // Out of its flat side: what lies across x grows by the index.
+  // Out of its flat side: components across x are multiplied by the index.
   const PerLaser y = index_ * (ratio * bend_ * first[0] + sin_slant_ * change * second[0]);
   const PerLaser z = index_ * (ratio * bend_ * first[1] + sin_slant_ * change * second[1]);
   return {(1 - y.square() - z.square()).sqrt(), y, z};
 }
 
 std::array<double, 2> deflections_rad(const std::array<Wedge, 2>& wedges) {
-  // The thick sides together bend the beam most, opposite each other least.
+  // With both thick sides at the same angle the beam is bent most, with opposite ones least.
   std::array<Wedge, 2> still = wedges;
   for (Wedge& wedge : still) wedge.turns_hz = 0;
   std::array<double, 2> deflection_rad = {};

@@ -8,25 +8,26 @@
 
 namespace plotscan::sensor {
 
-// Where a laser that points along x is sent by two wedge prisms that turn about x, refracted by
-// Snell's law at each surface: after Brazeal, Wilkinson and Hochmair, "A Rigorous Observation Model
+// The directions of a laser beam along x after two wedge prisms that turn about x, refracted by
+// Snell's law at each surface; after Brazeal, Wilkinson and Hochmair, "A Rigorous Observation Model
 // for the Risley Prism-Based Livox Mid-40 Lidar Sensor", Sensors 21 (2021) 4722, equations 3 to 10.
-// The prisms' flat sides face away from each other and are square to x, their slanted sides face
-// each other. The sum of two thin prisms' deflections would be 4 % short at the rim of the Mid-40's
-// field of view.
+// The prisms' flat sides face outwards and are perpendicular to x; their slanted sides face each
+// other. Adding the deflections of two thin prisms instead would be 4 % too small at the rim of the
+// Mid-40's field of view.
 class Risley {
  public:
   // Shot k of a sequence is fired fires_s[k] after the sequence's start.
   Risley(const std::array<Wedge, 2>& wedges, const PerLaser& fires_s);
 
-  // Unit vectors, lidar frame, of `count` shots of the sequence that starts at time_s.
+  // Unit vectors in the lidar frame for `count` shots, from shot `begin` on, of the sequence that
+  // starts at time_s.
   VectorPerLaser directions(double time_s, Eigen::Index begin, Eigen::Index count) const;
 
  private:
   struct Turning {
     double turns_hz = 0;
     double phase_rad = 0;
-    PerLaser cos_advance;  // of how far the prism turns until shot k
+    PerLaser cos_advance;  // of the prism's turn until shot k
     PerLaser sin_advance;
   };
   static std::array<PerLaser, 2> thick_side(const Turning& wedge, double time_s, Eigen::Index begin,
@@ -41,8 +42,8 @@ class Risley {
   double index_ = 0;
 };
 
-// The greatest angle between the beam and the x axis, and the least, radians; NaN where a prism
-// reflects the beam back into itself.
+// The greatest and the least angle between the beam and the x axis, radians; NaN if a prism totally
+// reflects the beam.
 std::array<double, 2> deflections_rad(const std::array<Wedge, 2>& wedges);
 
 }  // namespace plotscan::sensor

@@ -40,7 +40,7 @@ constexpr int kMaxColumns = 1'000'000;
 // full, and so few that the drone turns little meanwhile.
 constexpr int kRisleyShots = 32;
 
-// The lasers fire within the firing sequence, which takes at least so long.
+// Reads the lasers. They must fire within the firing sequence, which takes `sequence_us` at least.
 std::vector<Laser> read_lasers(const YamlSection& root, double sequence_us) {
   std::vector<Laser> lasers;
   double before_us = 0;

@@ -11,10 +11,10 @@
 namespace plotscan::sensor {
 namespace {
 
-// Turning by an angle below this within one firing sequence is taken to second order: the error,
-// its cube over 6, stays below 2e-10.
+// Below this angle per firing sequence, rotation is computed to second order: the error, the
+// angle's cube over 6, stays below 2e-10.
 constexpr double kSmallTurn_rad = 1e-3;
-// A turn below this from pose to pose is rounding.
+// A smaller turn from pose to pose is only rounding.
 constexpr double kNoTurn_rad = 1e-14;
 
 Eigen::Matrix3d rotation(const Eigen::Vector3d& turn_rad) {
@@ -135,7 +135,7 @@ double ShotPlan::head_turns(std::uint64_t sequence) const {
   return turns - std::floor(turns);
 }
 
-// Where the lasers point when the head is at an azimuth as their sequence starts.
+// The lasers' directions when the head has this azimuth at the sequence's start.
 VectorPerLaser ShotPlan::spun_directions(double cos_azimuth, double sin_azimuth, Eigen::Index begin,
                                          Eigen::Index count) const {
   const auto these = [begin, count](const PerLaser& all) { return all.segment(begin, count); };
@@ -153,8 +153,8 @@ Eigen::Vector3d ShotPlan::spin_axis(std::uint64_t sequence) const {
          Eigen::Vector3d::UnitZ();
 }
 
-// `count` lasers of the sequence, all within one segment. The attitude is
-// exact when the first of them fires and turned on from there to second order.
+// Fires `count` lasers of the sequence, all within one segment. The attitude is exact when the
+// first of them fires; for the others it is turned on from there to second order.
 void ShotPlan::fire_lasers(const Segment& motion, std::uint64_t sequence, Eigen::Index begin,
                            Eigen::Index count, SequenceShots& shots) const {
   const double time_s = static_cast<double>(sequence) * sequence_s_;

@@ -20,9 +20,9 @@ struct SequenceShots {
   VectorPerLaser direction;  // unit vectors
 };
 
-// A head that does not spin steadily: at the beginning of each block of firings, kJitterFirings of
-// them, it is off its steady azimuth by a normal number of its own, and between two beginnings by
-// what lies between the two numbers. docs/sensors.md tells what was measured.
+// A head that does not spin steadily. At the beginning of each block of kJitterFirings firings its
+// azimuth is off that of a steady spin by an independent normal number; in between, the error is
+// interpolated linearly. docs/sensors.md tells what was measured.
 struct SpinJitter {
   double sd_rad = 0;
   std::uint64_t seed = 0;
@@ -30,16 +30,16 @@ struct SpinJitter {
 inline constexpr std::size_t kJitterFirings = 32;  // a block of Velodyne's packets
 
 // Every shot of a flight: laser k of firing sequence n is fired n * sequence time + fires_s(k)
-// seconds after the trajectory's start, from where the sensor is at that instant. The head is then
-// at the azimuth 360 degrees * spin * time and its jitter's (of the sequence's start), the beam at
-// that and the laser's own azimuth; a Risley scanner's beam is where its prisms send it at that
-// instant.
+// seconds after the trajectory's start, from where the sensor is at that instant. The head's
+// azimuth is then 360 degrees * spin * time plus the jitter at the sequence's start; the beam's is
+// that plus the laser's own azimuth. A Risley scanner's beam points to where its prisms send it at
+// that instant.
 class ShotPlan {
  public:
   ShotPlan(const Sensor& sensor, double spin_hz, const Eigen::Isometry3d& body_from_lidar,
            const scan::Trajectory& trajectory, const SpinJitter& jitter = {});
 
-  // Whole firing sequences within the trajectory.
+  // The number of whole firing sequences within the trajectory.
   std::uint64_t sequences() const { return sequences_; }
   std::size_t lasers() const { return static_cast<std::size_t>(fires_s_.size()); }
   // Seconds from the trajectory's start.
@@ -69,18 +69,18 @@ class ShotPlan {
                    Eigen::Index count, SequenceShots& shots) const;
   double jitter_turns(std::uint64_t sequence) const;
 
-  // What does not change from sequence to sequence: of each laser, when it fires after the
-  // sequence's start, its direction at azimuth 0, how far ahead its beam's azimuth then is, and the
-  // ray's origin seen from the body's, in the lidar frame's axes, but for the part that turns with
-  // the head.
+  // What does not change from sequence to sequence, for each laser: when it fires after the
+  // sequence's start, its direction at azimuth 0, how far its beam's azimuth is then ahead, and the
+  // ray's origin relative to the body's, in the lidar frame's axes, without the part that turns
+  // with the head.
   PerLaser fires_s_;
   PerLaser cos_elevation_;
   PerLaser sin_elevation_;
   PerLaser cos_advance_;
   PerLaser sin_advance_;
   VectorPerLaser lever_m_;
-  // Of lasers off the spin axis: radius times cosine and sine of how far the head turns until the
-  // laser fires. Empty where all are on it.
+  // For lasers off the spin axis: radius times cosine and sine of the head's turn until the laser
+  // fires. Empty if all are on the axis.
   PerLaser radius_cos_m_;
   PerLaser radius_sin_m_;
   std::optional<Risley> risley_;
@@ -88,7 +88,7 @@ class ShotPlan {
   double sequence_s_ = 0;
   double spin_hz_ = 0;
   SpinJitter jitter_;
-  std::uint64_t jitter_sequences_ = 1;  // of a block
+  std::uint64_t jitter_sequences_ = 1;  // sequences in a block
   std::uint64_t sequences_ = 0;
 };
 

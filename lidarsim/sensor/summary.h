@@ -10,7 +10,7 @@
 
 namespace plotscan::sensor {
 
-// A sensor in the figures of a data sheet.
+// A sensor's main figures, as in a data sheet.
 struct SensorSummary {
   std::string name;
   std::string title;
@@ -18,7 +18,7 @@ struct SensorSummary {
   double shots_per_s = 0;  // at the default spin
   double min_range_m = 0;
   double max_range_m = 0;
-  // Of a spinning sensor, all around: its lowest and highest laser, and its spin.
+  // Only of a spinning sensor, which sees all around: its lowest and highest laser, and its spin.
   double least_elevation_deg = 0;
   double most_elevation_deg = 0;
   double min_spin_hz = 0;
@@ -29,7 +29,7 @@ struct SensorSummary {
 
 SensorSummary summary_of(const Sensor& sensor);
 
-// A line of headings and one line a sensor.
+// A table as text: a line of headings, then one line per sensor.
 std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summaries);
 
 nlohmann::json summary_json(const SensorSummary& summary);

@@ -20,7 +20,7 @@
 namespace plotscan {
 namespace {
 
-// Nothing else in the program sends it.
+// The signal that stops other threads; nothing else in the program sends it.
 int halt_signal() { return SIGRTMAX - 1; }
 
 std::atomic<int> halted{0};
@@ -31,10 +31,10 @@ void halt(int /*signal*/) {
   for (;;) pause();
 }
 
-// A thread in a system call on a slow disk is not waited for longer.
+// The longest wait for a thread that is in a system call, on a slow disk for example.
 constexpr auto kPatience = std::chrono::seconds(5);
 
-// Halts every other thread. They may hold the heap's locks, so that nothing is allocated here.
+// Halts every other thread. Allocates nothing, as these threads may hold the heap's locks.
 void halt_other_threads() {
   constexpr int kMostThreads = 4096;
   static std::array<pid_t, kMostThreads> told{};

@@ -10,7 +10,7 @@
 namespace plotscan {
 namespace {
 
-// The bytes of the character that begins the text; 0: it begins with none.
+// The number of bytes of the UTF-8 character at the beginning of the text; 0 if it is no valid one.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
@@ -19,7 +19,7 @@ std::size_t character_length(std::string_view text) {
   if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  // Neither longer than need be, nor a surrogate, nor beyond U+10FFFF.
+  // Invalid: encoded longer than needed, a surrogate, or beyond U+10FFFF.
   const std::uint8_t second = byte(1);
   const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
                      (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);

@@ -23,7 +23,7 @@ bool takes_many(const CLI::Option& option) {
   return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
 }
 
-// What bash_completion offers, as the branches of its `case`.
+// The branches of the `case` statements in bash_completion's script.
 struct BashBranches {
   std::string commands;  // every command
   std::string choices;   // by command and option
@@ -50,7 +50,7 @@ BashBranches bash_branches(const CLI::App& program) {
   return offered;
 }
 
-// Text within a shell's single quotes, a backslash before each of `special`.
+// Text for a shell's single quotes, with a backslash before each character of `special`.
 std::string quoted(const std::string& text, const std::string& special) {
   std::string escaped;
   for (const char letter : text) {
@@ -60,7 +60,7 @@ std::string quoted(const std::string& text, const std::string& special) {
   return escaped;
 }
 
-// zsh has no escape within single quotes: they are closed, and opened again.
+// zsh has no escape within single quotes: a quote in the text closes and reopens them.
 std::string zsh_text(const std::string& text) {
   std::string escaped;
   for (const char letter : quoted(text, "\\:[]")) {
@@ -72,7 +72,7 @@ std::string zsh_text(const std::string& text) {
   return escaped;
 }
 
-// What stands in an option's or a positional's place, as _arguments takes it.
+// The value of an option or a positional argument, in the syntax of zsh's _arguments.
 std::string zsh_value(const CLI::Option& option) {
   const std::vector<std::string> choices = choices_of(option);
   const std::string action = !choices.empty()    ? "(" + joined(choices, " ") + ")"
@@ -83,8 +83,8 @@ std::string zsh_value(const CLI::Option& option) {
   return ":" + zsh_text(name) + ":" + action;
 }
 
-// An option's line of _arguments: what it excludes (its own other names too), its names, what it
-// is.
+// An option's line for zsh's _arguments: what it excludes (its own other names too), its names and
+// its description.
 std::string zsh_argument(const CLI::Option& option) {
   if (option.get_positional())
     return " '" + std::string(takes_many(option) ? "*" : "") + zsh_value(option) + "'";
@@ -93,7 +93,7 @@ std::string zsh_argument(const CLI::Option& option) {
   if (!takes_many(option)) excluded = flags;
   for (const CLI::Option* other : option.get_excludes())
     for (const std::string& flag : flags_of(*other)) excluded.push_back(flag);
-  std::ranges::sort(excluded);  // CLI11 keeps them by address
+  std::ranges::sort(excluded);  // CLI11 orders them by address
   std::string lines;
   for (const std::string& flag : flags) {
     lines += " '";
@@ -108,7 +108,7 @@ std::string zsh_argument(const CLI::Option& option) {
   return lines;
 }
 
-// A word of `complete` for one of an option's names.
+// The words of fish's `complete` for an option's names.
 std::string fish_names(const CLI::Option& option) {
   std::string names;
   for (const std::string& name : option.get_snames()) names += " -s " + name;
@@ -169,7 +169,7 @@ std::string zsh_completion(const CLI::App& program) {
 
 std::string fish_completion(const CLI::App& program) {
   const std::string& name = program.get_name();
-  // Which command stands on the line; fish's own test takes a folder of that name for it, too.
+  // Tests which command is on the line; fish's own test also accepts a folder of that name.
   const std::string is = "__" + name + "_command_is";
   std::string script =
       head(program, "fish") + "function " + is +

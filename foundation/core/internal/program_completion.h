@@ -6,15 +6,15 @@
 #include <CLI/CLI.hpp>
 
 // Scripts that complete a program's commands, options and their choices, from its declarations.
-// Other words are completed as files, but for numbers.
+// Other words are completed as file names, except where a number is expected.
 namespace plotscan {
 
 std::string bash_completion(const CLI::App& program);
 
-// With descriptions; for a file _PROGRAM in a folder of zsh's fpath.
+// Shows descriptions, too. The script goes to a file _PROGRAM in a folder of zsh's fpath.
 std::string zsh_completion(const CLI::App& program);
 
-// With descriptions.
+// Shows descriptions, too.
 std::string fish_completion(const CLI::App& program);
 
 }  // namespace plotscan

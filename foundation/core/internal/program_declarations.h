@@ -6,23 +6,23 @@
 
 #include <CLI/CLI.hpp>
 
-// What a program's manual page and completion read of its declarations.
+// What a program's manual page and completion need to know of its declarations.
 namespace plotscan {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& program);
 
-// Those that --help shows, in the order of their declaration.
+// The options that --help shows, in the order of their declaration.
 std::vector<const CLI::Option*> options_of(const CLI::App& app);
 
-// The values that an option takes, where they are named, else empty.
+// The values that an option accepts, if they are a list of names; else empty.
 std::vector<std::string> choices_of(const CLI::Option& option);
 
-// "-o", "--output"; none of a positional.
+// "-o", "--output"; empty for a positional argument.
 std::vector<std::string> flags_of(const CLI::Option& option);
 
 bool takes_value(const CLI::Option& option);
 
-// The default of an option that has one, where its description does not state it; else empty.
+// The option's default, if it has one that its description does not state; else empty.
 std::string default_of(const CLI::Option& option);
 
 }  // namespace plotscan

@@ -16,8 +16,8 @@ constexpr std::size_t kColumns = 100;
 
 constexpr const char* kRange = " in [";
 
-// CLI11 has a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]", a setting a range as
-// "INT in [0, 255]".
+// CLI11's type name states a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]"; a
+// setting's states a range as "INT in [0, 255]".
 std::string placeholder_of(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string type = option.get_type_name();
@@ -62,7 +62,7 @@ std::string notes_of(const CLI::Option& option) {
   return notes.empty() ? "" : " [" + joined(notes, "; ") + "]";
 }
 
-// `begun` stands on the first line already.
+// Wraps the text behind `begun`, which is already on the first line.
 std::string wrapped(const std::string& begun, const std::string& text) {
   std::string page = begun;
   std::size_t column = begun.size();

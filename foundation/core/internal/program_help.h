@@ -7,9 +7,9 @@
 
 namespace plotscan {
 
-// --help of every program: an option a paragraph, wrapped at 100 columns. Behind its description
-// stands in brackets whether it is required, its default, its range and what it excludes, each
-// where the description itself does not say it.
+// --help of every program: one paragraph per option, wrapped at 100 columns. Brackets after its
+// description state whether it is required, its default, its range and what it excludes, unless the
+// description says so itself.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override;

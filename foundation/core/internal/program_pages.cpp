@@ -11,7 +11,7 @@
 namespace plotscan {
 namespace {
 
-// Text as roff takes it: hyphens that can be copied, no line that begins like a request.
+// Escapes text for roff: hyphens can be copied from the page, and no line begins like a request.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char letter : text) {
@@ -43,7 +43,7 @@ std::string entry(const CLI::Option& option) {
 std::string section(const CLI::App& command) {
   std::string page =
       ".SS " + roff(command.get_name()) + "\n" + roff(command.get_description()) + "\n";
-  // CLI11 keeps the order of declaration; groups are told together, as --help does.
+  // CLI11 keeps the order of declaration; here the options of a group are collected, as in --help.
   std::vector<std::string> groups;
   std::map<std::string, std::string> entries;
   for (const CLI::Option* option : options_of(command)) {

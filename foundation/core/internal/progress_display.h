@@ -14,7 +14,7 @@ namespace plotscan {
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(std::string label);
-  // Work that ends early leaves no bar before its message.
+  // Clears the bar, also when work ends early: its error message then starts on a clean line.
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;

@@ -9,8 +9,8 @@ void remove_tree(int folder, const char* name) {
   if (unlinkat(folder, name, 0) == 0) return;
   const int opened = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (opened < 0) return;
-  // Names may be passed over while others go: until nothing goes any more. Somebody who keeps on
-  // writing is not waited for.
+  // Removing entries may hide others from the listing, so passes repeat until nothing more can be
+  // removed. Their number is limited in case somebody keeps writing into the folder.
   constexpr int kMostPasses = 100;
   bool gone = true;
   for (int pass = 0; gone && pass < kMostPasses; ++pass) {

@@ -15,7 +15,7 @@ namespace plotscan {
 // nothing and takes no lock, unlike the standard library's iterators.
 template <class Visit>
 void for_each_name(int folder, Visit&& visit) {
-  // As the kernel lays an entry out: 8 bytes inode, 8 offset, 2 length, 1 kind, the name.
+  // The kernel's layout of an entry: inode (8 bytes), offset (8), length (2), kind (1), name.
   constexpr std::size_t kLength = 16;
   constexpr std::size_t kName = 19;
   alignas(8) std::array<char, 2048> entries;
@@ -33,8 +33,8 @@ void for_each_name(int folder, Visit&& visit) {
   }
 }
 
-// Removes a file, a link, or a folder with all below it, named from an open folder (or AT_FDCWD);
-// what cannot be removed stays. Allocates nothing and takes no lock.
+// Removes a file, a link, or a folder with all below it, with `name` relative to an open folder (or
+// AT_FDCWD); what cannot be removed stays. Allocates nothing and takes no lock.
 void remove_tree(int folder, const char* name);
 
 }  // namespace plotscan

@@ -33,7 +33,7 @@ double distance_to_outline(const Vector2d& point, const Corners& corners) {
   return least_m;
 }
 
-// Without the vertex that lies nearest to the line between its neighbours.
+// Drops the vertex that lies nearest to the line between its neighbours.
 void drop_flattest(Ring& ring) {
   std::size_t flattest = 0;
   double least_m = std::numeric_limits<double>::infinity();
@@ -82,7 +82,7 @@ PlotBox box_of(const Corners& corners) {
 std::optional<RectangleFit> fit_rectangle(Ring ring) {
   if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
   if (ring.size() < 4 || ring.size() > kMostVertices) return std::nullopt;
-  const Vector2d origin = ring.front();  // map coordinates leave few digits for squares
+  const Vector2d origin = ring.front();  // squares of large map coordinates would lose digits
   for (Vector2d& vertex : ring) vertex -= origin;
   Ring kept = ring;
   while (kept.size() > 4) drop_flattest(kept);

@@ -8,7 +8,7 @@ namespace plotscan {
 std::optional<double> TimeLeft::at(double elapsed_s, double share) {
   const double step_s = elapsed_s - before_s_;
   if (step_s > 0) {
-    // The older a speed against the whole time, the less it counts.
+    // Older speeds count less, by their age relative to the whole time.
     constexpr double kMemory = 1.0 / 3;
     const double kept = before_s_ > 0 ? std::exp(-step_s / (kMemory * elapsed_s)) : 0;
     speed_ = kept * speed_ + (1 - kept) * (share - before_share_) / step_s;

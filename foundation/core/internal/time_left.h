@@ -5,12 +5,12 @@
 
 namespace plotscan {
 
-// How long work still takes, from the shares done so far: the speed of about the last third of the
-// time, so that neither a slow start nor one slow piece decides.
+// Estimates how long work will still take, from the speed over about the last third of the time so
+// far: neither a slow start nor a single slow piece decides it.
 class TimeLeft {
  public:
-  // At `elapsed_s` since the start, the share in [0, 1] was done; both grow. Returns seconds;
-  // nothing in the first kSilent_s, when nobody can tell.
+  // Reports that `share` (0 to 1) of the work was done `elapsed_s` after the start; both must grow.
+  // Returns the seconds left; nothing in the first kSilent_s, too early to tell.
   std::optional<double> at(double elapsed_s, double share);
 
   static constexpr double kSilent_s = 2;

@@ -20,7 +20,7 @@ using nlohmann::json;
 using Indices = std::vector<std::uint32_t>;
 
 constexpr std::size_t kTilePoints = 32'768;
-constexpr std::size_t kCoarsest = 256;  // points that the first level has at most
+constexpr std::size_t kCoarsest = 256;  // most points in the first level
 constexpr float kSmallestTile_m = 0.25F;
 
 struct Tile {
@@ -65,7 +65,7 @@ void split(const std::vector<ShownPoint>& points, const Square& square, std::vec
   }
 }
 
-// Every third bit of the result, from the lowest on, is one of the number.
+// Spreads the number's bits: they become every third bit of the result, from the lowest on.
 std::uint64_t spread(std::uint16_t number) {
   std::uint64_t bits = number;
   bits = (bits | bits << 16) & 0x0000FF0000FFULL;
@@ -77,7 +77,7 @@ std::uint64_t spread(std::uint16_t number) {
 
 using Places = std::array<std::vector<std::uint16_t>, 3>;
 
-// The tile's points by steps from its low corner, on each axis.
+// The positions of the tile's points on each axis, in steps from its low corner.
 Places places_of(const std::vector<ShownPoint>& points, Tile& tile) {
   for (const std::uint32_t i : tile.points) tile.bounds.extend(points[i].place);
   const double size_m = tile.bounds.sizes().maxCoeff();
@@ -165,7 +165,7 @@ std::vector<Tile> tiles_of(const ShownCloud& cloud, Indices& indices) {
   for (const ShownPoint& point : cloud.points) bounds.extend(point.place.head<2>());
   std::vector<Tile> tiles;
   if (cloud.points.empty()) return tiles;
-  // A little more, so that the last points lie inside.
+  // A little larger than the bounds, so that points on the far edges lie inside.
   const float side_m = bounds.sizes().maxCoeff() * 1.0001F + 0.001F;
   split(cloud.points, {bounds.min(), side_m, indices}, tiles);
   return tiles;

@@ -14,15 +14,15 @@
 namespace plotscan::lidar {
 namespace {
 
-// The golden ratio's fractional part, and as a fraction of 2^64: its multiples fill the circle with
-// the least discrepancy.
+// The golden ratio's fractional part, and the same times 2^64: its multiples, modulo 1, fill the
+// circle with the least discrepancy.
 constexpr double kGolden = 0.6180339887498949;
 constexpr std::uint64_t kGolden64 = 0x9E3779B97F4A7C15;
 
 constexpr std::size_t kLanes = 8;
 
-// The mean of a standard normal point's square distance, -2 ln(v), over those with v, the
-// probability of one further out, in [low, high].
+// The mean square distance of standard normal points in a ring. The square distance is -2 ln(v),
+// where v, in [low, high] for the ring, is the probability that a point lies further out.
 double mean_square_distance(double low, double high) {
   const auto integral = [](double v) { return v == 0 ? 0.0 : v * (1 - std::log(v)); };
   return 2 * (integral(high) - integral(low)) / (high - low);
@@ -72,11 +72,11 @@ SubRays::SubRays(const sensor::Beam& beam, int count)
 
 void SubRays::spread(const Ray& axis, const Eigen::Vector3f& spin_axis, std::uint64_t shot,
                      RayArrays& rays, std::size_t first) const {
-  constexpr float kParallel = 1e-4f;  // a shot along the spin axis: no direction is the spin's
+  constexpr float kParallel = 1e-4f;  // a shot along the spin axis, where the spin has no direction
   Eigen::Vector3f along = axis.direction.cross(spin_axis);
   along = along.norm() > kParallel ? along.normalized() : axis.direction.unitOrthogonal();
   const Eigen::Vector3f across = axis.direction.cross(along);
-  // Half a turn is a whole period of a pattern that is its own reflection.
+  // The pattern is its own reflection: half a turn maps it onto itself.
   const double turn = kPi * static_cast<double>(shot * kGolden64) * 0x1p-64;
   const auto cosine = static_cast<float>(std::cos(turn));
   const auto sine = static_cast<float>(std::sin(turn));

@@ -10,7 +10,7 @@ BentStem::BentStem(float height_m, const Eigen::Vector2f& lean_rad) {
   constexpr float kEndless = std::numeric_limits<float>::infinity();
   const float lean = lean_rad.norm();
   const Eigen::Vector2f direction = lean > 0 ? (lean_rad / lean).eval() : Eigen::Vector2f::Zero();
-  // The slope grows by `turn` from link to link, from half of it in the first.
+  // The slope is turn / 2 in the first link and grows by `turn` from link to link.
   const float turn = 2 * lean / kLinks;
   const float sin_turn = std::sin(turn);
   const float cos_turn = std::cos(turn);
@@ -49,7 +49,7 @@ Eigen::Vector3f BentStem::bent(const Eigen::Vector3f& rest_m) const {
 }
 
 float tip_reach_m(float height_m, float lean_rad) {
-  // The links' corners lie on an arc; the sum of sines of its slopes.
+  // The sum of the sines of the links' slopes, in closed form.
   if (lean_rad <= 0) return 0;
   const float half_turn = lean_rad / BentStem::kLinks;
   const float sine = std::sin(lean_rad);

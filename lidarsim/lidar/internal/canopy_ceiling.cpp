@@ -9,14 +9,14 @@
 namespace plotscan::lidar {
 namespace {
 
-// Single precision puts rays and triangles elsewhere by some of its steps.
+// Margin for single precision, which displaces rays and triangles by a few of its steps.
 constexpr double kLeastMargin_m = 1e-3;
 constexpr double kRoundings = 8;
 
-// Looking up so many plants takes about as long as casting a ray.
+// Looking up this many plants takes about as long as casting a ray.
 constexpr double kMostPlantsARay = 64;
 
-// Squares of the ground are at least so wide, and so many at most.
+// The least width of the squares of the ground, and their greatest number.
 constexpr double kLeastSide_m = 0.5;
 constexpr double kMostSquares = 1e6;
 
@@ -84,7 +84,7 @@ std::size_t CanopyCeiling::square_of(const Eigen::Vector2d& place) const {
   return static_cast<std::size_t>(row * columns_ + column);
 }
 
-// By counting, so that each square has its plants in their order.
+// A counting sort: each square keeps its plants in the farm's order.
 void CanopyCeiling::sort_plants() {
   const Eigen::Vector2d size = feet_.sizes();
   side_m_ = std::max({kLeastSide_m, size.maxCoeff() / std::sqrt(kMostSquares)});
@@ -122,7 +122,7 @@ std::vector<CanopyCeiling::Standing> CanopyCeiling::plants_near(const RayGrid& g
   return near;
 }
 
-// Heights of the world here, not above the ground.
+// Here ceiling_m holds z in the world frame, not yet heights above the ground.
 void CanopyCeiling::raise(const Standing& plant, const RayGrid& grid,
                           std::vector<float>& ceiling_m) const {
   const Eigen::Vector2d foot = grid.box.box_from_world(plant.foot_m);

@@ -16,20 +16,21 @@
 
 namespace plotscan::lidar {
 
-// What the canopy under a ray straight down cannot exceed, without casting the ray: so that of many
-// rays only those are cast that may be among the highest. Needs the farm, unchanged.
+// Upper bounds of the canopy's height under vertical rays, found without casting them: of many
+// rays, only those that may be among the highest need to be cast. Keeps a reference to the farm,
+// which must not change.
 class CanopyCeiling {
  public:
-  // Every plant's model has to be there.
+  // Every plant's model must exist.
   explicit CanopyCeiling(const farm::Farm& farm);
 
-  // For each of the grid's rays a height above the ground, metres: what the ray meets is no higher,
-  // and where it is 0 the ray meets the ground. Nothing where some ray may miss the terrain, or
-  // where plants stand so close that casting all rays takes no longer.
+  // For each of the grid's rays an upper bound of what it hits, metres above the ground; 0 means
+  // that it hits the ground. Nothing if a ray may miss the terrain, or if plants stand so close
+  // that casting all rays takes no longer.
   std::optional<std::vector<float>> over(const RayGrid& grid) const;
 
  private:
-  // A plant as a ray from above meets it.
+  // A plant as seen by rays from above.
   struct Standing {
     const CeilingMap* map;
     Eigen::Matrix2d map_from_world;  // turns and scales
@@ -54,8 +55,8 @@ class CanopyCeiling {
   terrain::Border border_;
   double margin_m_;
   std::vector<Maps> maps_;  // of the models
-  // The plants by squares of the ground, row by row: those of square i are
-  // plants_[first_[i]] to plants_[first_[i + 1]].
+  // The plants sorted by squares of the ground, row by row. Square i has plants_[first_[i]] up to,
+  // but without, plants_[first_[i + 1]].
   Eigen::AlignedBox2d feet_;
   double reach_m_ = 0;  // of the widest plant
   double side_m_ = 1;

@@ -23,9 +23,9 @@
 namespace plotscan::lidar {
 namespace {
 
-// Rays start so far above everything.
+// How far above the top of the scene rays start.
 constexpr float kAbove_m = 1;
-// The lowest percentile that is asked for.
+// The lower of the two percentiles that are wanted.
 constexpr double kLowestShare = 0.95;
 
 double step_of(const farm::Farm& farm) {
@@ -34,7 +34,7 @@ double step_of(const farm::Farm& farm) {
   return std::max(kCanopyStep_m, std::sqrt(area_m2 / kMostCanopyRays));
 }
 
-// Of a hit over its place; NaN beside the terrain.
+// The height of a hit above the terrain at `place`; NaN beside the terrain.
 double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit& hit, double top_m,
                  const Eigen::Vector2d& place) {
   if (!std::isfinite(hit.range_m)) return kNaN;
@@ -43,7 +43,7 @@ double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit&
   return ground_m ? std::max(0.0, top_m - static_cast<double>(hit.range_m) - *ground_m) : kNaN;
 }
 
-// Casts rays of a grid straight down, those of each task together.
+// Casts rays of a grid straight down, in bundles of one task each.
 class Caster {
  public:
   Caster(const Scene& scene, const terrain::Terrain& terrain, const RayGrid& grid)
@@ -81,7 +81,7 @@ class Caster {
   const RayGrid& grid_;
 };
 
-// Moves those rays of `waiting` to the end of `cast` that have the highest ceilings.
+// Moves the `count` rays of `waiting` with the highest ceilings to the end of `cast`.
 void take_highest(std::vector<std::uint32_t>& waiting, const std::vector<float>& ceiling_m,
                   std::size_t count, std::vector<std::uint32_t>& cast) {
   const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting.size()));
@@ -94,8 +94,8 @@ void take_highest(std::vector<std::uint32_t>& waiting, const std::vector<float>&
   waiting.erase(waiting.begin(), end);
 }
 
-// The heights of the grid's rays; of those that do not count for the percentiles from kLowestShare
-// on, a height that is too low.
+// The heights of the grid's rays. Only the highest are exact, those that decide the percentiles
+// from kLowestShare up; the others may be too low.
 std::vector<double> upper_heights(const Caster& caster, const std::vector<float>& ceiling_m) {
   const std::size_t rays = ceiling_m.size();
   const std::size_t wanted =
@@ -112,7 +112,7 @@ std::vector<double> upper_heights(const Caster& caster, const std::vector<float>
     for (const std::uint32_t ray : std::span(cast).subspan(known))
       found_m.push_back(-std::max(0.0, heights_m[ray]));
     if (found_m.size() < wanted) break;
-    // The lowest that counts so far: what cannot exceed it cannot change it.
+    // The lowest height that still counts: a ray whose ceiling is no higher need not be cast.
     const double least_m = -selected<double>(found_m, wanted - 1);
     std::erase_if(
         waiting, [&](std::uint32_t ray) { return static_cast<double>(ceiling_m[ray]) <= least_m; });

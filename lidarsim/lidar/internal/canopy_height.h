@@ -5,11 +5,11 @@
 
 namespace plotscan::lidar {
 
-// Sets every plot's `canopy`: percentiles of the height above the terrain of what noise-free rays
-// hit that are cast straight down over the plot's box, on a grid of at most kCanopyStep_m along
-// both its axes, each ray in the middle of its cell. The ground's height is 0; all else counts,
-// weeds and neighbours' leaves too; masks let rays through. Where the farm's boxes would take more
-// than kMostCanopyRays together, the grid is that much coarser. The same for any number of threads.
+// Sets every plot's `canopy`: percentiles of canopy height, metres above the terrain. Noise-free
+// rays are cast straight down over the plot's box, one in the middle of each cell of a grid whose
+// cells measure at most kCanopyStep_m along both axes of the box. A hit on the ground has height 0;
+// all else counts, weeds and neighbours' leaves too; rays pass through holes of masks. If the farm
+// would take more than kMostCanopyRays, the grid is coarser. The same for any number of threads.
 // Throws InputError when a plant names a missing model.
 void measure_canopies(farm::Farm& farm, int threads);
 

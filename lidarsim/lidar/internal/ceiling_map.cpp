@@ -7,9 +7,9 @@
 namespace plotscan::lidar {
 namespace {
 
-// Along the longer side: about a centimetre of a plant of medium size.
+// Cells along the longer side: each about a centimetre for a plant of medium size.
 constexpr double kCells = 96;
-// A mesh without extent has cells all the same.
+// Gives cells to a mesh without extent.
 constexpr double kLeastExtent_m = 1e-6;
 
 Eigen::AlignedBox2d footprint_of(const mesh::Mesh& mesh, double margin) {
@@ -20,7 +20,7 @@ Eigen::AlignedBox2d footprint_of(const mesh::Mesh& mesh, double margin) {
   return {box.min() - around, box.max() + around};
 }
 
-// How steep a triangle is; infinite where it is upright.
+// The slope of a triangle's plane along x and y; infinite if it is vertical.
 Eigen::Vector2d gradient_of(const std::array<Eigen::Vector3d, 3>& corners) {
   const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   if (normal.z() == 0) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -65,11 +65,12 @@ CeilingMap CeilingMap::of_any_turn(const mesh::Mesh& mesh, double margin) {
   return map;
 }
 
-// Within a cell a triangle is as high as its plane at most, and as its highest corner.
+// Within a cell a triangle is no higher than its plane there, and than its highest corner.
 void CeilingMap::raise(const Eigen::AlignedBox3d& triangle, const Eigen::Vector3d& on_plane,
                        const Eigen::Vector2d& gradient) {
   const double cell = 1 / cells_per_metre_;
-  // From a cell's middle to its corner, and beyond it by the margin; a little more for rounding.
+  // How far the plane rises from a cell's middle to its corner and the margin beyond; 1 % more for
+  // rounding.
   const double rise = 1.01 * (cell / 2 + margin_) * gradient.cwiseAbs().sum();
   const Eigen::Vector2d first =
       (cells_per_metre_ * (triangle.min().head<2>() - low_)).array().floor().max(0);

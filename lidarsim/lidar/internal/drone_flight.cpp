@@ -17,7 +17,7 @@ namespace plotscan::lidar {
 namespace {
 
 constexpr double kMaxFlight_s = 24 * 3600;
-// Beyond, the cloud's float32 positions are coarser than a centimetre.
+// Beyond this, the steps of the cloud's float32 positions are coarser than a centimetre.
 constexpr double kFarthest_m = 1e5;
 
 flight::Pattern pattern_of(const FlyOptions& options) {
@@ -37,7 +37,7 @@ std::vector<flight::Waypoint> plan(const Site& site, const Scene& scene, const F
   return flight::waypoints_at(plan_strips(site, scene, strips));
 }
 
-// The wind that tilts the drone, which must hold it.
+// The mean wind that acts on the drone. Throws InputError if it is too strong for the drone.
 double wind_on_drone(const flight::Quadrotor& quadrotor, const FlyOptions& options,
                      double speed_m_s) {
   if (!wind_moves_drone(options)) return 0;

@@ -10,20 +10,20 @@
 
 namespace plotscan::lidar {
 
-// The drone's way as it was, and as it reports it.
+// The drone's trajectory as it was flown, and as the drone reports it.
 struct DroneFlight {
   scan::Trajectory truth;
   scan::Trajectory reported;
 };
 
-// The flight of the options: by a given trajectory, or planned over the site and flown in the wind;
-// then reported with the errors. Throws InputError where the flight cannot be flown: an area or
-// altitude that is none, something in its way, a wind that the drone does not hold, more than 24
-// hours, a broken file.
+// Makes the flight that the options describe: a given trajectory, or one planned over the site and
+// flown in the wind. The reported one has the errors. Throws InputError when it cannot be flown: no
+// area, an impossible altitude, an obstacle, a wind too strong for the drone, more than 24 hours, a
+// broken file.
 DroneFlight fly_drone(const Site& site, const Scene& scene, const flight::PoseErrors& errors,
                       const FlyOptions& options);
 
-// The wind of the flight, and whom it moves.
+// The wind of the flight, and what it moves.
 flight::WindOptions wind_of(const FlyOptions& options);
 bool wind_moves_drone(const FlyOptions& options);
 bool wind_moves_plants(const FlyOptions& options);

@@ -7,14 +7,14 @@
 
 namespace plotscan::lidar {
 
-// Gaussian range noise that belongs to the shot, not to the order of asking. Neighbouring shots
-// share a draw of two independent numbers.
+// Gaussian range noise, metres. It depends on the shot's number and not on the order of calls. Two
+// neighbouring shots share one draw, which gives two independent numbers.
 class RangeNoise {
  public:
   RangeNoise(std::uint64_t seed, double sigma_m) : seed_(seed), sigma_m_(sigma_m) {}
 
   double of_shot(std::uint64_t shot);
-  // Of a shot's second return, independent of its first one's.
+  // The noise of a shot's second return, independent of that of the first.
   double of_second_return(std::uint64_t shot) const;
 
  private:

@@ -13,8 +13,8 @@
 
 namespace plotscan::lidar {
 
-// Rays over a plot's box, line by line, each in the middle of its cell; a line runs along the box's
-// width.
+// A grid of vertical rays over a plot's box, each in the middle of its cell. A line of rays runs
+// along the box's width; lines follow each other along its length.
 struct RayGrid {
   PlotBox box;
   std::size_t lines = 1;
@@ -35,7 +35,7 @@ struct RayGrid {
     return box.center + middle(line, lines) * box.length_m * length_axis +
            middle(ray, rays_a_line) * box.width_m * width_axis;
   }
-  // Counted through all lines.
+  // `ray` is counted through all lines.
   Eigen::Vector2d place(std::size_t ray) const {
     return place(ray / rays_a_line, ray % rays_a_line);
   }
@@ -47,7 +47,7 @@ struct RayGrid {
     return std::max<std::size_t>(
         1, static_cast<std::size_t>(std::ceil(side_m / step_m * (1 - kRounding))));
   }
-  // Of a cell, as a share of the side, from its middle.
+  // The middle of a cell, measured from the side's middle, as a share of the side.
   static double middle(std::size_t cell, std::size_t count) {
     return (static_cast<double>(cell) + 0.5) / static_cast<double>(count) - 0.5;
   }

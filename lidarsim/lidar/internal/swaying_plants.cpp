@@ -9,21 +9,21 @@
 namespace plotscan::lidar {
 namespace {
 
-// Where a ray runs, seen from a plant's foot.
+// A ray relative to a plant's foot.
 struct LocalRay {
   Eigen::Vector3f origin_m;
   Eigen::Vector3f direction;
 };
 
-// The part of a ray within a bent link, times along it; a little more than that, so that nothing is
-// lost between two links.
+// The part of a ray within a bent link, as ray parameters; slightly longer, so that nothing is lost
+// between two links.
 struct Span {
   float begin = 0;
   float end = 0;
 };
 
 Span span_of(const StemLink& link, const LocalRay& ray) {
-  // A level ray is all in one link: its times at the link's ends are huge.
+  // A horizontal ray stays in one link: its parameters at the link's ends are huge.
   constexpr float kLevel = 1e-12f;
   constexpr float kOverlap = 2e-6f;
   const float rise =
@@ -40,7 +40,7 @@ LocalRay at_rest(const StemLink& link, const LocalRay& ray) {
     const Eigen::Vector2f rest_across = across - rest_up * link.sideways;
     return Eigen::Vector3f(rest_across.x(), rest_across.y(), rest_up);
   };
-  // All below the foot is as it is; its link has no finite bottom.
+  // What is below the foot does not move; its link has no finite bottom.
   const float bottom_m = std::max(link.bottom_m, 0.0f);
   const float rest_bottom_m = std::max(link.rest_bottom_m, 0.0f);
   LocalRay rest{vector_at_rest(ray.origin_m.head<2>() - link.offset_m, ray.origin_m.z() - bottom_m),
@@ -49,7 +49,7 @@ LocalRay at_rest(const StemLink& link, const LocalRay& ray) {
   return rest;
 }
 
-// A normal of what is at rest, turned with the link.
+// The normal at rest, transformed with the link.
 Eigen::Vector3f bent_normal(const StemLink& link, const Eigen::Vector3f& rest) {
   return {rest.x(), rest.y(), (rest.z() - link.sideways.dot(rest.head<2>())) / link.upward};
 }
@@ -132,7 +132,7 @@ bool SwayingPlants::meets(const Plant& plant, double time_s, RTCRayHit& ray) {
   const BentStem stem(plant.height_m, plant.sway->lean_rad(plant.motion, time_s).cast<float>());
   const auto& links = stem.links();
   const bool falls = local.direction.z() < 0;
-  // The first link is for what lies below the foot, if anything does.
+  // The first link is only needed if the plant has parts below its foot.
   const std::size_t lowest = plant.bottom_m < 0 ? 0 : 1;
   for (std::size_t i = lowest; i < links.size(); ++i) {
     const StemLink& link = links[falls ? links.size() - 1 - i + lowest : i];

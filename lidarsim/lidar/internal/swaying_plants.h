@@ -13,15 +13,15 @@
 
 namespace plotscan::lidar {
 
-// Plants in the wind as geometries of Embree's. A ray that comes near one is bent back, piece by
-// piece, to how it runs past the plant at rest, and meets the plant's mesh there: a bent plant
-// needs no triangles of its own, and is where it is at the very time of the ray.
+// Plants in the wind as Embree user geometries. Instead of bending the plant's mesh, each piece of
+// a ray near it is transformed back to the plant at rest and tested against the mesh there. So bent
+// plants need no triangles of their own, and have the bend of the ray's exact time.
 class SwayingPlants {
  public:
   explicit SwayingPlants(const Sway& sway) : sway_(sway) {}
 
-  // The mesh's scene, of one geometry, has to outlive the geometry, as these plants have to. Hits
-  // have the geometry's own id, their normal is as if the mesh were turned by
+  // The mesh's scene (of one geometry) and this object must outlive the returned geometry. Hits
+  // have the id of the returned geometry; their normals are those of a mesh that is transformed by
   // placed.world_from_mesh alone.
   Geometry add(RTCDevice device, RTCScene mesh_tree, const mesh::Mesh& mesh,
                const PlacedMesh& placed);
@@ -44,7 +44,7 @@ class SwayingPlants {
   static bool meets(const Plant& plant, double time_s, RTCRayHit& ray);
 
   Sway sway_;
-  std::deque<Plant> plants_;  // which stay where they are
+  std::deque<Plant> plants_;  // a deque, since Embree keeps pointers to the plants
 };
 
 }  // namespace plotscan::lidar

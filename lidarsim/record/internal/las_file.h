@@ -8,13 +8,13 @@
 
 namespace plotscan::record {
 
-// A LAS writer that says of the source's flight what LAS can say: GPS time, sensor, scan angles,
-// and with options.crs "utm" coordinates in the farm's UTM zone. Throws InputError where these
-// are asked for and the source has no place on Earth.
+// A LAS writer that also writes what LAS can hold of the source's flight: GPS time, sensor, scan
+// angles and, with options.crs "utm", coordinates in the farm's UTM zone. Throws InputError when
+// these are asked for and the source has no place on Earth.
 std::unique_ptr<scan::PointWriter> create_las(const std::filesystem::path& file,
                                               const Source& source, const WriteOptions& options);
 #ifdef PLOTSCAN_HAVE_LASZIP
-// The same, packed.
+// The same for LAZ, which is packed by LASzip.
 std::unique_ptr<scan::PointWriter> create_laz(const std::filesystem::path& file,
                                               const Source& source, const WriteOptions& options);
 #endif

@@ -16,19 +16,19 @@ namespace plotscan::record {
 
 using sensor::ReturnMode;
 
-// What is known of a flight beside its points: enough to turn each point back into the range that
-// the sensor measured, and to say when and where on Earth that was.
+// What is known of a flight besides its points. It suffices to turn each point back into the range
+// that the sensor measured, and to say when and where on Earth that was.
 struct FlightRecord {
   sensor::Sensor sensor;
-  double spin_hz = 10;                         // 0 of a sensor that does not spin
+  double spin_hz = 10;                         // 0 for a sensor that does not spin
   Eigen::Isometry3d body_from_lidar;           // as stated; the true one may differ
-  scan::Trajectory reported;                   // what places the points; begins at time 0
+  scan::Trajectory reported;                   // the points are placed by it; begins at time 0
   UtcTime start;                               // at time 0 of the points and the trajectory
   std::optional<Anchor> anchor = {};           // of the world frame's origin
-  ReturnMode returns = ReturnMode::strongest;  // what the sensor reports of a shot
+  ReturnMode returns = ReturnMode::strongest;  // which returns of a shot it reports
   sensor::SpinJitter spin_jitter = {};
 
-  // The shots as the points were placed.
+  // The shots by the reported poses and the stated mount, as the points were placed.
   sensor::ShotPlan placed() const {
     return {sensor, spin_hz, body_from_lidar, reported, spin_jitter};
   }

@@ -14,12 +14,12 @@
 
 namespace plotscan::record {
 
-// Points to be converted, and what is known of their flight.
+// Where points to be converted come from, and what is known of their flight.
 struct Source {
   std::filesystem::path path;  // for messages
   scan::CloudInfo info;
-  std::optional<FlightRecord> flight;  // relative to info.origin_m, as the points are
-  // Of the body, in the world frame and the points' time, where the file itself tells of it.
+  std::optional<FlightRecord> flight;  // positions count from info.origin_m, like the points
+  // The body's trajectory in the world frame and the points' time, if the file itself holds one.
   std::optional<scan::Trajectory> trajectory = {};
   // Streams the points in the order of firing; may be called once.
   std::function<void(const scan::PointSink&)> stream = {};
@@ -27,11 +27,11 @@ struct Source {
 
 // How a file is read.
 struct ReadOptions {
-  // What the user tells of the flight; a recording that is not self-contained throws InputError
-  // without it.
+  // What the user says about the flight. `open` throws InputError without it on a recording that is
+  // not self-contained.
   std::optional<FlightRecord> flight = {};
-  bool sensor_told = true;  // whether flight.sensor is the user's word, not a default
-  std::string topic = {};   // of the clouds in a bag or MCAP file; empty: as RosPoints chooses
+  bool sensor_told = true;  // whether the user chose flight.sensor; false: a default
+  std::string topic = {};   // of clouds in a bag or MCAP file; empty: RosPoints chooses
 };
 
 // How a file is written.
@@ -45,18 +45,18 @@ struct WriteOptions {
 struct Format {
   std::string name;                     // "binary PCD", for messages
   std::vector<std::string> extensions;  // with their dot, in lower case
-  // The ways of writing it, the first by default; empty where there is but one.
+  // The ways of writing it, the default first; empty if there is only one.
   std::vector<std::string> encodings = {};
-  bool has_crs = false;       // whether options.crs means something
+  bool has_crs = false;       // whether WriteOptions::crs applies
   bool is_recording = false;  // of a flight, by a sensor or a robot; others are clouds
-  bool has_topics = false;    // whether ReadOptions::topic means something
-  // Whether only a flight's record turns points into this format; where it is set, source.flight is
-  // there when `create` is called.
+  bool has_topics = false;    // whether ReadOptions::topic applies
+  // Whether writing this format needs a FlightRecord: then source.flight is set when `create` is
+  // called.
   bool needs_flight = false;
   bool needs_packets = false;  // whether the flight's sensor must send Velodyne's packets
-  // Opens a file: reads its header, not its points. Empty when the format is only written.
+  // Opens a file: reads its header, not its points. Empty if the format can only be written.
   std::function<Source(const std::filesystem::path& file, const ReadOptions& options)> open = {};
-  // A writer to the file. `source` outlives it. Empty when the format is only read.
+  // Makes a writer to the file. `source` must outlive it. Empty if the format can only be read.
   std::function<std::unique_ptr<scan::PointWriter>(
       const std::filesystem::path& file, const Source& source, const WriteOptions& options)>
       create = {};

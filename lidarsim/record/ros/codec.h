@@ -13,9 +13,10 @@
 #include "record/ros/messages.h"
 
 // The bytes of ROS messages. ROS 1: members one after the other, little endian, a 32-bit length
-// before strings and arrays of variable length (wiki.ros.org/msg). ROS 2: the same as CDR (OMG
-// DDS-XTypes 1.3, section 7.4.1, "plain CDR version 1"): four bytes say "little endian", numbers
-// are aligned to their size as counted from there, strings end with a 0 that their length counts.
+// before strings and arrays of variable length (wiki.ros.org/msg). ROS 2: the same in CDR (OMG
+// DDS-XTypes 1.3, section 7.4.1, "plain CDR version 1"): a header of four bytes says "little
+// endian", numbers are aligned to their size, counted from the header's end, and strings end with a
+// 0 that is included in their length.
 namespace plotscan::record::ros {
 
 enum class Version { ros1, ros2 };
@@ -90,7 +91,8 @@ class Encoder {
   std::string bytes_;
 };
 
-// Throws InputError where the bytes end too early or count more elements than they can hold.
+// Reads what an Encoder writes. Throws InputError when the bytes end too early, or state more
+// elements than they can hold.
 class Decoder {
  public:
   Decoder(Version version, std::span<const char> bytes) : version_(version), bytes_(bytes) {
@@ -138,7 +140,7 @@ class Decoder {
   void get(std::vector<Element>& elements) {
     std::uint32_t count = 0;
     get(count);
-    if (count > bytes_.size() - at_) fail();  // an element has a byte at least
+    if (count > bytes_.size() - at_) fail();  // an element takes at least one byte
     if constexpr (sizeof(Element) == 1) {
       const char* begin = skip(count);
       elements.assign(begin, begin + count);
@@ -174,7 +176,7 @@ std::string encode(Version version, const Message& message) {
   return encoder.take();
 }
 
-// Throws InputError when the bytes are no such message.
+// Throws InputError as Decoder does.
 template <class Message>
 Message decode(Version version, std::span<const char> bytes) {
   Message message;

@@ -13,7 +13,7 @@
 namespace plotscan::record::ros {
 
 struct Time {
-  std::int64_t ns = 0;  // since 1970, UTC; 0 to 2106, as its seconds have 32 bits
+  std::int64_t ns = 0;  // UTC since 1970; at least 0 and until 2106 (32 bits of seconds)
 
   auto operator<=>(const Time&) const = default;
 };

@@ -36,7 +36,8 @@ std::string choose(const std::map<std::string, CloudTopic>& topics, const std::s
   return topics.begin()->first;
 }
 
-// The point in the world less its origin, its time as it is; nothing where it has no place.
+// The point in the world frame relative to origin_m, its time unchanged; nothing if no transform is
+// known for its time.
 std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, const FramePath& path,
                                           const Eigen::Vector3d& origin_m) {
   const Eigen::Vector3d position(point.x, point.y, point.z);

@@ -20,27 +20,28 @@ namespace plotscan::record {
 // frame above the clouds' own; where nothing is above it, points stay as they are.
 class RosPoints {
  public:
-  // Reads the whole file for its transforms, which are kept. `topic` of the clouds; "":
-  // /velodyne_points, or the only topic of PointCloud2. Throws InputError when the file is missing,
-  // foreign, truncated or broken, has no clouds, or has several topics of them and none is chosen.
+  // Reads the whole file and keeps its transforms. `topic` is the topic of the clouds; "" stands
+  // for /velodyne_points, or the only topic of PointCloud2. Throws InputError when the file is
+  // missing, foreign, truncated or broken, has no clouds, or has several topics of clouds and none
+  // is chosen.
   explicit RosPoints(const std::filesystem::path& file, const std::string& topic = "");
 
   const std::string& topic() const { return topic_; }
-  // Time 0 of the points: when the first message was recorded, to the microsecond below.
+  // Time 0 of the points: when the first message was recorded, rounded down to a microsecond.
   UtcTime start() const;
   const std::string& world_frame() const { return path_.top(); }
-  // Of the body that carries the sensor, in the world frame and the points' time, as the transforms
-  // have it; nothing where they tell of no motion.
+  // The trajectory of the body that carries the sensor, by the transforms, in the world frame and
+  // the points' time; nothing if no transform moves.
   std::optional<scan::Trajectory> trajectory() const { return path_.motion(); }
   std::uint64_t points() const { return points_; }
-  // Of LabelledPoint, that the clouds have.
+  // The names of LabelledPoint's fields that the clouds have.
   const std::vector<std::string>& fields() const { return fields_; }
 
-  // That points count from: of the body's first place, where it moves (scan::CloudInfo).
+  // The origin that points count from: scan::origin_near the body's first position, if it moves.
   const Eigen::Vector3d& origin_m() const { return origin_m_; }
 
-  // Points in the order of the file, relative to origin_m. Those that are not finite or that no
-  // transform is known for (recorded before the first or after the last) are left out, and counted.
+  // Streams the points in the file's order, relative to origin_m. Points that are not finite, or
+  // from before the first or after the last transform, are left out and counted.
   scan::CloudSummary stream(const scan::PointSink& sink) const;
 
  private:

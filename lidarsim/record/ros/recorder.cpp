@@ -13,7 +13,7 @@
 namespace plotscan::record {
 namespace {
 
-// Frames (REP 105): the world is ENU and fixed to the Earth, so it is the map.
+// Names of frames (REP 105). The world frame is ENU and fixed to the Earth: REP 105's "map".
 constexpr const char* kWorld = "map";
 constexpr const char* kBody = "base_link";
 constexpr const char* kSensor = "velodyne";
@@ -23,11 +23,11 @@ constexpr const char* kReceiver = "gps";
 constexpr double kClock_s = 0.01;
 constexpr double kInertial_s = 0.01;
 constexpr double kFix_s = 0.1;
-// Poses come at least this often: those of the flight, and between them as many as it takes.
+// The longest interval between poses: those of the flight, with more in between as needed.
 constexpr double kPose_s = 0.01;
-// A sensor that does not turn sweeps so long.
+// The duration of a sweep of a sensor that does not turn.
 constexpr double kSweep_s = 0.1;
-// Points so much before or after the trajectory are in another time than it is.
+// Points further than this before or after the trajectory must be in another time system.
 constexpr double kOutside_s = 1;
 
 ros::Transform transform_of(const Eigen::Isometry3d& pose) {
@@ -38,14 +38,14 @@ ros::Transform transform_of(const Eigen::Isometry3d& pose) {
 
 ros::Vector3 vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-// From the flight's start.
+// The times of the poses to record, from the flight's start.
 std::vector<double> pose_times(const scan::Trajectory& trajectory) {
   const auto& poses = trajectory.poses();
   std::vector<double> times_s;
   for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
     const double begin_s = poses[i].time_s - trajectory.start_s();
     const double gap_s = poses[i + 1].time_s - poses[i].time_s;
-    // Gaps of a pose's interval are not split because of rounding.
+    // The tolerance keeps rounding from splitting a gap of exactly kPose_s.
     const double parts = std::max(1.0, std::ceil(gap_s / kPose_s - 1e-6));
     for (std::int64_t part = 0; static_cast<double>(part) < parts; ++part)
       times_s.push_back(begin_s + gap_s * static_cast<double>(part) / parts);
@@ -97,7 +97,8 @@ void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
     require_flown(point.time);
     if (encoder_) encoder_->write({&point, 1});
     while (point.time >= static_cast<double>(sweeps_done_ + 1) * sweep_interval_s_) end_sweep();
-    // Where the sensor met it from where it was at that instant: nothing corrects for its motion.
+    // The position as seen from the sensor at that instant: motion within the sweep is not
+    // corrected.
     const Eigen::Isometry3d body_from_world =
         flight_.reported.world_from_body(start_s_ + point.time).inverse();
     const Eigen::Vector3d position =
@@ -151,8 +152,8 @@ void RosRecorder::advance(double time_s) {
   }
 }
 
-// A sweep is known when it ends, and stamped with its beginning, from which its points' times
-// count: velodyne_pointcloud's with timestamp_first_packet.
+// A sweep is recorded when it ends, but stamped with its beginning, from which its points' times
+// count, like velodyne_pointcloud's with timestamp_first_packet.
 void RosRecorder::end_sweep() {
   const double end_s =
       std::min(static_cast<double>(sweeps_done_ + 1) * sweep_interval_s_, duration_s_);
@@ -163,7 +164,8 @@ void RosRecorder::end_sweep() {
   sweep_ = labelled_cloud(header(static_cast<double>(sweeps_done_) * sweep_interval_s_, kSensor));
 }
 
-// Those that came in since the last sweep; the flight's last one may be filled up beyond its end.
+// Emits the packets completed since the last sweep. The flight's last packet may extend beyond its
+// end.
 void RosRecorder::emit_packets(double end_s) {
   const bool is_last = end_s >= duration_s_;
   ros::VelodyneScan scan;

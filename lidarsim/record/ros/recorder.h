@@ -17,20 +17,20 @@
 namespace plotscan::record {
 
 struct RosRecorderOptions {
-  // How the drone truly moved, which is what an inertial unit feels, over the same time; without it
-  // the reported poses stand for it.
+  // How the drone truly moved, over the same time: this is what an inertial unit measures. Absent:
+  // the reported poses are used.
   std::optional<scan::Trajectory> motion = {};
-  // The sensor's raw packets too, where it sends Velodyne's: the points must then be shots of the
-  // flight (record/velodyne/encoder.h).
+  // Also record the sensor's raw packets, if it sends Velodyne's. The points must then be shots of
+  // the flight (record/velodyne/encoder.h).
   bool packets = false;
 };
 
 // Records a flight as a drone's computer would: sweeps of the sensor, poses, clock, inertial
-// measurements and fixes, in the order in which they come up. docs/formats.md, "ROS bags", says
-// which topics and in which frames.
+// measurements and fixes, in the order of time. docs/formats.md, "ROS bags", says which topics and
+// in which frames.
 class RosRecorder : public scan::PointWriter {
  public:
-  // Makes a file of these topics: ros::create_bag or ros::create_mcap of a path.
+  // Makes a file with these topics: ros::create_bag or ros::create_mcap, bound to a path.
   using CreateFile = std::function<std::unique_ptr<ros::FileWriter>(std::vector<ros::Topic>)>;
 
   RosRecorder(const FlightRecord& flight, const RosRecorderOptions& options,
@@ -38,13 +38,13 @@ class RosRecorder : public scan::PointWriter {
   RosRecorder(const RosRecorder&) = delete;
   RosRecorder& operator=(const RosRecorder&) = delete;
 
-  // Points in the order of firing, world frame. Throws InputError as VelodyneEncoder does where
-  // there are packets.
+  // Takes points in the order of firing, world frame. With packets, it throws InputError as
+  // VelodyneEncoder does.
   void write(std::span<const scan::LabelledPoint> points) override;
   void close() override;
 
  private:
-  // Something that happens so many times a second.
+  // Something that is recorded at a fixed interval.
   struct Beat {
     double interval_s;
     void (RosRecorder::*emit)(double time_s);
@@ -53,19 +53,19 @@ class RosRecorder : public scan::PointWriter {
     double next_s() const { return static_cast<double>(done) * interval_s; }
   };
 
-  // Seconds from the flight's start, in which all times below are.
+  // `time_s`, like all times below, is in seconds from the flight's start.
   ros::Time stamp(double time_s) const;
   ros::Header header(double time_s, const char* frame) const;
   template <class Message>
   void put(std::size_t topic, double time_s, const Message& message);
 
-  // Emits all but sweeps that is due until then.
+  // Emits everything that is due until then, except sweeps.
   void advance(double time_s);
-  // The file's number of a topic.
+  // Adds a topic and returns its number in the file.
   std::size_t topic(const char* name, const char* type, bool latched = false);
-  // Ends the sweep and begins the next one.
-  // Throws InputError on a time outside the trajectory.
+  // Throws InputError on a time more than 1 s outside the trajectory.
   void require_flown(double time_s) const;
+  // Ends the sweep and begins the next one.
   void end_sweep();
   void emit_packets(double end_s);
   void emit_mounts();
@@ -83,7 +83,7 @@ class RosRecorder : public scan::PointWriter {
   std::vector<ros::Topic> all_topics_;
   Topics topics_;
   std::unique_ptr<ros::FileWriter> file_;
-  double start_s_ = 0;  // of the trajectory
+  double start_s_ = 0;  // of the reported trajectory
   double duration_s_ = 0;
   double sweep_interval_s_ = 0;
   std::vector<double> pose_times_s_;

@@ -9,12 +9,12 @@
 namespace plotscan::record {
 namespace {
 
-// Frame names lost their leading slash in tf2; old recordings have it.
+// tf2 dropped the leading slash of frame names; old recordings still have it.
 std::string frame_name(const std::string& name) {
   return name.starts_with('/') ? name.substr(1) : name;
 }
 
-// Times of clouds and of transforms are rounded apart.
+// Tolerance: times of clouds and of transforms are rounded separately.
 constexpr double kRounding_s = 1e-6;
 
 scan::StampedPose pose_of(const ros::TransformStamped& transform, ros::Time epoch) {
@@ -35,7 +35,7 @@ Eigen::Isometry3d still_pose(const scan::StampedPose& pose) {
   return isometry;
 }
 
-// In order, each time once.
+// The poses sorted by time, each time only once.
 std::vector<scan::StampedPose> ordered(std::vector<scan::StampedPose> poses) {
   std::ranges::stable_sort(poses, {}, &scan::StampedPose::time_s);
   const auto same_time = [](const scan::StampedPose& one, const scan::StampedPose& other) {

@@ -13,21 +13,22 @@
 
 namespace plotscan::record {
 
-// The way from a frame to the topmost above it.
+// The chain of transforms from a frame up to the topmost frame above it.
 class FramePath {
  public:
   const std::string& top() const { return top_; }
-  // Time in seconds as in RosTransforms. Nothing before the first or after the last transform.
+  // The pose at a time in seconds, counted as in RosTransforms. Nothing before the first or after
+  // the last transform.
   std::optional<Eigen::Isometry3d> top_from_frame(double time_s) const;
-  // How the first frame on the way that moves in the one above it, a drone's body above its sensor,
-  // moves in the topmost: at the times of its own transforms that those above it cover. Nothing
-  // where all stand still.
+  // The motion, in the topmost frame, of the first frame on the way up that moves relative to its
+  // parent: the drone's body, above its sensor. Its poses are at the times of its own transforms,
+  // as far as the transforms above cover them. Nothing if all frames stand still.
   std::optional<scan::Trajectory> motion() const;
 
  private:
   friend class RosTransforms;
   using Still = Eigen::Isometry3d;
-  // The same from the frame below the step `first` on.
+  // The same, but from the frame below step `first` upwards.
   std::optional<Eigen::Isometry3d> top_from_step(std::size_t first, double time_s) const;
 
   std::string top_;
@@ -37,12 +38,12 @@ class FramePath {
 // The transforms between a recording's frames, over time.
 class RosTransforms {
  public:
-  // Transforms of one message; `still`: they hold for all times (/tf_static). Times count from
-  // `epoch`. Throws InputError on a transform that is none.
+  // Adds the transforms of one message. `still`: they hold for all times (/tf_static). Times count
+  // from `epoch`. Throws InputError on an invalid transform.
   void add(const ros::TFMessage& message, ros::Time epoch, bool still);
 
-  // Throws InputError where the frames lead in a circle, or a frame is further from the one above
-  // it than a trajectory may lead.
+  // The path from a frame to the top. Throws InputError when the frames form a circle, or a frame
+  // is further from its parent than a trajectory may reach.
   FramePath path(const std::string& frame) const;
 
  private:
@@ -51,7 +52,7 @@ class RosTransforms {
     bool still = false;
     std::vector<scan::StampedPose> poses;  // parent_from_child
   };
-  std::map<std::string, Edge> edges_;  // by child
+  std::map<std::string, Edge> edges_;  // by name of the child frame
 };
 
 }  // namespace plotscan::record

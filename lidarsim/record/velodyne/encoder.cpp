@@ -11,9 +11,9 @@
 namespace plotscan::record {
 namespace {
 
-// A point's time may differ so much from its shot's: rounding, wherever it was.
+// The most that a point's time may differ from its shot's, by rounding in any file format.
 constexpr double kTimeTolerance_s = 0.5e-6;
-// A point may lie so far off its shot's axis: single precision, 100 km from the origin.
+// The farthest a point may lie off its shot's axis: single precision, 100 km from the origin.
 constexpr double kAxisTolerance_m = 0.05;
 
 std::string at_time(double time_s) { return "the point of " + format_number(time_s) + " s "; }
@@ -114,7 +114,8 @@ void VelodyneEncoder::finish_shot() {
   const std::size_t block = in_packet / kBlockReturns;
   const std::size_t place = in_packet % kBlockReturns;
   if (mode_ == ReturnMode::dual) {
-    // The strongest of the others: the strongest of all, or the second where the last is that.
+    // The strongest of the others: the strongest of all, or, if that is the last, the second
+    // strongest.
     if (returns_.size() > 1) returns_.pop_back();
     packet_.data.blocks[2 * block].returns[place] = packed(last);
     packet_.data.blocks[2 * block + 1].returns[place] = packed(strongest());

@@ -16,20 +16,20 @@
 
 namespace plotscan::record {
 
-// Microseconds past the UTC hour, as Velodyne's packets tell the time.
+// Microseconds past the UTC hour, which is how Velodyne's packets state the time.
 std::uint32_t past_hour_us(UtcTime time);
 
-// A data packet and when it was made, seconds from the flight's start.
+// A data packet and its times, seconds from the flight's start.
 struct SentPacket {
   DataPacket data;
-  double fired_s = 0;  // its first firing, which data.past_hour_us tells rounded to microseconds
-  double sent_s = 0;   // it is whole: the next one's first firing
+  double fired_s = 0;  // when its first firing was; data.past_hour_us is this, rounded
+  double sent_s = 0;   // when it is complete: at the next packet's first firing
 };
 
-// Turns the points of a flight back into the data packets that the sensor sent: every point into
-// the range along its shot (from the laser's own origin: readers add the vertical correction), and
-// every shot without a point into a distance of 0. The packets follow each other without a gap
-// from the flight's start to its end, where the last one is filled up with shots without a return.
+// Turns the points of a flight back into the data packets that the sensor sent: every point becomes
+// a range along its shot (from the laser's own origin: readers add the vertical correction), and
+// every shot without a point a distance of 0. The packets follow each other without a gap from the
+// flight's start to its end, where the last one is padded with shots without a return.
 class VelodyneEncoder {
  public:
   // Receives the packets in the order of time.
@@ -38,14 +38,14 @@ class VelodyneEncoder {
   // Throws InputError when the sensor sends no Velodyne packets.
   VelodyneEncoder(const FlightRecord& flight, Sink sink);
 
-  // Points in the order of firing, world frame. Throws InputError on points that are not, or that
-  // are no shots of the flight.
+  // Takes points in the order of firing, world frame. Throws InputError on points out of this
+  // order, and on points that are not shots of the flight.
   void write(std::span<const scan::LabelledPoint> points);
-  // Sends what is left of the flight.
+  // Sends the remaining packets of the flight.
   void close();
 
  private:
-  // A return of the shot at hand.
+  // A return of the current shot.
   struct Return {
     double range_m = 0;
     float intensity = 0;
@@ -70,10 +70,10 @@ class VelodyneEncoder {
   Sink sink_;
 
   SentPacket packet_;
-  std::uint64_t first_sequence_ = 0;  // of the packet at hand
-  std::uint64_t shot_ = 0;            // whose returns are collected
+  std::uint64_t first_sequence_ = 0;  // of the current packet
+  std::uint64_t shot_ = 0;            // the shot whose returns are collected
   std::vector<Return> returns_;
-  sensor::SequenceShots shots_;  // of the sequence below
+  sensor::SequenceShots shots_;  // of fired_sequence_
   std::uint64_t fired_sequence_ = std::numeric_limits<std::uint64_t>::max();
 };
 

@@ -23,16 +23,16 @@ inline constexpr std::size_t kBlockReturns = 32;
 inline constexpr std::uint16_t kAzimuthSteps = 36'000;  // of 0.01 degrees, a turn
 
 struct PacketReturn {
-  std::uint16_t distance = 0;     // along the beam, in the product's steps; 0: no return
+  std::uint16_t distance = 0;     // along the beam, in PacketFormat's steps; 0: no return
   std::uint8_t reflectivity = 0;  // percent, over 100 for retroreflectors
 
   bool operator==(const PacketReturn&) const = default;
 };
 
 // One firing sequence of 32 lasers, or two of 16, one after the other; lasers by id. In dual mode
-// two blocks tell of the same shots: the even one of the last return, the odd one of the strongest,
-// or of the second strongest where the strongest is the last. Both are the same where there was but
-// one return (manual, section 9.3.2).
+// two blocks describe the same shots: the even one the last return, the odd one the strongest, or
+// the second strongest if the strongest is the last. If there was only one return, both hold it
+// (manual, section 9.3.2).
 struct PacketBlock {
   std::uint16_t azimuth = 0;  // of the first firing, 0.01 degrees, 0..35999
   std::array<PacketReturn, kBlockReturns> returns;
@@ -53,14 +53,14 @@ using DataPacketBytes = std::array<std::uint8_t, kDataPacketSize>;
 
 DataPacketBytes encode(const DataPacket& packet);
 
-// Nothing where the bytes are no data packet: another length, block flags other than 0xFFEE (an
+// Nothing if the bytes are no data packet: another length, block flags other than 0xFFEE (an
 // HDL-64E's or VLS-128's among them), an azimuth of 360 degrees and more, or an unknown mode byte.
 std::optional<DataPacket> decode_data_packet(std::span<const std::uint8_t> payload);
 
 // Whether the sensor's clock follows a GPS receiver's pulse per second.
 enum class PpsStatus : std::uint8_t { absent = 0, synchronising = 1, locked = 2, error = 3 };
 
-// What the sensor repeats from its GPS receiver (manual, section 9.3.3).
+// What the sensor passes on from its GPS receiver (manual, section 9.3.3).
 struct PositionPacket {
   std::uint32_t past_hour_us = 0;
   PpsStatus pps = PpsStatus::absent;
@@ -73,7 +73,7 @@ using PositionPacketBytes = std::array<std::uint8_t, kPositionPacketSize>;
 
 PositionPacketBytes encode(const PositionPacket& packet);
 
-// Nothing where the bytes are no position packet: another length, or an unknown PPS status.
+// Nothing if the bytes are no position packet: another length, or an unknown PPS status.
 std::optional<PositionPacket> decode_position_packet(std::span<const std::uint8_t> payload);
 
 }  // namespace plotscan::record

@@ -5,9 +5,9 @@
 
 namespace plotscan::record {
 
-// Recordings of Velodyne sensors, for formats(); only where libpcap was there to build with.
+// The format of pcap recordings of Velodyne sensors, for formats(). Only in builds with libpcap.
 Format pcap_format();
-// The same as newer recorders write them; only read.
+// The same for pcapng, which newer recorders write. It is only read.
 Format pcapng_format();
 
 }  // namespace plotscan::record

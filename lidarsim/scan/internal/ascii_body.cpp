@@ -12,13 +12,13 @@ constexpr std::size_t kBlock = std::size_t{1} << 20;  // bytes; a line is no lon
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-// A file's lines from where it stands, read in blocks.
+// The lines of a file from its current position, read in blocks.
 class Lines {
  public:
   Lines(const std::filesystem::path& file, std::ifstream& in, std::size_t first_line)
       : file_(file), in_(in), line_(first_line - 1), block_(kBlock) {}
 
-  // False at the end of the file. The text lasts until the next call.
+  // Gets the next line; false at the end of the file. The text is valid until the next call.
   bool next(std::string_view& text) {
     ++line_;
     for (;;) {
@@ -80,7 +80,7 @@ double parse_number(const Lines& lines, std::string_view word) {
              (word.find(',') == std::string_view::npos ? "" : "; decimals take a point"));
 }
 
-// The counts that lines of one number promise, against the points that follow them.
+// Checks the counts that lines of one number promise (.pts) against the points that follow.
 class Counts {
  public:
   void begin(const Lines& lines, std::string_view word, std::uint64_t read) {

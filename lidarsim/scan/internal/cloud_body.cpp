@@ -15,10 +15,10 @@
 namespace plotscan::scan {
 namespace {
 
-// LZF turns at most 264 bytes into 3 of a back reference.
+// LZF encodes at most 264 bytes in a back reference of 3.
 constexpr std::uint64_t kMaxLzfRatio = 88;
 
-// The bytes of a number, read as unsigned of its size.
+// The bytes of a number as an unsigned integer of its size.
 template <class Bits>
 Bits load(const char* bytes, bool swap) {
   Bits bits;
@@ -65,9 +65,9 @@ double decode(const ScalarField& field, const char* bytes, bool swap) {
 
 namespace {
 
-// Floats whose bytes stand in the other order have any exponent: some 40 % of them are no lengths.
-// Throws InputError where a tenth of the coordinates is none; `value` returns that of a field in a
-// record.
+// Detects floats in the wrong byte order: their exponents are random, so some 40 % of them are no
+// plausible lengths. Throws InputError if more than a tenth of the coordinates is not plausible.
+// `value` returns the value of a field in a record.
 template <class Value>
 void require_lengths(const std::filesystem::path& file, const Wanted& wanted, std::uint64_t records,
                      Value&& value) {

@@ -45,39 +45,39 @@ struct CloudLayout {
   std::string format;  // "PCD, binary", for people
   CloudBody body = CloudBody::ascii;
   bool big_endian = false;
-  std::uint64_t points = 0;     // kMaxPoints where nothing but the file's end tells
+  std::uint64_t points = 0;     // kMaxPoints if only the file's end tells
   std::size_t columns = 0;      // of an ascii line
   std::size_t record_size = 0;  // of a point, bytes
   std::vector<ScalarField> fields;
   std::uint64_t body_offset = 0;  // of the first point, bytes from the file's start
   std::size_t body_line = 0;      // of the first point, lines from 1
 
-  bool in_degrees = false;         // x and y
+  bool in_degrees = false;         // of x and y
   CoordinateUnits units;           // else
-  std::vector<std::string> notes;  // what the reader should be told, a sentence each
+  std::vector<std::string> notes;  // what the user should be told, one sentence each
 
-  // What only text without a header of its own kind says (text_header.cpp).
+  // Only for text clouds (text_header.cpp).
   bool is_text = false;
   char separator = ' ';     // of a line's columns; ' ': any blanks
   bool has_counts = false;  // a line of one number counts the points that follow it (.pts)
 
-  // What only LAS says.
+  // Only for LAS.
   bool is_las = false;
   int point_format = 0;
   std::string crs_wkt;
   int crs_epsg = 0;                // from GeoTIFF keys; 0: none
-  bool adjusted_gps_time = false;  // GPS time less 1e9 s; else of the GPS week
-  std::optional<UtcTime> start;    // of the points' time 0, in files of ours
+  bool adjusted_gps_time = false;  // GPS time minus 1e9 s; else time of the GPS week
+  std::optional<UtcTime> start;    // of the points' time 0; only in Plotscan's files
 
-  // Adds a field behind the others; its column and offset are set here.
+  // Adds a field after the others and sets its column and offset.
   void append(ScalarField field);
-  // "EPSG:<code>", well-known text where that names no code, or "".
+  // The coordinate system: "EPSG:<code>", well-known text that names no code, or "".
   std::string crs() const;
-  // Nothing when there is none of that name.
+  // The field of that name; nullptr if there is none.
   const ScalarField* find(std::string_view name) const;
 };
 
-// A cloud's file while its header is read: lines with their numbers, refusing what is no text.
+// Reads a cloud's header line by line, counting lines. Refuses what is no text.
 class HeaderLines {
  public:
   explicit HeaderLines(const std::filesystem::path& file);
@@ -86,7 +86,7 @@ class HeaderLines {
   const std::vector<std::string>& next();
   // The next line, or nothing at the end of the file.
   std::optional<std::string> next_text();
-  // Bytes before the line after the last one read.
+  // The offset of the next line, bytes from the file's start.
   std::uint64_t offset() const { return offset_; }
   std::size_t line() const { return line_; }
   [[noreturn]] void fail(const std::string& what) const;
@@ -104,9 +104,10 @@ class HeaderLines {
 // The columns of an ascii line, without the blanks around them. A separator of ' ' stands for any
 // blanks.
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
-// A whole word as a number, of either sign, nan and inf too.
+// The number that the whole word stands for, with any sign, nan and inf included; nothing if it is
+// none.
 std::optional<double> number_of(std::string_view word);
-// Whether a line of a text cloud is none of points: "#..." or "//...".
+// Whether a line of a text cloud is a comment: "#..." or "//...".
 bool is_comment(std::string_view line);
 
 // The most bytes one point may have: ample for descriptors of a thousand numbers.
@@ -119,26 +120,28 @@ CloudLayout read_ply_header(const std::filesystem::path& file);
 CloudLayout read_las_header(const std::filesystem::path& file);
 // Lines of x y z, with or without a line of names or a count in front of them.
 CloudLayout read_text_header(const std::filesystem::path& file);
-// By content, since names lie. Throws InputError when the file is no cloud, or an empty one.
+// Reads the header of a cloud, whose format is recognised by its content. Throws InputError when
+// the file is no cloud, or empty.
 CloudLayout read_cloud_header(const std::filesystem::path& file);
 
-// Sees to it that a PCD or PLY layout has x, y and z: X, Y and Z are renamed. InputError at the
-// header's last line unless each is one float.
+// Makes sure that a PCD or PLY layout has x, y and z; X, Y and Z are renamed. Throws InputError at
+// the header's last line unless each is a single float.
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 
-// The first field of one readable number that has one of the names, the first name's first. Names
-// are in small letters, without underscores and CloudCompare's "scalar_": "ReturnNumber" and
-// "scalar_return_number" are "returnnumber". nullptr when there is none.
+// The first field that is one readable number and has one of the names; earlier names take
+// precedence. Names are in lower case, without underscores and CloudCompare's "scalar_":
+// "ReturnNumber" and "scalar_return_number" are "returnnumber". nullptr when there is none.
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
 
-// Of a LAS file's adjusted GPS time; nothing outside of a century from 1980.
+// The instant of a LAS file's adjusted GPS time; nothing outside of the century from 1980.
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
 
-// Receives points as rows of numbers, row after row, a number for each field asked for.
+// Receives rows of numbers one after the other. A row is one point, with a number for each
+// requested field.
 using RowSink = std::function<void(std::span<const double> rows)>;
 
-// Hands on these fields (of one element each) of the first `limit` points that the layout
-// describes. InputError when the file is truncated or broken.
+// Passes these fields (of one element each) of the first `limit` points to the sink. Throws
+// InputError when the file is truncated or broken.
 void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
                std::span<const ScalarField> fields, const RowSink& sink,
                std::uint64_t limit = kMaxPoints);

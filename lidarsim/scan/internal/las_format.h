@@ -11,7 +11,7 @@
 
 namespace plotscan::scan::las {
 
-inline constexpr int kNewFormats = 6;  // the formats of LAS 1.4 begin here
+inline constexpr int kNewFormats = 6;  // point formats from this one on are those of LAS 1.4
 // Bytes of the point formats 0 to 10 without extra bytes (tables 7 to 18).
 inline constexpr std::array<std::size_t, 11> kFormatSizes = {20, 28, 26, 34, 57, 63,
                                                              30, 36, 38, 59, 67};
@@ -36,7 +36,7 @@ inline constexpr std::uint16_t kProjectedKey = 3072;
 inline constexpr std::uint16_t kLinearUnitsKey = 3076;
 inline constexpr std::uint16_t kVerticalUnitsKey = 4099;
 inline constexpr std::uint16_t kUserDefined = 32767;  // no code
-// Ours: the UTC time of the points' time 0, as text.
+// Plotscan's own record: the UTC time of the points' time 0, as text.
 inline constexpr std::string_view kPlotscanUser = "plotscan";
 inline constexpr std::uint16_t kStartRecord = 1;
 
@@ -50,10 +50,10 @@ inline constexpr int kHighNoise = 18;
 // Global encoding (table 4).
 inline constexpr std::uint16_t kAdjustedGpsTime = 1;
 inline constexpr std::uint16_t kWkt = 16;
-// Adjusted standard GPS time is GPS time less this.
+// Adjusted standard GPS time is GPS time minus this.
 inline constexpr double kGpsTimeAdjustment_s = 1e9;
 
-// Intensities 0..255 over the 16 bits of the format.
+// Scales intensities of 0..255 to the 16 bits of the format.
 inline constexpr double kIntensityScale = 257;
 
 }  // namespace plotscan::scan::las

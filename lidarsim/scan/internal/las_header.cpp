@@ -24,7 +24,7 @@ constexpr bool kReadsLaz = true;
 constexpr bool kReadsLaz = false;
 #endif
 
-// A LAS file while its header is read. Little-endian numbers at their places.
+// A LAS file whose header is being read: little-endian numbers at given offsets.
 class LasFile {
  public:
   explicit LasFile(const std::filesystem::path& file)
@@ -40,7 +40,7 @@ class LasFile {
     if (!in_) fail("cannot be read");
     return text;
   }
-  // Up to the first zero.
+  // Text up to its first zero byte.
   std::string text(std::uint64_t offset, std::uint64_t count) {
     const std::string all = bytes(offset, count);
     return all.substr(0, all.find('\0'));
@@ -129,7 +129,7 @@ ScalarField whole(const std::string& name, std::size_t offset, std::size_t size,
   return {.name = name, .kind = 'U', .size = size, .offset = offset, .shift = shift, .bits = bits};
 }
 
-// Tables 7 to 18 of the specification.
+// Adds the fields of a point format: tables 7 to 18 of the specification.
 void add_format_fields(int format, CloudLayout& layout) {
   ScalarField intensity = whole("intensity", 12, 2);
   intensity.scale = 1 / las::kIntensityScale;
@@ -146,7 +146,7 @@ void add_format_fields(int format, CloudLayout& layout) {
     layout.fields.push_back({.name = "gps_time", .size = 8, .offset = is_new ? 22u : 20u});
 }
 
-// The fields behind those of the point format (table 24).
+// Adds the extra bytes: the fields after those of the point format (table 24).
 void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHeader& header,
                      CloudLayout& layout) {
   static constexpr std::string_view kKinds = "UUIUIUIUIFF";
@@ -181,14 +181,14 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
   }
 }
 
-// What the records say of units; where two of them say it, well-known text counts.
+// The units that the records state; well-known text takes precedence over GeoTIFF keys.
 struct StatedUnits {
   WktUnits wkt = {};
   WktUnits keys = {};
 };
 
-// Of EPSG's code of a unit of length (EPSG data set v10.076: metre, foot, US survey foot); notes
-// one that is not known.
+// Metres in the unit of length with this EPSG code (EPSG data set v10.076: metre, foot, US survey
+// foot). For an unknown code it adds a note to the layout.
 std::optional<double> unit_of_code(std::uint16_t code, CloudLayout& layout) {
   if (code == 9001) return 1;
   if (code == 9002) return kFoot_m;
@@ -211,7 +211,7 @@ void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& unit
   }
 }
 
-// Heights without a unit of their own are in that of x and y; those of degrees are metres.
+// Heights without a unit of their own are in the unit of x and y, or metres if that is degrees.
 CoordinateUnits units_of(const StatedUnits& stated) {
   CoordinateUnits units;
   units.horizontal_m = stated.wkt.horizontal_m.value_or(stated.keys.horizontal_m.value_or(1));
@@ -220,14 +220,14 @@ CoordinateUnits units_of(const StatedUnits& stated) {
   return units;
 }
 
-// Whether a coordinate system as well-known text is one of degrees.
+// Whether the well-known text describes a coordinate system in degrees.
 bool says_geographic(const std::string& wkt) {
   const auto has = [&](const char* word) { return wkt.find(word) != std::string::npos; };
   return !has("PROJCS") && !has("PROJCRS") && (has("GEOGCS") || has("GEOGCRS") || has("GEODCRS"));
 }
 
 // GeoTIFF lets a file leave out the unit of a system of EPSG's (OGC 19-008r4, requirements of
-// ProjLinearUnitsGeoKey): UTM counts in metres, of others it is not known here.
+// ProjLinearUnitsGeoKey): UTM is in metres; for others the unit is not known here, which is noted.
 void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
   const std::string crs = "EPSG:" + std::to_string(layout.crs_epsg);
   if (layout.crs_epsg == 0 || stated.wkt.horizontal_m || stated.keys.horizontal_m) return;
@@ -236,14 +236,15 @@ void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
                          ", is not known here: taken for metres; --units says otherwise");
 }
 
-// Where the points lie is said elsewhere: a wrong count of records does no harm to them.
+// A note only: the points' offset is stated elsewhere, so that a wrong count of records does not
+// matter to them.
 std::string count_note(std::uint64_t promised, std::uint64_t found) {
   return "the header promises " + std::to_string(promised) + " variable length records, " +
          std::to_string(found) + " are whole; the others were not looked at";
 }
 
 struct VariableRecords {
-  std::uint64_t at = 0;  // of the first one's header
+  std::uint64_t at = 0;  // offset of the first record's header
   std::uint64_t count = 0;
   bool extended = false;
 };

@@ -11,7 +11,7 @@ namespace plotscan::scan {
 namespace {
 
 // A point as the bytes of its LAS record ("LAS Specification 1.4 - R15", tables 7 to 18). Colours
-// and waveforms, which nobody here reads, stay 0.
+// and waveforms, which are not used here, stay 0.
 class LasRecord {
  public:
   explicit LasRecord(const CloudLayout& layout)

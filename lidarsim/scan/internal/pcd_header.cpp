@@ -22,7 +22,7 @@ struct PcdHeader {
 
 using Words = std::vector<std::string>;
 
-// The words after the keyword, one a field.
+// Throws InputError unless the line has one word per field after its keyword.
 void require_one_a_field(const HeaderLines& lines, const Words& words, const PcdHeader& header) {
   if (header.fields.empty()) lines.fail(words[0] + " stands before FIELDS");
   if (words.size() - 1 != header.fields.size()) {

@@ -13,14 +13,14 @@
 
 namespace plotscan::scan {
 
-// Which points and fields are wanted, and where they go.
+// Which points and fields are wanted, and the sink for them.
 struct Wanted {
   std::uint64_t points;
   std::span<const ScalarField> fields;
   const RowSink& sink;
 };
 
-// Collects rows and hands them on in chunks.
+// Collects rows and passes them on in chunks.
 class Rows {
  public:
   explicit Rows(const Wanted& wanted) : wanted_(wanted) {
@@ -43,15 +43,15 @@ class Rows {
   std::vector<double> numbers_;
 };
 
-// What a number stands for that lies at `bytes`, in the other byte order if `swap`.
+// The value of the field whose number lies at `bytes`; `swap`: in the other byte order.
 double decode(const ScalarField& field, const char* bytes, bool swap);
 
-// One point a line, from where `in` stands.
+// Reads one point a line, from the current position of `in`.
 void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
                 const Wanted& wanted);
 
 #ifdef PLOTSCAN_HAVE_LASZIP
-// LAZ and COPC, by LASzip. Needs no open file.
+// Reads LAZ and COPC through LASzip, which opens the file itself.
 void read_laz(const std::filesystem::path& file, const CloudLayout& layout, const Wanted& wanted);
 #endif
 

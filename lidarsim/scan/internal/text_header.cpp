@@ -10,10 +10,10 @@
 namespace plotscan::scan {
 namespace {
 
-// Lines looked through for the first point.
+// How many lines are searched for the first point.
 constexpr std::size_t kMostHeaderLines = 100;
 
-// Names of x, y and z, as plain_column leaves them, the first found counts.
+// Names of x, y and z, as plain_column returns them. The first name that is found counts.
 struct AxisNames {
   const char* axis;
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ std::string plain_column(std::string_view name) {
   return plain;
 }
 
-// Semicolon, comma, or blanks (tabs are blanks).
+// The separator of a line: semicolon, comma, or ' ' for blanks (tabs count as blanks).
 char separator_of(std::string_view line) {
   for (const char separator : {';', ','})
     if (line.find(separator) != std::string_view::npos) return separator;
@@ -50,7 +50,7 @@ bool is_point(const std::vector<std::string_view>& columns) {
   return std::ranges::count_if(columns, [](auto word) { return number_of(word).has_value(); }) >= 3;
 }
 
-// A point whose numbers have decimal commas.
+// Whether the line is a point whose numbers have decimal commas.
 bool has_decimal_commas(std::string_view line) {
   std::string pointed(line);
   std::ranges::replace(pointed, ',', '.');
@@ -59,11 +59,11 @@ bool has_decimal_commas(std::string_view line) {
   return pointed != line && is_point(columns);
 }
 
-// What stands in front of the points.
+// The lines before the points, and the first point.
 struct TextHeader {
   std::string first_point;
-  bool has_count = false;  // the line before the points, or the one before that, is one number
-  std::string names;       // the last line with words, without the sign of a comment
+  bool has_count = false;  // one of the two lines before the points is one number
+  std::string names;       // the last line with words, without a comment sign
   bool names_in_comment = false;
   std::size_t names_line = 0;
 };
@@ -116,7 +116,7 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
                        std::to_string(kMostHeaderLines) + " lines is a point, x y z");
 }
 
-// The names, one a column; empty where there are none.
+// The names of the columns; empty if the header has none.
 std::vector<std::string> column_names(const TextHeader& header, char separator) {
   std::vector<std::string_view> words;
   split_columns(header.names, separator, words);
@@ -124,7 +124,7 @@ std::vector<std::string> column_names(const TextHeader& header, char separator) 
   return {words.begin(), words.end()};
 }
 
-// The columns of x, y and z by their names; nothing unless all three are named.
+// The indices of the columns named x, y and z; nothing unless all three are named.
 std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::string>& names) {
   std::vector<std::string> plain(names.size());
   std::ranges::transform(names, plain.begin(), plain_column);
@@ -141,7 +141,7 @@ std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::s
 
 bool is_longitude(const std::string& name) { return plain_column(name).starts_with("lon"); }
 
-// Gives every column its name; x, y and z are called that.
+// Adds every column as a field under its name; those of x, y and z get these names.
 void add_fields(const std::vector<std::string>& names, const std::array<std::size_t, 3>& xyz,
                 CloudLayout& layout) {
   for (std::size_t column = 0; column < layout.columns; ++column) {

@@ -7,7 +7,7 @@
 namespace plotscan::scan {
 namespace {
 
-constexpr int kDeepest = 32;  // of nodes in each other; real ones have 8
+constexpr int kDeepest = 32;  // levels of nested nodes; real ones have 8
 
 class Parser {
  public:
@@ -39,7 +39,7 @@ class Parser {
     if (child) node.children.push_back(std::move(*child));
     return child.has_value();
   }
-  // A quote inside is written twice.
+  // Reads a quoted text, in which a quote is written twice.
   bool quoted(WktNode& node) {
     std::string value;
     for (++at_; at_ < text_.size(); ++at_) {
@@ -55,7 +55,7 @@ class Parser {
     }
     return false;
   }
-  // A keyword, a number or a bare word such as NORTH.
+  // Reads a keyword, a number or a bare word such as NORTH.
   std::string word() {
     skip_blanks();
     const std::size_t begin = at_;

@@ -11,17 +11,17 @@
 
 namespace plotscan::scan {
 
-// KEYWORD["text", 1.5, CHILD[...]]
+// One node: KEYWORD["text", 1.5, CHILD[...]].
 struct WktNode {
   std::string keyword;
   std::vector<std::string> values = {};  // texts without their quotes, numbers, bare words
   std::vector<WktNode> children = {};
 
-  // This node, or the first below it, that has one of the keywords; nullptr when there is none.
+  // This node or the first one below it with one of the keywords; nullptr if there is none.
   const WktNode* find(std::initializer_list<std::string_view> keywords) const;
 };
 
-// Nothing where the text is broken.
+// Parses well-known text; nothing if it is broken.
 std::optional<WktNode> parse_wkt(std::string_view text);
 
 }  // namespace plotscan::scan

@@ -14,7 +14,7 @@ std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, 
   try {
     return report::shown_grid(ground::fit_surface(places, {.threads = threads}), cloud.origin);
   } catch (const InputError&) {
-    return std::nullopt;  // too large a field, say: the page shows heights of the cloud's own
+    return std::nullopt;  // such as a too large field: the page then shows the cloud's own heights
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace plotscan::scanpage {
 
-// The ground under a cloud's shown points; nothing where they show none.
+// Fits the ground under a cloud's shown points; nothing if they show no ground.
 std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, int threads);
 
 }  // namespace plotscan::scanpage

@@ -7,11 +7,11 @@
 
 namespace plotscan::sensor {
 
-// The text of models/sensors/NAME.yaml, which must be shipped.
+// The text of models/sensors/NAME.yaml, which Plotscan must ship.
 std::string sensor_file(const std::string& name);
 
-// The sensor of that text. Throws InputError as parse_sensor does, and where it has another name:
-// what is listed, flown and kept with a scan is one name.
+// Parses that text. Throws InputError as parse_sensor does, and when the sensor in it has another
+// name: a sensor is listed, flown and kept with a scan under one name.
 Sensor parse_shipped_sensor(const std::string& description, const std::string& name);
 
 }  // namespace plotscan::sensor

@@ -9,7 +9,7 @@
 namespace plotscan::record::ros {
 namespace {
 
-// As rosbag does it.
+// The same size as rosbag uses.
 constexpr std::size_t kFileHeaderSize = 4096;
 constexpr std::uint32_t kIndexVersion = 1;
 

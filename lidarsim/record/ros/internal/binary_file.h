@@ -15,7 +15,7 @@
 
 namespace plotscan::record {
 
-// Messages are written in chunks of so many bytes.
+// The size at which a chunk of messages is written, bytes.
 inline constexpr std::size_t kChunkSize = std::size_t{768} << 10;
 
 // Appends a number as it lies in memory (little endian).
@@ -24,7 +24,7 @@ void append_number(std::string& bytes, Number value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// Appends a text behind its length in 32 bits.
+// Appends the text's length in 32 bits, then the text.
 inline void append_text(std::string& bytes, std::string_view text) {
   append_number(bytes, static_cast<std::uint32_t>(text.size()));
   bytes += text;
@@ -74,7 +74,7 @@ class BinaryInput {
   }
 
   std::uint64_t left() const { return left_; }
-  // The next bytes, which replace those of the last call.
+  // The next bytes; valid until the next call.
   std::span<const char> read(std::uint64_t size) {
     if (size > left_) {
       fail("is truncated or broken: " + std::to_string(size) + " bytes are promised, " +
@@ -123,7 +123,7 @@ class RecordReader {
     std::memcpy(&value, read(sizeof value).data(), sizeof value);
     return value;
   }
-  // Behind its length in 32 bits.
+  // Reads a text that is preceded by its length in 32 bits.
   std::string text() {
     const auto bytes = read(number<std::uint32_t>());
     return {bytes.begin(), bytes.end()};

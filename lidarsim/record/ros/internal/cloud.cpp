@@ -148,7 +148,8 @@ double CloudPoints::number(const std::uint8_t* point, const Field& field) const 
   }
 }
 
-// Throws InputError where a whole number does not hold the field's.
+// Sets the value from the field, if there is one. Throws InputError if it does not fit a
+// whole-number type.
 template <class Value>
 void CloudPoints::set(Value& value, const std::uint8_t* point,
                       const std::optional<Field>& field) const {
@@ -176,7 +177,7 @@ scan::LabelledPoint CloudPoints::point(std::size_t index) const {
   set(point.return_count, at, return_count_);
   std::uint8_t label = 0;
   set(label, at, class_);
-  // Numbers that we have no class for are something else.
+  // Numbers that are none of our classes become PointClass::other.
   point.label = label <= static_cast<std::uint8_t>(scan::PointClass::other)
                     ? static_cast<scan::PointClass>(label)
                     : scan::PointClass::other;

@@ -14,16 +14,16 @@
 
 namespace plotscan::record {
 
-// A cloud without points, of the fields that velodyne_pointcloud writes, where it writes them (x y
-// z intensity ring time, 22 bytes), and behind them our labels (return_number return_count class
-// plot plant). `time` counts in seconds from the header's stamp.
+// A cloud without points. Its fields are those of velodyne_pointcloud at the same offsets (x y z
+// intensity ring time, 22 bytes), followed by our labels (return_number return_count class plot
+// plant). `time` counts in seconds from the header's stamp.
 ros::PointCloud2 labelled_cloud(ros::Header header);
 
-// Adds the point to such a cloud, at this place in the sensor's frame.
+// Adds the point to such a cloud; `position_m` is its position in the sensor's frame.
 void add_point(ros::PointCloud2& cloud, const scan::LabelledPoint& point,
                const Eigen::Vector3f& position_m, float since_stamp_s);
 
-// The points of a cloud of any fields.
+// Reads the points of a cloud with any fields.
 class CloudPoints {
  public:
   // Throws InputError where the cloud has no x, y, z, is big-endian, or its sizes do not fit its
@@ -31,10 +31,11 @@ class CloudPoints {
   explicit CloudPoints(const ros::PointCloud2& cloud);
 
   std::size_t size() const { return size_; }
-  // Of LabelledPoint, that the cloud has.
+  // The names of LabelledPoint's fields that the cloud has.
   std::vector<std::string> fields() const;
-  // In the cloud's frame, members that the cloud lacks as they are by default; `time` in seconds
-  // since the cloud's stamp, from the field `time` (seconds) or `t` (nanoseconds, Ouster's).
+  // A point in the cloud's frame. Members that the cloud lacks keep their defaults; `time` is in
+  // seconds since the cloud's stamp, from the field `time` (seconds) or `t` (nanoseconds,
+  // Ouster's).
   scan::LabelledPoint point(std::size_t index) const;
 
  private:

@@ -14,8 +14,8 @@ namespace {
 
 struct Definition {
   std::string_view type;
-  std::string_view md5;   // "" for types that no topic has
-  std::string_view text;  // of ROS 2; types of other packages by their full names
+  std::string_view md5;   // "" for types that are not a topic's
+  std::string_view text;  // as in ROS 2; types of other packages have full names
 };
 
 constexpr std::array kDefinitions = {
@@ -70,7 +70,7 @@ const Definition& definition_of(std::string_view type) {
   return *found;
 }
 
-// The types of its members that are messages themselves, in their order.
+// The types of the members that are messages themselves, in the order of the members.
 std::vector<std::string> parts_of(const Definition& definition) {
   std::vector<std::string> parts;
   std::istringstream lines{std::string(definition.text)};
@@ -87,7 +87,7 @@ void collect(const Definition& definition, std::vector<const Definition*>& all) 
   for (const std::string& part : parts_of(definition)) collect(definition_of(part), all);
 }
 
-// ROS 1 has time built in, and a number in its headers.
+// The text as in ROS 1, where time is a built-in type and headers have a sequence number.
 std::string ros1_text(const Definition& definition) {
   constexpr std::string_view kTime = "builtin_interfaces/Time";
   std::string text(definition.text);

@@ -7,11 +7,11 @@
 
 namespace plotscan::record::ros {
 
-// The definition of a type ("sensor_msgs/Imu") and, behind it, of all types it is made of, as bags
-// hold it: the text of .msg files without their comments. One of ros_messages.h's types.
+// The definition of a type ("sensor_msgs/Imu"), followed by those of all types it is made of, as
+// bags hold them: the text of .msg files without comments. The type must be one of ros/messages.h.
 std::string message_definition(const std::string& type, Version version);
 
-// What ROS 1 knows the version of a type by. The tests hold it against ROS's own.
+// The hash by which ROS 1 identifies the version of a type. The tests compare it with ROS's own.
 std::string md5_sum(const std::string& type);
 
 // "sensor_msgs/msg/Imu" of "sensor_msgs/Imu".

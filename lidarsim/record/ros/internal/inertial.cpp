@@ -20,7 +20,7 @@ Vector3d velocity(const scan::Trajectory& trajectory, std::size_t segment) {
          duration_s(trajectory, segment);
 }
 
-// Slerp turns at a constant rate about an axis that stands still in the body.
+// Slerp turns at a constant rate about an axis that is fixed in the body.
 Vector3d angular_rate(const scan::Trajectory& trajectory, std::size_t segment) {
   const auto& poses = trajectory.poses();
   const Eigen::AngleAxisd turn =

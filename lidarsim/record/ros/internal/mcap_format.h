@@ -26,7 +26,7 @@ enum class McapOp : std::uint8_t {
   data_end = 0x0F
 };
 
-// CRC-32 as zlib has it; `before` is that of the bytes before.
+// CRC-32 as in zlib; `before` is the CRC of the bytes that come before these.
 std::uint32_t mcap_crc(std::string_view bytes, std::uint32_t before = 0);
 
 }  // namespace plotscan::record::ros

@@ -33,7 +33,7 @@ class McapReader {
       const auto op = in_.number<McapOp>();
       const auto content = in_.read(in_.number<std::uint64_t>());
       if (op == McapOp::footer) break;
-      // What follows repeats what was before.
+      // The summary that follows only repeats earlier records.
       if (op == McapOp::data_end) in_summary_ = true;
       if (in_summary_) continue;
       if (op == McapOp::chunk)
@@ -81,7 +81,7 @@ class McapReader {
     }
   }
 
-  // Messages that are neither of ROS 2 nor of ROS 1 are passed over.
+  // Messages that are neither of ROS 2 nor of ROS 1 are skipped.
   void hand_on(RecordReader content) const {
     const auto channel = channels_.find(content.number<std::uint16_t>());
     if (channel == channels_.end()) throw InputError("is broken: a message of an unknown channel");

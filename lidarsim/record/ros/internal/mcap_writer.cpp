@@ -25,9 +25,9 @@ std::string header_content() {
   return content;
 }
 
-// Quality of service in the form of rosbag2 up to version 8 of its metadata: keep the last 10,
-// reliable, volatile (transient local where latched), no deadlines. Newer rosbag2 takes the numbers
-// for these where there is a metadata record "rosbag2" that tells no version.
+// Quality of service as rosbag2 writes it up to version 8 of its metadata: keep the last 10,
+// reliable, volatile (transient local if latched), no deadlines. Newer rosbag2 also reads these
+// numbers so if there is a metadata record "rosbag2" that states no version.
 std::string qos_profiles(bool latched) {
   const std::string forever = "    sec: 9223372036\n    nsec: 854775807\n";
   return fmt::format("- history: 1\n  depth: 10\n  reliability: 1\n  durability: {}\n",
@@ -120,7 +120,7 @@ class McapWriter : public FileWriter {
   }
 
  private:
-  // Schemas are shared by topics of one type.
+  // Topics of the same type share a schema.
   std::string schema_records() const {
     std::string records;
     for (const auto& [type, id] : schemas_) {

@@ -11,7 +11,7 @@
 namespace plotscan::record {
 namespace {
 
-// Chunks of recordings take megabytes.
+// The largest chunk that is unpacked; those of recordings take megabytes.
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
 [[noreturn]] void fail() { throw InputError("is broken: a chunk does not unpack to its size"); }

@@ -5,7 +5,7 @@
 
 namespace plotscan::record {
 
-// What libpcap's handles are deleted by.
+// Deleter of libpcap's handles, for std::unique_ptr.
 struct ClosePcap {
   void operator()(pcap_t* pcap) const { pcap_close(pcap); }
   void operator()(pcap_dumper_t* file) const { pcap_dump_close(file); }

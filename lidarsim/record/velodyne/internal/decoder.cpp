@@ -57,7 +57,7 @@ void VelodyneDecoder::decode(const DataPacket& packet, double time_s,
     const std::size_t turn = block / stride;
     const PacketBlock& last = packet.blocks[block];
     const PacketBlock& other = packet.blocks[block + stride - 1];
-    // The last block turns on as the one before it.
+    // The packet's last block keeps the turn of the block before it.
     if (block + stride < kPacketBlocks) {
       last_turn_ =
           (packet.blocks[block + stride].azimuth + kAzimuthSteps - last.azimuth) % kAzimuthSteps;

@@ -19,19 +19,20 @@ struct Placement {
   Eigen::Isometry3d body_from_lidar;
 };
 
-// Turns data packets into points. Of each return: the azimuth, interpolated between the blocks'
-// as the manual says (section 9.5), the laser's own direction and origin, and the time of its shot.
+// Turns data packets into points. A return's point follows from the azimuth, interpolated between
+// blocks as the manual says (section 9.5), the laser's own direction and origin, and the time of
+// the shot.
 class VelodyneDecoder {
  public:
-  // Without a placement the points are in the lidar frame of their own instants.
+  // Without a placement, each point is in the lidar frame at its own instant.
   VelodyneDecoder(const sensor::Sensor& sensor, std::optional<Placement> placement);
 
-  // Appends the packet's returns in the order of firing; its first firing was at time_s. Of two
-  // returns of a shot the nearer comes first; two that are the same are one.
+  // Appends the packet's returns in the order of firing; its first firing was at time_s. The nearer
+  // of two returns of a shot comes first; two equal returns are one.
   void decode(const DataPacket& packet, double time_s, std::vector<scan::LabelledPoint>& points);
 
  private:
-  // A firing of a laser.
+  // One firing of one laser.
   struct Shot {
     std::size_t laser = 0;
     double head_rad = 0;  // the head's azimuth
@@ -44,7 +45,7 @@ class VelodyneDecoder {
   sensor::Sensor sensor_;
   double distance_step_m_ = 0;
   std::optional<Placement> placement_;
-  double last_turn_ = 0;  // hundredths of a degree from block to block, where a packet tells none
+  double last_turn_ = 0;  // 0.01 degrees from block to block, for a packet's last block
 };
 
 }  // namespace plotscan::record

@@ -41,7 +41,7 @@ void put_checksum(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_
   bytes[at + 1] = static_cast<std::uint8_t>(~sum);
 }
 
-// Where the IPv4 packet begins; nothing where the frame carries none.
+// The frame from its IPv4 packet on; nothing if it carries none.
 std::optional<Bytes> ip_packet(FrameKind kind, Bytes frame) {
   if (kind == FrameKind::ip) return frame;
   std::size_t at = kind == FrameKind::ethernet ? kEthernetSize : kCookedSize;
@@ -83,7 +83,8 @@ std::optional<UdpDatagram> udp_datagram(FrameKind kind, Bytes frame) {
   if (!found || found->size() < kIpSize || (*found)[0] >> 4 != 4) return std::nullopt;
   const Bytes ip = *found;
   const std::size_t header = std::size_t{4} * (ip[0] & 0x0F);
-  // A VLP-16's position packets say 1234, the length of its data packets: UDP's own length counts.
+  // The IP length may be wrong: a VLP-16's position packets state 1234, that of its data packets.
+  // The payload's end is taken from the UDP length.
   const std::size_t length = std::min<std::size_t>(big16_at(ip, 2), ip.size());
   const bool is_fragment = (big16_at(ip, 6) & 0x3FFF) != 0;
   if (ip[9] != kUdp || is_fragment || header < kIpSize || length < header + kUdpSize)

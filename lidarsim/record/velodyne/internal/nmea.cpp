@@ -13,8 +13,8 @@ using namespace std::chrono;
 constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kMinuteSteps = 1e7;  // digits after the minutes' point
 
-// "4807.0380000,N": whole degrees, then minutes. Rounded as a whole, so that no sentence says 60
-// minutes.
+// "4807.0380000,N": whole degrees, then minutes. The angle is rounded before it is split, so that
+// no sentence says 60 minutes.
 std::string angle_text(double angle_deg, int degree_digits, char positive, char negative) {
   const auto steps = std::llround(std::abs(angle_deg) * 60 * kMinuteSteps);
   const auto degree_steps = static_cast<long long>(60 * kMinuteSteps);

@@ -20,7 +20,8 @@ namespace {
 using namespace std::chrono;
 
 constexpr std::int64_t kHour_us = 3'600'000'000;
-// A packet that another one overtook on its way is left out; time that goes back further is wrong.
+// A packet up to this late, which others overtook on the network, is left out; time that goes back
+// further is an error.
 constexpr std::int64_t kOvertaken_us = 1'000'000;
 
 struct CapturedDatagram {
@@ -59,7 +60,7 @@ class DatagramFile {
     }
   }
 
-  // Frames that carried no datagram.
+  // How many frames carried no datagram.
   std::uint64_t foreign() const { return foreign_; }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -81,7 +82,7 @@ class DatagramFile {
     throw InputError(path_, "was recorded on neither Ethernet nor IP");
   }
 
-  // Microseconds, whatever the file's own: libpcap converts.
+  // libpcap converts the file's time stamps to microseconds.
   static UtcTime time_of(const pcap_pkthdr& header) {
     return UtcTime(seconds(header.ts.tv_sec) + microseconds(header.ts.tv_usec));
   }
@@ -93,8 +94,8 @@ class DatagramFile {
   std::uint64_t foreign_ = 0;
 };
 
-// Time since the first packet, from times past the hour: the hours are the recorder's clock's, so
-// that a pause of more than one counts as well.
+// Time since the first packet, from the packets' times past the hour. The hours come from the
+// recorder's clock, so that a pause of more than an hour is counted as well.
 class HourClock {
  public:
   std::int64_t elapsed_us(std::uint32_t past_hour_us, UtcTime captured) {
@@ -130,7 +131,7 @@ UtcTime start_of(std::uint32_t past_hour_us, UtcTime captured) {
                    "HDL-32E");
 }
 
-// Data packets from one sensor as points; whatever else there is, is counted.
+// Turns data packets from one sensor into points, and counts everything else.
 class Reader {
  public:
   Reader(const std::filesystem::path& file, const sensor::Sensor& sensor,

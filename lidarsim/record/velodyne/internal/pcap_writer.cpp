@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLongestFrame = 65'535;
 constexpr std::uint64_t kDataPerPosition = 14;
-// A position packet follows its data packet when that is through: 0.1 ms at 100 Mbit/s.
+// How long a data packet takes on the wire at 100 Mbit/s; a position packet is sent after it.
 constexpr double kFrameTime_s = 1e-4;
 
 // A pcap file of Ethernet frames stamped in microseconds.

@@ -11,7 +11,8 @@ namespace plotscan::record {
 
 // Streams a flight's points to a pcap file as the sensor broadcast them: its data packets
 // (VelodyneEncoder), and after every 14th a position packet, as often as the VLP-16 sends them
-// (manual, section 9.3.3). Each is captured when the sensor has it whole. Memory does not grow.
+// (manual, section 9.3.3). A packet is captured when the sensor has completed it. Memory does not
+// grow.
 class PcapWriter : public scan::PointWriter {
  public:
   // Throws InputError when the sensor sends no Velodyne packets, WriteError when the file

@@ -7,12 +7,12 @@
 
 namespace plotscan::record {
 
-// What a GPS receiver in the body's origin says of a whole second, from the reported trajectory,
-// held at its ends. Without an anchor the flight is nowhere on Earth: the fix has no position.
+// What a GPS receiver at the body's origin reports for a whole second, from the reported
+// trajectory, held at its ends. Without an anchor the fix has no position.
 GpsFix gps_fix(const FlightRecord& flight, UtcTime second);
 
-// The position packet that the sensor sends so long after the flight's start: the fix of the last
-// whole second, the clock locked to the receiver's pulse.
+// The position packet that the sensor sends `time_s` after the flight's start: it holds the fix of
+// the last whole second, with the clock locked to the receiver's pulse.
 PositionPacket position_packet(const FlightRecord& flight, double time_s);
 
 }  // namespace plotscan::record
