@@ -1,9 +1,10 @@
-// SPDX-License-Identifier: Apache-2.0 Replaces read_world.cpp in a build without libsdformat.
+// SPDX-License-Identifier: Apache-2.0
 #include "core/error.h"
 #include "gazebo/read_world.h"
 
 namespace plotscan::gazebo {
 
+// Replaces read_world.cpp's in a build without libsdformat.
 StaticWorld read_world(const std::filesystem::path& file, const ReadWorldOptions& /*options*/) {
   throw InputError(
       file,

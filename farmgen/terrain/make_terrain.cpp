@@ -33,6 +33,7 @@ constexpr double kRollingPoints = 10;
 constexpr double kFurrowPoints = 8;
 constexpr double kClodPoints = 5;
 constexpr double kCoarsest = 2;
+constexpr double kFarthestOnMap_m = 1e9;  // of a map's coordinates, in any system
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -50,6 +51,11 @@ Terrain mesh_terrain(const TerrainDescription& description) {
 
 MadeTerrain xyz_terrain(const XyzDescription& description) {
   std::vector<Eigen::Vector3d> vertices = read_xyz(description.file);
+  for (const Eigen::Vector3d& vertex : vertices) {
+    if (vertex.cwiseAbs().maxCoeff() > kFarthestOnMap_m)
+      throw InputError(description.file,
+                       fmt::format("has a coordinate beyond {:g}; no map has", kFarthestOnMap_m));
+  }
   std::optional<Eigen::Vector3d> origin_m;
   if (!description.keep_coordinates) {
     Eigen::AlignedBox3d bounds;

@@ -2,6 +2,7 @@
 #include "record/open_source.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -23,10 +24,12 @@ UtcTime parsed_start(const std::string& start_utc) {
 
 FlightRecord flight_record(const FlightOptions& options) {
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor.value_or("vlp16"));
+  scan::Trajectory reported = scan::read_trajectory(*options.trajectory);
+  scan::require_flight_time(*options.trajectory, reported);
   return {.sensor = sensor,
           .spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz),
           .body_from_lidar = mount_pose(options.mount_rpy_deg.unaryExpr(&radians)),
-          .reported = scan::read_trajectory(*options.trajectory),
+          .reported = std::move(reported),
           .start = parsed_start(options.start_utc.value_or(kStart))};
 }
 

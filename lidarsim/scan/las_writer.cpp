@@ -67,6 +67,10 @@ std::uint8_t asprs_class(PointClass label) {
 
 std::string vlr(std::string_view user, std::uint16_t record, std::string_view description,
                 const std::string& data) {
+  if (data.size() > std::numeric_limits<std::uint16_t>::max()) {
+    throw InputError("the text of the coordinate system has " + std::to_string(data.size()) +
+                     " bytes; a record of a LAS file takes 65535");
+  }
   Bytes bytes;
   bytes.put<std::uint16_t>(0).text(user, 16).put(record);
   bytes.put(static_cast<std::uint16_t>(data.size())).text(description, 32).text(data, data.size());

@@ -214,11 +214,11 @@ CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& in
   CloudSummary summary;
   std::vector<LabelledPoint> points;
   const auto read = [&](std::span<const double> row) {
-    if (!position(row).allFinite()) {
+    const Eigen::Vector3f xyz = (position(row) - info.origin_m).cast<float>();
+    if (!xyz.allFinite()) {  // nor what is too large for a float
       ++summary.not_finite;
       return;
     }
-    const Eigen::Vector3f xyz = (position(row) - info.origin_m).cast<float>();
     LabelledPoint point{.x = xyz.x(), .y = xyz.y(), .z = xyz.z()};
     for (std::size_t i = 0; i < selection.known.size(); ++i) {
       const auto& [known, unit] = selection.known[i];

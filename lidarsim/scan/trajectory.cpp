@@ -26,6 +26,13 @@ Eigen::AngleAxisd shorter_turn(const Eigen::Quaterniond& a, const Eigen::Quatern
   return turn;
 }
 
+void require_flight_time(const std::filesystem::path& file, const Trajectory& trajectory) {
+  const double taken_s = trajectory.end_s() - trajectory.start_s();
+  if (taken_s <= kLongestFlight_s) return;
+  throw InputError(file, "the flight takes " + format_number(taken_s) + " s; at most " +
+                             format_number(kLongestFlight_s) + " s are allowed");
+}
+
 std::string pose_error(const StampedPose& pose, double previous_s) {
   if (!std::isfinite(pose.time_s) || !pose.position_m.allFinite() ||
       !pose.attitude.coeffs().allFinite())

@@ -50,6 +50,12 @@ Trajectory delayed(const Trajectory& trajectory, double by_s);
 // nothing is wrong.
 std::string pose_error(const StampedPose& pose, double previous_s);
 
+// Of flights and recordings: messages are made for every 10 ms of them.
+inline constexpr double kLongestFlight_s = 24 * 3600;
+
+// Throws InputError naming the file when the trajectory takes longer than that.
+void require_flight_time(const std::filesystem::path& file, const Trajectory& trajectory);
+
 // Reads the TUM format (one "t x y z qx qy qz qw" a line, '#' comments; seconds, metres) or a
 // scan's trajectory.csv. Throws InputError naming file and line where the constructor above would.
 Trajectory read_trajectory(const std::filesystem::path& file);

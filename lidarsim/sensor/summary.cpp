@@ -13,7 +13,7 @@ namespace plotscan::sensor {
 namespace {
 
 std::string field_of_view(const SensorSummary& summary) {
-  if (summary.cone_deg > 0) return fmt::format("cone of {:.1f} deg", summary.cone_deg);
+  if (summary.is_risley) return fmt::format("cone of {:.1f} deg", summary.cone_deg);
   return fmt::format("360 x {:.4g}..{:.4g} deg", summary.least_elevation_deg,
                      summary.most_elevation_deg);
 }
@@ -43,7 +43,8 @@ SensorSummary summary_of(const Sensor& sensor) {
                         .min_spin_hz = sensor.min_spin_hz,
                         .max_spin_hz = sensor.max_spin_hz,
                         .default_spin_hz = sensor.default_spin_hz};
-  if (sensor.wedges) {
+  summary.is_risley = sensor.wedges.has_value();
+  if (summary.is_risley) {
     summary.cone_deg = 2 * deflections_rad(*sensor.wedges)[0] / kDegrees;
     return summary;
   }
@@ -68,11 +69,11 @@ std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summari
 nlohmann::json summary_json(const SensorSummary& summary) {
   nlohmann::json document = {{"name", summary.name},
                              {"title", summary.title},
-                             {"kind", summary.cone_deg > 0 ? "risley" : "spinning"},
+                             {"kind", summary.is_risley ? "risley" : "spinning"},
                              {"channels", summary.channels},
                              {"shots_per_second", summary.shots_per_s},
                              {"range_m", {summary.min_range_m, summary.max_range_m}}};
-  if (summary.cone_deg > 0) {
+  if (summary.is_risley) {
     document["cone_deg"] = summary.cone_deg;
     return document;
   }

@@ -24,6 +24,7 @@ struct SensorSummary {
   double min_spin_hz = 0;
   double max_spin_hz = 0;
   double default_spin_hz = 0;
+  bool is_risley = false;
   double cone_deg = 0;  // of a Risley scanner: the full angle of its field of view; else 0
 };
 

@@ -141,6 +141,12 @@ PlotPage lay_out_plot(const Scene& scene, const PlotPictureOptions& options) {
   const Eigen::AlignedBox2d shown = shown_part(scene, options.beyond_m);
   const Eigen::Vector2d room(options.width_px - left - right,
                              std::max(kLeastChart * em, options.height_px - below - above));
+  if (room.x() < kLeastChart * em) {
+    throw InputError(
+        fmt::format("the names of the plot's heights leave no room in a picture {} px "
+                    "wide; --width {:.0f} does",
+                    options.width_px, std::ceil(left + right + kLeastChart * em)));
+  }
   const double px_per_m = room.cwiseQuotient(shown.sizes()).minCoeff();
   const auto fits = [&](double times) {
     return times * px_per_m * shown.sizes().y() <= room.y() + 1;

@@ -27,6 +27,7 @@ std::string trimmed(const char* text) {
 
 // libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
 constexpr std::uint64_t kMostModels = 10000;
+constexpr std::size_t kDeepest = 64;  // files that include each other
 // It takes some 25 bytes for one of the file.
 constexpr std::uint64_t kMostBytes = 32'000'000;
 
@@ -111,6 +112,8 @@ class Follower {
     }
     if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
     require_sdf(*document.RootElement(), file);
+    if (open_.size() == kDeepest)
+      throw InputError(file, "is included by " + std::to_string(kDeepest) + " files in a row");
     open_.push_back(file);
     const std::uint64_t models = walk(*document.RootElement(), file);
     open_.pop_back();

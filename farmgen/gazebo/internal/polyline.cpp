@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deque>
+#include <string>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -13,6 +14,7 @@ namespace plotscan::gazebo {
 namespace {
 
 constexpr int kUnknown = -1;
+constexpr std::size_t kMostPoints = 2000;  // whose edges may cross, each every other
 
 // The number of loops that a face lies within, and the number of a vertex.
 struct Depth {
@@ -28,6 +30,12 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 
 Triangulation triangulated(const std::vector<std::vector<Eigen::Vector2d>>& loops) {
+  std::size_t points = 0;
+  for (const auto& loop : loops) points += loop.size();
+  if (points > kMostPoints) {
+    throw InputError("a polyline has " + std::to_string(points) + " points; at most " +
+                     std::to_string(kMostPoints) + " are read");
+  }
   Triangulation triangulation;
   for (const auto& loop : loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -39,20 +47,26 @@ Triangulation triangulated(const std::vector<std::vector<Eigen::Vector2d>>& loop
   return triangulation;
 }
 
-// From outside inwards: crossing a loop's edge leads one deeper.
+// From outside inwards: crossing a loop's edge leads one deeper. A face's number is the least of
+// all ways to it, so a bridge that a loop runs along twice, to its own hole and back, does not
+// count.
 void count_loops(const Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return;
-  std::deque<Triangulation::Face_handle> open = {triangulation.infinite_face()};
-  open.front()->info().loops = 0;
+  struct Way {
+    Triangulation::Face_handle face;
+    int loops = 0;
+  };
+  std::deque<Way> open = {{triangulation.infinite_face(), 0}};  // fewer loops first
   while (!open.empty()) {
-    const Triangulation::Face_handle face = open.front();
+    const Way way = open.front();
     open.pop_front();
+    if (way.face->info().loops != kUnknown) continue;
+    way.face->info().loops = way.loops;
     for (int edge = 0; edge < 3; ++edge) {
-      const Triangulation::Face_handle next = face->neighbor(edge);
-      if (next->info().loops != kUnknown) continue;
-      const bool crosses = face->is_constrained(edge);
-      next->info().loops = face->info().loops + (crosses ? 1 : 0);
-      crosses ? open.push_back(next) : open.push_front(next);
+      if (way.face->is_constrained(edge))
+        open.push_back({way.face->neighbor(edge), way.loops + 1});
+      else
+        open.push_front({way.face->neighbor(edge), way.loops});
     }
   }
 }

@@ -16,7 +16,6 @@
 namespace plotscan::lidar {
 namespace {
 
-constexpr double kMaxFlight_s = 24 * 3600;
 // Beyond this, the steps of the cloud's float32 positions are coarser than a centimetre.
 constexpr double kFarthest_m = 1e5;
 
@@ -51,7 +50,7 @@ double wind_on_drone(const flight::Quadrotor& quadrotor, const FlyOptions& optio
 }
 
 void require_duration(double duration_s) {
-  if (duration_s <= kMaxFlight_s) return;
+  if (duration_s <= scan::kLongestFlight_s) return;
   throw InputError("the flight takes " + format_number(std::round(duration_s)) +
                    " s, more than 24 hours; fly faster, or wider strips");
 }
@@ -74,10 +73,7 @@ scan::Trajectory planned_flight(const Site& site, const Scene& scene, const FlyO
 
 scan::Trajectory read_flight(const std::filesystem::path& file) {
   const scan::Trajectory read = scan::read_trajectory(file);
-  if (read.end_s() - read.start_s() > kMaxFlight_s) {
-    throw InputError(file, "the flight takes " + format_number(read.end_s() - read.start_s()) +
-                               " s; at most " + format_number(kMaxFlight_s) + " s are allowed");
-  }
+  scan::require_flight_time(file, read);
   std::vector<scan::StampedPose> poses = read.poses();
   for (scan::StampedPose& pose : poses) {
     if (pose.position_m.cwiseAbs().maxCoeff() > kFarthest_m)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/points.h"
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
@@ -41,9 +42,11 @@ std::string choose(const std::map<std::string, CloudTopic>& topics, const std::s
 std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, const FramePath& path,
                                           const Eigen::Vector3d& origin_m) {
   const Eigen::Vector3d position(point.x, point.y, point.z);
+  if (!position.allFinite() || !std::isfinite(point.time)) return std::nullopt;
   const auto top_from_frame = path.top_from_frame(point.time);
-  if (!top_from_frame || !position.allFinite()) return std::nullopt;
+  if (!top_from_frame) return std::nullopt;
   const Eigen::Vector3f world = (*top_from_frame * position - origin_m).cast<float>();
+  if (!world.allFinite()) return std::nullopt;
   point.x = world.x();
   point.y = world.y();
   point.z = world.z();

@@ -117,7 +117,9 @@ void RosRecorder::require_flown(double time_s) const {
 
 void RosRecorder::close() {
   if (encoder_) encoder_->close();
-  while (static_cast<double>(sweeps_done_) * sweep_interval_s_ < duration_s_) end_sweep();
+  // Points may be measured shortly after the trajectory's end.
+  while (static_cast<double>(sweeps_done_) * sweep_interval_s_ < duration_s_ || sweep_.width > 0)
+    end_sweep();
   advance(duration_s_);
   file_->close();
 }

@@ -231,7 +231,7 @@ bool says_geographic(const std::string& wkt) {
 void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
   const std::string crs = "EPSG:" + std::to_string(layout.crs_epsg);
   if (layout.crs_epsg == 0 || stated.wkt.horizontal_m || stated.keys.horizontal_m) return;
-  if (utm_system(crs) || says_geographic(crs)) return;
+  if (utm_system(crs) || is_geographic(crs)) return;
   layout.notes.push_back("it states no unit, and that of its system, " + crs +
                          ", is not known here: taken for metres; --units says otherwise");
 }

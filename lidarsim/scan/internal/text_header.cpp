@@ -83,6 +83,7 @@ void take_header_line(const HeaderLines& lines, std::string_view line, TextHeade
     header.has_count = true;
     return;
   }
+  header.has_count = header.has_count && comment;  // the points begin after names
   header.names = line.substr(begin);
   header.names_in_comment = comment;
   header.names_line = lines.line();
@@ -99,10 +100,10 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
     const std::optional<std::string> text = lines.next_text();
     if (!text) break;
     const std::string_view line = without_byte_order_mark(*text);
+    if (lines.line() == 1) layout.body_offset += text->size() - line.size();
     split_columns(line, separator_of(line), columns);
     if (!is_comment(line) && is_point(columns)) {
       header.first_point = line;
-      if (text->size() != line.size()) layout.body_offset += text->size() - line.size();
       return header;
     }
     if (!is_comment(line) && has_decimal_commas(line)) {

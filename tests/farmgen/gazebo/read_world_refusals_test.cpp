@@ -153,6 +153,27 @@ TEST_F(ReadWorld, MissingMeshesNameModelVisualAndPlaces) {
               AllOf(HasSubstr("model \"hut\""), HasSubstr("<mesh> has no <uri>")));
 }
 
+// One model in a file, but thousands of files that wait for it.
+TEST_F(ReadWorld, IncludesAreNotDeep) {
+  for (int i = 0; i < 100; ++i) {
+    folder_.write("part_" + std::to_string(i) + ".sdf",
+                  "<sdf version='1.9'><model name='m'><include><uri>part_" + std::to_string(i + 1) +
+                      ".sdf</uri></include></model></sdf>");
+  }
+  EXPECT_THAT(refusal("<include><uri>part_0.sdf</uri></include>"),
+              HasSubstr("is included by 64 files in a row"));
+}
+
+TEST_F(ReadWorld, PolylinesOfThousandsOfPointsAreRefused) {
+  std::string points;
+  for (int i = 0; i < 2001; ++i)
+    points += "<point>" + std::to_string(i) + " " + std::to_string(i % 2) + "</point>";
+  EXPECT_THAT(
+      refusal(model_text("m", "0 0 0 0 0 0",
+                         visual_text("<polyline>" + points + "<height>1</height></polyline>"))),
+      HasSubstr("has 2001 points; at most 2000"));
+}
+
 TEST_F(ReadWorld, NumbersThatAreNoneAreRefused) {
   folder_.write("mesh.obj", kTriangle);
   const auto shaped = [&](const std::string& shape) {

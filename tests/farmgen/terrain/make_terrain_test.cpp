@@ -158,6 +158,8 @@ TEST(Xyz, BrokenFilesAreRefusedWithTheLine) {
     return refusal(folder, "xyz: p.xyz");
   };
   const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_THAT(message("1e308 0 0\n1.1e308 1 0\n1.2e308 0 1\n"),
+              HasSubstr("p.xyz: has a coordinate beyond 1e+09"));
   EXPECT_THAT(message(three + "0 0\n"), HasSubstr("p.xyz:4: has 2 of the three numbers"));
   EXPECT_THAT(message(three + "0 0 0 7\n"), HasSubstr("p.xyz:4: has more than three numbers"));
   EXPECT_THAT(message(three + "2 0 nan\n"), HasSubstr("p.xyz:4: \"nan\" is not finite"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/positions.h"
 
+#include <cmath>
+
 #include "lidarsim/record/ros_flight.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
@@ -37,7 +39,8 @@ std::string refusal(const CloudFiles& cloud) {
 
 // Two points of a sensor 1 m above a body that flies 20 m east, 2 s long, from `start_m` on. They
 // were met 2 m ahead of the sensor: 1 s and 1.25 s after the body's start.
-fs::path write_ros(const fs::path& file, const Eigen::Vector3d& start_m) {
+fs::path write_ros(const fs::path& file, const Eigen::Vector3d& start_m,
+                   float third_point_s = 1.5f) {  // after the last transform
   auto writer = testing::create_file(file, {{.name = "/tf", .type = ros::TFMessage::kType},
                                             {.name = "/points", .type = ros::PointCloud2::kType}});
   const auto transform = [](std::int64_t ns, const char* parent, const char* child,
@@ -58,7 +61,7 @@ fs::path write_ros(const fs::path& file, const Eigen::Vector3d& start_m) {
   auto cloud = labelled_cloud({.stamp = {2 * kSecond_ns}, .frame_id = "lidar"});
   add_point(cloud, {.label = scan::PointClass::crop, .plot = 3}, {2, 0, 0}, 0);
   add_point(cloud, {}, {2, 0, 0}, 0.25f);
-  add_point(cloud, {}, {2, 0, 0}, 1.5f);  // after the last transform
+  add_point(cloud, {.intensity = std::nanf("")}, {2, 0, 0}, third_point_s);
   writer->write(1, {2 * kSecond_ns}, ros::encode(writer->version(), cloud));
   writer->close();
   return file;
@@ -110,6 +113,13 @@ TEST(RecordedPositions, OfAPcapLieAlongItsTrajectory) {
   EXPECT_EQ(read_cloud_system(cloud).crs, "EPSG:32617");
   cloud.crs = "EPSG:4326";
   EXPECT_THAT(message_of<InputError>([&] { read_cloud_system(cloud); }), HasSubstr("in metres"));
+}
+
+TEST(RecordedPositions, PointsWithoutATimeAreLeftOut) {
+  const TemporaryFolder folder;
+  const CloudFiles cloud(write_ros(folder.path() / "flight.bag", {0, 0, 0}, std::nanf("")));
+  for (const Eigen::Vector3d& position : positions_of(cloud)) EXPECT_TRUE(position.allFinite());
+  EXPECT_EQ(read_positions(cloud, [](auto) {}).not_finite, 1u);
 }
 
 // Each is named, whatever comes after it.

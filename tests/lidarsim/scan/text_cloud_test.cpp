@@ -86,6 +86,10 @@ TEST_F(TextCloud, CountsArePromises) {
   EXPECT_EQ(read("2\n512345.6789 4123456.7891 -1.5 -1200\n0.001 20 3 40\n", "a.pts"), kPoints);
   EXPECT_EQ(read("1\n512345.6789 4123456.7891 -1.5\n1\n0.001 20 3\n", "b.pts"), kPoints);
   EXPECT_EQ(read("//X Y Z\n2\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"), kPoints);
+  EXPECT_EQ(read("\xef\xbb\xbf"
+                 "2\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"),
+            kPoints);
+  EXPECT_EQ(read("2\nx y z\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"), kPoints);
   EXPECT_THAT(refusal("3\n1 2 3\n4 5 6\n"), HasSubstr("promises 3 points, the file holds 2"));
   EXPECT_THAT(refusal("3\n1 2 3\n2\n4 5 6\n7 8 9\n"),
               HasSubstr("cloud.txt:3: 3 points are promised before this line, 1 are there"));

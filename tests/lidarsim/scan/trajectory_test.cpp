@@ -111,6 +111,15 @@ TEST(Trajectory, BrokenFilesAreRefusedByLine) {
   EXPECT_THAT(trajectory_refusal(header + "0,0,0,8,0,0,0\n"), HasSubstr("flight:2: has 7 fields"));
 }
 
+// Nanoseconds that were taken for seconds.
+TEST(Trajectory, FlightsOfMoreThanADayAreRefused) {
+  const Trajectory day({{.time_s = 5}, {.time_s = 5 + kLongestFlight_s}});
+  EXPECT_NO_THROW(require_flight_time("flight.tum", day));
+  const Trajectory longer({{.time_s = 5}, {.time_s = 1e11}});
+  EXPECT_THAT(message_of<InputError>([&] { require_flight_time("flight.tum", longer); }),
+              HasSubstr("flight.tum: the flight takes"));
+}
+
 TEST(Trajectory, BrokenPosesAreRefused) {
   EXPECT_THROW(Trajectory(std::vector<StampedPose>(1)), InputError);
   EXPECT_THROW(Trajectory({{.time_s = 1}, {.time_s = 0}}), InputError);

@@ -177,8 +177,8 @@ HeightColours add_cloud(vtkRenderer& renderer, const std::filesystem::path& clou
                         const CloudLook& look) {
   const ColouredPoints points = points_in_field(cloud, terrain, field);
   const HeightColours colours{.top_m = std::max(0.1, quantile(points.heights_m, kTopShare))};
-  const std::size_t stride =
-      points.positions.size() / std::max<std::size_t>(1, look.most_points) + 1;
+  const std::size_t most = std::max<std::size_t>(1, look.most_points);
+  const std::size_t stride = std::max<std::size_t>(1, (points.positions.size() + most - 1) / most);
   vtkNew<vtkPoints> positions;
   vtkNew<vtkUnsignedCharArray> colour;
   colour->SetNumberOfComponents(3);

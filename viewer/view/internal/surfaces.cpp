@@ -2,6 +2,8 @@
 #include "view/internal/surfaces.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 #include <png.h>
 #include <vtkActor.h>
@@ -17,6 +19,7 @@
 #include <vtkTexture.h>
 
 #include "core/error.h"
+#include "mesh/alpha_mask.h"
 
 namespace plotscan::view {
 namespace {
@@ -28,11 +31,19 @@ bool unpainted(const mesh::Material& material) {
   return material.name.empty() && material.texture == nullptr;
 }
 
+void require_size(std::uint64_t width, std::uint64_t height) {
+  if (width * height <= mesh::AlphaMask::kMostTexels) return;
+  throw InputError("a texture has " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels; at most " + std::to_string(mesh::AlphaMask::kMostTexels) +
+                   " are drawn");
+}
+
 // Not by VTK 9.1's reader, which crashes on a broken PNG in memory. Null where it is broken.
 vtkSmartPointer<vtkImageData> decoded_png(const std::string& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return nullptr;
+  require_size(png.width, png.height);
   const bool transparent = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
   png.format = transparent ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -49,6 +60,10 @@ vtkSmartPointer<vtkImageData> decoded_jpeg(const std::string& bytes) {
   vtkNew<vtkJPEGReader> reader;
   reader->SetMemoryBuffer(bytes.data());
   reader->SetMemoryBufferLength(static_cast<vtkIdType>(bytes.size()));
+  reader->UpdateInformation();
+  const int* const extent = reader->GetDataExtent();
+  require_size(static_cast<std::uint64_t>(std::max(0, extent[1])) + 1,
+               static_cast<std::uint64_t>(std::max(0, extent[3])) + 1);
   reader->Update();
   const bool whole = reader->GetErrorCode() == 0 && reader->GetOutput()->GetNumberOfPoints() > 1;
   return whole ? reader->GetOutput() : nullptr;

@@ -170,6 +170,7 @@ scan::LabelledPoint CloudPoints::point(std::size_t index) const {
   set(point.y, at, y_);
   set(point.z, at, z_);
   set(point.intensity, at, intensity_);
+  if (!std::isfinite(point.intensity)) point.intensity = 0;
   set(point.ring, at, ring_);
   set(point.time, at, time_);
   if (!time_ && time_ns_) point.time = 1e-9 * number(at, *time_ns_);

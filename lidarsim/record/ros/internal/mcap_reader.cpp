@@ -12,6 +12,8 @@
 namespace plotscan::record::ros {
 namespace {
 
+constexpr std::uint64_t kLatest_ns = 4'294'967'296'000'000'000;  // 32 bits of seconds, as ROS has
+
 // "sensor_msgs/Imu" of "sensor_msgs/msg/Imu".
 std::string ros1_name(std::string type) {
   const auto at = type.find("/msg/");
@@ -86,7 +88,9 @@ class McapReader {
     const auto channel = channels_.find(content.number<std::uint16_t>());
     if (channel == channels_.end()) throw InputError("is broken: a message of an unknown channel");
     content.number<std::uint32_t>();  // sequence
-    const Time time{content.number<std::int64_t>()};
+    const auto logged_ns = content.number<std::uint64_t>();
+    if (logged_ns >= kLatest_ns) throw InputError("is broken: a message of a time beyond 2106");
+    const Time time{static_cast<std::int64_t>(logged_ns)};
     content.number<std::int64_t>();  // publish time
     const bool is_ros1 = channel->second.encoding == "ros1";
     if (!is_ros1 && channel->second.encoding != "cdr") return;
