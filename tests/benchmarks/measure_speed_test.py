@@ -67,6 +67,11 @@ class MeasureSpeed(unittest.TestCase):
         lines = speed.alarms({"fast": row(0.34), "slow": row(0.32), "unknown": row(0.01)}, {"fast": 1, "slow": 1})
         self.assertEqual(lines, ["slow: ratio 0.32, usually 1; below 0.333"])
 
+    def test_formats_have_more_room_as_their_reference_is_the_memory(self):
+        rows = {"writing .pcd": row(0.17), "reading .las": row(0.16)}
+        lines = speed.alarms(rows, {"writing .pcd": 1, "reading .las": 1})
+        self.assertEqual(lines, ["reading .las: ratio 0.16, usually 1; below 0.167"])
+
     def test_an_alarm_names_a_row_that_is_gone_unless_the_build_lacks_the_format(self):
         self.assertEqual(speed.alarms({}, {"a stage": 1, "reading .laz": 1}), ["a stage: not measured"])
 
