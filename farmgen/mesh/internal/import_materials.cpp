@@ -13,6 +13,7 @@
 #include <assimp/scene.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "mesh/alpha_mask.h"
 #include "mesh/internal/mtl_comments.h"
 
@@ -31,6 +32,13 @@ std::string image_name(const std::string& file) {
     if (!plain) c = '_';
   }
   return name;
+}
+
+// That of a picture: another name might be that of the model or of its materials.
+std::string with_image_extension(const std::string& name, const std::string& bytes) {
+  const std::string extension = lower_extension(name);
+  if (extension == ".png" || extension == ".jpg" || extension == ".jpeg") return name;
+  return name + (bytes.starts_with("\x89PNG") ? ".png" : ".jpg");
 }
 
 // An image that a material names, and why there is none where it names one in vain.
@@ -59,6 +67,7 @@ FoundImage found_image(const std::filesystem::path& path, const aiScene& scene,
     image.name = image_name(file);
   }
   if (!is_image(image.bytes)) return {.missing = name + " is neither PNG nor JPEG"};
+  image.name = with_image_extension(image.name, image.bytes);
   return {.image = std::make_shared<const Image>(std::move(image))};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "record/ros/file.h"
 #include "record/ros/internal/cloud.h"
 #include "scan/point_reader.h"
@@ -22,19 +23,37 @@ struct CloudTopic {
   std::string frame;
   std::uint64_t points = 0;
   std::vector<std::string> fields;
+  std::string error;  // why its clouds cannot be read; "" if they can
 };
 
-std::string choose(const std::map<std::string, CloudTopic>& topics, const std::string& wanted) {
-  std::string names;
-  for (const auto& [name, topic] : topics) names += (names.empty() ? "" : ", ") + name;
+using CloudTopics = std::map<std::string, CloudTopic>;
+
+void take_cloud(const ros::PointCloud2& cloud, CloudTopic& topic) {
+  topic.frame = cloud.header.frame_id;
+  topic.points += std::uint64_t{cloud.width} * cloud.height;
+  try {
+    topic.fields = CloudPoints(cloud).fields();
+  } catch (const InputError& error) {  // another topic may be wanted
+    topic.error = error.what();
+  }
+}
+
+std::string choose(const CloudTopics& topics, const std::string& wanted) {
   if (topics.empty()) throw InputError("holds no clouds (sensor_msgs/PointCloud2)");
+  std::vector<std::string> names, readable;
+  for (const auto& [name, topic] : topics) {
+    names.push_back(name);
+    if (topic.error.empty()) readable.push_back(name);
+  }
   if (!wanted.empty() && !topics.contains(wanted))
-    throw InputError("holds no clouds of topic " + wanted + "; it has " + names);
+    throw InputError("holds no clouds of topic " + wanted + "; it has " + joined(names, ", "));
   if (!wanted.empty()) return wanted;
   if (topics.contains(kVelodynePoints)) return kVelodynePoints;
-  if (topics.size() > 1)
-    throw InputError("holds clouds of several topics; choose one by --topic: " + names);
-  return topics.begin()->first;
+  if (readable.size() > 1) {
+    throw InputError("holds clouds of several topics; choose one by --topic: " +
+                     joined(readable, ", "));
+  }
+  return readable.empty() ? names.front() : readable.front();
 }
 
 // The point in the world frame relative to origin_m, its time unchanged; nothing if no transform is
@@ -57,7 +76,7 @@ std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, const Frame
 
 RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic) : file_(file) {
   RosTransforms transforms;
-  std::map<std::string, CloudTopic> clouds;
+  CloudTopics clouds;
   bool is_first = true;
   ros::read_messages(file, [&](const ros::Message& message) {
     if (is_first) start_.ns = message.time.ns / kMicrosecond_ns * kMicrosecond_ns;
@@ -66,18 +85,17 @@ RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic
       transforms.add(ros::decode<ros::TFMessage>(message.version, message.bytes), start_,
                      message.topic.name == "/tf_static");
     } else if (message.topic.type == ros::PointCloud2::kType) {
-      const auto cloud = ros::decode<ros::PointCloud2>(message.version, message.bytes);
-      CloudTopic& of_topic = clouds[message.topic.name];
-      of_topic.frame = cloud.header.frame_id;
-      of_topic.fields = CloudPoints(cloud).fields();
-      of_topic.points += std::uint64_t{cloud.width} * cloud.height;
+      take_cloud(ros::decode<ros::PointCloud2>(message.version, message.bytes),
+                 clouds[message.topic.name]);
     }
   });
   try {
     topic_ = choose(clouds, topic);
-    points_ = clouds.at(topic_).points;
-    fields_ = clouds.at(topic_).fields;
-    path_ = transforms.path(clouds.at(topic_).frame);
+    const CloudTopic& chosen = clouds.at(topic_);
+    if (!chosen.error.empty()) throw InputError(chosen.error);
+    points_ = chosen.points;
+    fields_ = chosen.fields;
+    path_ = transforms.path(chosen.frame);
     if (const auto motion = path_.motion())
       origin_m_ = scan::origin_near(motion->poses().front().position_m);
   } catch (const InputError& error) {

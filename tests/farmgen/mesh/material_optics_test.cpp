@@ -120,6 +120,16 @@ TEST(Mask, SurvivesAnObjFileAndItsMtl) {
   EXPECT_TRUE(again.materials == mesh.materials);
 }
 
+// A picture may be called as what is written beside it.
+TEST(Mask, AnImageHasTheNameOfAPicture) {
+  const TemporaryFolder folder;
+  folder.write("images/again.mtl", png_of_alpha(8, 8, left_or_low));
+  const Mesh mesh = square(folder, "map_Kd images/again.mtl\n");
+  std::filesystem::create_directory(folder.path() / "out");
+  write_obj(folder.path() / "out/again.obj", mesh);
+  expect_left_or_low(import_mesh(folder.path() / "out/again.obj"));
+}
+
 TEST(Mask, HasTheCutoffThatTheFileStates) {
   const TemporaryFolder folder;
   folder.write("ramp.png", png_of_grey(256, 1, [](int column, int) { return column; }));

@@ -183,6 +183,22 @@ TEST_P(RosFiles, FilesWithoutCloudsAreRefused) {
               HasSubstr("holds no clouds"));
 }
 
+// A camera's or a detector's cloud beside the sensor's.
+TEST_P(RosFiles, CloudsWithoutPositionsAreNoConcernOfOthers) {
+  const std::vector<ros::Topic> topics = {{.name = "/empty", .type = ros::PointCloud2::kType},
+                                          {.name = "/lidar", .type = ros::PointCloud2::kType}};
+  auto writer = testing::create_file(file("mixed"), topics);
+  const ros::PointCloud2 empty{.header = {.stamp = {2'000'000'000}, .frame_id = "camera"}};
+  writer->write(0, {2'000'000'000}, ros::encode(writer->version(), empty));
+  auto cloud = labelled_cloud({.stamp = {2'000'000'000}, .frame_id = "sensor"});
+  add_point(cloud, {}, {1, 2, 3}, 0);
+  writer->write(1, {2'000'000'000}, ros::encode(writer->version(), cloud));
+  writer->close();
+  EXPECT_EQ(RosPoints(file("mixed"), "/lidar").points(), 1u);
+  EXPECT_EQ(RosPoints(file("mixed")).points(), 1u);  // the only one that can be read
+  EXPECT_THROW(RosPoints(file("mixed"), "/empty"), InputError);
+}
+
 TEST_P(RosFiles, ATopicIsChosenWhereThereAreSeveral) {
   const std::vector<ros::Topic> topics = {{.name = "/front", .type = ros::PointCloud2::kType},
                                           {.name = "/rear", .type = ros::PointCloud2::kType}};
