@@ -152,6 +152,11 @@ TEST(PlotPicture, RefusesWhatItCannotDraw) {
               HasSubstr("no height 'p94'; it has: max, mean, p95"));
   EXPECT_THAT(refusal(one_plot(), 7, {.beyond_m = -1}), HasSubstr("beyond"));
   EXPECT_THAT(refusal(one_plot(), 7, {.width_px = 10}), HasSubstr("picture width"));
+  const std::string long_name(200, 'x');
+  estimate::Estimate wordy = one_plot();
+  wordy.plots.front().heights_m[long_name] = 0.5;
+  EXPECT_THAT(refusal(wordy, 7, {.heights = {long_name}, .width_px = 600}),
+              HasSubstr("leave no room for the plot in a picture 600 px wide"));
   auto groundless = one_plot();
   groundless.ground.reset();
   EXPECT_THAT(refusal(groundless, 7, {}), HasSubstr("has no ground"));

@@ -143,9 +143,10 @@ PlotPage lay_out_plot(const Scene& scene, const PlotPictureOptions& options) {
                              std::max(kLeastChart * em, options.height_px - below - above));
   if (room.x() < kLeastChart * em) {
     throw InputError(
-        fmt::format("the names of the plot's heights leave no room in a picture {} px "
-                    "wide; --width {:.0f} does",
-                    options.width_px, std::ceil(left + right + kLeastChart * em)));
+        fmt::format("the names of the plot's heights leave no room for the plot in a "
+                    "picture {} px wide; choose shorter ones by --heights, or a "
+                    "larger --width",
+                    options.width_px));
   }
   const double px_per_m = room.cwiseQuotient(shown.sizes()).minCoeff();
   const auto fits = [&](double times) {
