@@ -155,7 +155,7 @@ TEST(PlotPicture, RefusesWhatItCannotDraw) {
   const std::string long_name(200, 'x');
   estimate::Estimate wordy = one_plot();
   wordy.plots.front().heights_m[long_name] = 0.5;
-  EXPECT_THAT(refusal(wordy, 7, {.heights = {long_name}, .width_px = 600}),
+  EXPECT_THAT(refusal(wordy, 7, {.width_px = 600, .heights = {long_name}}),
               HasSubstr("leave no room for the plot in a picture 600 px wide"));
   auto groundless = one_plot();
   groundless.ground.reset();
