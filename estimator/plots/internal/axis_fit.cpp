@@ -156,6 +156,16 @@ std::vector<std::vector<int>> rounded(const std::vector<std::vector<double>>& li
   return whole;
 }
 
+// With bands where plots may stand that showed none: low or lodged ones.
+std::vector<std::vector<int>> filled_in(const std::vector<std::vector<int>>& lines) {
+  std::vector<std::vector<double>> filled;
+  for (const std::vector<int>& line : lines) {
+    filled.emplace_back(line.begin(), line.end());
+    fill_in(filled.back());
+  }
+  return rounded(filled);
+}
+
 }  // namespace
 
 Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
@@ -183,6 +193,7 @@ AxisFit put_together(const Line& line, AxisFit fit) {
     fit.shape.size = joined->size;
     fit.begins = std::move(joined->begins);
   }
+  fit.begins = filled_in(fit.begins);
   return fit;
 }
 

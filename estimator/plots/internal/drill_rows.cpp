@@ -74,29 +74,22 @@ Groups groups_of(const std::vector<double>& line, double widest_step) {
   return groups;
 }
 
-// Adds places at equal steps between others, where not all rows of a plot were seen.
-void fill_in(std::vector<double>& places) {
-  constexpr double kTolerance = 0.15;  // of a step
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < places.size(); ++i) steps.push_back(places[i] - places[i - 1]);
-  const double step = usual_step(steps);
-  std::vector<double> filled;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double times = i > 0 && step > 0 ? (places[i] - places[i - 1]) / step : 1;
-    const double whole = std::round(times);
-    if (std::abs(times - whole) < kTolerance) {
-      for (int k = 1; k < static_cast<int>(whole); ++k)
-        filled.push_back(places[i - 1] + k / whole * (places[i] - places[i - 1]));
-    }
-    filled.push_back(places[i]);
-  }
-  places = std::move(filled);
-}
-
 struct Grouped {
   DrilledPlots plots;
   double others = 1;  // share of the groups that are no whole plot
+  double odd = 0;     // such groups, and steps within a group that are wider than one spacing
 };
+
+// Steps within a group that are as wide as those between plots would be: these groups hold several
+// plots, between two alleys.
+double wide_steps(const std::vector<double>& line, const Steps& steps) {
+  double wide = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double step = line[i] - line[i - 1];
+    wide += step <= steps.within && step > (1 + kLeastGapOfSpacing) * steps.spacing ? 1 : 0;
+  }
+  return wide;
+}
 
 // The rows in groups between wider steps.
 std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
@@ -110,10 +103,11 @@ std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
   DrilledPlots plots{.rows = static_cast<int>(most_frequent(sizes)), .spacing = steps.spacing};
   if (plots.rows < 2 || plots.rows > kMostSownRows) return std::nullopt;
   const double span = (plots.rows - 1) * steps.spacing;
-  double all = 0, whole = 0, length = 0;
+  double all = 0, whole = 0, length = 0, wide = 0;
   for (std::size_t i = 0; i < middles.size(); ++i) {
     const std::vector<double>& line = middles[i];
     plots.begins.emplace_back();
+    wide += wide_steps(line, steps);
     for (const auto& [first, last] : groups[i]) {
       ++all;
       const double found = line[last] - line[first];
@@ -125,7 +119,7 @@ std::optional<Grouped> grouped(const Lines& middles, const Steps& steps) {
   }
   if (whole == 0) return std::nullopt;
   plots.spacing = length / (whole * (plots.rows - 1));
-  return Grouped{.plots = std::move(plots), .others = 1 - whole / all};
+  return Grouped{.plots = std::move(plots), .others = 1 - whole / all, .odd = all - whole + wide};
 }
 
 }  // namespace
@@ -139,9 +133,10 @@ std::optional<DrilledPlots> drilled_plots(const Lines& middles, double most_spac
         steps.spacing + 0.5 * std::max(least_gap, kLeastGapOfSpacing * steps.spacing);
     if (steps.spacing > most_spacing || steps.between < least_break) continue;
     std::optional<Grouped> rows = grouped(middles, steps);
-    if (rows && (!best || rows->others < best->others)) best = std::move(rows);
+    if (!rows || rows->others > kMostOthers) continue;
+    if (!best || rows->odd < best->odd) best = std::move(rows);
   }
-  if (!best || best->others > kMostOthers) return std::nullopt;
+  if (!best) return std::nullopt;
   DrilledPlots plots = std::move(best->plots);
   for (std::vector<double>& line : plots.begins) {
     fill_in(line);

@@ -11,6 +11,9 @@ namespace plotscan::plots {
 // quartile. 0 where there are none.
 double usual_step(std::vector<double> steps);
 
+// Adds places at equal steps between others, where a step is a whole multiple of the usual one.
+void fill_in(std::vector<double>& places);
+
 // Where the parabola through three values has its top, in steps from the middle one; 0 where it has
 // none.
 double parabola_top(double before, double middle, double after);

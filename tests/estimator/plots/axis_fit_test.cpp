@@ -71,6 +71,17 @@ TEST(PutTogether, MakesPlotsOfDrillRows) {
   EXPECT_FALSE(put_together(told, fit_axis(told, true)).drilled);
 }
 
+// The third plot is lodged and the fourth of five is low: no band shows them.
+TEST(PutTogether, FillsInWhereABandIsNotSeen) {
+  const CanopyRaster raster = striped({1, 3, 9}, 1.2);
+  const Line line = line_along(raster);
+  const AxisFit plots = put_together(line, fit_axis(line, true));
+  ASSERT_EQ(plots.seen.front().size(), 3U);
+  ASSERT_EQ(plots.begins.front().size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(plots.begins.front()[i], 20 + 40 * static_cast<int>(i), 1);
+}
+
 TEST(FitAxis, HasTheSideAndTheCountThatWereTold) {
   const CanopyRaster raster = striped({1, 3, 5, 7, 9}, 1.2);
   EXPECT_EQ(fit_axis(line_along(raster, {.side_m = 1.2}), true).shape.size, 24);

@@ -66,6 +66,18 @@ TEST(DrilledPlots, AreToldFromMissingOnes) {
   EXPECT_NEAR(plots->spacing, 12, 1e-9);
 }
 
+// Three plots of four rows before an alley, and three behind it.
+TEST(DrilledPlots, AreToldFromThoseBetweenAlleys) {
+  for (const int rows : {2, 4}) {
+    std::vector<double> middles = rows_of(3, rows, 10, 8);
+    for (const double middle : rows_of(3, rows, 10, 8)) middles.push_back(middle + 200);
+    const auto plots = drilled_plots({middles}, 22, 3);
+    ASSERT_TRUE(plots) << rows;
+    EXPECT_EQ(plots->rows, rows);
+    EXPECT_NEAR(plots->spacing, 10, 1e-9);
+  }
+}
+
 TEST(DrilledPlots, AreNoneOfPlotsOrOfRowsWithoutAlleys) {
   EXPECT_FALSE(drilled_plots({rows_of(8, 1, 30, 20)}, 22, 3)) << "wide plots";
   EXPECT_FALSE(drilled_plots({rows_of(1, 20, 8, 0)}, 22, 3)) << "rows of one field";
