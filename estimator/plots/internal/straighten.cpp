@@ -108,31 +108,38 @@ struct Positions {
   std::vector<double> in_place = std::vector<double>(at.size(), 1);  // 0: its plots lie beside it
 };
 
-// Whether steps differ from the usual one, beyond their errors: -1 narrower, 1 wider, 0 neither.
-std::vector<int> unusual_steps(const std::vector<double>& positions,
-                               const std::vector<double>& counts, double sigma_m) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < positions.size(); ++i)
-    steps.push_back(positions[i] - positions[i - 1]);
-  const double step_m = quantile(steps, 0.5);
-  std::vector<int> unusual;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const double error_m = sigma_m * std::sqrt(1 / counts[i] + 1 / counts[i + 1]);
-    const double off_m = steps[i] - step_m;
-    const bool clear = std::abs(off_m) > std::max(0.06, 4 * error_m);
-    unusual.push_back(clear ? (off_m > 0 ? 1 : -1) : 0);
+// Rows or columns as measured, each the mean of `counts` centres of error sigma_m.
+struct MeasuredLines {
+  const std::vector<double>& at;
+  const std::vector<double>& counts;
+  double sigma_m = 0;
+  double step_m = 0;  // the usual one
+
+  // Whether the way from one to another differs from as many usual steps, beyond its error: -1
+  // shorter, 1 longer, 0 neither.
+  int unusual(std::size_t from, std::size_t to) const {
+    const double error_m = sigma_m * std::sqrt(1 / counts[from] + 1 / counts[to]);
+    const double off_m = at[to] - at[from] - static_cast<double>(to - from) * step_m;
+    if (std::abs(off_m) <= std::max(0.06, 4 * error_m)) return 0;
+    return off_m > 0 ? 1 : -1;
   }
-  return unusual;
+};
+
+MeasuredLines measured_lines(const std::vector<double>& at, const std::vector<double>& counts,
+                             double sigma_m) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < at.size(); ++i) steps.push_back(at[i] - at[i - 1]);
+  return {.at = at, .counts = counts, .sigma_m = sigma_m, .step_m = quantile(steps, 0.5)};
 }
 
-// Whether a row lies between a step that is too wide and one that is too narrow, while the steps
-// beyond are as usual: its plots are lodged, or leaves were taken for plots. (Where wide and narrow
-// steps alternate, the field was sown so.)
-bool is_out_of_place(std::size_t row, const std::vector<int>& unusual) {
+// Whether a row lies between a step that is too wide and one that is too narrow, two usual ones
+// together, while the steps beyond are as usual: its plots are lodged, or leaves were taken for
+// plots. (Where wide and narrow steps alternate, the field was sown so.)
+bool is_out_of_place(std::size_t row, const std::vector<int>& unusual, const MeasuredLines& lines) {
   if (row == 0 || row == unusual.size() || unusual[row - 1] * unusual[row] != -1) return false;
   const bool alone_before = row < 2 || unusual[row - 2] == 0;
   const bool alone_behind = row + 1 >= unusual.size() || unusual[row + 1] == 0;
-  return alone_before && alone_behind;
+  return alone_before && alone_behind && lines.unusual(row - 1, row + 1) == 0;
 }
 
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
@@ -142,10 +149,13 @@ Positions with_equal_steps(const std::vector<double>& positions, const std::vect
   const auto size = static_cast<Eigen::Index>(positions.size());
   Positions as_they_are{.at = positions, .parameters = static_cast<double>(size)};
   if (size < 3) return as_they_are;
-  const std::vector<int> unusual = unusual_steps(positions, counts, sigma_m);
+  const MeasuredLines lines = measured_lines(positions, counts, sigma_m);
+  std::vector<int> unusual;
+  for (std::size_t row = 1; row < positions.size(); ++row)
+    unusual.push_back(lines.unusual(row - 1, row));
   std::vector<double> in_place, weights;
   for (std::size_t row = 0; row < positions.size(); ++row) {
-    in_place.push_back(is_out_of_place(row, unusual) ? 0 : 1);
+    in_place.push_back(is_out_of_place(row, unusual, lines) ? 0 : 1);
     weights.push_back(in_place.back() * std::sqrt(counts[row]));
   }
   std::vector<std::size_t> alleys;

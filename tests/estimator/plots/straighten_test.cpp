@@ -64,6 +64,16 @@ TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
     EXPECT_NEAR(lattice.places[i].c_m, sown.box(sown.places[i]).center.y(), 0.012) << i;
 }
 
+// A narrow gap beside an alley is none between a wide and a narrow one.
+TEST(Straighten, KeepsAnAlleyBesideANarrowGap) {
+  TrialLayout trial = known_trial({0, 0, 0}, 8);
+  for (TrialPlace& place : trial.places) {
+    if (place.column > 3) place.position_m.x() += 1.9;
+    if (place.column > 4) place.position_m.x() -= 0.12;
+  }
+  expect_straightened(trial, true);
+}
+
 // Plots that are turned by 0.01 about the view's axes.
 TEST(Straighten, MeasuresHowTheRowsRun) {
   constexpr double kTurn = 0.01;
