@@ -9,6 +9,7 @@
 
 #include "core/statistics.h"
 #include "plots/internal/layout_criterion.h"
+#include "plots/internal/steps.h"
 
 namespace plotscan::plots {
 namespace {
@@ -183,28 +184,51 @@ void leave_out_drill_rows(std::vector<Layout>& layouts) {
   });
 }
 
-// Median over a row's plots of how far the nearest of another row lies, cells: the lower one, as of
-// two plots one may be missing in the other row.
-double shift_between(const Row& row, const Row& other) {
-  std::vector<double> shifts;
-  for (const Band& plot : row.plots) {
-    const auto after = std::ranges::lower_bound(other.plots, plot.begin, {}, &Band::begin);
-    double nearest = std::numeric_limits<double>::infinity();
-    if (after != other.plots.end()) nearest = after->begin - plot.begin;
-    if (after != other.plots.begin())
-      nearest = std::min<double>(nearest, plot.begin - std::prev(after)->begin);
-    shifts.push_back(nearest);
+double usual_pitch(const Layout& layout) {
+  std::vector<double> steps;
+  for (const Row& row : layout.rows)
+    for (std::size_t i = 1; i < row.plots.size(); ++i)
+      steps.push_back(row.plots[i].begin - row.plots[i - 1].begin);
+  return usual_step(std::move(steps));
+}
+
+// Begins of plots that lie together, all rows taken as one; those that lie apart by a third of the
+// pitch are of different columns.
+std::vector<std::vector<double>> columns_of(const Layout& layout) {
+  constexpr double kApart = 0.35;
+  std::vector<double> begins;
+  for (const Row& row : layout.rows)
+    for (const Band& plot : row.plots) begins.push_back(plot.begin);
+  std::ranges::sort(begins);
+  const double apart = kApart * usual_pitch(layout);
+  std::vector<std::vector<double>> columns;
+  for (const double begin : begins) {
+    if (columns.empty() || begin - columns.back().back() >= apart) columns.emplace_back();
+    columns.back().push_back(begin);
   }
-  return selected(std::span(shifts), (shifts.size() - 1) / 2);
+  return columns;
+}
+
+// Median over a row's plots of how far they lie from the nearest column: the lower one, as leaves
+// may have moved one of two.
+double off_columns(const Row& row, const std::vector<double>& columns) {
+  std::vector<double> off;
+  for (const Band& plot : row.plots) {
+    const auto from = [&](double column) { return std::abs(column - plot.begin); };
+    off.push_back(from(*std::ranges::min_element(columns, {}, from)));
+  }
+  return selected(std::span(off), (off.size() - 1) / 2);
 }
 
 }  // namespace
 
 bool is_in_columns(const Layout& layout) {
-  const double most = kSameColumn_m / layout.view.cell_m();
-  for (std::size_t i = 1; i < layout.rows.size(); ++i)
-    if (shift_between(layout.rows[i - 1], layout.rows[i]) > most) return false;
-  return true;
+  const double same = kSameColumn_m / layout.view.cell_m();
+  std::vector<double> columns;
+  for (const std::vector<double>& begins : columns_of(layout))
+    columns.push_back(quantile(begins, 0.5));
+  return std::ranges::all_of(layout.rows,
+                             [&](const Row& row) { return off_columns(row, columns) <= same; });
 }
 
 Layout best_layout(const CanopyRaster& raster, const Hints& hints) {

@@ -60,6 +60,25 @@ TEST(IsInColumns, WhereRowsOfFewPlotsLackSome) {
   EXPECT_FALSE(is_in_columns(rows_at(20)));
 }
 
+// Leaves move what is seen of each plot: rows that are only off by that have no offsets of their
+// own. Offsets of the same size that a row's plots share are the row's.
+TEST(IsInColumns, WhereLeavesMoveEachPlotByItself) {
+  const CanopyRaster raster = canopy_of(known_trial({0}));
+  const auto rows_of = [&](const std::vector<std::vector<int>>& begins) {
+    Layout layout{.view = {.raster = &raster}};
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+      const int at = 40 * static_cast<int>(i);
+      layout.rows.push_back({{at, at + 30}});
+      for (const int begin : begins[i]) layout.rows.back().plots.push_back({begin, begin + 60});
+    }
+    return layout;
+  };
+  EXPECT_TRUE(
+      is_in_columns(rows_of({{425, 520, 615}, {422, 520, 615}, {426, 520, 619}, {518, 612}})));
+  EXPECT_FALSE(
+      is_in_columns(rows_of({{425, 520, 615}, {420, 515, 610}, {425, 520, 615}, {520, 615}})));
+}
+
 TEST(BestLayout, LeavesOutThePlotThatIsMissing) {
   TrialLayout trial = known_trial({0, 0, 0});
   trial.places.erase(trial.places.begin() + 7);
