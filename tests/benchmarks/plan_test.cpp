@@ -76,6 +76,18 @@ TEST_F(Plan, FarmByFarmGivesTheBytesOfARun) {
   EXPECT_EQ(run(planned).resumed, 4U);  // a run takes the farms as its own
 }
 
+// However the suite's path was written, and from wherever its farms are run.
+TEST_F(Plan, CommandsOfTheSuitesFolderStayAsTheyWerePlanned) {
+  write_suite();
+  folder_.write("mine.sh", "exit 1\n");
+  RunOptions planned = options("planned");
+  fs::create_directories(folder_.path() / "below");
+  planned.suite = folder_.path() / "below/../tiny.yaml";
+  planned.entered = {"mine=sh {suite}/mine.sh {cloud} {out}"};
+  plan(planned);
+  EXPECT_FALSE(run_planned(planned.output, "flat-1", own_).resumed);
+}
+
 TEST_F(Plan, WhatIsMissingIsNamedOrLeftOut) {
   write_suite(", flight: {sensor: no-such}");
   const RunOptions planned = options("planned");
