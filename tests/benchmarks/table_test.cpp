@@ -218,6 +218,14 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }
 
+TEST(TableCsv, QuotesASettingThatIsAList) {
+  const testing::TemporaryFolder folder;
+  std::vector<TableRow> rows = make_table(small_result(), 1);
+  rows.front().method = "lattice/max ground_classes=2,3";
+  const CsvTable table = read_csv_table(folder.write("table.csv", table_csv(rows)));
+  EXPECT_EQ(table.lines.front().fields[2], "lattice/max ground_classes=2,3");
+}
+
 TEST(SuiteResultJson, ComesBack) {
   const nlohmann::json document = to_json(small_result());
   const SuiteResult again = suite_result_from_json(nlohmann::json::parse(document.dump()));
