@@ -2,6 +2,7 @@
 #include "farmbench/table.h"
 
 #include <cmath>
+#include <functional>
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/reports.h"
+#include "farmbench/run.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -231,6 +233,35 @@ TEST(SuiteResultJson, ComesBack) {
   const SuiteResult again = suite_result_from_json(nlohmann::json::parse(document.dump()));
   EXPECT_EQ(to_json(again), document);
   EXPECT_EQ(table_csv(make_table(again, 1)), table_csv(make_table(small_result(), 1)));
+}
+
+TEST(SuiteResultJson, PartsThatDoNotBelongTogetherAreRefused) {
+  const testing::TemporaryFolder folder;
+  const auto write = [&](const std::function<void(nlohmann::json&)>& edit) {
+    nlohmann::json document = to_json(small_result());
+    document["sweep"] = {{"height", "p99"}, {"truth", "height_max_m"}};
+    document["sweep"]["axes"][0] = {{"key", "altitude_m"}, {"values", {1, 2}}};
+    edit(document);
+    folder.write("results.json", document.dump());
+  };
+  const auto refused = [&](const std::function<void(nlohmann::json&)>& edit) {
+    write(edit);
+    return testing::message_of<InputError>([&] { read_results(folder.path()); });
+  };
+  using nlohmann::json;
+  write([](json&) {});
+  EXPECT_NO_THROW(read_results(folder.path()));
+  EXPECT_THAT(refused([](json& d) { d["methods"] = json::array(); }), HasSubstr("names no method"));
+  EXPECT_THAT(refused([](json& d) { d["cases"][1]["name"] = "a"; }), HasSubstr("two cases a"));
+  EXPECT_THAT(refused([](json& d) { d["farms"][0]["case"] = "c"; }),
+              HasSubstr("results.json: farm c-1 is of no case"));
+  EXPECT_THAT(refused([](json& d) { d["farms"][0]["seed"] = 2; }), HasSubstr("two farms a-2"));
+  EXPECT_THAT(refused([](json& d) { d["baseline"] = "c"; }), HasSubstr("the baseline c"));
+  json::json_pointer values("/sweep/axes/0/values");
+  EXPECT_THAT(refused([&](json& d) { d[values] = json::array(); }), HasSubstr("0 combinations"));
+  EXPECT_THAT(refused([&](json& d) { d[values] = {1, nullptr}; }), HasSubstr("the value null"));
+  folder.write("times/a-1.json", "{");
+  EXPECT_THAT(refused([](json&) {}), HasSubstr("times/a-1.json: not the times of a farm"));
 }
 
 TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {

@@ -131,13 +131,21 @@ std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTa
     if (result.made_from == task.made_from) return result;
   } catch (const json::exception&) {
     return std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
   }
   return std::nullopt;
 }
 
 void read_times(const fs::path& output, FarmResult& result) {
   const fs::path file = times_file(output, result.case_name + "-" + std::to_string(result.seed));
-  if (fs::exists(file)) set_times(result, json::parse(read_json_text(file)));
+  if (!fs::exists(file)) return;
+  try {
+    set_times(result, json::parse(read_json_text(file)));
+  } catch (const json::exception& error) {
+    throw InputError(file, std::string("not the times of a farm (") + error.what() +
+                               "); without this file they are not known");
+  }
 }
 
 void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks) {

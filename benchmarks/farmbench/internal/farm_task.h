@@ -44,7 +44,8 @@ std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options);
 // The farm's earlier result, if it was made from the same inputs; a broken file counts as none.
 std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task);
 
-// Reads the times of output/times into the result, where there are any.
+// Reads the times of output/times into the result, where there are any. Throws InputError on a
+// broken file of them.
 void read_times(const std::filesystem::path& output, FarmResult& result);
 
 // Throws InputError if the place for a farm's kept clouds holds something not from an earlier run.
