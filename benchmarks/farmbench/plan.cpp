@@ -13,6 +13,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
+#include "farmbench/entries.h"
 #include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/run_farm.h"
 #include "farmbench/text_file.h"
@@ -150,6 +151,7 @@ void remove_left_work(const fs::path& output, const std::vector<FarmTask>& tasks
 PlanSummary plan(const RunOptions& options) {
   require_own_folder(options.output, kRunCommand);
   const Suite suite = suite_of(options);
+  require_entries(options.output, suite.methods);
   make_result_folders(options.output);
   const std::size_t farms = suite.cases.size() * suite.seeds.size();
   write_run_manifest(options, farms, false);

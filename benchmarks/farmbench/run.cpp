@@ -98,6 +98,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
                const FarmReport& finished) {
   require_sound(options);
   const Suite suite = suite_of(options);
+  require_entries(options.output, suite.methods);
   std::vector<FarmTask> tasks = farm_tasks(suite, options);
   const auto resumed =
       std::ranges::count_if(tasks, [](const FarmTask& task) { return task.result.has_value(); });

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "benchmarks/blind_suite.h"
 #include "methods/lattice/lattice.h"
@@ -14,6 +15,7 @@
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/internal/suite_page.h"
+#include "farmbench/plan.h"
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
 #include "farmbench/submission/score_submission.h"
@@ -285,6 +287,42 @@ TEST_F(Scoring, RefusesAllThatIsWrongAtOnceAndWritesNothing) {
     EXPECT_THAT(told, HasSubstr(problem));
   }
   EXPECT_FALSE(fs::exists(folder_.path() / "results"));
+}
+
+// Farms of the same names, which were another ones when the results were made.
+TEST_F(Scoring, RefusesResultsOfAnotherTruthAndWritesNothing) {
+  run_suite();
+  std::string text = read_text(choice_.file);
+  text.replace(text.find("plants.count: 30"), 16, "plants.count: 20");
+  folder_.write("blind.yaml", text);
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }),
+              ::testing::AllOf(HasSubstr("results/results.json: case "), HasSubstr("another truth"),
+                               HasSubstr("run the suite again")));
+  EXPECT_FALSE(fs::exists(folder_.path() / "results/entries"));
+}
+
+// Not after the hours that the farms of a suite take.
+TEST_F(Scoring, WhatCannotStandBesideTheSuitesMethodsIsToldBeforeTheFirstFarm) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  score_submission(options());
+  const fs::path results = folder_.path() / "results";
+  RunOptions again{.suite = choice_.file,
+                   .output = results,
+                   .entered = {"mine=true {boxes} {out}"},
+                   .build = "test"};
+  for (const auto& begin :
+       {std::function<void()>([&] { run(again); }), std::function<void()>([&] { plan(again); })}) {
+    EXPECT_THAT(message_of<InputError>(begin),
+                HasSubstr("mine true-boxes.json: \"mine true-boxes\" is the name of another"));
+  }
+  again.entered.clear();
+  folder_.write("results/entries/broken.json", "{");
+  EXPECT_THAT(message_of<InputError>([&] { run(again); }),
+              HasSubstr("broken.json: not what farmbench score writes"));
+  EXPECT_FALSE(fs::exists(results / "farms"));
 }
 
 TEST_F(Scoring, RefusesOtherFarms) {

@@ -154,6 +154,17 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
   return result;
 }
 
+void require_addable(const Entry& entry, const SuiteResult& earlier,
+                     const ScoreSubmissionOptions& options) {
+  if (std::ranges::count(earlier.methods, entry.method) > 0)
+    throw InputError(options.submission,
+                     "\"" + entry.method + "\" is the name of another method of the results");
+  if (const EnteredFarm* farm = farm_of_other_truth(entry, earlier))
+    throw InputError(*options.output / "results.json",
+                     "case " + farm->case_name + ", seed " + std::to_string(farm->seed) +
+                         " has another truth than the suite's farm has now; run the suite again");
+}
+
 void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, SuiteResult result) {
   const fs::path& output = *options.output;
   json results = {{"farms", result.farms.size()}, {"finished", false}};
@@ -203,9 +214,7 @@ ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
   }
   const Entry entry = score_fields(options, suite, progress);
   if (earlier) {
-    if (std::ranges::count(earlier->methods, entry.method) > 0)
-      throw InputError(options.submission,
-                       "\"" + entry.method + "\" is the name of another method of the results");
+    require_addable(entry, *earlier, options);
     add_to_results(options, entry, std::move(*earlier));
   }
   return alone(entry, suite, options.seed);
