@@ -57,7 +57,7 @@ std::string tasks_csv(const Suite& suite) {
   std::string text = "farm,case,seed,viewed\n";
   for (const SuiteCase& suite_case : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
-      const char* viewed = seed == suite.seeds.front() ? ",1\n" : ",0\n";
+      const char* viewed = is_viewed(suite, seed) ? ",1\n" : ",0\n";
       text.append(farm_name(suite_case, seed)).append(",").append(suite_case.name);
       text.append(",").append(std::to_string(seed)).append(viewed);
     }

@@ -100,13 +100,17 @@ std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed) {
   return suite_case.name + "-" + std::to_string(seed);
 }
 
+bool is_viewed(const Suite& suite, std::uint64_t seed) {
+  return !suite.sweep && seed == suite.seeds.front();
+}
+
 FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                  const std::string& build) {
   return {.suite_case = suite_case,
           .seed = seed,
           .name = farm_name(suite_case, seed),
           .made_from = made_from(suite, suite_case, seed, build),
-          .viewed = !suite.sweep && seed == suite.seeds.front()};
+          .viewed = is_viewed(suite, seed)};
 }
 
 std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options) {

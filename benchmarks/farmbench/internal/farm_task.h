@@ -34,6 +34,9 @@ Suite suite_of(const RunOptions& options);
 // A farm's name in files, "flat-1".
 std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed);
 
+// Whether the report shows the farms of this seed: each case's first, and none of a sweep.
+bool is_viewed(const Suite& suite, std::uint64_t seed);
+
 FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                  const std::string& build);
 
