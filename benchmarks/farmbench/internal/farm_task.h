@@ -44,7 +44,8 @@ FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t 
 // already unless options.force is set.
 std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options);
 
-// The farm's earlier result, if it was made from the same inputs; a broken file counts as none.
+// The farm's earlier result, if it was made from the same inputs, and its clouds are there too
+// where options.keep_clouds is set; a broken file counts as none.
 std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task);
 
 // Reads the times of output/times into the result, where there are any. Throws InputError on a
