@@ -220,6 +220,12 @@ INSTANTIATE_TEST_SUITE_P(
                  ":3: cases.0.without_plots \"yes\" is not one of false, true"},
         BadSuite{with(".yaml}", ".yaml, without_plots: true, survey_m: [0, 0, 1, 1]}"),
                  ":3: cases.0.survey_m is of plots, and the case is without_plots"},
+        BadSuite{kSound + "truths: [height_max]\n",
+                 ":6: truths.0.name \"height_max\" is not one of height_hand3_m, height_max_m"},
+        BadSuite{kSound + "truths: [height_max_m, height_max_m]\n",
+                 ":6: truths name height_max_m twice"},
+        BadSuite{kSound + "published: {source: us, methods: [oracle]}\n",
+                 ":6: published.methods name \"oracle\", which is no row"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace
