@@ -155,6 +155,13 @@ Method method_named(const std::string& name) {
   throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
 }
 
+std::string method_name(const std::string& written) {
+  std::istringstream words(written);
+  std::string name;
+  for (std::string word; words >> word;) name += (name.empty() ? "" : " ") + word;
+  return name;
+}
+
 void require_known_methods(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     method_named(name);

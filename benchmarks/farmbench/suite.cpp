@@ -118,7 +118,7 @@ std::string read_method(const YamlSection& entry) {
 
 // One of Plotscan's methods, with any of its settings.
 std::string read_own_method(const YamlSection& root, const YamlSection& entry) {
-  std::string name = read_method(entry);
+  std::string name = method_name(read_method(entry));
   try {
     method_named(name);
   } catch (const InputError& error) {

@@ -219,6 +219,9 @@ TEST(RunSuite, OptionsChooseSeedsAndMethods) {
   ASSERT_EQ(summary.result.farms.size(), 6U);
   EXPECT_EQ(summary.result.farms[1].seed, 2U);
   EXPECT_THAT(summary.result.methods, ::testing::ElementsAre("one-number"));
+  options.methods = {" one-number", "lattice  true-boxes "};  // "a, b"
+  EXPECT_THAT(run(options).result.methods,
+              ::testing::ElementsAre("one-number", "lattice true-boxes"));
   options.methods = {"magic"};
   EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("no method \"magic\""));
   options.methods = {"one-number", "one-number"};

@@ -23,7 +23,8 @@ namespace {
 using nlohmann::json;
 
 // Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
-void take_methods(Suite& suite, const std::vector<std::string>& names) {
+void take_methods(Suite& suite, std::vector<std::string> names) {
+  std::ranges::transform(names, names.begin(), method_name);
   std::vector<std::string> own;
   for (const std::string& name : names) {
     if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
@@ -32,7 +33,7 @@ void take_methods(Suite& suite, const std::vector<std::string>& names) {
       throw InputError("the method \"" + name + "\" is named twice");
   }
   require_known_methods(own);
-  suite.methods = names;
+  suite.methods = std::move(names);
 }
 
 fs::path result_file(const RunOptions& options, const FarmTask& task) {
