@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "farmbench/methods.h"
+#include "farmbench/suite_choice.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -142,6 +143,17 @@ TEST(LoadSuite, OverridesSeedsAndFlight) {
   EXPECT_EQ(suite.cases[0].flight.altitude_m, 12);
   EXPECT_EQ(suite.cases[0].flight.range_noise_m, 0);
   EXPECT_THAT(suite.cases[0].overrides, ElementsAre("plots.rows=[{plots: 2}]"));
+}
+
+TEST(ChosenSuite, TakesTheSuitesFirstSeeds) {
+  const TemporaryFolder folder;
+  const auto seeds = [&](const std::string& of_suite, int count) {
+    return chosen_suite({.file = folder.write("s.yaml", with("[4]", of_suite)), .seeds = count})
+        .seeds;
+  };
+  EXPECT_THAT(seeds("[3, 8, 5]", 2), ElementsAre(3, 8));
+  EXPECT_THAT(seeds("[3, 8, 5]", 5), ElementsAre(3, 8, 5, 9, 10));
+  EXPECT_THAT(seeds("{first: 7, count: 2}", 3), ElementsAre(7, 8, 9));
 }
 
 TEST(LoadSuite, CasesFlyTheirOwnWay) {
