@@ -116,6 +116,21 @@ TEST(EnteredPlots, GeoJsonIsReadAsAnyMapOfPlots) {
   EXPECT_EQ(read.plots.plots[0].heights_m.at("max"), 1.5);
 }
 
+TEST(EnteredPlots, FlagsOfAFeatureAreAListOrATextAsInATable) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& flags) {
+    return read_file(
+        folder, "a.geojson",
+        R"({"features": [{"id": 1, "geometry": null, "properties": {"flags": )" + flags + "}}]}");
+  };
+  const std::vector<std::string> two = {"low", "at the edge"};
+  EXPECT_EQ(read(R"("low; at the edge")").plots.plots[0].flags, two);
+  EXPECT_EQ(read(R"(["low", "at the edge"])").plots.plots[0].flags, two);
+  EXPECT_TRUE(read("null").plots.plots[0].flags.empty());
+  for (const char* neither : {"3", "[3]", "true"})
+    EXPECT_THAT(read(neither).problems, HasSubstr("it must be a list of texts, or a text"));
+}
+
 TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
   const TemporaryFolder folder;
   const std::string told =
