@@ -22,6 +22,7 @@ namespace {
 // One method on all farms of one case.
 struct CaseOfMethod {
   std::vector<MethodHeight> heights;
+  std::vector<std::uint64_t> seeds = {};
   std::vector<score::FieldScore> fields = {};
   std::vector<double> seconds = {};
 };
@@ -33,6 +34,7 @@ CaseOfMethod collect(const SuiteResult& result, const std::string& case_name,
     if (farm.case_name != case_name) continue;
     for (const MethodResult& run : farm.methods) {
       if (run.method != method) continue;
+      collected.seeds.push_back(farm.seed);
       collected.fields.push_back(run.score);
       if (run.seconds > 0) collected.seconds.push_back(run.seconds);
     }
@@ -141,7 +143,7 @@ std::vector<SquaredErrors> errors_by_farm(const CaseOfMethod& collected, const s
 
 void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod& collected,
                 const std::string& height, std::uint64_t seed) {
-  if (baseline.fields.size() != collected.fields.size()) return;
+  if (baseline.seeds != collected.seeds) return;
   const std::vector<SquaredErrors> before = errors_by_farm(baseline, height, row.truth);
   const std::vector<SquaredErrors> after = errors_by_farm(collected, height, row.truth);
   const Interval interval = bootstrap_rmse_change(before, after, seed);

@@ -169,6 +169,13 @@ TEST(MakeTable, AgainstABaselineRmseChangesByTheDifference) {
   EXPECT_EQ(table[0].rmse_change_m, 0);
   EXPECT_TRUE(std::isnan(table[1].rmse_change_m));  // "b" has other farms than "a"
   EXPECT_TRUE(std::isnan(make_table(small_result(), 1)[0].rmse_change_m));
+  // As many farms, of which some are missing on either side: they are no pairs.
+  result.farms.erase(result.farms.begin(), result.farms.begin() + 2);
+  EXPECT_EQ(make_table(result, 1)[0].rmse_change_m, 0);
+  result.farms.back() = farm("b", 1, 1, {plot(1.0, 0.03, 0.9)});
+  EXPECT_TRUE(std::isnan(make_table(result, 1)[1].rmse_change_m));
+  result.farms.back().seed = 3;
+  EXPECT_FALSE(std::isnan(make_table(result, 1)[1].rmse_change_m));
 }
 
 TEST(TableCsv, HasTheColumnsOthersReadIt) {
