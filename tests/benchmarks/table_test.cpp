@@ -271,6 +271,25 @@ TEST(SuiteResultJson, PartsThatDoNotBelongTogetherAreRefused) {
   EXPECT_THAT(refused([](json&) {}), HasSubstr("times/a-1.json: not the times of a farm"));
 }
 
+// A submission from before the suite had the case.
+TEST(WriteReports, AMethodWithoutACaseLeavesItsColumnToNoOther) {
+  const testing::TemporaryFolder folder;
+  SuiteResult result = small_result();
+  result.baseline = "a";
+  result.methods = result.entered = {"early", "late"};
+  result.farms.back() = farm("b", 1, 1, {plot(1.0, 0.03, 0.9)});
+  for (FarmResult& farm : result.farms) {
+    farm.methods.front().method = "late";
+    if (farm.case_name == "b") continue;
+    farm.methods.push_back(farm.methods.front());
+    farm.methods.back().method = "early";
+  }
+  write_reports(folder.path(), result, make_table(result, 1));
+  EXPECT_THAT(read_text(folder.path() / "leaderboard.md"),
+              ::testing::AllOf(HasSubstr("| case | early/p99 | late/p99 |"),
+                               HasSubstr("\n| b | - | 3.00 (-) |\n")));
+}
+
 TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
   const SuiteResult result = small_result();
   const auto lines = summary_lines(result, make_table(result, 1));
