@@ -131,8 +131,10 @@ CommandMethod command_method(const std::string& name, const std::string& command
   if (program.find('/') != std::string::npos && !program.starts_with('/'))
     throw InputError("the command begins with a relative path; write {suite}/" + program +
                      ", which counts from the suite's folder");
-  if (!names_place(method.words, "out") && !names_place(method.words, "out_csv"))
-    throw InputError("the command names no output: {out} (GeoJSON) or {out_csv}");
+  const bool as_table = names_place(method.words, "out_csv");
+  if (names_place(method.words, "out") == as_table)
+    throw InputError(std::string("the command names ") + (as_table ? "two outputs" : "no output") +
+                     "; it must name one: {out} (GeoJSON) or {out_csv}");
   if (takes_boxes(method)) method.name += " true-boxes";
   return method;
 }
@@ -155,8 +157,9 @@ CommandMethod read_command_method(const YamlSection& entry, const std::string& n
   const double memory_gb = entry.number("memory_gb", {0.01, kMostMemory_gb},
                                         static_cast<double>(limits.memory_bytes >> 30));
   limits.memory_bytes = static_cast<std::uint64_t>(memory_gb * 0x1p30);
+  const std::string command = entry.text("command");
   try {
-    return command_method(name, entry.text("command"), limits, folder_of(entry.file()));
+    return command_method(name, command, limits, folder_of(entry.file()));
   } catch (const InputError& error) {
     entry.fail("command", std::string("does not hold: ") + error.what());
   }

@@ -232,6 +232,8 @@ TEST(CommandSuite, NamesWhatIsWrongWithACommand) {
     return message_of<InputError>([&] { load_suite(file); });
   };
   EXPECT_THAT(refused("{name: mine, command: 'tool {cloud}'}"), HasSubstr("names no output"));
+  EXPECT_THAT(refused("{name: mine, command: 'tool {out} {out_csv}'}"),
+              HasSubstr("names two outputs; it must name one"));
   EXPECT_THAT(refused("{name: mine, command: 'tool {clod} {out}'}"), HasSubstr("names none of"));
   EXPECT_THAT(refused("{name: mine, command: './tool {out}'}"), HasSubstr("write {suite}/./tool"));
   EXPECT_THAT(refused("{name: 'a b', command: 'tool {out}'}"), HasSubstr("is not a name"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -338,6 +339,16 @@ TEST_F(Scoring, WhatCannotStandBesideTheSuitesMethodsIsToldBeforeTheFirstFarm) {
   EXPECT_THAT(message_of<InputError>([&] { run(again); }),
               HasSubstr("broken.json: not what farmbench score writes"));
   EXPECT_FALSE(fs::exists(results / "farms"));
+}
+
+TEST_F(Scoring, NamesTheFolderForTemporaryFilesThatIsNotThere) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }), HasSubstr("TMPDIR"));
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }
 
 TEST_F(Scoring, RefusesOtherFarms) {

@@ -87,6 +87,16 @@ EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submi
   return farm;
 }
 
+// Where farms are made again.
+fs::path work_folder() {
+  std::error_code none;
+  const fs::path folder = fs::temp_directory_path(none);
+  if (none)
+    throw InputError("the folder for temporary files, $TMPDIR or /tmp, cannot be used (" +
+                     none.message() + "); name another one in TMPDIR");
+  return folder / (".farmbench-score-" + std::to_string(getpid()));
+}
+
 // Scores of a submission that is sound; throws where it is not.
 Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
                    const ProgressReport& progress) {
@@ -94,8 +104,7 @@ Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
   Problems problems;
   Submission submission = read_submission(options.submission, fields, problems);
   problems.raise(options.submission);
-  const TemporaryPath work(fs::temp_directory_path() /
-                           (".farmbench-score-" + std::to_string(getpid())));
+  const TemporaryPath work(work_folder());
   std::vector<FieldTruth> truths;
   for (const BlindField& field : fields) {
     truths.push_back(truth_of(field, work.path(), options.threads));
