@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <sstream>
 
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/temporary_path.h"
 #include "core/yaml_section.h"
 #include "farmbench/blind_files.h"
@@ -56,6 +58,17 @@ fs::path found_program(const std::string& program) {
   return program;
 }
 
+// Whether the word names a file, wherever farmbench runs. It may be no path at all: a whole script.
+bool is_file(const std::string& word) {
+  std::error_code no_path;
+  return word.starts_with('/') && fs::is_regular_file(word, no_path);
+}
+
+// One path of a suite's folder however the suite was named, so that {suite} is the same in a plan.
+fs::path folder_of(const fs::path& suite) {
+  return fs::absolute(suite).lexically_normal().parent_path();
+}
+
 void write_inputs(const CommandMethod& method, const Field& field, const fs::path& folder) {
   if (names_place(method.words, "cloud")) write_blind_cloud(field.cloud, folder / "cloud.pcd");
   if (names_place(method.words, "las")) write_blind_cloud(field.cloud, folder / "cloud.las");
@@ -63,14 +76,32 @@ void write_inputs(const CommandMethod& method, const Field& field, const fs::pat
   if (takes_boxes(method)) write_boxes(folder, field.plots);
 }
 
-// The last line of a program's output, where most programs say what went wrong.
+// The end of a program's output, which as a whole may fill a disk.
+std::string end_of(const fs::path& log) {
+  constexpr std::streamoff kMostBytes = 65'536;
+  std::ifstream in(log, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  if (size <= 0) return "";
+  std::string text(static_cast<std::size_t>(std::min(size, kMostBytes)), '\0');
+  in.seekg(-static_cast<std::streamoff>(text.size()), std::ios::end);
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  return text;
+}
+
+// The last line of a program's output, where most programs say what went wrong. Its bytes may be of
+// any encoding or none; the text goes into JSON.
 std::string last_line(const fs::path& log) {
-  constexpr std::size_t kMostCharacters = 300;
-  std::istringstream lines(fs::exists(log) ? read_text(log) : "");
+  constexpr std::size_t kMostBytes = 300;
+  std::string text = end_of(log);
+  std::ranges::replace(text, '\r', '\n');  // a progress display writes its lines over each other
+  std::istringstream lines(text);
   std::string last;
   for (std::string line; std::getline(lines, line);)
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
-  return last.substr(0, kMostCharacters);
+    if (line.find_first_not_of(" \t") != std::string::npos) last = line;
+  last = printable(last);
+  std::size_t end = std::min(last.size(), kMostBytes);
+  while (end < last.size() && (last[end] & 0xc0) == 0x80) --end;  // at a character's beginning
+  return last.substr(0, end);
 }
 
 // The plots that the program wrote.
@@ -100,8 +131,10 @@ CommandMethod command_method(const std::string& name, const std::string& command
   if (program.find('/') != std::string::npos && !program.starts_with('/'))
     throw InputError("the command begins with a relative path; write {suite}/" + program +
                      ", which counts from the suite's folder");
-  if (!names_place(method.words, "out") && !names_place(method.words, "out_csv"))
-    throw InputError("the command names no output: {out} (GeoJSON) or {out_csv}");
+  const bool as_table = names_place(method.words, "out_csv");
+  if (names_place(method.words, "out") == as_table)
+    throw InputError(std::string("the command names ") + (as_table ? "two outputs" : "no output") +
+                     "; it must name one: {out} (GeoJSON) or {out_csv}");
   if (takes_boxes(method)) method.name += " true-boxes";
   return method;
 }
@@ -115,7 +148,7 @@ CommandMethod command_method(const std::string& entered, const fs::path& suite) 
     throw InputError("\"" + entered +
                      "\" must be NAME=COMMAND, the name 1 to 40 letters, digits, "
                      "'-' and '_' and none of Plotscan's methods'");
-  return command_method(name, entered.substr(equals + 1), {}, fs::absolute(suite).parent_path());
+  return command_method(name, entered.substr(equals + 1), {}, folder_of(suite));
 }
 
 CommandMethod read_command_method(const YamlSection& entry, const std::string& name) {
@@ -124,9 +157,9 @@ CommandMethod read_command_method(const YamlSection& entry, const std::string& n
   const double memory_gb = entry.number("memory_gb", {0.01, kMostMemory_gb},
                                         static_cast<double>(limits.memory_bytes >> 30));
   limits.memory_bytes = static_cast<std::uint64_t>(memory_gb * 0x1p30);
+  const std::string command = entry.text("command");
   try {
-    return command_method(name, entry.text("command"), limits,
-                          fs::absolute(entry.file()).parent_path());
+    return command_method(name, command, limits, folder_of(entry.file()));
   } catch (const InputError& error) {
     entry.fail("command", std::string("does not hold: ") + error.what());
   }
@@ -136,10 +169,10 @@ json made_from(const CommandMethod& method) {
   json files = json::object();
   const auto values = values_in("", method, 1);
   for (const std::string& word : substituted(method.words, values)) {
-    if (fs::is_regular_file(word)) files[word] = sha256_of_file(word);
+    if (is_file(word)) files[word] = sha256_of_file(word);
   }
-  const fs::path program = found_program(substituted(method.words, values).front());
-  if (fs::is_regular_file(program)) files[program.string()] = sha256_of_file(program);
+  const std::string program = found_program(substituted(method.words, values).front()).string();
+  if (is_file(program)) files[program] = sha256_of_file(program);
   return {{"name", method.name},
           {"command", method.command},
           {"seconds", method.limits.seconds},
@@ -151,16 +184,17 @@ CommandResult run_command_method(const CommandMethod& method, const Field& field
   CommandResult result{.estimate = {.method = method.name}, .failure = {}};
   const fs::path task = field.poses.parent_path().parent_path();
   const TemporaryPath folder(task.string() + "-entry-" + std::to_string(getpid()));
+  const TemporaryPath log(folder.path().string() + ".log");  // the program's own folder is empty
   fs::create_directories(folder.path());
   write_inputs(method, field, folder.path());
   const std::vector<std::string> arguments =
       substituted(method.words, values_in(fs::absolute(folder.path()), method, field.threads));
-  const fs::path log = folder.path() / "log.txt";
-  const FinishedProcess finished = run_process(arguments, folder.path(), log, method.limits);
+  const FinishedProcess finished =
+      run_process(arguments, folder.path(), fs::absolute(log.path()), method.limits);
   result.seconds = finished.seconds;
   result.peak_memory_mb = static_cast<double>(finished.peak_bytes) / 1e6;
   result.failure = finished.failure;
-  const std::string said = finished.failure.empty() ? "" : last_line(log);
+  const std::string said = finished.failure.empty() ? "" : last_line(log.path());
   if (!said.empty()) result.failure += ": " + said;
   if (!result.failure.empty()) return result;
   try {

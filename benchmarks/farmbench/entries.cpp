@@ -2,6 +2,7 @@
 #include "farmbench/entries.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/error.h"
 #include "core/json_text.h"
@@ -59,18 +60,29 @@ bool is_same_truth(const score::FieldScore& a, const score::FieldScore& b) {
   });
 }
 
-// Adds the farm's score to the result's farm; false where the result has no such farm.
-bool add_farm(const EnteredFarm& farm, const fs::path& file, SuiteResult& result) {
-  const auto place = std::ranges::find_if(result.farms, [&](const FarmResult& candidate) {
+template <class Farms>
+auto farm_in(Farms& farms, const EnteredFarm& farm) {
+  return std::ranges::find_if(farms, [&](const FarmResult& candidate) {
     return candidate.case_name == farm.case_name && candidate.seed == farm.seed;
   });
-  if (place == result.farms.end()) return false;
-  if (!place->methods.empty() && !is_same_truth(place->methods.front().score, farm.result.score)) {
-    throw InputError(file, "was scored against another truth than the results' of case " +
-                               farm.case_name + "; score the submission again");
+}
+
+// The entries of a results folder by their files.
+std::map<fs::path, Entry> read_entries(const fs::path& output) {
+  std::map<fs::path, Entry> entries;
+  if (!fs::is_directory(output / "entries")) return entries;
+  for (const auto& file : fs::directory_iterator(output / "entries")) {
+    if (file.path().extension() == ".json") entries.emplace(file.path(), read_entry(file.path()));
   }
-  place->methods.push_back(farm.result);
-  return true;
+  return entries;
+}
+
+void require_new_name(const Entry& entry, const fs::path& file,
+                      const std::vector<std::string>& methods) {
+  if (std::ranges::count(methods, entry.method) > 0)
+    throw InputError(file, "\"" + entry.method +
+                               "\" is the name of another method as well; rename that one, or "
+                               "remove this file");
 }
 
 }  // namespace
@@ -87,20 +99,34 @@ void write_entry(const fs::path& output, const Entry& entry) {
   write_json(output / "entries" / (entry.method + ".json"), document);
 }
 
-void add_entries(const fs::path& output, SuiteResult& result) {
-  if (!fs::is_directory(output / "entries")) return;
-  std::vector<fs::path> files;
-  for (const auto& file : fs::directory_iterator(output / "entries")) {
-    if (file.path().extension() == ".json") files.push_back(file.path());
+const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& result) {
+  for (const EnteredFarm& farm : entry.farms) {
+    const auto place = farm_in(result.farms, farm);
+    if (place == result.farms.end() || place->methods.empty()) continue;
+    if (!is_same_truth(place->methods.front().score, farm.result.score)) return &farm;
   }
-  std::ranges::sort(files);
-  for (const fs::path& file : files) {
-    const Entry entry = read_entry(file);
-    if (std::ranges::count(result.methods, entry.method) > 0)
-      throw InputError(file, "\"" + entry.method + "\" is the name of another method as well");
-    std::size_t shared = 0;
-    for (const EnteredFarm& farm : entry.farms) shared += add_farm(farm, file, result) ? 1 : 0;
-    if (shared == 0) continue;
+  return nullptr;
+}
+
+void require_entries(const fs::path& output, const std::vector<std::string>& methods) {
+  for (const auto& [file, entry] : read_entries(output)) require_new_name(entry, file, methods);
+}
+
+void add_entries(const fs::path& output, SuiteResult& result) {
+  for (const auto& [file, entry] : read_entries(output)) {
+    require_new_name(entry, file, result.methods);
+    if (const EnteredFarm* farm = farm_of_other_truth(entry, result))
+      throw InputError(file, "was scored against another truth than the results' of case " +
+                                 farm->case_name +
+                                 "; score the submission again, or remove this file");
+    bool shares_farms = false;
+    for (const EnteredFarm& farm : entry.farms) {
+      const auto place = farm_in(result.farms, farm);
+      if (place == result.farms.end()) continue;
+      place->methods.push_back(farm.result);
+      shares_farms = true;
+    }
+    if (!shares_farms) continue;
     result.methods.push_back(entry.method);
     result.entered.push_back(entry.method);
   }

@@ -35,9 +35,16 @@ struct Entry {
 // Writes output/entries/METHOD.json.
 void write_entry(const std::filesystem::path& output, const Entry& entry);
 
+// The first farm of the entry that has another truth in the result, none where all have the same.
+const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& result);
+
+// Throws InputError on a broken entry of a results folder, and on one whose name is one of
+// `methods`: to be called before the hours that a run takes.
+void require_entries(const std::filesystem::path& output, const std::vector<std::string>& methods);
+
 // Adds the entries of a results folder, by name, to the result's methods, for the farms that both
-// have; entries that share no farm are left out. Throws InputError on a broken entry, one whose
-// name another method of the suite has, and one that was scored against another truth.
+// have; entries that share no farm are left out. Throws InputError as require_entries, and on an
+// entry that was scored against another truth.
 void add_entries(const std::filesystem::path& output, SuiteResult& result);
 
 }  // namespace plotscan::farmbench

@@ -127,6 +127,15 @@ const std::vector<Method>& known_methods() {
   return methods;
 }
 
+const std::vector<std::string>& known_truths() {
+  static const std::vector<std::string> truths = [] {
+    std::vector<std::string> all = {"height_hand3_m"};
+    for (const std::string& name : height_names()) all.push_back(score::named_truth(name));
+    return all;
+  }();
+  return truths;
+}
+
 Method method_named(const std::string& name) {
   const auto& methods = known_methods();
   const auto found = std::ranges::find(methods, name, &Method::name);
@@ -144,6 +153,13 @@ Method method_named(const std::string& name) {
   known.reserve(methods.size());
   for (const Method& method : methods) known.push_back(method.name);
   throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
+}
+
+std::string method_name(const std::string& written) {
+  std::istringstream words(written);
+  std::string name;
+  for (std::string word; words >> word;) name += (name.empty() ? "" : " ") + word;
+  return name;
 }
 
 void require_known_methods(const std::vector<std::string>& names) {

@@ -47,6 +47,12 @@ const std::vector<Method>& known_methods();
 // method lacks or cannot have.
 Method method_named(const std::string& name);
 
+// Every truth that a plot has: "height_hand3_m", and those that heights are named after.
+const std::vector<std::string>& known_truths();
+
+// The name of a method as results have it: its words, one blank between two of them.
+std::string method_name(const std::string& written);
+
 // Throws InputError on a name that method_named refuses, and on a repeated name.
 void require_known_methods(const std::vector<std::string>& names);
 

@@ -13,6 +13,7 @@
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
+#include "farmbench/entries.h"
 #include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/run_farm.h"
 #include "farmbench/text_file.h"
@@ -56,7 +57,7 @@ std::string tasks_csv(const Suite& suite) {
   std::string text = "farm,case,seed,viewed\n";
   for (const SuiteCase& suite_case : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
-      const char* viewed = seed == suite.seeds.front() ? ",1\n" : ",0\n";
+      const char* viewed = is_viewed(suite, seed) ? ",1\n" : ",0\n";
       text.append(farm_name(suite_case, seed)).append(",").append(suite_case.name);
       text.append(",").append(std::to_string(seed)).append(viewed);
     }
@@ -150,6 +151,7 @@ void remove_left_work(const fs::path& output, const std::vector<FarmTask>& tasks
 PlanSummary plan(const RunOptions& options) {
   require_own_folder(options.output, kRunCommand);
   const Suite suite = suite_of(options);
+  require_entries(options.output, suite.methods);
   make_result_folders(options.output);
   const std::size_t farms = suite.cases.size() * suite.seeds.size();
   write_run_manifest(options, farms, false);

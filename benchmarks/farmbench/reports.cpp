@@ -49,9 +49,8 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
       const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
         return candidate.method == method && candidate.case_name == info.name;
       });
-      if (row == rows.end()) continue;
-      text += " " + centimetres(row->rmse_m);
-      if (info.name != *result.baseline)
+      text += " " + (row == rows.end() ? "-" : centimetres(row->rmse_m));
+      if (row != rows.end() && info.name != *result.baseline)
         text += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
       text += " |";
     }

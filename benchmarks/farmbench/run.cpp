@@ -98,6 +98,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
                const FarmReport& finished) {
   require_sound(options);
   const Suite suite = suite_of(options);
+  require_entries(options.output, suite.methods);
   std::vector<FarmTask> tasks = farm_tasks(suite, options);
   const auto resumed =
       std::ranges::count_if(tasks, [](const FarmTask& task) { return task.result.has_value(); });
@@ -115,16 +116,18 @@ SuiteResult read_results(const fs::path& output) {
   const fs::path file = output / "results.json";
   const json document = read_json(file);
   require_known_format(document, file);
+  SuiteResult result;
   try {
-    SuiteResult result = suite_result_from_json(document);
+    result = suite_result_from_json(document);
     require_methods(result);
-    for (FarmResult& farm : result.farms) read_times(output, farm);
-    return result;
+    require_whole(result);
   } catch (const json::exception& error) {
     throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
   } catch (const InputError& error) {
     throw InputError(file, error.what());
   }
+  for (FarmResult& farm : result.farms) read_times(output, farm);
+  return result;
 }
 
 RunSummary report(const fs::path& output, std::uint64_t seed) {
@@ -132,11 +135,11 @@ RunSummary report(const fs::path& output, std::uint64_t seed) {
   summary.resumed = summary.result.farms.size();
   try {
     summary.table = make_table(summary.result, seed);
-  } catch (const std::logic_error& error) {  // what make_table takes for granted was edited away
+    write_reports(output, summary.result, summary.table);
+  } catch (const std::logic_error& error) {  // what tables take for granted was edited away
     throw InputError(output / "results.json", std::string("its parts do not fit together (") +
                                                   error.what() + "); farmbench run writes it anew");
   }
-  write_reports(output, summary.result, summary.table);
   return summary;
 }
 

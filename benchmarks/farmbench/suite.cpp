@@ -118,7 +118,7 @@ std::string read_method(const YamlSection& entry) {
 
 // One of Plotscan's methods, with any of its settings.
 std::string read_own_method(const YamlSection& root, const YamlSection& entry) {
-  std::string name = read_method(entry);
+  std::string name = method_name(read_method(entry));
   try {
     method_named(name);
   } catch (const InputError& error) {
@@ -151,9 +151,24 @@ std::vector<std::string> read_truths(const YamlSection& root) {
   std::vector<std::string> truths;
   if (!root.has("truths")) return truths;
   for (const YamlSection& entry : root.list("truths", 100, "name")) {
-    truths.push_back(entry.text("name"));
+    truths.push_back(known_truths()[entry.choice("name", known_truths())]);
+    if (std::ranges::count(truths, truths.back()) > 1)
+      root.fail("truths", "name " + truths.back() + " twice");
   }
   return truths;
+}
+
+// Whether the table can have rows of this name. Heights of a program are known when it has run.
+bool has_row(const Suite& suite, const std::string& row) {
+  for (const std::string& name : suite.methods) {
+    if (std::ranges::find(suite.commands, name, &CommandMethod::name) != suite.commands.end()) {
+      if (row.starts_with(name.substr(0, name.find(' ')))) return true;
+    } else {
+      const std::vector<MethodHeight> heights = method_named(name).heights;
+      if (std::ranges::find(heights, row, &MethodHeight::row) != heights.end()) return true;
+    }
+  }
+  return false;
 }
 
 // What the cases are compared with: one of them, and what somebody published.
@@ -168,6 +183,10 @@ void read_comparisons(const YamlSection& root, Suite& suite) {
     suite.published = {.source = published.text("source"), .methods = {}};
     for (const YamlSection& entry : published.list("methods", 100, "row")) {
       suite.published->methods.push_back(entry.text("row"));
+      if (!has_row(suite, suite.published->methods.back()))
+        published.fail("methods", "name \"" + suite.published->methods.back() +
+                                      "\", which is no row of the suite's methods, such as "
+                                      "dhami2020/raw-p99");
     }
   }
 }

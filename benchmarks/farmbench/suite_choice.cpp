@@ -38,6 +38,13 @@ std::string digits_of(const char* what, const std::string& suite, const std::str
                    std::to_string(number) + "\n" + secret);
 }
 
+// The suite's first seeds; where it has fewer, the numbers after its highest one follow.
+void take_seeds(std::size_t count, std::vector<std::uint64_t>& seeds) {
+  std::uint64_t highest = *std::ranges::max_element(seeds);
+  while (seeds.size() < count) seeds.push_back(++highest);
+  seeds.resize(count);
+}
+
 std::uint64_t drawn_seed(const std::string& suite, std::size_t index, const std::string& secret) {
   return std::stoull(digits_of("seed", suite, "", index, secret).substr(0, kSeedDigits), nullptr,
                      16);
@@ -50,11 +57,7 @@ Suite chosen_suite(const SuiteChoice& choice) {
     throw InputError("the number of seeds is " + std::to_string(*choice.seeds) +
                      "; it is 1 to 10000");
   Suite suite = load_suite(choice.file);
-  if (choice.seeds) {
-    const std::uint64_t first = suite.seeds.front();
-    suite.seeds.resize(static_cast<std::size_t>(*choice.seeds));
-    std::iota(suite.seeds.begin(), suite.seeds.end(), first);
-  }
+  if (choice.seeds) take_seeds(static_cast<std::size_t>(*choice.seeds), suite.seeds);
   if (!choice.secret) return suite;
   const std::string secret = secret_of(choice);
   for (std::size_t i = 0; i < suite.seeds.size(); ++i)

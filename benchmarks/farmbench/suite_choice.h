@@ -13,7 +13,7 @@ namespace plotscan::farmbench {
 // A suite, and which of its farms to use.
 struct SuiteChoice {
   std::filesystem::path file;               // the YAML file
-  std::optional<int> seeds = std::nullopt;  // this many from the suite's first one
+  std::optional<int> seeds = std::nullopt;  // the suite's first, and those after its highest
   // A file whose bytes are the secret of a blind contest. Seeds are drawn from it; their number is
   // the same as without it.
   std::optional<std::filesystem::path> secret = std::nullopt;

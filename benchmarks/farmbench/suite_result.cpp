@@ -2,13 +2,32 @@
 #include "farmbench/suite_result.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "core/error.h"
 #include "core/format.h"
 
 namespace plotscan::farmbench {
+namespace {
 
 using nlohmann::json;
+
+void require_axes(const Sweep& sweep, std::size_t cases) {
+  std::size_t combinations = 1;
+  for (const SweepAxis& axis : sweep.axes) {
+    combinations *= axis.values.size();
+    for (const json& value : axis.values)
+      if (!value.is_number() && !value.is_string())
+        throw InputError("axis " + axis.key + " has the value " + value.dump() +
+                         "; it must be a number or a text");
+  }
+  if (combinations != cases)
+    throw InputError("the sweep's axes have " + std::to_string(combinations) +
+                     " combinations; they must be its cases, " + std::to_string(cases));
+}
+
+}  // namespace
 
 SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
   SuiteResult result{.suite = suite.name,
@@ -73,6 +92,25 @@ SuiteResult suite_result_from_json(const json& document) {
   if (document.contains("sweep")) result.sweep = sweep_from_json(document["sweep"]);
   for (const json& farm : document.at("farms")) result.farms.push_back(farm_result_from_json(farm));
   return result;
+}
+
+void require_whole(const SuiteResult& result) {
+  if (result.methods.empty()) throw InputError("names no method; it must have one or more");
+  std::set<std::string> cases;
+  for (const CaseInfo& info : result.cases)
+    if (!cases.insert(info.name).second)
+      throw InputError("has two cases " + info.name + "; each must have a name of its own");
+  std::set<std::pair<std::string, std::uint64_t>> farms;
+  for (const FarmResult& farm : result.farms) {
+    const std::string name = farm.case_name + "-" + std::to_string(farm.seed);
+    if (!cases.contains(farm.case_name))
+      throw InputError("farm " + name + " is of no case; its case must be one of \"cases\"");
+    if (!farms.emplace(farm.case_name, farm.seed).second)
+      throw InputError("has two farms " + name + "; it must have each once");
+  }
+  if (result.baseline && !cases.contains(*result.baseline))
+    throw InputError("the baseline " + *result.baseline + " must be one of \"cases\"");
+  if (result.sweep) require_axes(*result.sweep, result.cases.size());
 }
 
 }  // namespace plotscan::farmbench

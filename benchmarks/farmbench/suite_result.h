@@ -36,5 +36,9 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms);
 nlohmann::json to_json(const SuiteResult& result);
 // Throws nlohmann::json::exception on anything that to_json does not write.
 SuiteResult suite_result_from_json(const nlohmann::json& document);
+// Throws InputError where its parts do not belong together, as tables take for granted that they
+// do: cases and farms that are named twice, farms and a baseline of no case, cases that are not the
+// combinations of a sweep's axes, no method.
+void require_whole(const SuiteResult& result);
 
 }  // namespace plotscan::farmbench

@@ -2,8 +2,8 @@
 #include "farmbench/table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 #include <set>
 
@@ -22,6 +22,7 @@ namespace {
 // One method on all farms of one case.
 struct CaseOfMethod {
   std::vector<MethodHeight> heights;
+  std::vector<std::uint64_t> seeds = {};
   std::vector<score::FieldScore> fields = {};
   std::vector<double> seconds = {};
 };
@@ -33,6 +34,7 @@ CaseOfMethod collect(const SuiteResult& result, const std::string& case_name,
     if (farm.case_name != case_name) continue;
     for (const MethodResult& run : farm.methods) {
       if (run.method != method) continue;
+      collected.seeds.push_back(farm.seed);
       collected.fields.push_back(run.score);
       if (run.seconds > 0) collected.seconds.push_back(run.seconds);
     }
@@ -70,13 +72,49 @@ std::string field_of(double value) {
   return std::isnan(value) ? "" : format_number(std::round(value * 1e4) / 1e4);
 }
 
-void append_counts(std::string& line, std::initializer_list<std::size_t> counts) {
-  for (const std::size_t count : counts) line += "," + std::to_string(count);
-}
+// A column of table.csv.
+struct Column {
+  const char* name;
+  std::string (*field)(const TableRow&);
+};
 
-void append_values(std::string& line, std::initializer_list<double> values) {
-  for (const double value : values) line += "," + field_of(value);
-}
+using Row = const TableRow&;
+
+constexpr std::array kColumns = {
+    Column{"suite", [](Row row) { return csv_field(row.suite); }},
+    Column{"case", [](Row row) { return csv_field(row.case_name); }},
+    Column{"method", [](Row row) { return csv_field(row.method); }},
+    Column{"truth", [](Row row) { return csv_field(row.truth); }},
+    Column{"farms", [](Row row) { return std::to_string(row.farms); }},
+    Column{"plots", [](Row row) { return std::to_string(row.plots); }},
+    Column{"found", [](Row row) { return std::to_string(row.found); }},
+    Column{"missed", [](Row row) { return std::to_string(row.missed); }},
+    Column{"extra", [](Row row) { return std::to_string(row.extra); }},
+    Column{"recall", [](Row row) { return field_of(row.recall); }},
+    Column{"precision", [](Row row) { return field_of(row.precision); }},
+    Column{"iou_mean", [](Row row) { return field_of(row.iou_mean); }},
+    Column{"iou_median", [](Row row) { return field_of(row.iou_median); }},
+    Column{"iou_min", [](Row row) { return field_of(row.iou_min); }},
+    Column{"center_rmse_cm", [](Row row) { return field_of(100 * row.center_rmse_m); }},
+    Column{"heading_rmse_deg", [](Row row) { return field_of(degrees(row.heading_rmse_rad)); }},
+    Column{"rmse_cm", [](Row row) { return field_of(100 * row.rmse_m); }},
+    Column{"rmse_lo_cm", [](Row row) { return field_of(100 * row.rmse_low_m); }},
+    Column{"rmse_hi_cm", [](Row row) { return field_of(100 * row.rmse_high_m); }},
+    Column{"rmse_change_cm", [](Row row) { return field_of(100 * row.rmse_change_m); }},
+    Column{"rmse_change_lo_cm", [](Row row) { return field_of(100 * row.rmse_change_low_m); }},
+    Column{"rmse_change_hi_cm", [](Row row) { return field_of(100 * row.rmse_change_high_m); }},
+    Column{"bias_cm", [](Row row) { return field_of(100 * row.bias_m); }},
+    Column{"mae_cm", [](Row row) { return field_of(100 * row.mae_m); }},
+    Column{"r2", [](Row row) { return field_of(row.r2); }},
+    Column{"farm_bias_cm", [](Row row) { return field_of(100 * row.within.farm_bias_m); }},
+    Column{"within_cm", [](Row row) { return field_of(100 * row.within.within_m); }},
+    Column{"r2_within", [](Row row) { return field_of(row.within.r2); }},
+    Column{"rho_within", [](Row row) { return field_of(row.within.rho); }},
+    Column{"coverage95", [](Row row) { return field_of(row.coverage95); }},
+    Column{"flagged", [](Row row) { return std::to_string(row.flagged); }},
+    Column{"over_5cm_unflagged", [](Row row) { return std::to_string(row.large_unflagged); }},
+    Column{"over_5cm_unflagged_share",
+           [](Row row) { return field_of(row.large_unflagged_share); }}};
 
 void set_boxes(TableRow& row, const CaseOfMethod& collected) {
   const score::BoxScore boxes = score::score_boxes(collected.fields);
@@ -105,7 +143,7 @@ std::vector<SquaredErrors> errors_by_farm(const CaseOfMethod& collected, const s
 
 void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod& collected,
                 const std::string& height, std::uint64_t seed) {
-  if (baseline.fields.size() != collected.fields.size()) return;
+  if (baseline.seeds != collected.seeds) return;
   const std::vector<SquaredErrors> before = errors_by_farm(baseline, height, row.truth);
   const std::vector<SquaredErrors> after = errors_by_farm(collected, height, row.truth);
   const Interval interval = bootstrap_rmse_change(before, after, seed);
@@ -226,38 +264,12 @@ nlohmann::json to_json(const TableRow& row) {
 }
 
 std::string table_csv(const std::vector<TableRow>& table) {
-  std::string text =
-      "suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,"
-      "iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,"
-      "rmse_change_cm,rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,"
-      "r2_within,rho_within,coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share\n";
+  std::string text;
+  for (const Column& column : kColumns) text.append(column.name).append(",");
+  text.back() = '\n';
   for (const TableRow& row : table) {
-    text += row.suite + "," + row.case_name + "," + row.method + "," + row.truth;
-    append_counts(text, {row.farms, row.plots, row.found, row.missed, row.extra});
-    append_values(text, {row.recall,
-                         row.precision,
-                         row.iou_mean,
-                         row.iou_median,
-                         row.iou_min,
-                         100 * row.center_rmse_m,
-                         degrees(row.heading_rmse_rad),
-                         100 * row.rmse_m,
-                         100 * row.rmse_low_m,
-                         100 * row.rmse_high_m,
-                         100 * row.rmse_change_m,
-                         100 * row.rmse_change_low_m,
-                         100 * row.rmse_change_high_m,
-                         100 * row.bias_m,
-                         100 * row.mae_m,
-                         row.r2,
-                         100 * row.within.farm_bias_m,
-                         100 * row.within.within_m,
-                         row.within.r2,
-                         row.within.rho,
-                         row.coverage95});
-    append_counts(text, {row.flagged, row.large_unflagged});
-    append_values(text, {row.large_unflagged_share});
-    text += "\n";
+    for (const Column& column : kColumns) text.append(column.field(row)).append(",");
+    text.back() = '\n';
   }
   return text;
 }

@@ -66,10 +66,7 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 // A row as --json prints it: metres, degrees, null for NaN.
 nlohmann::json to_json(const TableRow& row);
 
-// table.csv: suite,case,method,truth,farms,plots,found,missed,extra,recall,precision,iou_mean,
-// iou_median,iou_min,center_rmse_cm,heading_rmse_deg,rmse_cm,rmse_lo_cm,rmse_hi_cm,rmse_change_cm,
-// rmse_change_lo_cm,rmse_change_hi_cm,bias_cm,mae_cm,r2,farm_bias_cm,within_cm,r2_within,rho_within,
-// coverage95,flagged,over_5cm_unflagged,over_5cm_unflagged_share; a field that is NaN is empty.
+// table.csv (docs/benchmark.md); a field that is NaN is empty.
 std::string table_csv(const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/internal/printable.h"
 #include "core/number_text.h"
 #include "core/parse.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {

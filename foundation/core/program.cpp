@@ -19,7 +19,6 @@
 
 #include "core/error.h"
 #include "core/internal/interrupt.h"
-#include "core/internal/printable.h"
 #include "core/internal/program_completion.h"
 #include "core/internal/program_help.h"
 #include "core/internal/program_pages.h"
@@ -27,6 +26,7 @@
 #include "core/manifest.h"
 #include "core/nearest_name.h"
 #include "core/parse.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {

@@ -12,9 +12,9 @@
 
 #include "core/error.h"
 #include "core/format.h"
-#include "core/internal/printable.h"
 #include "core/nearest_name.h"
 #include "core/parse.h"
+#include "core/printable.h"
 #include "core/text.h"
 
 namespace plotscan {

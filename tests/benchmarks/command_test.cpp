@@ -126,6 +126,25 @@ TEST_F(Command, FailuresAreResults) {
                                HasSubstr("has neither a box nor")));
 }
 
+// The message goes into JSON, which is UTF-8, and onto terminals; the log may be large.
+TEST_F(Command, WhateverItWritesItsLastLineIsText) {
+  EXPECT_EQ(run_command("sh -c 'printf \"10 %%\\r20 %%\\rgr\\374n \\033[31mred\\n\"; exit 4' {out}")
+                .failure,
+            "ended with exit code 4: gr\\xfcn \\x1b[31mred");
+  const std::string accents =
+      run_command(
+          "sh -c 'printf x; for i in $(seq 200); do printf \"\\303\\244\"; done; exit 4' {out}")
+          .failure;
+  EXPECT_TRUE(accents.ends_with("\u00e4")) << accents;
+  EXPECT_EQ(
+      run_command("sh -c 'head -c 100000 /dev/zero | tr \"\\000\" a; echo; echo end; exit 4' {out}")
+          .failure,
+      "ended with exit code 4: end");
+  EXPECT_EQ(run_command("sh -c 'test -z \"$(ls -A)\" || exit 5; echo mine >log.txt; exit 4' {out}")
+                .failure,
+            "ended with exit code 4");
+}
+
 TEST_F(Command, IsStoppedWhereItsTimeIsOver) {
   const auto start = std::chrono::steady_clock::now();
   // A grandchild that would go on, holding the log open.
@@ -183,6 +202,26 @@ TEST(CommandSuite, RunsBesideOurOwnAndStaysInTheReports) {
   EXPECT_EQ(run(options).resumed, 0U);
 }
 
+TEST(CommandMethod, IsMadeOfTheFilesThatItNamesAndOfNoOthers) {
+  const TemporaryFolder folder;
+  folder.write("mine.sh", "exit 1\n");
+  const auto files = [&](const std::string& command, const fs::path& suite) {
+    return made_from(command_method("mine=" + command, suite))["sha256"];
+  };
+  const std::string tool = (folder.path() / "mine.sh").string();
+  EXPECT_TRUE(files("no-such-program {suite}/mine.sh {out}", folder.path() / "a/.././s.yaml")
+                  .contains(tool));
+  // It runs in a folder of its own: files of this one are none of its.
+  const fs::path here = fs::current_path();
+  fs::current_path(folder.path());
+  folder.write("cloud.pcd", "");
+  EXPECT_EQ(files("no-such-program {cloud} mine.sh {out}", "s.yaml"), nlohmann::json::object());
+  EXPECT_TRUE(files("no-such-program {suite}/mine.sh {out}", "./s.yaml").contains(tool));
+  fs::current_path(here);
+  EXPECT_EQ(files("no-such-program '" + std::string(5000, 'x') + "' {out}", "s.yaml"),
+            nlohmann::json::object());
+}
+
 TEST(CommandSuite, NamesWhatIsWrongWithACommand) {
   const TemporaryFolder folder;
   const std::string suite = read_text(write_blind_suite(folder));
@@ -193,6 +232,8 @@ TEST(CommandSuite, NamesWhatIsWrongWithACommand) {
     return message_of<InputError>([&] { load_suite(file); });
   };
   EXPECT_THAT(refused("{name: mine, command: 'tool {cloud}'}"), HasSubstr("names no output"));
+  EXPECT_THAT(refused("{name: mine, command: 'tool {out} {out_csv}'}"),
+              HasSubstr("names two outputs; it must name one"));
   EXPECT_THAT(refused("{name: mine, command: 'tool {clod} {out}'}"), HasSubstr("names none of"));
   EXPECT_THAT(refused("{name: mine, command: './tool {out}'}"), HasSubstr("write {suite}/./tool"));
   EXPECT_THAT(refused("{name: 'a b', command: 'tool {out}'}"), HasSubstr("is not a name"));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 
 #include "benchmarks/blind_suite.h"
 #include "methods/lattice/lattice.h"
@@ -14,6 +16,7 @@
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/internal/suite_page.h"
+#include "farmbench/plan.h"
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
 #include "farmbench/submission/score_submission.h"
@@ -112,6 +115,21 @@ TEST(EnteredPlots, GeoJsonIsReadAsAnyMapOfPlots) {
   EXPECT_NEAR(read.plots.plots[0].box.length_m, 4, 1e-9);
   EXPECT_NEAR(read.plots.plots[0].box.width_m, 1, 1e-9);
   EXPECT_EQ(read.plots.plots[0].heights_m.at("max"), 1.5);
+}
+
+TEST(EnteredPlots, FlagsOfAFeatureAreAListOrATextAsInATable) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& flags) {
+    return read_file(
+        folder, "a.geojson",
+        R"({"features": [{"id": 1, "geometry": null, "properties": {"flags": )" + flags + "}}]}");
+  };
+  const std::vector<std::string> two = {"low", "at the edge"};
+  EXPECT_EQ(read(R"("low; at the edge")").plots.plots[0].flags, two);
+  EXPECT_EQ(read(R"(["low", "at the edge"])").plots.plots[0].flags, two);
+  EXPECT_TRUE(read("null").plots.plots[0].flags.empty());
+  for (const char* neither : {"3", "[3]", "true"})
+    EXPECT_THAT(read(neither).problems, HasSubstr("it must be a list of texts, or a text"));
 }
 
 TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
@@ -285,6 +303,52 @@ TEST_F(Scoring, RefusesAllThatIsWrongAtOnceAndWritesNothing) {
     EXPECT_THAT(told, HasSubstr(problem));
   }
   EXPECT_FALSE(fs::exists(folder_.path() / "results"));
+}
+
+// Farms of the same names, which were another ones when the results were made.
+TEST_F(Scoring, RefusesResultsOfAnotherTruthAndWritesNothing) {
+  run_suite();
+  std::string text = read_text(choice_.file);
+  text.replace(text.find("plants.count: 30"), 16, "plants.count: 20");
+  folder_.write("blind.yaml", text);
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }),
+              ::testing::AllOf(HasSubstr("results/results.json: case "), HasSubstr("another truth"),
+                               HasSubstr("run the suite again")));
+  EXPECT_FALSE(fs::exists(folder_.path() / "results/entries"));
+}
+
+// Not after the hours that the farms of a suite take.
+TEST_F(Scoring, WhatCannotStandBesideTheSuitesMethodsIsToldBeforeTheFirstFarm) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  score_submission(options());
+  const fs::path results = folder_.path() / "results";
+  RunOptions again{.suite = choice_.file,
+                   .output = results,
+                   .entered = {"mine=true {boxes} {out}"},
+                   .build = "test"};
+  for (const auto& begin :
+       {std::function<void()>([&] { run(again); }), std::function<void()>([&] { plan(again); })}) {
+    EXPECT_THAT(message_of<InputError>(begin),
+                HasSubstr("mine true-boxes.json: \"mine true-boxes\" is the name of another"));
+  }
+  again.entered.clear();
+  folder_.write("results/entries/broken.json", "{");
+  EXPECT_THAT(message_of<InputError>([&] { run(again); }),
+              HasSubstr("broken.json: not what farmbench score writes"));
+  EXPECT_FALSE(fs::exists(results / "farms"));
+}
+
+TEST_F(Scoring, NamesTheFolderForTemporaryFilesThatIsNotThere) {
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }), HasSubstr("TMPDIR"));
+  before == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", kept.c_str(), 1);
 }
 
 TEST_F(Scoring, RefusesOtherFarms) {

@@ -76,6 +76,30 @@ TEST_F(Plan, FarmByFarmGivesTheBytesOfARun) {
   EXPECT_EQ(run(planned).resumed, 4U);  // a run takes the farms as its own
 }
 
+// However the suite's path was written, and from wherever its farms are run.
+TEST_F(Plan, CommandsOfTheSuitesFolderStayAsTheyWerePlanned) {
+  write_suite();
+  folder_.write("mine.sh", "exit 1\n");
+  RunOptions planned = options("planned");
+  fs::create_directories(folder_.path() / "below");
+  planned.suite = folder_.path() / "below/../tiny.yaml";
+  planned.entered = {"mine=sh {suite}/mine.sh {cloud} {out}"};
+  plan(planned);
+  EXPECT_FALSE(run_planned(planned.output, "flat-1", own_).resumed);
+}
+
+// A page of a sweep shows no farm: a workflow must not wait for its view.
+TEST_F(Plan, ASweepsFarmsHaveNoViews) {
+  folder_.write("sweep.yaml", "name: swept\nfarm: " + std::string(PLOTSCAN_SOURCE_DIR) +
+                                  "/worlds/paper_flat.yaml\naxes: {altitude_m: [6, 8]}\n"
+                                  "seeds: [1]\nmethods: [one-number]\n");
+  RunOptions planned = options("planned");
+  planned.suite = folder_.path() / "sweep.yaml";
+  plan(planned);
+  EXPECT_EQ(read_text(planned.output / "tasks.csv"),
+            "farm,case,seed,viewed\n6-1,6,1,0\n8-1,8,1,0\n");
+}
+
 TEST_F(Plan, WhatIsMissingIsNamedOrLeftOut) {
   write_suite(", flight: {sensor: no-such}");
   const RunOptions planned = options("planned");

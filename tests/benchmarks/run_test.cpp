@@ -172,6 +172,27 @@ TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
   EXPECT_TRUE(fs::exists(kept / "notes.txt"));
 }
 
+// Asked for later, or lost when the run was killed at its end, or of the farm as it once was.
+TEST(RunSuite, CloudsThatAreNotThereAreMadeAgain) {
+  const TemporaryFolder folder;
+  RunOptions options = smoke_options(folder.path() / "smoke");
+  options.methods = {"one-number"};
+  run(options);
+  options.keep_clouds = true;
+  EXPECT_EQ(run(options).resumed, 0U);
+  const fs::path clouds = options.output / "clouds";
+  EXPECT_TRUE(fs::exists(clouds / "flat-1/scan/cloud.pcd"));
+  EXPECT_EQ(run(options).resumed, 3U);
+  fs::remove_all(clouds / "half-1");
+  EXPECT_EQ(run(options).resumed, 2U);
+  EXPECT_TRUE(fs::exists(clouds / "half-1/scan/cloud.pcd"));
+  options.keep_clouds = false;
+  options.methods = {"oracle-ground"};
+  run(options);
+  options.keep_clouds = true;
+  EXPECT_EQ(run(options).resumed, 0U);
+}
+
 // The same field, but what stands in its boxes are no plots: whatever is found is one too many.
 TEST(RunSuite, WithoutPlotsWhateverIsFoundIsInvented) {
   const TemporaryFolder folder;
@@ -198,6 +219,9 @@ TEST(RunSuite, OptionsChooseSeedsAndMethods) {
   ASSERT_EQ(summary.result.farms.size(), 6U);
   EXPECT_EQ(summary.result.farms[1].seed, 2U);
   EXPECT_THAT(summary.result.methods, ::testing::ElementsAre("one-number"));
+  options.methods = {" one-number", "lattice  true-boxes "};  // "a, b"
+  EXPECT_THAT(run(options).result.methods,
+              ::testing::ElementsAre("one-number", "lattice true-boxes"));
   options.methods = {"magic"};
   EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("no method \"magic\""));
   options.methods = {"one-number", "one-number"};

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "farmbench/methods.h"
+#include "farmbench/suite_choice.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -144,6 +145,17 @@ TEST(LoadSuite, OverridesSeedsAndFlight) {
   EXPECT_THAT(suite.cases[0].overrides, ElementsAre("plots.rows=[{plots: 2}]"));
 }
 
+TEST(ChosenSuite, TakesTheSuitesFirstSeeds) {
+  const TemporaryFolder folder;
+  const auto seeds = [&](const std::string& of_suite, int count) {
+    return chosen_suite({.file = folder.write("s.yaml", with("[4]", of_suite)), .seeds = count})
+        .seeds;
+  };
+  EXPECT_THAT(seeds("[3, 8, 5]", 2), ElementsAre(3, 8));
+  EXPECT_THAT(seeds("[3, 8, 5]", 5), ElementsAre(3, 8, 5, 9, 10));
+  EXPECT_THAT(seeds("{first: 7, count: 2}", 3), ElementsAre(7, 8, 9));
+}
+
 TEST(LoadSuite, CasesFlyTheirOwnWay) {
   const TemporaryFolder folder;
   const Suite suite = load_suite(folder.write(
@@ -220,6 +232,12 @@ INSTANTIATE_TEST_SUITE_P(
                  ":3: cases.0.without_plots \"yes\" is not one of false, true"},
         BadSuite{with(".yaml}", ".yaml, without_plots: true, survey_m: [0, 0, 1, 1]}"),
                  ":3: cases.0.survey_m is of plots, and the case is without_plots"},
+        BadSuite{kSound + "truths: [height_max]\n",
+                 ":6: truths.0.name \"height_max\" is not one of height_hand3_m, height_max_m"},
+        BadSuite{kSound + "truths: [height_max_m, height_max_m]\n",
+                 ":6: truths name height_max_m twice"},
+        BadSuite{kSound + "published: {source: us, methods: [oracle]}\n",
+                 ":6: published.methods name \"oracle\", which is no row"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "farmbench/table.h"
 
 #include <cmath>
+#include <functional>
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 #include "core/error.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/reports.h"
+#include "farmbench/run.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -167,6 +169,13 @@ TEST(MakeTable, AgainstABaselineRmseChangesByTheDifference) {
   EXPECT_EQ(table[0].rmse_change_m, 0);
   EXPECT_TRUE(std::isnan(table[1].rmse_change_m));  // "b" has other farms than "a"
   EXPECT_TRUE(std::isnan(make_table(small_result(), 1)[0].rmse_change_m));
+  // As many farms, of which some are missing on either side: they are no pairs.
+  result.farms.erase(result.farms.begin(), result.farms.begin() + 2);
+  EXPECT_EQ(make_table(result, 1)[0].rmse_change_m, 0);
+  result.farms.back() = farm("b", 1, 1, {plot(1.0, 0.03, 0.9)});
+  EXPECT_TRUE(std::isnan(make_table(result, 1)[1].rmse_change_m));
+  result.farms.back().seed = 3;
+  EXPECT_FALSE(std::isnan(make_table(result, 1)[1].rmse_change_m));
 }
 
 TEST(TableCsv, HasTheColumnsOthersReadIt) {
@@ -218,11 +227,67 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }
 
+TEST(TableCsv, QuotesASettingThatIsAList) {
+  const testing::TemporaryFolder folder;
+  std::vector<TableRow> rows = make_table(small_result(), 1);
+  rows.front().method = "lattice/max ground_classes=2,3";
+  const CsvTable table = read_csv_table(folder.write("table.csv", table_csv(rows)));
+  EXPECT_EQ(table.lines.front().fields[2], "lattice/max ground_classes=2,3");
+}
+
 TEST(SuiteResultJson, ComesBack) {
   const nlohmann::json document = to_json(small_result());
   const SuiteResult again = suite_result_from_json(nlohmann::json::parse(document.dump()));
   EXPECT_EQ(to_json(again), document);
   EXPECT_EQ(table_csv(make_table(again, 1)), table_csv(make_table(small_result(), 1)));
+}
+
+TEST(SuiteResultJson, PartsThatDoNotBelongTogetherAreRefused) {
+  const testing::TemporaryFolder folder;
+  const auto write = [&](const std::function<void(nlohmann::json&)>& edit) {
+    nlohmann::json document = to_json(small_result());
+    document["sweep"] = {{"height", "p99"}, {"truth", "height_max_m"}};
+    document["sweep"]["axes"][0] = {{"key", "altitude_m"}, {"values", {1, 2}}};
+    edit(document);
+    folder.write("results.json", document.dump());
+  };
+  const auto refused = [&](const std::function<void(nlohmann::json&)>& edit) {
+    write(edit);
+    return testing::message_of<InputError>([&] { read_results(folder.path()); });
+  };
+  using nlohmann::json;
+  write([](json&) {});
+  EXPECT_NO_THROW(read_results(folder.path()));
+  EXPECT_THAT(refused([](json& d) { d["methods"] = json::array(); }), HasSubstr("names no method"));
+  EXPECT_THAT(refused([](json& d) { d["cases"][1]["name"] = "a"; }), HasSubstr("two cases a"));
+  EXPECT_THAT(refused([](json& d) { d["farms"][0]["case"] = "c"; }),
+              HasSubstr("results.json: farm c-1 is of no case"));
+  EXPECT_THAT(refused([](json& d) { d["farms"][0]["seed"] = 2; }), HasSubstr("two farms a-2"));
+  EXPECT_THAT(refused([](json& d) { d["baseline"] = "c"; }), HasSubstr("the baseline c"));
+  json::json_pointer values("/sweep/axes/0/values");
+  EXPECT_THAT(refused([&](json& d) { d[values] = json::array(); }), HasSubstr("0 combinations"));
+  EXPECT_THAT(refused([&](json& d) { d[values] = {1, nullptr}; }), HasSubstr("the value null"));
+  folder.write("times/a-1.json", "{");
+  EXPECT_THAT(refused([](json&) {}), HasSubstr("times/a-1.json: not the times of a farm"));
+}
+
+// A submission from before the suite had the case.
+TEST(WriteReports, AMethodWithoutACaseLeavesItsColumnToNoOther) {
+  const testing::TemporaryFolder folder;
+  SuiteResult result = small_result();
+  result.baseline = "a";
+  result.methods = result.entered = {"early", "late"};
+  result.farms.back() = farm("b", 1, 1, {plot(1.0, 0.03, 0.9)});
+  for (FarmResult& farm : result.farms) {
+    farm.methods.front().method = "late";
+    if (farm.case_name == "b") continue;
+    farm.methods.push_back(farm.methods.front());
+    farm.methods.back().method = "early";
+  }
+  write_reports(folder.path(), result, make_table(result, 1));
+  EXPECT_THAT(read_text(folder.path() / "leaderboard.md"),
+              ::testing::AllOf(HasSubstr("| case | early/p99 | late/p99 |"),
+                               HasSubstr("\n| b | - | 3.00 (-) |\n")));
 }
 
 TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/internal/printable.h"
 #include "core/internal/time_left.h"
 #include "core/nearest_name.h"
+#include "core/printable.h"
 
 namespace plotscan {
 namespace {

@@ -29,6 +29,14 @@ seeds: [5001, 5002, 5003]
 flight: {{altitude_m: 6, speed_m_s: 3}}
 methods: [lattice, one-number]
 """
+SWEEP = """
+name: swept
+farm: {source}/worlds/paper_flat.yaml
+set: {{terrain.side_m: 30, terrain.vertices: 20, "plots.rows": "[{{plots: 4}}]", plants.count: 30}}
+axes: {{altitude_m: [6, 8]}}
+seeds: [5001]
+methods: [one-number]
+"""
 FARMS = [f"{case}-{seed}" for case in ("flat", "half") for seed in (5001, 5002, 5003)]
 VIEWED = ["flat-5001", "half-5001"]
 REPORTS = ["table.csv", "results.json", "leaderboard.md", "report.html"]
@@ -137,6 +145,16 @@ def goes_on_after_kill(trial, whole, suite):
     check("no work is left", not list(results.glob(".*.work-*")))
 
 
+def a_sweep_shows_no_farm(trial):
+    """Whose view the workflow would wait for."""
+    suite = trial.folder / "sweep.yaml"
+    suite.write_text(SWEEP.format(source=trial.source))
+    results = trial.plan(suite, "sweep")
+    code, said = trial.finish(results)
+    check(f"a sweep ends well: {said}", code == 0 and (results / "sweep.csv").exists())
+    check(f"its farms ran once: {trial.runs()}", trial.runs() == {"6-5001": 1, "8-5001": 1})
+
+
 def a_failing_farm_stops_no_other(trial, whole):
     """The half farms name a sensor that is not there."""
     results = trial.plan(trial.suite("failing", ", flight: {sensor: no-such}"), "failing")
@@ -174,6 +192,7 @@ def trials(trial):
     goes_on_after_kill(trial, whole, suite)
     if trial.kind == "slurm":
         a_cancelled_job_fails_and_is_run_again(trial, whole, suite)
+    a_sweep_shows_no_farm(trial)
     a_failing_farm_stops_no_other(trial, whole)
 
 
@@ -198,7 +217,7 @@ def main(kind, farmbench, source):
         else:
             with slurm.Slurm(work / "cluster") as environment:
                 trials(Trial(kind, farmbench, source, work, environment))
-    print(f"workflow: {kind}: as on one machine; killed and resumed; failures reported")
+    print(f"workflow: {kind}: as on one machine; killed and resumed; a sweep; failures reported")
     return 0
 
 

@@ -94,9 +94,13 @@ void read_trust(const EnteredRow& row, estimate::PlotEstimate& plot, Problems& p
       problems.add(row.place, "confidence is " + confidence->dump() + "; it must be 0 to 1");
   }
   const auto flags = row.properties.find("flags");
-  if (flags == row.properties.end() || !flags->is_array()) return;
-  for (const json& flag : *flags)
-    if (flag.is_string()) plot.flags.push_back(flag.get<std::string>());
+  if (flags == row.properties.end() || flags->is_null()) return;
+  const auto is_text = [](const json& flag) { return flag.is_string(); };
+  if (!flags->is_array() || !std::ranges::all_of(*flags, is_text))
+    return problems.add(row.place, "flags is " + flags->dump() +
+                                       "; it must be a list of texts, or a text with semicolons "
+                                       "between the reasons");
+  for (const json& flag : *flags) plot.flags.push_back(flag.get<std::string>());
 }
 
 bool is_sound(const PlotBox& box) {

@@ -8,6 +8,7 @@
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/temporary_path.h"
 #include "farmbench/command_method.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/internal/run_farm.h"
@@ -22,7 +23,8 @@ namespace {
 using nlohmann::json;
 
 // Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
-void take_methods(Suite& suite, const std::vector<std::string>& names) {
+void take_methods(Suite& suite, std::vector<std::string> names) {
+  std::ranges::transform(names, names.begin(), method_name);
   std::vector<std::string> own;
   for (const std::string& name : names) {
     if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
@@ -31,7 +33,7 @@ void take_methods(Suite& suite, const std::vector<std::string>& names) {
       throw InputError("the method \"" + name + "\" is named twice");
   }
   require_known_methods(own);
-  suite.methods = names;
+  suite.methods = std::move(names);
 }
 
 fs::path result_file(const RunOptions& options, const FarmTask& task) {
@@ -51,15 +53,27 @@ fs::path kept_clouds(const RunOptions& options, const FarmTask& task) {
   return options.output / "clouds" / task.name;
 }
 
-void keep_clouds(const fs::path& folder, const fs::path& kept, std::uint64_t seed) {
-  write_manifest(folder, {.command = kRunCommand, .seed = seed});
+void keep_clouds(const fs::path& folder, const fs::path& kept, const FarmTask& task) {
+  write_manifest(
+      folder,
+      {.command = kRunCommand, .seed = task.seed, .options = {{"made_from", task.made_from}}});
   require_replaceable_folder(kept, kRunCommand);
   fs::create_directories(kept.parent_path());
   fs::remove_all(kept);
   // The place of work may be another disk.
   std::error_code other_disk;
   fs::rename(folder, kept, other_disk);
-  if (other_disk) fs::copy(folder, kept, fs::copy_options::recursive);
+  if (!other_disk) return;
+  const TemporaryPath copy(partial_path(kept));
+  fs::copy(folder, copy.path(), fs::copy_options::recursive);
+  fs::rename(copy.path(), kept);
+}
+
+// Whether the farm's clouds are there, as it is now, or not asked for.
+bool has_clouds(const RunOptions& options, const FarmTask& task) {
+  if (!options.keep_clouds) return true;
+  const fs::path kept = kept_clouds(options, task);
+  return fs::exists(kept) && read_manifest(kept).at("options").at("made_from") == task.made_from;
 }
 
 void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const RunOptions& options,
@@ -74,10 +88,10 @@ void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const Ru
                                progress);
   result.made_from = task.made_from;
   // The result last: it is what a later run looks for.
+  if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task);
   write_json(times_file(options.output, task.name), times_of(result));
   write_json(result_file(options, task), to_json(result));
   task.result = std::move(result);
-  if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task.seed);
   fs::remove_all(folder);
 }
 
@@ -100,13 +114,17 @@ std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed) {
   return suite_case.name + "-" + std::to_string(seed);
 }
 
+bool is_viewed(const Suite& suite, std::uint64_t seed) {
+  return !suite.sweep && seed == suite.seeds.front();
+}
+
 FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                  const std::string& build) {
   return {.suite_case = suite_case,
           .seed = seed,
           .name = farm_name(suite_case, seed),
           .made_from = made_from(suite, suite_case, seed, build),
-          .viewed = !suite.sweep && seed == suite.seeds.front()};
+          .viewed = is_viewed(suite, seed)};
 }
 
 std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options) {
@@ -128,8 +146,10 @@ std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTa
   try {
     FarmResult result = farm_result_from_json(json::parse(read_json_text(file)));
     read_times(options.output, result);
-    if (result.made_from == task.made_from) return result;
+    if (result.made_from == task.made_from && has_clouds(options, task)) return result;
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const InputError&) {
     return std::nullopt;
   }
   return std::nullopt;
@@ -137,7 +157,13 @@ std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTa
 
 void read_times(const fs::path& output, FarmResult& result) {
   const fs::path file = times_file(output, result.case_name + "-" + std::to_string(result.seed));
-  if (fs::exists(file)) set_times(result, json::parse(read_json_text(file)));
+  if (!fs::exists(file)) return;
+  try {
+    set_times(result, json::parse(read_json_text(file)));
+  } catch (const json::exception& error) {
+    throw InputError(file, std::string("not the times of a farm (") + error.what() +
+                               "); without this file they are not known");
+  }
 }
 
 void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks) {

@@ -34,6 +34,9 @@ Suite suite_of(const RunOptions& options);
 // A farm's name in files, "flat-1".
 std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed);
 
+// Whether the report shows the farms of this seed: each case's first, and none of a sweep.
+bool is_viewed(const Suite& suite, std::uint64_t seed);
+
 FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t seed,
                  const std::string& build);
 
@@ -41,10 +44,12 @@ FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t 
 // already unless options.force is set.
 std::vector<FarmTask> farm_tasks(const Suite& suite, const RunOptions& options);
 
-// The farm's earlier result, if it was made from the same inputs; a broken file counts as none.
+// The farm's earlier result, if it was made from the same inputs, and its clouds are there too
+// where options.keep_clouds is set; a broken file counts as none.
 std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTask& task);
 
-// Reads the times of output/times into the result, where there are any.
+// Reads the times of output/times into the result, where there are any. Throws InputError on a
+// broken file of them.
 void read_times(const std::filesystem::path& output, FarmResult& result);
 
 // Throws InputError if the place for a farm's kept clouds holds something not from an earlier run.

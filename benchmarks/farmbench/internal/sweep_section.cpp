@@ -86,9 +86,7 @@ std::string read_height(const YamlSection& root, const Suite& suite) {
 
 // What the height is held against: the truth that it is named after, where there is one.
 std::string read_height_truth(const YamlSection& root, const std::string& height) {
-  std::vector<std::string> truths = {"height_hand3_m"};
-  for (const MethodHeight& named : method_named("one-number").heights)
-    truths.push_back(score::named_truth(named.height));
+  const std::vector<std::string>& truths = known_truths();
   const auto own = std::ranges::find(truths, score::named_truth(height));
   if (own == truths.end()) return truths[root.choice("truth", truths)];
   return truths[root.choice("truth", truths, own - truths.begin())];

@@ -87,6 +87,16 @@ EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submi
   return farm;
 }
 
+// Where farms are made again.
+fs::path work_folder() {
+  std::error_code none;
+  const fs::path folder = fs::temp_directory_path(none);
+  if (none)
+    throw InputError("the folder for temporary files, $TMPDIR or /tmp, cannot be used (" +
+                     none.message() + "); name another one in TMPDIR");
+  return folder / (".farmbench-score-" + std::to_string(getpid()));
+}
+
 // Scores of a submission that is sound; throws where it is not.
 Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
                    const ProgressReport& progress) {
@@ -94,8 +104,7 @@ Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
   Problems problems;
   Submission submission = read_submission(options.submission, fields, problems);
   problems.raise(options.submission);
-  const TemporaryPath work(fs::temp_directory_path() /
-                           (".farmbench-score-" + std::to_string(getpid())));
+  const TemporaryPath work(work_folder());
   std::vector<FieldTruth> truths;
   for (const BlindField& field : fields) {
     truths.push_back(truth_of(field, work.path(), options.threads));
@@ -154,6 +163,17 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
   return result;
 }
 
+void require_addable(const Entry& entry, const SuiteResult& earlier,
+                     const ScoreSubmissionOptions& options) {
+  if (std::ranges::count(earlier.methods, entry.method) > 0)
+    throw InputError(options.submission,
+                     "\"" + entry.method + "\" is the name of another method of the results");
+  if (const EnteredFarm* farm = farm_of_other_truth(entry, earlier))
+    throw InputError(*options.output / "results.json",
+                     "case " + farm->case_name + ", seed " + std::to_string(farm->seed) +
+                         " has another truth than the suite's farm has now; run the suite again");
+}
+
 void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, SuiteResult result) {
   const fs::path& output = *options.output;
   json results = {{"farms", result.farms.size()}, {"finished", false}};
@@ -203,9 +223,7 @@ ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
   }
   const Entry entry = score_fields(options, suite, progress);
   if (earlier) {
-    if (std::ranges::count(earlier->methods, entry.method) > 0)
-      throw InputError(options.submission,
-                       "\"" + entry.method + "\" is the name of another method of the results");
+    require_addable(entry, *earlier, options);
     add_to_results(options, entry, std::move(*earlier));
   }
   return alone(entry, suite, options.seed);

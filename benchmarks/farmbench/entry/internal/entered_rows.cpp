@@ -182,6 +182,9 @@ std::vector<EnteredRow> read_entered_features(const fs::path& file, Problems& pr
         row.properties = feature["properties"];
       if (feature.contains("id") && !row.properties.contains("plot_number"))
         row.properties["plot_number"] = feature["id"];
+      const auto flags = row.properties.find("flags");
+      if (flags != row.properties.end() && flags->is_string())
+        *flags = entered_flags(flags->get<std::string>());
       row.box_stated = feature.contains("geometry") && !feature["geometry"].is_null();
       if (row.box_stated) row.box = box_of(document, feature, row, problems);
     } else {

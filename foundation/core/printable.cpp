@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/internal/printable.h"
+#include "core/printable.h"
 
 #include <cstdint>
 
