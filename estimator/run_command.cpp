@@ -126,7 +126,7 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
   run.add_option("--id", arguments.id,
                  "property of --boxes, or column of --plot-names, that is the plots' id (default: "
                  "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
-                 "name, id)");
+                 "observationunit_name, name, id)");
   run.add_option("--first-number", arguments.options.numbering.first_number,
                  "number of the first plot that is found; the others follow along the rows "
                  "(default: 1)")

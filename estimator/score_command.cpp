@@ -61,7 +61,8 @@ void say_trust(const Program& program, const std::vector<score::HeightScore>& he
 
 void say_scores(const Program& program, const score::Scores& scores) {
   say_boxes(program, scores.boxes);
-  if (scores.boxes.found == 0) return;
+  for (const std::string& note : scores.notes) program.say(note);
+  if (scores.heights.empty()) return;
   const std::set<std::string> heights = score::estimated_heights(scores.field);
   std::vector<score::HeightScore> shown;
   for (const score::HeightScore& height : scores.heights) {

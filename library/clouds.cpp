@@ -2,10 +2,12 @@
 #include "plotscan/clouds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 
 #include "boundary/guarded.h"
+#include <fmt/core.h>
 
 #include "core/output_file.h"
 #include "record/convert.h"
@@ -62,6 +64,20 @@ record::Source source_of(std::span<const Point> points, const WriteCloudOptions&
   return source;
 }
 
+// What readers refuse is not written.
+void require_readable(std::span<const Point> points, const WriteCloudOptions& options) {
+  if (!Eigen::Vector3d(options.origin_m.data()).allFinite())
+    throw InputError("origin_m must be three finite numbers");
+  const auto unreadable = std::ranges::find_if(points, [](const Point& point) {
+    return !std::isfinite(point.time) || !std::isfinite(point.intensity);
+  });
+  if (unreadable == points.end()) return;
+  throw InputError(fmt::format(
+      "point {} of {} has the time {:g} and the intensity {:g}; both must "
+      "be finite numbers",
+      unreadable - points.begin() + 1, points.size(), unreadable->time, unreadable->intensity));
+}
+
 }  // namespace
 
 PointsView Cloud::positions() const {
@@ -90,6 +106,7 @@ Cloud read_cloud(const std::filesystem::path& file, const Progress& progress) {
 void write_cloud(const std::filesystem::path& file, std::span<const Point> points,
                  const WriteCloudOptions& options, const Progress& progress) {
   boundary::guarded([&] {
+    require_readable(points, options);
     OutputFile out(file, options.replace);
     const record::Source source = source_of(points, options);
     const record::WriteOptions write{.encoding = options.encoding};

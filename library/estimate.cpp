@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plotscan/estimate.h"
 
+#include <cmath>
+
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
 #include "boundary/settings.h"
@@ -8,6 +10,7 @@
 #include "cloud/field_cloud.h"
 #include "cloud/tile_store.h"
 #include "methods/run.h"
+#include <fmt/core.h>
 
 #include "core/coordinate_units.h"
 #include "core/error.h"
@@ -15,9 +18,25 @@
 namespace plotscan {
 namespace {
 
+// Those of files are checked where they are read.
+std::vector<PlotBox> inner(const std::vector<Box>& boxes) {
+  std::vector<PlotBox> made;
+  for (const Box& box : boxes) {
+    made.push_back(boundary::inner(box));
+    const PlotBox& last = made.back();
+    const bool placed = last.center.allFinite() && std::isfinite(last.heading_rad);
+    if (placed && last.width_m > 0 && last.length_m > 0 && std::isfinite(last.area_m2())) continue;
+    throw InputError(
+        fmt::format("box {} of {}: its centre and heading must be finite, its width and length "
+                    "above 0",
+                    made.size(), boxes.size()));
+  }
+  return made;
+}
+
 methods::lattice::Options inner(const EstimateOptions& options) {
   methods::lattice::Options made{.crop_box = options.crop_box};
-  for (const Box& box : options.boxes) made.boxes.push_back(boundary::inner(box));
+  made.boxes = inner(options.boxes);
   boundary::take("lattice", options.settings, methods::lattice::settings(), made);
   if (!made.ground_classes.empty())
     throw InputError("ground_classes is for files: points in memory have no classes");
@@ -46,21 +65,27 @@ std::size_t feed(const PointsView& points, cloud::TileStore& store) {
 
 cloud::FieldCloud field_of(const PointsView& points, const methods::lattice::Options& options,
                            const Progress& progress) {
-  const cloud::FieldOptions field_options{.area = area_to_read(options),
-                                          .threads = options.threads};
-  cloud::TileStore store(
-      {.points_per_cell = field_options.points_per_cell, .threads = options.threads});
+  const cloud::FieldOptions reading = field_options(options);
+  cloud::TileStore store({.points_per_cell = reading.points_per_cell, .threads = reading.threads});
   const std::size_t not_finite = feed(points, store);
   if (not_finite == points.size()) throw InputError("the cloud has no point that is finite");
   if (progress) progress(0.1);
-  cloud::FieldCloud field = take_field(store, field_options, "the cloud");
+  cloud::FieldCloud field = take_field(store, reading, "the cloud");
   field.counts.read += not_finite;
   field.counts.not_finite = not_finite;
   if (progress) progress(0.2);
   return field;
 }
 
+void require_classes(const std::vector<int>& classes) {
+  for (const int number : classes) {
+    if (number < 0 || number > 255)
+      throw InputError(fmt::format("leave_out_classes has {}; ASPRS classes are 0 to 255", number));
+  }
+}
+
 methods::RunOptions inner(const EstimateFilesOptions& options) {
+  require_classes(options.leave_out_classes);
   methods::RunOptions run;
   run.method = options.method;
   run.boxes = options.boxes;

@@ -21,7 +21,7 @@ PointArray points_array(const py::object& cloud) {
 
 void write(const fs::path& file, const py::array& points, const WriteCloudOptions& options,
            const py::object& progress) {
-  const bool whole = points.ndim() == 1 && points.strides(0) == points.itemsize();
+  const bool whole = points.ndim() == 1 && (points.flags() & py::array::c_style) != 0;
   if (!whole || !points.dtype().equal(py::dtype::of<Point>()))
     throw BadInput("points to write are a whole array of plotscan.point_dtype");
   const std::span<const Point> span(static_cast<const Point*>(points.data()),

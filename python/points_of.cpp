@@ -33,7 +33,9 @@ py::ssize_t place_of(const py::dtype& record, const char* field) {
 PointsView points_of(const py::array& array, const std::array<double, 3>& origin_m) {
   const py::dtype dtype = array.dtype();
   const auto points = static_cast<std::size_t>(array.ndim() > 0 ? array.shape(0) : 0);
-  const py::ssize_t stride = array.ndim() > 0 ? array.strides(0) : 0;
+  // NumPy gives an array without points any strides.
+  const bool empty = array.size() == 0;
+  const py::ssize_t stride = array.ndim() > 0 && !empty ? array.strides(0) : 0;
   if (stride < 0) refuse(array);
   const auto step = static_cast<std::size_t>(stride);
   if (array.ndim() == 1) {
@@ -44,11 +46,15 @@ PointsView points_of(const py::array& array, const std::array<double, 3>& origin
     const auto* first = static_cast<const char*>(array.data()) + x;
     return {reinterpret_cast<const float*>(first), points, step, origin_m};
   }
-  if (array.ndim() != 2 || array.shape(1) < 3 || array.strides(1) != array.itemsize())
-    refuse(array);
+  if (array.ndim() != 2 || array.shape(1) < 3) refuse(array);
+  if (!empty && array.strides(1) != array.itemsize()) refuse(array);
   if (dtype.equal(py::dtype::of<float>()))
     return {static_cast<const float*>(array.data()), points, step, origin_m};
   if (!dtype.equal(py::dtype::of<double>())) refuse(array);
+  if (origin_m != std::array<double, 3>{}) {
+    throw BadInput(
+        "origin_m is what positions in float32 count from; these are float64: add it to them");
+  }
   return {static_cast<const double*>(array.data()), points, step};
 }
 

@@ -2,6 +2,7 @@
 #include "farmfolder/read_farm.h"
 
 #include "core/error.h"
+#include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/program.h"
 #include "estimate/estimate.h"
@@ -31,6 +32,10 @@ fs::path file_or_inside(const fs::path& path, const char* name) {
 }
 
 void draw(const plotscan::Program& program, const PictureArguments& arguments) {
+  std::vector<fs::path> inputs = {arguments.farm};
+  for (const auto& input : {arguments.scan, arguments.plots})
+    if (input) inputs.push_back(*input);
+  plotscan::require_apart(arguments.png, inputs);
   const plotscan::farm::Farm farm = plotscan::farmfolder::read_farm(arguments.farm);
   std::vector<plotscan::PlotBox> boxes;
   if (arguments.plots) {
@@ -56,6 +61,7 @@ struct PlantsArguments {
 
 void draw_plants(const plotscan::Program& program, const PlantsArguments& arguments) {
   using plotscan::mesh::UpAxis;
+  plotscan::require_apart(arguments.png, arguments.meshes);
   if (!arguments.labels.empty() && arguments.labels.size() != arguments.meshes.size()) {
     throw plotscan::InputError("--labels names " + std::to_string(arguments.labels.size()) +
                                " plants where there are " +
@@ -100,6 +106,7 @@ plotscan::estimate::Estimate estimate_with_ground(const fs::path& folder) {
 }
 
 void draw_field(const plotscan::Program& program, const EstimateArguments& arguments) {
+  plotscan::require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
   plotscan::view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
                              estimate_with_ground(arguments.estimate), arguments.png,
                              arguments.field);
@@ -108,6 +115,7 @@ void draw_field(const plotscan::Program& program, const EstimateArguments& argum
 }
 
 void draw_plot(const plotscan::Program& program, const EstimateArguments& arguments) {
+  plotscan::require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
   plotscan::view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
                             estimate_with_ground(arguments.estimate),
                             plotscan::PlotId(arguments.plot), arguments.png, arguments.side);

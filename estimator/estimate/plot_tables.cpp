@@ -148,10 +148,17 @@ std::vector<Column> columns_of(const Estimate& estimate) {
 
 // The columns for a database: the plots' names, their known attributes, their measured heights.
 std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
-  std::vector<Column> columns = {
-      {"observationunit_name", [](const auto& plot) { return csv_field(plot.id.text()); }}};
+  const std::string unit = "observationunit_name";
+  const auto id_of = [](const PlotEstimate& plot) { return csv_field(plot.id.text()); };
+  std::vector<Column> columns = {{unit, id_of}};
   add_place(columns, "");
   add_attributes(plots, columns);
+  // An attribute of the first column's name, where the ids are another one.
+  if (std::ranges::any_of(plots, [&](const auto& plot) {
+        return attribute(plot, unit, id_of(plot)) != id_of(plot);
+      }))
+    columns.push_back(
+        {"given_" + unit, [unit](const auto& plot) { return attribute(plot, unit); }});
   add_heights(plots, columns);
   columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
   return columns;

@@ -5,6 +5,7 @@
 
 #include "farmfolder/terrain_ply.h"
 
+#include "core/extent.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
@@ -15,11 +16,6 @@
 namespace plotscan::fieldpage {
 namespace fs = std::filesystem;
 namespace {
-
-// The last part of a path that has a name: "scan" of "field/scan/".
-std::string name_of(const fs::path& path) {
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
 
 estimate::Estimate read(const fs::path& path) {
   estimate::Estimate estimate = estimate::read_estimate(path);
@@ -38,11 +34,28 @@ bool is_measured_cloud(const fs::path& estimate, const CloudFiles& cloud) {
   });
 }
 
+// Whether the cloud lies beside the rectangle around the field's plots. A sample of few points says
+// nothing of it.
+bool lies_elsewhere(const report::ShownField& field) {
+  constexpr std::size_t kEnough = 1000;
+  const std::vector<report::ShownPoint>& points = field.cloud->points;
+  if (field.plots.empty() || (points.size() < kEnough && points.size() < field.cloud->read))
+    return false;
+  const Eigen::AlignedBox2d plots = extent_of(field.plots, &report::ShownPlot::box);
+  return std::ranges::none_of(points, [&](const report::ShownPoint& point) {
+    return plots.contains((field.cloud->origin + point.place.cast<double>()).head<2>());
+  });
+}
+
 void show_cloud(report::ShownField& field, const PageOptions& options,
-                const ProgressReport& progress) {
+                const std::optional<CoordinateUnits>& units, const ProgressReport& progress) {
   CloudFiles cloud = *options.cloud;
   cloud.files = cloud_files_of(cloud.files);
+  if (!cloud.units) cloud.units = units;  // as estimator run was told
   field.cloud = read_shown_positions(cloud, options.points, progress);
+  if (lies_elsewhere(field))
+    field.notes.push_back("No point of the cloud " + cloud.name() +
+                          " lies among the plots: are both in the same coordinates?");
   field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
   if (!is_measured_cloud(options.estimate, cloud))
     field.notes.push_back("The cloud " + cloud.name() +
@@ -55,10 +68,12 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
 PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress) {
   std::vector<fs::path> inputs = {options.estimate};
   if (options.truth) inputs.push_back(*options.truth);
+  if (options.cloud)
+    inputs.insert(inputs.end(), options.cloud->files.begin(), options.cloud->files.end());
   require_apart(options.html, inputs);
   OutputFile file(options.html, options.replace);
   const estimate::Estimate estimate = read(options.estimate);
-  report::ShownField field{.name = name_of(options.estimate)};
+  report::ShownField field{.name = report::shown_name(options.estimate)};
   if (!estimate.method.empty()) field.facts.push_back({"method", estimate.method});
   field.facts.push_back({"plots", std::to_string(estimate.plots.size())});
   if (!estimate.diagnostics.why_no_plots.empty())
@@ -66,12 +81,14 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   show_estimate(field, estimate);
   show_working(field, estimate);
   if (options.truth) {
-    show_truth(field, estimate, score::read_truth(*options.truth));
+    const std::vector<score::TruePlot> truth = score::read_truth(*options.truth);
+    show_truth(field, estimate, truth);
+    if (score::lie_apart(truth, estimate)) field.notes.emplace_back(score::kApart);
     const fs::path terrain = *options.truth / "truth" / "terrain.ply";
     if (fs::exists(terrain)) show_terrain(field, farmfolder::read_terrain(terrain));
     field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
   }
-  if (options.cloud) show_cloud(field, options, progress);
+  if (options.cloud) show_cloud(field, options, estimate.units, progress);
   nlohmann::json document = {{"kind", "estimate"}, {"title", "Plots of " + field.name}};
   document["fields"] = nlohmann::json::array();
   document["fields"].push_back(report::packed_field(field));

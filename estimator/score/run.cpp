@@ -51,6 +51,13 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
   scores.field = score_field(truth, estimate, options);
   scores.boxes = score_boxes({&scores.field, 1});
   scores.heights = score_heights(scores.field);
+  if (lie_apart(truth, estimate)) scores.notes.emplace_back(kApart);
+  if (scores.boxes.found > 0 && scores.heights.empty()) {
+    scores.notes.push_back(std::string("No height is compared: no ") +
+                           (true_heights(scores.field).empty() ? "true" : "found") +
+                           " plot has one, a number in a property height_<name>_m or "
+                           "canopy_<name>_m.");
+  }
   return scores;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "score/height_score.h"
@@ -23,6 +24,7 @@ struct Scores {
   FieldScore field;
   BoxScore boxes;
   std::vector<HeightScore> heights;
+  std::vector<std::string> notes = {};  // why there is less than was asked for, a sentence each
 };
 
 nlohmann::json to_json(const Scores& scores);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "estimate/height_properties.h"
@@ -90,6 +91,12 @@ FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estim
     if (!lies_in_unscored(truth, plot.box)) field.extra.push_back(plot.id);
   }
   return field;
+}
+
+bool lie_apart(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate) {
+  const Eigen::AlignedBox2d true_extent = extent_of(truth, &TruePlot::box);
+  const Eigen::AlignedBox2d extent = extent_of(estimate.plots, &estimate::PlotEstimate::box);
+  return !true_extent.isEmpty() && !extent.isEmpty() && !true_extent.intersects(extent);
 }
 
 BoxScore score_boxes(std::span<const FieldScore> fields) {

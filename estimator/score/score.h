@@ -63,6 +63,14 @@ struct ScoreOptions {
 FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
                        const ScoreOptions& options = {});
 
+// Whether the plots of both lie apart as a whole, as those of different coordinates do: their
+// rectangles share no place. False where one has no plots.
+bool lie_apart(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate);
+
+// What to tell the user then.
+inline constexpr const char* kApart =
+    "All plots of the estimate lie apart from the true ones: are both in the same coordinates?";
+
 // How well plots were found, over one field or several together. Statistics of found plots are NaN
 // when there are none, and so is a share of nothing.
 struct BoxScore {

@@ -309,8 +309,9 @@ void write_plot_features_wgs84(const std::filesystem::path& path,
 }
 
 const std::vector<std::string>& plot_id_properties() {
-  static const std::vector<std::string> names = {"plot_number",         "plot_id", "plot_name",
-                                                 "observationUnitName", "name",    "id"};
+  static const std::vector<std::string> names = {
+      "plot_number",          "plot_id", "plot_name", "observationUnitName",
+      "observationunit_name", "name",    "id"};
   return names;
 }
 

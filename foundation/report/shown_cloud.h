@@ -16,16 +16,17 @@ inline constexpr std::size_t kMostPoints = 5'000'000;
 struct ShownPoint {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();  // relative to ShownCloud::origin, metres
   float intensity = 0;                              // 0 to 255
-  float time_s = 0;
-  std::uint32_t plot = 0;  // the plot's number; 0: none
-  std::uint8_t label = 0;  // scan::PointClass
+  float time_s = 0;                                 // counts from ShownCloud::time_origin_s
+  std::uint32_t plot = 0;                           // the plot's number; 0: none
+  std::uint8_t label = 0;                           // scan::PointClass
 };
 
 // What a page shows of a cloud, and which fields of its points mean something.
 struct ShownCloud {
   std::vector<ShownPoint> points = {};
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // in the cloud's frame, metres
-  std::uint64_t read = 0;                            // points in the whole cloud, shown or not
+  double time_origin_s = 0;  // floats tell times of day apart, but not those since 1970 or 1980
+  std::uint64_t read = 0;    // points in the whole cloud, shown or not
   bool has_class = false;
   bool has_plot = false;
   bool has_intensity = false;

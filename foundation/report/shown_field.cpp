@@ -101,6 +101,11 @@ json packed(const std::vector<Item>& items) {
 
 }  // namespace
 
+std::string shown_name(const std::filesystem::path& path) {
+  const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 json packed_field(const ShownField& field) {
   json facts = json::array();
   for (const Fact& fact : field.facts) facts.push_back({fact.name, fact.value});

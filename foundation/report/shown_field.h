@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -95,6 +96,10 @@ struct ShownField {
   std::vector<ShownBox> true_boxes = {};
   std::vector<ShownWorking> workings = {};  // of methods that report any
 };
+
+// What a page calls a file or folder: the last part of its path that is a name, "scan" of
+// "field/scan/" and of "." there.
+std::string shown_name(const std::filesystem::path& path);
 
 // The field as pages hold it (docs/report-format.md), with binary values for write_page.
 nlohmann::json packed_field(const ShownField& field);

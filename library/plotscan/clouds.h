@@ -56,7 +56,8 @@ struct WriteCloudOptions {
 
 // Writes points as PCD, PLY or LAS, by the extension of the file, which appears whole or not at
 // all. Throws BadInput on an unknown extension or encoding, on one that needs a flight (pcap, bag,
-// MCAP: convert_cloud writes these from scan folders), and on a file that exists.
+// MCAP: convert_cloud writes these from scan folders), on an origin, time or intensity that is not
+// finite, on a place that LAS cannot hold, and on a file that exists.
 PLOTSCAN_API void write_cloud(const std::filesystem::path& file, std::span<const Point> points,
                               const WriteCloudOptions& options = {}, const Progress& progress = {});
 

@@ -59,8 +59,8 @@ struct FieldEstimate {
 // what `estimator run` does with the same points in a file. A field without plots has an estimate
 // without plots, which says why. The points stay in the caller's memory; the copy that the method
 // keeps takes 8 to 16 bytes per point (docs/library.md). Throws BadInput on options out of their
-// range and when no point is finite or lies in the area, NothingMeasured when the points show no
-// ground.
+// range, on boxes without finite sides above 0, and when no point is finite or lies in the area,
+// NothingMeasured when the points show no ground.
 PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
                                           const EstimateOptions& options = {},
                                           const Progress& progress = {});
@@ -70,7 +70,7 @@ PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
 struct EstimateFilesOptions {
   EstimateOptions field = {};      // its boxes are not used: `boxes` names their file
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
-  std::optional<std::filesystem::path> boxes = {};  // a map of plots, GeoJSON
+  std::optional<std::filesystem::path> boxes = {};  // a map of plots
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
   std::optional<std::string> units = {};    // of the coordinates, m, ft or us-ft; else the file's
   std::vector<int> leave_out_classes = {};  // ASPRS classes, 0 to 255

@@ -149,7 +149,10 @@ std::array<std::int32_t, 3> LasWriter::steps_of(const LabelledPoint& point) cons
   for (int axis = 0; axis < 3; ++axis) {
     const double step = std::round(relative[axis] / kStep_m);
     if (!(std::abs(step) <= std::numeric_limits<std::int32_t>::max())) {
-      throw InputError(path_, "point " + std::to_string(points_ + 1) +
+      const std::string which = "point " + std::to_string(points_ + 1);
+      if (!std::isfinite(step))
+        throw InputError(path_, which + " has no finite x, y and z, as each point of LAS has");
+      throw InputError(path_, which +
                                   " lies more than 214 km from the file's origin, which LAS cannot "
                                   "hold in steps of 0.1 mm");
     }

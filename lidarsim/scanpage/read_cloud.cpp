@@ -2,14 +2,15 @@
 #include "scanpage/read_cloud.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plotscan::scanpage {
 namespace {
 
-report::ShownPoint shown(const scan::LabelledPoint& point) {
+report::ShownPoint shown(const scan::LabelledPoint& point, double time_origin_s) {
   return {.place = {point.x, point.y, point.z},
           .intensity = point.intensity,
-          .time_s = static_cast<float>(point.time),
+          .time_s = static_cast<float>(point.time - time_origin_s),
           .plot = point.plot,
           .label = static_cast<std::uint8_t>(point.label)};
 }
@@ -37,17 +38,21 @@ ShownScan read_shown_scan(const std::filesystem::path& scan, const ReadOptions& 
   report::CloudSample sample(options.most);
   const auto promised = static_cast<double>(std::max<std::uint64_t>(source.info.points, 1));
   double done = 0;
+  double time_origin_s = 0;
   source.stream([&](std::span<const scan::LabelledPoint> points) {
+    if (done == 0 && !points.empty()) time_origin_s = std::floor(points.front().time);
     for (const scan::LabelledPoint& point : points)
       if (!options.area || options.area->contains(origin + Eigen::Vector2d(point.x, point.y)))
-        sample.add(shown(point));
+        sample.add(shown(point, time_origin_s));
     done += static_cast<double>(points.size());
     if (progress) progress(std::min(1.0, done / promised));
   });
   const auto has = [&](const char* field) {
     return std::ranges::count(source.info.fields, field) > 0;
   };
-  ShownScan result{.cloud = {.origin = source.info.origin_m, .read = sample.read()},
+  ShownScan result{.cloud = {.origin = source.info.origin_m,
+                             .time_origin_s = time_origin_s,
+                             .read = sample.read()},
                    .path = path_of(source)};
   result.cloud.points = sample.take();
   result.cloud.has_class = has("class");

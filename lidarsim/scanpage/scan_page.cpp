@@ -67,14 +67,14 @@ std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownClou
 }  // namespace
 
 PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress) {
-  require_apart(options.html, {{options.scan}});
+  std::vector<fs::path> inputs = {options.scan};
+  if (options.plots) inputs.push_back(*options.plots);
+  require_apart(options.html, inputs);
   OutputFile file(options.html, options.replace);
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
-  const fs::path& path = options.scan;
-  report::ShownField field{
-      .name = (path.has_filename() ? path : path.parent_path()).filename().string()};
+  report::ShownField field{.name = report::shown_name(options.scan)};
   field.plots = read_plots(options.plots);
   ShownScan scan = read_shown_scan(options.scan, {.most = options.points, .source = options.source},
                                    [&](double share) { report(kRead * share); });

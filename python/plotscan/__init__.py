@@ -102,8 +102,8 @@ def fly(
     *,
     trajectory: Optional[Path] = None,
     waypoints: Optional[Path] = None,
-    formats: Sequence[str] = (),
-    resource_paths: Sequence[Path] = (),
+    formats: Union[str, Sequence[str]] = (),
+    resource_paths: Union[Path, Sequence[Path]] = (),
     seed: int = 1,
     threads: int = 0,
     replace: bool = False,
@@ -114,8 +114,8 @@ def fly(
 
     place: a farm folder, or the file of an SDF world or model.
     trajectory, waypoints: files to fly in place of planned strips (docs/flight.md).
-    formats: "ply", "las", "pcap", "bag", "mcap": written beside cloud.pcd.
-    resource_paths: folders of an SDF world's models.
+    formats: "ply", "las", "pcap", "bag", "mcap", one or several: written beside cloud.pcd.
+    resource_paths: folder or folders of an SDF world's models.
     settings: by the keys of `flight_settings()`: sensor="os1_64", altitude_m=12, wind_m_s=4. None is not set.
 
     Raises BadInput on settings out of their range, a place that cannot be read, a folder that exists.
@@ -124,8 +124,8 @@ def fly(
     options.settings = _set(settings)
     options.trajectory = trajectory
     options.waypoints = waypoints
-    options.formats = list(formats)
-    options.resource_paths = list(resource_paths)
+    options.formats = _several(formats)
+    options.resource_paths = _several(resource_paths)
     options.seed = seed
     options.threads = threads
     options.replace = replace
@@ -160,7 +160,8 @@ def write_cloud(
     origin_m: what the points' x, y, z count from, metres.
     encoding: one of the format's (docs/formats.md): "ascii", "binary", ...; "" is its first.
 
-    Raises BadInput on an extension or encoding that there is not, and on a file that exists.
+    Raises BadInput on an extension or encoding that there is not, on a time or intensity that is not finite,
+    and on a file that exists.
     """
     crs_wkt = ""
     if isinstance(points, Cloud):
@@ -216,14 +217,14 @@ def estimate_field(
     points: an array (N, 3) of float32 or float64, or more columns of which x, y, z are the first, metres,
         z up; or a cloud, or its points. The array is read where it lies. Points that are not finite are
         left out.
-    origin_m: what positions in float32 count from, metres; a cloud brings its own.
+    origin_m: what positions in float32 count from, metres; a cloud brings its own, float64 has none.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: given plots: heights only, none is searched.
     settings: by the keys of `estimate_settings()`: rows=3, crop="maize", calibrated=False. None is not set.
 
     A field without plots has an estimate without plots; `why_no_plots` says why. Raises BadInput on settings that
-    there are not or out of their range, on an array that would have to be copied, and when no point lies in
-    the area; NothingMeasured when the points show no ground.
+    there are not or out of their range, on boxes without finite sides above 0, on an array that would have to be
+    copied, and when no point lies in the area; NothingMeasured when the points show no ground.
 
     Method: docs/methods.md, of this project.
     """
@@ -254,7 +255,7 @@ def estimate_files(
     clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles; one or several.
     method: "lattice", or "dhami2020", which needs `plots`.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
-    boxes: a map of the plots (GeoJSON): heights in its boxes, its ids and attributes kept.
+    boxes: a map of the plots (GeoJSON, GeoPackage, shapefile): heights in its boxes, its ids and attributes kept.
     id: property of the map that holds the plots' ids.
     units: of the coordinates, "m", "ft" or "us-ft"; else what the file states.
     leave_out_classes: ASPRS classes of points to leave out.
@@ -273,8 +274,7 @@ def estimate_files(
     options.csv = csv
     options.seed = seed
     options.replace = replace
-    several = [clouds] if isinstance(clouds, (str, os.PathLike)) else list(clouds)
-    return _plotscan.estimate_files(several, folder, options, progress)
+    return _plotscan.estimate_files(_several(clouds), folder, options, progress)
 
 
 def score_estimate(estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou: float = 0.5) -> Scores:
@@ -293,8 +293,9 @@ def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:
     """The plots as columns, arrays (plots,), from which pandas and polars make a table.
 
     id, row, column, center_x_m, center_y_m, width_m, length_m, heading_deg, points, and for each height by
-    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known. The box's
-    standard errors are in each plot's box_error.
+    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known; then
+    confidence (NaN where it is not known) and flags ("; " between them, "" without any). The box's standard errors
+    are in each plot's box_error.
     """
     box_columns = ("center_x_m", "center_y_m", "width_m", "length_m", "heading_deg")
     table = {name: numpy.array([getattr(plot, name) for plot in plots]) for name in ("id", "row", "column")}
@@ -306,7 +307,13 @@ def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:
         for value in ("value_m", "standard_error_m", "low95_m", "high95_m"):
             name = f"{height}_m" if value == "value_m" else f"{height}_{value}"
             table[name] = numpy.array([getattr(one, value) if one else numpy.nan for one in found])
+    table["confidence"] = numpy.array([plot.confidence for plot in plots], dtype=float)
+    table["flags"] = numpy.array(["; ".join(plot.flags) for plot in plots], dtype=str)
     return table
+
+
+def _several(names: Union[Path, Sequence[Path]]) -> List[Any]:
+    return [names] if isinstance(names, (str, os.PathLike)) else list(names)
 
 
 def _text(value: Any) -> str:

@@ -92,6 +92,12 @@ export function digitsOf(values: number[]): number {
   return Math.max(0, Math.min(4, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
+// Round numbers from low to high, each with its text: what it is beyond `from`, in as many decimals as tell them apart.
+export function tickTexts(low: number, high: number, options: { count?: number; digits?: number; from?: number } = {}): [number, string][] {
+  const values = ticks(low, high, options.count);
+  return values.map((value) => [value, fixed(value - (options.from ?? 0), options.digits ?? digitsOf(values))]);
+}
+
 let clips = 0;
 
 // A panel's frame, grid and ticks; what is drawn goes into the group.
@@ -99,10 +105,7 @@ export function frame(svg: SVGSVGElement, panel: Panel, horizontal: Axis, vertic
   const { left, top, width, height } = panel;
   const x = scale(horizontal.low, horizontal.high, left, left + width);
   const y = scale(vertical.low, vertical.high, top + height, top);
-  const marksOf = (axis: Axis): [number, string][] => {
-    const values = ticks(axis.low, axis.high, axis.count ?? 5);
-    return axis.labels ?? values.map((value) => [value, fixed(value, axis.digits ?? digitsOf(values))]);
-  };
+  const marksOf = (axis: Axis): [number, string][] => axis.labels ?? tickTexts(axis.low, axis.high, axis);
   const rows = marksOf(vertical);
   for (const [value, words] of rows) {
     svg.append(line(left, y(value), left + width, y(value), theme.line),

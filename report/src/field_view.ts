@@ -270,7 +270,8 @@ export class FieldView {
     return {
       title: `Plot ${plot.id} from the side`,
       note: `Seen along the plot's width; ${counted(points.filter((point) => point.inside).length)} points of this page between its long sides. ` +
-        "Lines over the ground along its middle are heights, bands their 95 % intervals. Brown points lie within 7.5 cm of the fitted ground.",
+        (this.grounds.ground ?? this.grounds.terrain ? "Lines over the ground along its middle are heights, bands their 95 % intervals." : `Lines are heights above ${points.length ? "the low end of these points" : "0"}: no ground is known.`) +
+        (this.grounds.ground ? " Brown points lie within 7.5 cm of the fitted ground." : ""),
       draw: (colours: Theme, narrow: boolean) => drawProfile(options, colours, narrow),
       csv: () => profileCsv(options),
     };

@@ -2,7 +2,7 @@
 import { canvas, frame, legend, legendHeight, line, mark, round, text, type LegendEntry, type Panel, type Scale } from "./axes";
 import type { Theme } from "./colours";
 import { s } from "./dom";
-import { counted, csv, fixed, quantile } from "./numbers";
+import { counted, csv, extremes, fixed, quantile } from "./numbers";
 import { error, oneNumber, r2, r2Within, relativeErrors, rmse, standardError, within, type Pair } from "./statistics";
 
 // One method's height on one kind of field.
@@ -173,8 +173,7 @@ export function drawScatter(methods: Method[], theme: Theme, narrow: boolean): S
   const every = methods.flatMap((method) => method.groups.flatMap((group) => group.pairs));
   const estimates = every.map((pair) => pair.estimate).sort((a, b) => a - b);
   const truths = every.map((pair) => pair.truth);
-  const low = every.length ? Math.min(...truths, quantile(estimates, 0.02)) : 0;
-  const high = every.length ? Math.max(...truths, quantile(estimates, 0.98)) : 1;
+  const [low, high] = extremes(every.length ? [...truths, quantile(estimates, 0.02), quantile(estimates, 0.98)] : [], [0, 1]);
   const margin = 0.06 * (high - low || 1);
   const inside = (value: number) => value >= low - margin && value <= high + margin;
   panels(cases.length, columns, width, top, side, pitch).forEach((panel, i) => {

@@ -1,9 +1,9 @@
 // The plots from above, coloured by what is asked of them.
-import { canvas, digitsOf, line, round, text, type Panel } from "./axes";
+import { canvas, line, round, text, tickTexts, type Panel } from "./axes";
 import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Box, Field, Plot } from "./data";
 import { s } from "./dom";
-import { counted, csv, fixed, namedTruth, ticks } from "./numbers";
+import { counted, csv, extremes, fixed, namedTruth } from "./numbers";
 import { corners } from "./place";
 
 export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
@@ -35,8 +35,7 @@ export interface Colours {
 export function coloursOf(values: number[], measure: Measure): Colours {
   const known = values.filter(Number.isFinite);
   if (measure === "confidence") return { low: 0, high: 1, ramp: cividis };
-  let low = known.length ? Math.min(...known) : 0;
-  let high = known.length ? Math.max(...known) : 1;
+  let [low, high] = extremes(known, [0, 1]);
   if (measure === "error") {
     high = Math.max(-low, high, 0.5);
     return { low: -high, high, ramp: signs };
@@ -55,10 +54,9 @@ function colourBar({ svg, panel, theme }: Sheet, colours: Colours, title: string
     svg.append(s("rect", {
       x: left, y: round(top + height * (1 - (i + 1) / steps)), width: 12, height: round(height / steps + 0.6),
       fill: hex(colours.ramp((i + 0.5) / steps)) }));
-  const values = ticks(colours.low, colours.high, 5);
-  for (const value of values) {
+  for (const [value, words] of tickTexts(colours.low, colours.high)) {
     const y = top + height * (1 - share(colours, value));
-    svg.append(line(left + 12, y, left + 16, y, theme.soft), text(left + 19, y + 4, fixed(value, digitsOf(values)), { colour: theme.soft }));
+    svg.append(line(left + 12, y, left + 16, y, theme.soft), text(left + 19, y + 4, words, { colour: theme.soft }));
   }
   svg.append(text(left + 66, top + height / 2, title, { anchor: "middle", turned: true }));
 }
@@ -98,23 +96,21 @@ function sheetOf(field: Field, title: string, theme: Theme): Sheet {
 // The same in a panel of a figure, around boxes.
 export function sheetIn(svg: SVGSVGElement, panel: Panel, boxes: Box[], theme: Theme): Sheet {
   const outlines = boxes.flatMap(corners);
-  const middle = (values: number[]) => (values.length ? (Math.min(...values) + Math.max(...values)) / 2 : 0);
-  const span = (values: number[]) => (values.length ? Math.max(...values) - Math.min(...values) : 1) || 1;
-  const xs = outlines.map(([x]) => x);
-  const ys = outlines.map(([, y]) => y);
-  const [x0, y0] = [middle(xs), middle(ys)];
-  const scale = Math.min(panel.width / span(xs), panel.height / span(ys)) * 0.96;
+  const [west, east] = extremes(outlines.map(([x]) => x), [-0.5, 0.5]);
+  const [south, north] = extremes(outlines.map(([, y]) => y), [-0.5, 0.5]);
+  const [x0, y0] = [(west + east) / 2, (south + north) / 2];
+  const scale = Math.min(panel.width / (east - west || 1), panel.height / (north - south || 1)) * 0.96;
   const [left, top] = [panel.left + panel.width / 2, panel.top + panel.height / 2];
   const bottom = panel.top + panel.height;
   const right = panel.left + panel.width;
   const [fromX, fromY] = [roundOrigin(x0), roundOrigin(y0)];
-  for (const x of ticks(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, 5)) {
+  for (const [x, words] of tickTexts(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, { from: fromX })) {
     const u = left + (x - x0) * scale;
-    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, fixed(x - fromX, 0), { anchor: "middle", colour: theme.soft }));
+    svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, words, { anchor: "middle", colour: theme.soft }));
   }
-  for (const y of ticks(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, 5)) {
+  for (const [y, words] of tickTexts(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, { from: fromY })) {
     const v = top - (y - y0) * scale;
-    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, fixed(y - fromY, 0), { anchor: "end", colour: theme.soft }));
+    svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, words, { anchor: "end", colour: theme.soft }));
   }
   svg.append(text(left, bottom + 32, axisName("east", fromX), { anchor: "middle" }),
     text(panel.left - 34, top, axisName("north", fromY), { anchor: "middle", turned: true }));

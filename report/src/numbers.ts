@@ -41,6 +41,12 @@ export function ticks(low: number, high: number, count = 5): number[] {
   return values;
 }
 
+// The least and the largest number, `otherwise` where there is none. Math.min(...values) fails on some 120,000 of them.
+export function extremes(values: number[], otherwise: [number, number]): [number, number] {
+  if (values.length === 0) return otherwise;
+  return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [values[0], values[0]]);
+}
+
 export function quantile(sorted: ArrayLike<number>, share: number): number {
   if (sorted.length === 0) return NaN;
   const at = share * (sorted.length - 1);

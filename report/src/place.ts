@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import type { Box, Field, Plot } from "./data";
 import type { Surface } from "./decode";
+import { quantile } from "./numbers";
 
 export interface Grounds {
   ground?: Surface;
@@ -23,14 +24,21 @@ export interface Extent {
   high: THREE.Vector3;
 }
 
+// Where a field without a ground lies: as its points' lower ends mostly do.
+function levelOf({ cloud }: Field): number {
+  const lows = (cloud?.tiles ?? []).map(({ low }) => low[2]).sort((a, b) => a - b);
+  return cloud && lows.length > 0 ? cloud.origin[2] + quantile(lows, 0.5) : 0;
+}
+
 // What the camera first looks at: the plots, else the points, else the ground.
 function extentOf(field: Field, grounds: Grounds): Extent {
   const box = new THREE.Box3();
   const surface = grounds.ground ?? grounds.terrain;
+  const level = levelOf(field);
   for (const { box: plot } of [...field.plots, ...field.true_boxes])
     for (const [x, y] of corners(plot)) {
       const z = surface?.height(x, y) ?? NaN;
-      box.expandByPoint(new THREE.Vector3(x, y, Number.isFinite(z) ? z : (field.cloud?.tiles[0]?.low[2] ?? 0)));
+      box.expandByPoint(new THREE.Vector3(x, y, Number.isFinite(z) ? z : level));
     }
   if (box.isEmpty())
     for (const { low, high } of field.cloud?.tiles ?? [])

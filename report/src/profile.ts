@@ -4,7 +4,7 @@ import type { Theme } from "./colours";
 import type { Box, Cloud, Plot } from "./data";
 import type { Surface, TilePoints } from "./decode";
 import { s } from "./dom";
-import { csv, fixed, namedTruth } from "./numbers";
+import { csv, fixed, namedTruth, quantile } from "./numbers";
 import type { Grounds } from "./place";
 
 export const kBeyond = 1; // metres that are shown before and behind the plot
@@ -169,6 +169,15 @@ function drawLabels(svg: SVGSVGElement, { panel, theme }: Side, plot: Plot, labe
   }
 }
 
+// What heights stand on: the ground in the plot's middle; where none is known, the low end of its points.
+export function baseOf(plot: Plot, points: SidePoint[], grounds: Grounds): number {
+  for (const surface of [grounds.ground, grounds.terrain]) {
+    const z = surface?.height(plot.box[0], plot.box[1]) ?? NaN;
+    if (Number.isFinite(z)) return z;
+  }
+  return quantile(points.map((point) => point.z).sort((a, b) => a - b), 0.01) || 0;
+}
+
 // The range of z that is shown: nearly all points, and the heights.
 function rangeOf(plot: Plot, points: SidePoint[], names: string[], base: number): [number, number] {
   const sorted = points.map((point) => point.z).sort((a, b) => a - b);
@@ -196,7 +205,7 @@ export function drawProfile({ plot, points, grounds, height, noise }: ProfileOpt
   const svg = canvas(width, top + 300, theme, `Plot ${plot.id} from the side`);
   legend(svg, entries, 56, 16, width - 66);
   const panel = { left: 56, top, width: width - 56 - (names.length && !narrow ? 176 : 12), height: 258 };
-  const base = [grounds.ground, grounds.terrain].map((surface) => surface?.height(plot.box[0], plot.box[1]) ?? NaN).find(Number.isFinite) ?? Math.min(...shown.map((point) => point.z), 0);
+  const base = baseOf(plot, shown, grounds);
   const [low, high] = rangeOf(plot, shown, names, base);
   const side: Side = { theme, panel, frame: frame(svg, panel,
     { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" }, { low, high, label: "height z, m" }, theme) };

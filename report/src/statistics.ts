@@ -67,7 +67,7 @@ export function standardError(pairs: Pair[], statistic: (pairs: Pair[]) => numbe
   const single = farms.length > 1 ? farms : pairs.map((pair) => [pair]);
   if (single.length < 2) return NaN;
   const units: Pair[][] = Array.from({ length: Math.min(single.length, kMostGroups) }, () => []);
-  single.forEach((unit, i) => units[i % units.length].push(...unit));
+  single.forEach((unit, i) => unit.forEach((pair) => units[i % units.length].push(pair)));
   const left = units.map((_, i) => statistic(units.filter((__, k) => k !== i).flat()));
   const middle = mean(left);
   return Math.sqrt(((units.length - 1) / units.length) * sum(left.map((value) => (value - middle) ** 2)));

@@ -1,7 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { csv, fixed, namedTruth, quantile, signed, ticks } from "../src/numbers";
+import { tickTexts } from "../src/axes";
+import type { Field, Plot } from "../src/data";
+import { coloursOf } from "../src/map";
+import { csv, extremes, fixed, namedTruth, quantile, signed, ticks } from "../src/numbers";
 import { fileName } from "../src/save";
-import { corners } from "../src/place";
+import { corners, Place } from "../src/place";
+import { baseOf } from "../src/profile";
 
 describe("numbers", () => {
   it("are written with a true minus, and absence as a dash", () => {
@@ -18,6 +22,18 @@ describe("numbers", () => {
     for (const [low, high] of [[0.91, 0.96], [-3, 1000], [1e-6, 3e-6]])
       for (const tick of ticks(low, high)) expect(tick >= low - 1e-9 && tick <= high + 1e-9).toBe(true);
     expect(ticks(1, 1)).toEqual([1]);
+  });
+
+  it("stand at their ticks with the decimals that tell them apart, beyond where they count from", () => {
+    expect(tickTexts(0, 2.4)).toEqual([[0, "0.0"], [0.5, "0.5"], [1, "1.0"], [1.5, "1.5"], [2, "2.0"]]);
+    expect(tickTexts(500_001, 500_005.5, { from: 500_000 }).map(([, words]) => words)).toEqual(["1", "2", "3", "4", "5"]);
+  });
+
+  it("have extremes, however many they are", () => {
+    const many = Array.from({ length: 300_000 }, (_, i) => (i % 1000) - 1);
+    expect(extremes(many, [0, 1])).toEqual([-1, 998]);
+    expect(extremes([], [0, 1])).toEqual([0, 1]);
+    expect(coloursOf(many, "height")).toMatchObject({ low: -1, high: 998 });
   });
 
   it("have quantiles linear between order statistics", () => {
@@ -45,5 +61,26 @@ describe("names and places", () => {
   it("has a box's corners counter-clockwise, its length along the heading", () => {
     const [a, b, c, d] = corners([10, 20, 2, 6, 90]).map((corner) => corner.map((value) => Math.round(1e9 * value) / 1e9));
     expect([a, b, c, d]).toEqual([[11, 17], [11, 23], [9, 23], [9, 17]]);
+  });
+});
+
+// A plot at 300 m above sea level, on a page without any ground.
+describe("a field without a ground", () => {
+  const plot: Plot = { id: "1", row: 0, column: 0, box: [5, 5, 2, 4, 0], heights: {}, flags: [], truths: {}, state: "" };
+  const tile = { n: 1, at: 0, bytes: 0, low: [0, 0, -0.1] as [number, number, number], high: [10, 10, 1] as [number, number, number], step: 0.004 };
+  const field: Field = {
+    name: "field", facts: [], notes: [], path: [], plots: [plot], true_boxes: [],
+    cloud: { read: 1, shown: 1, origin: [0, 0, 300], time: [0, 0], has: [], tiles: [tile, { ...tile, low: [0, 0, -40] }, tile], data: { blob: 0 } },
+  };
+
+  it("lies as high as its points", () => {
+    expect(new Place(field, {}).groundAt(5, 5)).toBeCloseTo(299.9, 9);
+    expect(new Place({ ...field, cloud: undefined }, {}).groundAt(5, 5)).toBe(0);
+  });
+
+  it("has heights that stand on the low end of the plot's points", () => {
+    const points = Array.from({ length: 101 }, (_, i) => ({ along: 1, z: 300 + 0.01 * i, above: NaN, inside: true }));
+    expect(baseOf(plot, points, {})).toBeCloseTo(300.01, 9);
+    expect(baseOf(plot, [], {})).toBe(0);
   });
 });

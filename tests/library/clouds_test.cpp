@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plotscan/clouds.h"
 
+#include <limits>
+
 #include "plotscan/data.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
@@ -64,16 +66,38 @@ TEST(LibraryClouds, AreConverted) {
   EXPECT_EQ(read_cloud(folder.path() / "b.ply").points.size(), 1000u);
 }
 
+template <class Work>
+std::string refused(const Work& work) {
+  try {
+    work();
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+// No reader would take the file.
+TEST(LibraryClouds, AreNotWrittenWithNumbersThatAreNone) {
+  const TemporaryFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto written = [&](const Point& last, const WriteCloudOptions& options = {}) {
+    std::vector<Point> points = some_points();
+    points.push_back(last);
+    return refused([&] { write_cloud(folder.path() / "a.pcd", points, options); });
+  };
+  EXPECT_THAT(written({.time = nan}), HasSubstr("point 1001 of 1001 has the time nan"));
+  EXPECT_THAT(written({.intensity = nan}), HasSubstr("the intensity nan"));
+  EXPECT_THAT(written({}, {.origin_m = {0, nan, 0}}), HasSubstr("origin_m"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.pcd"));
+  EXPECT_EQ(written({.z = nan}), "nothing thrown");  // PCD has points without a place
+  EXPECT_EQ(read_cloud(folder.path() / "a.pcd").points.size(), 1000u);
+  const std::vector<Point> lost = {{.z = nan}};
+  EXPECT_THAT(refused([&] { write_cloud(folder.path() / "a.las", lost); }),
+              HasSubstr("point 1 has no finite x, y and z"));
+}
+
 TEST(LibraryClouds, RefuseWhatCannotBe) {
   const TemporaryFolder folder;
-  const auto refused = [](const auto& work) -> std::string {
-    try {
-      work();
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "nothing thrown";
-  };
   const auto file = folder.write("there.pcd", "x");
   EXPECT_THAT(refused([&] { write_cloud(file, some_points()); }), HasSubstr("exists"));
   EXPECT_THAT(refused([&] { write_cloud(folder.path() / "a.xls", some_points()); }),

@@ -133,31 +133,60 @@ TEST_F(EstimateField, SaysWhyThereAreNoPlots) {
   EXPECT_EQ(field.ground->z_m.at(field.ground->z_m.size() / 2), 0);
 }
 
+template <class Work>
+std::string words_of(const Work& work) {
+  try {
+    work();
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
 TEST_F(EstimateField, RefusesWhatTheProgramRefusesInTheSameWords) {
-  const auto message = [](const auto& work) -> std::string {
-    try {
-      work();
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "nothing thrown";
-  };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::array<double, 3>> none(5, {nan, 0, 0});
-  EXPECT_EQ(message([&] { estimate_field(PointsView(none)); }),
+  EXPECT_EQ(words_of([&] { estimate_field(PointsView(none)); }),
             "the cloud has no point that is finite");
-  EXPECT_THAT(message([&] {
+  EXPECT_THAT(words_of([&] {
                 estimate_field(cloud_->positions(), {.settings = {{"plot_width_m", 1000.0}}});
               }),
               HasSubstr("plot_width_m 1000 must be in [0.1, 100]"));
-  EXPECT_THAT(message([&] {
+  EXPECT_THAT(words_of([&] {
                 estimate_field(cloud_->positions(), {.crop_box = {{900, 900, 901, 901}}});
               }),
               HasSubstr("points lies in the crop box"));
   const auto finished = testing::run("estimator run none.pcd -o e", folder_->string());
   EXPECT_EQ(finished.exit_code, 2);
-  EXPECT_EQ("estimator: " + message([] { estimate_files({"none.pcd"}, "e"); }) + "\n",
+  EXPECT_EQ("estimator: " + words_of([] { estimate_files({"none.pcd"}, "e"); }) + "\n",
             finished.errors);
+}
+
+TEST_F(EstimateField, RefusesBoxesThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Box sound{.center_x_m = 0, .center_y_m = 0, .width_m = 1.5, .length_m = 4};
+  const auto said = [&](const Box& box) {
+    return words_of([&] { estimate_field(cloud_->positions(), {.boxes = {sound, box}}); });
+  };
+  for (const Box& box :
+       {Box{.width_m = -1, .length_m = 4}, Box{.width_m = 1, .length_m = 0},
+        Box{.width_m = nan, .length_m = 4}, Box{.center_x_m = nan, .width_m = 1, .length_m = 4},
+        Box{.width_m = 1, .length_m = 4, .heading_deg = HUGE_VAL}})
+    EXPECT_THAT(said(box), HasSubstr("box 2 of 2: its centre and heading must be finite"));
+  Box far = sound;
+  far.center_x_m = 500'000;
+  EXPECT_THAT(words_of([&] { estimate_field(cloud_->positions(), {.boxes = {far}}); }),
+              HasSubstr("points lies in the given boxes"));
+}
+
+TEST_F(EstimateField, RefusesClassesBeyondThoseOfLas) {
+  for (const int number : {-1, 256}) {
+    EXPECT_EQ(words_of([&] {
+                estimate_files({*folder_ / "scan"}, *folder_ / "classes",
+                               {.leave_out_classes = {2, number}});
+              }),
+              "leave_out_classes has " + std::to_string(number) + "; ASPRS classes are 0 to 255");
+  }
 }
 
 TEST_F(EstimateField, ReportsProgressAndEndsWhereItThrows) {

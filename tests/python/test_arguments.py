@@ -36,6 +36,8 @@ class Arguments(unittest.TestCase):
         place, folder, options, progress = sent("fly", "farm", "scan", progress=print, **given, **settings)
         self.assertEqual((place, folder, progress), ("farm", "scan", print))
         self.expect_options(options, {**given, "settings": settings})
+        alone = sent("fly", "farm", "scan", formats="las", resource_paths="models")[2]
+        self.expect_options(alone, {"formats": ["las"], "resource_paths": [Path("models")]})
         usual = {"trajectory": None, "waypoints": None, "formats": [], "resource_paths": [], "seed": 1, "threads": 0,
                  "replace": False, "settings": {}}  # fmt: skip
         self.expect_options(sent("fly", "farm", "scan")[2], usual)

@@ -63,6 +63,13 @@ class Clouds(unittest.TestCase):
         x = back.origin_m[0] + back.points["x"].astype(float)
         numpy.testing.assert_allclose(x, far[0] + 0.5 * numpy.arange(1000), atol=2e-4)
 
+    def test_parts_of_arrays_are_written(self):
+        points = some_points()
+        plotscan.write_cloud(self.folder / "one.ply", points[::1000])
+        self.assertEqual(len(plotscan.read_cloud(self.folder / "one.ply")), 1)
+        plotscan.write_cloud(self.folder / "none.ply", numpy.zeros(0, plotscan.point_dtype))
+        self.assertIn(b"element vertex 0", (self.folder / "none.ply").read_bytes())
+
     def test_clouds_are_converted(self):
         plotscan.write_cloud(self.folder / "a.pcd", some_points())
         self.assertEqual(plotscan.convert_cloud(self.folder / "a.pcd", self.folder / "a.las"), 1000)

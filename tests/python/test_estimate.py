@@ -64,6 +64,9 @@ class Estimate(ExampleScan):
         self.assertEqual(table["max_m"][3], self.field.plots[3].heights["max"].value_m)
         self.assertTrue((table["max_low95_m"] < table["max_high95_m"]).all())
         self.assertEqual(sorted(set(table["row"])), [1, 2, 3])
+        self.assertEqual(table["confidence"].tolist(), [plot.confidence for plot in self.field.plots])
+        self.assertEqual(table["flags"].tolist(), ["; ".join(plot.flags) for plot in self.field.plots])
+        self.assertEqual(plotscan.plot_table([])["flags"].tolist(), [])
 
     def test_ground_is_a_grid(self):
         ground = self.field.ground
@@ -88,8 +91,11 @@ class Estimate(ExampleScan):
                 plotscan.estimate_field(points)
         with self.assertRaisesRegex(plotscan.BadInput, "no point that is finite"):
             plotscan.estimate_field(numpy.full((5, 3), numpy.nan))
-        with self.assertRaises(plotscan.BadInput):
-            plotscan.estimate_field(numpy.zeros((0, 3)))
+        for empty in (numpy.zeros((0, 3)), numpy.zeros((0, 3), numpy.float32), self.cloud.points[:0]):
+            with self.assertRaisesRegex(plotscan.BadInput, "no point that is finite"):
+                plotscan.estimate_field(empty)
+        with self.assertRaisesRegex(plotscan.BadInput, "these are float64: add it to them"):
+            plotscan.estimate_field(columns, origin_m=(500000, 4000000, 300))
 
     def test_bad_options_are_refused(self):
         with self.assertRaisesRegex(ValueError, 'crop "rice" must be one of maize'):

@@ -232,11 +232,14 @@ void require_sound(const Options& options) {
   require_in_range("threads", options.threads, {1, kMostThreads});
 }
 
-std::optional<cloud::Area> area_to_read(const Options& options) {
-  if (options.crop_box || options.boxes.empty()) return options.crop_box;
+cloud::FieldOptions field_options(const Options& options) {
+  if (options.crop_box || options.boxes.empty())
+    return {.area = options.crop_box, .threads = options.threads};
   const cloud::Area boxes = cloud::surroundings(options.boxes, 0);
-  return cloud::Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m,
-                     boxes[2] + kGroundAround_m, boxes[3] + kGroundAround_m};
+  return {.area = cloud::Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m,
+                              boxes[2] + kGroundAround_m, boxes[3] + kGroundAround_m},
+          .area_name = "given boxes",
+          .threads = options.threads};
 }
 
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
@@ -265,13 +268,8 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
-  const bool around_boxes = !options.crop_box && !options.boxes.empty();
-  cloud::FieldCloud field =
-      cloud::read_field(cloud,
-                        {.area = area_to_read(options),
-                         .area_name = around_boxes ? "given boxes" : "crop box",
-                         .threads = options.threads},
-                        [&](double share) { report(progress, kField * share); });
+  cloud::FieldCloud field = cloud::read_field(
+      cloud, field_options(options), [&](double share) { report(progress, kField * share); });
   if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
   return estimate_plots(std::move(field), options, progress);
 }

@@ -47,11 +47,11 @@ void require_sound(const Options& options);
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress = {});
 
-// The part of a cloud that the method reads: the crop box; else the given boxes and the ground
-// around them; else nothing, which stands for the whole scanned field.
-std::optional<cloud::Area> area_to_read(const Options& options);
+// How the method reads a cloud: its crop box; else the given boxes and the ground around them; else
+// the whole scanned field.
+cloud::FieldOptions field_options(const Options& options);
 
-// The same from a cloud, of area_to_read. Throws InputError on a broken cloud, and as above.
+// The same from a cloud, read so. Throws InputError on a broken cloud, and as above.
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress = {});
 

@@ -209,7 +209,9 @@ json packed_cloud(const ShownCloud& cloud) {
   return {{"read", cloud.read},
           {"shown", cloud.points.size()},
           {"origin", {cloud.origin.x(), cloud.origin.y(), cloud.origin.z()}},
-          {"time", {decimals(times.first_s, 3), decimals(times.last_s, 3)}},
+          {"time",
+           {decimals(cloud.time_origin_s + times.first_s, 3),
+            decimals(cloud.time_origin_s + times.last_s, 3)}},
           {"has", has},
           {"tiles", listed},
           {"data", json::binary(std::move(data))}};

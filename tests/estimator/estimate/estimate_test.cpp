@@ -7,6 +7,8 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "estimate/plot_map.h"
+#include "estimate/plot_tables.h"
 
 namespace plotscan::estimate {
 namespace {
@@ -194,6 +196,27 @@ TEST(Estimate, TabulatesFlagsOfGivenPlots) {
   EXPECT_THAT(table, ::testing::HasSubstr("height_voxel-max_m,flags\n"));
   EXPECT_THAT(table, ::testing::HasSubstr("0.75,0.7,\n"));
   EXPECT_THAT(table, ::testing::EndsWith(",,\"no points\"\n"));
+}
+
+// Breedbase's name of a plot, as the id and beside another one.
+TEST(Estimate, TabulatesTheNamesOfADatabasesUnits) {
+  const TemporaryFolder folder;
+  const auto table_of = [&](const std::string& properties) {
+    const auto map = folder.write(
+        "map.geojson",
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":)" + properties +
+            R"(,"geometry":{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,4],[0,4],[0,0]]]}}]})");
+    Estimate estimate{.method = "",
+                      .plots = {{.box = {.center = {0.5, 2}, .width_m = 1, .length_m = 4}}}};
+    take_names(read_plot_map(map, "", 1), estimate);
+    write_traits(folder.path() / "traits.csv", estimate);
+    return read_text(folder.path() / "traits.csv");
+  };
+  EXPECT_EQ(table_of(R"({"name":"x","observationunit_name":"U-7"})"),
+            "observationunit_name,row_number,col_number,name,flags\nU-7,,,x,\n");
+  EXPECT_EQ(table_of(R"({"plot_number":7,"observationunit_name":"U-7"})"),
+            "observationunit_name,row_number,col_number,plot_number,given_observationunit_name,"
+            "flags\n7,,,7,U-7,\n");
 }
 
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {

@@ -15,7 +15,9 @@ namespace plotscan::fieldpage {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::message_of;
 using testing::TemporaryFolder;
 
@@ -96,6 +98,16 @@ TEST_F(FieldPage, ShowsHowAMethodCameToItsPlots) {
   EXPECT_FALSE(field_of(folder_.path() / "other.html").contains("workings"));
 }
 
+TEST_F(FieldPage, HasTheNameOfItsFolder) {
+  const fs::path folder = folder_.path() / "mine";
+  fs::create_directories(folder);
+  fs::copy_file(estimate_, folder / "plots.geojson");
+  for (const char* place : {"mine", "mine/", "mine/.", "mine/../mine"}) {
+    write_estimate_page({.estimate = folder_.path() / place, .html = html_, .replace = true});
+    EXPECT_EQ(field_of(html_)["name"], "mine") << place;
+  }
+}
+
 TEST_F(FieldPage, WithoutTruthNothingIsScored) {
   write_estimate_page({.estimate = estimate_, .html = html_});
   const nlohmann::json field = field_of(html_);
@@ -118,6 +130,33 @@ TEST_F(FieldPage, ShowsTheCloudsPositions) {
   }
 }
 
+// The file of the cloud does not say that it is in feet.
+TEST_F(FieldPage, ShowsTheCloudInTheUnitsOfTheEstimate) {
+  const std::string plot = feature("1", 10, R"("height_max_m":0.9)");
+  const fs::path feet = folder_.write(
+      "feet.geojson",
+      R"({"type":"FeatureCollection","coordinate_units_m":{"x_y":0.3048,"z":0.3048},"features":[)" +
+          plot + "]}");
+  const fs::path cloud = folder_.write("a.xyz", "10.5 2 300\n10.6 2 301\n");
+  write_estimate_page({.estimate = feet, .html = html_, .cloud = CloudFiles(cloud)});
+  const nlohmann::json field = field_of(html_);
+  EXPECT_THAT(field["notes"], IsEmpty());
+  EXPECT_NEAR(field["plots"][0]["box"][0].get<double>(), 0.3048 * 10.5, 1e-4);
+  const nlohmann::json& shown = field["cloud"];
+  EXPECT_NEAR(shown["origin"][0].get<double>() + shown["tiles"][0]["low"][0].get<double>(),
+              0.3048 * 10.5, 1e-3);
+}
+
+TEST_F(FieldPage, SaysWhatLiesInOtherCoordinates) {
+  const fs::path far =
+      folder_.write("far.geojson", collection({feature("1", 500'000, R"("height_max_m":0.95)")}));
+  const fs::path cloud = folder_.write("a.xyz", "500000.5 2 300\n500000.6 2 301\n");
+  write_estimate_page(
+      {.estimate = estimate_, .html = html_, .truth = far, .cloud = CloudFiles(cloud)});
+  EXPECT_THAT(field_of(html_)["notes"], ElementsAre(HasSubstr("apart from the true ones"),
+                                                    HasSubstr("a.xyz lies among the plots")));
+}
+
 // A plane through three points, at nodes around plots that lie 40 km apart.
 TEST_F(FieldPage, ShowsTheTrueGroundOfAnyField) {
   report::ShownField field;
@@ -137,6 +176,14 @@ TEST_F(FieldPage, ShowsTheTrueGroundOfAnyField) {
 TEST_F(FieldPage, RefusesItsOwnInputsAndAPageThatExists) {
   EXPECT_THROW(write_estimate_page({.estimate = estimate_, .html = estimate_, .replace = true}),
                InputError);
+  const fs::path cloud = folder_.write("a.xyz", "0 0 0\n1 1 1\n");
+  EXPECT_THAT(
+      message_of<InputError>([&] {
+        write_estimate_page(
+            {.estimate = estimate_, .html = cloud, .cloud = CloudFiles(cloud), .replace = true});
+      }),
+      HasSubstr("is the input"));
+  EXPECT_EQ(read_text(cloud), "0 0 0\n1 1 1\n");
   write_estimate_page({.estimate = estimate_, .html = html_});
   EXPECT_THAT(
       message_of<InputError>([&] { write_estimate_page({.estimate = estimate_, .html = html_}); }),

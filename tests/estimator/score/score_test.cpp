@@ -24,6 +24,7 @@ using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 PlotBox turned_box(double x, double heading_rad = 0) {
   return {.center = {x, 0}, .width_m = 1, .length_m = 4, .heading_rad = heading_rad};
@@ -325,6 +326,17 @@ TEST_F(ScoreRun, TakesTruthsOfTheCanopy) {
   ASSERT_EQ(scores.heights.size(), 2U);
   EXPECT_EQ(scores.heights[0].truth, "canopy_p95_m");
   EXPECT_NEAR(scores.heights[0].bias_m, 0.2, 1e-12);
+}
+
+TEST_F(ScoreRun, SaysWhyThereIsNothingToCompare) {
+  const auto notes_for = [&](double x, const nlohmann::json& properties) {
+    const std::filesystem::path truth = folder_.path() / "truth.geojson";
+    write_plot_features(truth, {{turned_box(x), properties}});
+    return run({.estimate = estimate_, .truth = truth}).notes;
+  };
+  EXPECT_THAT(notes_for(5, {{"height_max_m", 0.7}}), IsEmpty());
+  EXPECT_THAT(notes_for(20, {{"height_max_m", 0.7}}), ElementsAre(HasSubstr("same coordinates?")));
+  EXPECT_THAT(notes_for(5, {{"height_max_m", "0.7"}}), ElementsAre(HasSubstr("no true plot has")));
 }
 
 TEST_F(ScoreRun, BadInputLeavesNothingBehind) {

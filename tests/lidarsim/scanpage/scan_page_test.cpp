@@ -81,6 +81,22 @@ TEST(ScanPage, RefusesWithOneMessageAndLeavesNothing) {
               HasSubstr("exists"));
 }
 
+// Seconds since 1970, which floats hold in steps of two minutes.
+TEST(ScanPage, TellsTimesApartThatCountFromLongAgo) {
+  const TemporaryFolder folder;
+  const fs::path cloud = folder.write("a.ply",
+                                      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                      "property float y\nproperty float z\nproperty double time\n"
+                                      "end_header\n0 0 0 1700000001.5\n1 0 0 1700000002.5\n"
+                                      "0 1 0 1700000005.25\n");
+  const fs::path html = folder.path() / "page.html";
+  write_scan_page({.scan = cloud, .html = html});
+  EXPECT_EQ(document_of(html)["fields"][0]["cloud"]["time"],
+            nlohmann::json({1700000001.5, 1700000005.25}));
+  const ShownScan scan = read_shown_scan(cloud, {.most = 3});
+  EXPECT_EQ(scan.cloud.points[1].time_s - scan.cloud.points[0].time_s, 1);
+}
+
 TEST(ReadShownScan, KeepsThePointsOfTheArea) {
   const TemporaryFolder folder;
   const fs::path cloud = folder.write("a.ply", field_ply());
