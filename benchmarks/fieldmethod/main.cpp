@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <vector>
 
 #include <pcl/filters/voxel_grid.h>
@@ -39,6 +40,7 @@ constexpr float kLargestStep_m = 0.3F;
 Cloud::Ptr read_thinned(const char* file) {
   const Cloud::Ptr all(new Cloud);
   if (pcl::io::loadPCDFile(file, *all) != 0) throw InputError(file, "cannot be read");
+  if (all->empty()) throw InputError(file, "holds no points");
   const Cloud::Ptr thinned(new Cloud);
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(all);
@@ -139,24 +141,38 @@ class Raster {
   std::vector<double> z_m_;
 };
 
-void write_heights(const Cloud& cloud, const Raster& ground, const char* boxes, const char* out) {
-  TextFile table(out);
-  table << "plot_number,height_p99_m\n";
+struct DrawnPlot {
+  std::string number;
+  PlotBox box;
+};
+
+std::vector<DrawnPlot> read_plots(const char* boxes) {
+  std::vector<DrawnPlot> plots;
   read_csv(boxes, {"plot_number", "center_x_m", "center_y_m", "width_m", "length_m", "heading_deg"},
            {}, [&](const CsvRow& row) {
-             const PlotBox box{.center = {row.number(1), row.number(2)},
+             plots.push_back({row.text(0),
+                              {.center = {row.number(1), row.number(2)},
                                .width_m = row.number(3),
                                .length_m = row.number(4),
-                               .heading_rad = radians(row.number(5))};
-             std::vector<double> heights_m;
-             for (const pcl::PointXYZ& point : cloud) {
-               if (box.contains({point.x, point.y}))
-                 heights_m.push_back(static_cast<double>(point.z) - ground.z_m(point.x, point.y));
-             }
-             table << row.text(0) << ",";
-             if (!heights_m.empty()) table << quantile(heights_m, 0.99);
-             table << "\n";
+                               .heading_rad = radians(row.number(5))}});
            });
+  return plots;
+}
+
+void write_heights(const Cloud& cloud, const Raster& ground, const std::vector<DrawnPlot>& plots,
+                   const char* out) {
+  TextFile table(out);
+  table << "plot_number,height_p99_m\n";
+  for (const DrawnPlot& plot : plots) {
+    std::vector<double> heights_m;
+    for (const pcl::PointXYZ& point : cloud) {
+      if (plot.box.contains({point.x, point.y}))
+        heights_m.push_back(static_cast<double>(point.z) - ground.z_m(point.x, point.y));
+    }
+    table << plot.number << ",";
+    if (!heights_m.empty()) table << quantile(heights_m, 0.99);
+    table << "\n";
+  }
   table.close();
 }
 
@@ -169,8 +185,12 @@ int main(int argc, char** argv) {
   }
   try {
     const Cloud::Ptr cloud = read_thinned(argv[1]);
-    write_heights(*cloud, Raster(*cloud, ground_of(cloud)), argv[2], argv[3]);
+    const std::vector<DrawnPlot> plots = read_plots(argv[2]);
+    write_heights(*cloud, Raster(*cloud, ground_of(cloud)), plots, argv[3]);
     return 0;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "field_method: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "field_method: %s\n", error.what());
     return 1;

@@ -54,6 +54,9 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 100\nDATA binary\nabc");
   folder.write("nan.pcd",
                "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\nnan 0 0\n0 0 inf\n");
+  const std::string floats = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
+  folder.write("empty.pcd", floats + "WIDTH 0\nHEIGHT 1\nPOINTS 0\nDATA ascii\n");
+  folder.write("one.pcd", floats + "WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n0 0 0\n");
   folder.write("broken.csv", "x,y,z\n1,2,3\n4,five,6\n");
   folder.write("compressed.laz", las_header(1 | 0x80));
   folder.write("truncated.las", las_header(0) + std::string(190, 'x'));
@@ -169,6 +172,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"measure_plots run --secret s --strata wheat", "no stratum \"wheat\""},
         BadCommand{"measure_plots run --secret s --farms 0", "--farms"},
         BadCommand{"measure_plots run --secret s --strata maize --source absent", "plants.yaml"},
+        BadCommand{"field_method empty.pcd absent.csv heights.csv", "empty.pcd: holds no points"},
+        BadCommand{"field_method one.pcd absent.csv heights.csv", "absent.csv"},
         BadCommand{"plotview picture not_a_farm -o p.png", "not_a_farm"},
         BadCommand{"plotview field index.ply absent -o p.png", "absent: is no estimate folder"},
         BadCommand{"plotview field index.ply not_a_farm -o p.png", "plots.geojson"},
