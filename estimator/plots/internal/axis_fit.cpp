@@ -15,7 +15,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot, or of a drill row's leaves
+constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot
+constexpr double kLeastRow_m = 0.2;                     // of a drill row's leaves
 // Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
 // tenth.
 constexpr double kMostSpacing_m = 1.12;
@@ -30,13 +31,13 @@ int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
 }
 
-// Number of steps that are no whole multiple of the usual step. Each adds two parameters: its size
-// and its place.
+// Number of steps that are no whole multiple of the usual step; of two steps the narrower one is
+// usual, as the other may be an alley. Each adds two parameters: its size and its place.
 double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
   if (steps.size() < 2) return 0;
-  const double usual = usual_step(steps);
+  const double usual = steps.size() == 2 ? std::ranges::min(steps) : usual_step(steps);
   const double tolerance = std::max(0.05 / cell_m + 1, 0.05 * shape.size);
   return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
     return std::abs(step - usual * std::max(1.0, std::round(step / usual))) > tolerance;
@@ -77,14 +78,15 @@ std::vector<BandShape> coarse_shapes(const Line& line) {
   const double most =
       std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
   std::vector<int> sizes;
-  double size = kLeastSide_m / line.cell_m;
+  double size = kLeastRow_m / line.cell_m;
   while (size <= most) {
     sizes.push_back(static_cast<int>(size));
     size = std::max(size + 1, size * kSizeStep);
   }
   if (line.hint.side_m) sizes.push_back(cells(*line.hint.side_m, line.cell_m));
   for (const int cells : sizes)
-    if (may_be(cells, line)) shapes.push_back({.size = cells});
+    if (may_be(cells, line))
+      shapes.push_back({.size = cells, .blur = std::min(2, (cells - 1) / 2)});
   return shapes;
 }
 
@@ -127,6 +129,14 @@ AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
     if (line.hint.count ? has_told_count(line, plots) : is_one) return fit;
   }
   return line.hint.count || fits.empty() ? AxisFit{} : fits.front();
+}
+
+// Bands that are too narrow for plots are drill rows of plots, or the canopy's texture.
+void leave_out_texture(const Line& line, std::vector<AxisFit>& fits) {
+  std::erase_if(fits, [&](const AxisFit& fit) {
+    const bool narrow = !line.hint.side_m && fit.shape.size * line.cell_m < kLeastSide_m;
+    return narrow && !(std::isfinite(fit.misfit) && put_together(line, fit).drilled);
+  });
 }
 
 std::vector<AxisFit> fit_shapes(const Line& line, const std::vector<BandShape>& shapes,
@@ -202,6 +212,7 @@ AxisFit fit_axis(const Line& line, bool shared) {
   if (!shared && tried.profiles.size() > kRowsTried)
     tried.profiles.erase(tried.profiles.begin() + kRowsTried, tried.profiles.end());
   std::vector<AxisFit> fits = fit_shapes(tried, coarse_shapes(line), shared);
+  leave_out_texture(line, fits);
   if (fits.empty()) return {};
   std::ranges::stable_sort(fits, {}, [&](const AxisFit& fit) { return fit.cost(line.price); });
   std::vector<BandShape> shapes;
@@ -211,6 +222,7 @@ AxisFit fit_axis(const Line& line, bool shared) {
   }
   if (!shared) fits.clear();  // of fewer profiles
   for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));
+  leave_out_texture(line, fits);
   return best_of(line, std::move(fits));
 }
 

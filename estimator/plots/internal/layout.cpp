@@ -192,19 +192,21 @@ double usual_pitch(const Layout& layout) {
   return usual_step(std::move(steps));
 }
 
-// Begins of plots that lie together, all rows taken as one; those that lie apart by a third of the
-// pitch are of different columns.
-std::vector<std::vector<double>> columns_of(const Layout& layout) {
+// Where columns begin: the medians of plots' begins that lie together, all rows taken as one. Those
+// that lie apart by a third of the pitch are of different columns.
+std::vector<double> columns_of(const Layout& layout) {
   constexpr double kApart = 0.35;
   std::vector<double> begins;
   for (const Row& row : layout.rows)
     for (const Band& plot : row.plots) begins.push_back(plot.begin);
   std::ranges::sort(begins);
   const double apart = kApart * usual_pitch(layout);
-  std::vector<std::vector<double>> columns;
-  for (const double begin : begins) {
-    if (columns.empty() || begin - columns.back().back() >= apart) columns.emplace_back();
-    columns.back().push_back(begin);
+  std::vector<double> columns, together;
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    together.push_back(begins[i]);
+    if (i + 1 < begins.size() && begins[i + 1] - begins[i] < apart) continue;
+    columns.push_back(quantile(std::move(together), 0.5));
+    together = {};
   }
   return columns;
 }
@@ -220,15 +222,37 @@ double off_columns(const Row& row, const std::vector<double>& columns) {
   return selected(std::span(off), (off.size() - 1) / 2);
 }
 
+// Rows of their own may have common columns that leaves and lodged plots hide in some of them.
+void add_in_columns(std::vector<Layout>& layouts) {
+  const std::size_t count = layouts.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (layouts[i].aligned) continue;
+    if (std::optional<Layout> columns = in_columns(layouts[i]))
+      layouts.push_back(std::move(*columns));
+  }
+}
+
 }  // namespace
 
 bool is_in_columns(const Layout& layout) {
   const double same = kSameColumn_m / layout.view.cell_m();
-  std::vector<double> columns;
-  for (const std::vector<double>& begins : columns_of(layout))
-    columns.push_back(quantile(begins, 0.5));
+  const std::vector<double> columns = columns_of(layout);
   return std::ranges::all_of(layout.rows,
                              [&](const Row& row) { return off_columns(row, columns) <= same; });
+}
+
+std::optional<Layout> in_columns(Layout layout) {
+  std::vector<Band> plots;
+  for (const double column : columns_of(layout)) {
+    const int begin = static_cast<int>(std::lround(column));
+    plots.push_back({begin, begin + layout.c_shape.size});
+  }
+  const auto overlap = [](const Band& plot, const Band& next) { return next.begin <= plot.end; };
+  if (std::ranges::adjacent_find(plots, overlap) != plots.end()) return std::nullopt;
+  layout.aligned = true;
+  for (Row& row : layout.rows) row.plots = plots;
+  leave_out_missing(layout);
+  return layout;
 }
 
 Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
@@ -238,6 +262,7 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
   leave_out_drill_rows(layouts);
   leave_best_aligned(view, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
+  if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});
   Layout best{.view = view};
   for (Layout& layout : layouts) {

@@ -3,6 +3,7 @@
 
 // Private to the library: rows of plots on a canopy raster.
 
+#include <optional>
 #include <vector>
 
 #include "plots/hints.h"
@@ -28,6 +29,10 @@ struct Layout {
 
 // Whether plots that were searched row by row form columns through the rows nevertheless.
 bool is_in_columns(const Layout& layout);
+
+// The same rows with plots in the columns that most of them show; nothing where these overlap.
+// Places without canopy are left out.
+std::optional<Layout> in_columns(Layout layout);
 
 // The layout that explains the canopy along both axes best, for its number of parameters: bands
 // over the whole field along either axis, or over the whole field along one and in each row by

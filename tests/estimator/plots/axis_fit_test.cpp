@@ -71,6 +71,30 @@ TEST(PutTogether, MakesPlotsOfDrillRows) {
   EXPECT_FALSE(put_together(told, fit_axis(told, true)).drilled);
 }
 
+// Three plots, the third behind an alley: of two steps one is not the usual one.
+TEST(BandsCost, AnAlleyAddsItsSizeAndItsPlace) {
+  const Line line = line_along(striped({1, 3, 6.2}, 1.2));
+  const BandShape shape{.size = 24};
+  const std::vector<int> begins = {20, 60, 124};
+  const Segmentation bands = bands_at(line.profiles, shape, begins);
+  EXPECT_NEAR(bands_cost(line, {.shape = shape, .begins = begins}),
+              bands.misfit + line.price * (bands.parameters + 2), 1e-9);
+}
+
+// Rows 0.36 m apart, as soybeans are sown (15 in: 0.38 m), and 0.2 m between the sown widths.
+TEST(PutTogether, SeesRowsThatAreClose) {
+  std::vector<double> begins_m;
+  for (int plot = 0; plot < 5; ++plot)
+    for (int row = 0; row < 5; ++row) begins_m.push_back(1 + 2 * plot + 0.36 * row + 0.08);
+  const Line line = line_along(striped(begins_m, 0.2));
+  const AxisFit plots = put_together(line, fit_axis(line, true));
+  EXPECT_TRUE(plots.drilled);
+  EXPECT_NEAR(plots.shape.size, 36, 1);
+  ASSERT_EQ(plots.begins.front().size(), 5U);
+  for (int plot = 0; plot < 5; ++plot)
+    EXPECT_NEAR(plots.begins.front()[static_cast<std::size_t>(plot)], 20 + 40 * plot, 1);
+}
+
 // The third plot is lodged and the fourth of five is low: no band shows them.
 TEST(PutTogether, FillsInWhereABandIsNotSeen) {
   const CanopyRaster raster = striped({1, 3, 9}, 1.2);

@@ -79,6 +79,27 @@ TEST(IsInColumns, WhereLeavesMoveEachPlotByItself) {
       is_in_columns(rows_of({{425, 520, 615}, {420, 515, 610}, {425, 520, 615}, {520, 615}})));
 }
 
+// Of the second row's plots the gaps were seen beside their place.
+TEST(InColumns, HasThePlotsOfMostRows) {
+  TrialLayout trial = known_trial({0, 0, 0});
+  trial.places.erase(trial.places.begin() + 7);
+  const CanopyRaster raster = canopy_of(trial);
+  Layout layout{.view = {.raster = &raster}, .r_shape = {.size = 60}, .c_shape = {.size = 30}};
+  for (const int r : {30, 106, 182}) {
+    layout.rows.push_back({{r, r + 60}});
+    for (int column = 0; column < 5; ++column) {
+      const int c = 25 + 38 * column + (r == 106 ? 10 : 0);
+      layout.rows.back().plots.push_back({c, c + 30});
+    }
+  }
+  const std::optional<Layout> found = in_columns(layout);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->aligned);
+  expect_layout(*found, trial);
+  for (Band& plot : layout.rows[1].plots) plot = {plot.begin + 9, plot.end + 9};
+  EXPECT_FALSE(in_columns(layout)) << "columns that overlap";
+}
+
 TEST(BestLayout, LeavesOutThePlotThatIsMissing) {
   TrialLayout trial = known_trial({0, 0, 0});
   trial.places.erase(trial.places.begin() + 7);
