@@ -252,7 +252,8 @@ TEST_F(Convert, ACloudInAnotherTimeThanItsTrajectoryIsNoRecording) {
   const scan::Trajectory flown = scan::read_trajectory(scan_ / "poses.csv");
   scan::write_tum(folder_.path() / "early.tum", scan::delayed(flown, -5000));
   const ConvertOptions options{.flight = FlightOptions{.trajectory = folder_.path() / "early.tum"}};
-  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag", options), HasSubstr("in the same time"));
+  for (const char* out : {"out.bag", "out.las"})
+    EXPECT_THAT(refusal(scan_ / "cloud.pcd", out, options), HasSubstr("in the same time")) << out;
 }
 
 // A map in US survey feet by GeoTIFF keys, as older LAS have them, stays in feet.
