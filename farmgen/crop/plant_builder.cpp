@@ -48,6 +48,12 @@ std::vector<double> length_shares(const std::vector<Vector3d>& path) {
   return shares;
 }
 
+// A stalk of no length, as of a leaflet that sits on its petiole.
+bool is_point(const std::vector<Vector3d>& path) {
+  return std::all_of(path.begin(), path.end(),
+                     [&](const Vector3d& point) { return point == path.front(); });
+}
+
 // The path's direction at a point: of the line between its neighbours.
 Vector3d tangent(const std::vector<Vector3d>& path, std::size_t i) {
   return (path[std::min(i + 1, path.size() - 1)] - path[i == 0 ? 0 : i - 1]).normalized();
@@ -96,6 +102,7 @@ Tube thinned(const Tube& tube) {
 void PlantBuilder::tube(const Tube& full, const std::string& material) {
   check(full.path.size() >= 2 && full.radius_m.size() == full.path.size(), "a tube's points");
   use(material);
+  if (is_point(full.path)) return;
   const Tube tube = light() ? thinned(full) : full;
   const std::vector<double> shares = length_shares(tube.path);
   Vector3d across = tube.across;

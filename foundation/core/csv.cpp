@@ -35,11 +35,9 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 // The whole text of a table. It must be UTF-8, since its values go into JSON.
 std::string table_text(const std::filesystem::path& file) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::string text = read_text(file);
+  const std::string text = read_text(file);
   require_utf8(text, file);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  return text;
+  return std::string(without_byte_order_mark(text));
 }
 
 // For each wanted column its place in the file's header; kAbsent for a missing optional one.

@@ -24,6 +24,12 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
+// The text without the mark that some editors put in front of UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 // The file's extension in lower case, with its dot: ".las" of "FIELD.LAS".
 inline std::string lower_extension(const std::filesystem::path& file) {
   return lower_case(file.extension().string());

@@ -23,7 +23,7 @@ struct PlaceScan {
 
 // Scans a place by its path: a farm's folder, or the file of any SDF world or model, and writes the
 // scan folder as fly does. Throws InputError as farmfolder::read_farm, gazebo::read_world and fly
-// do.
+// do, and on a wind that would move neither the drone nor the plants.
 PlaceScan fly_place(const std::filesystem::path& place, const std::filesystem::path& scan_folder,
                     FlyPlaceOptions options, const ProgressReport& progress = {});
 

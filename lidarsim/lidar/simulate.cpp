@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <tbb/global_control.h>
@@ -147,12 +148,23 @@ class Simulator {
         add_point(shot, axes[i], returns[k],
                   k == 0 ? noise.of_shot(shot) : noise.of_second_return(shot), points);
       }
-      for (std::size_t k = first; k < points.size(); ++k) {
-        points[k].return_number = static_cast<std::uint8_t>(1 + k - first);
-        points[k].return_count = static_cast<std::uint8_t>(points.size() - first);
-      }
+      number_returns(axes[i].origin_m, std::span(points).subspan(first));
     }
     return points;
+  }
+
+  // Orders and numbers a shot's returns from the nearest: noise may have put the farther one
+  // nearer.
+  static void number_returns(const Eigen::Vector3f& origin_m,
+                             std::span<scan::LabelledPoint> returns) {
+    const auto square_range = [&](const scan::LabelledPoint& point) {
+      return (Eigen::Vector3f(point.x, point.y, point.z) - origin_m).squaredNorm();
+    };
+    if (returns.size() > 1) std::ranges::stable_sort(returns, {}, square_range);
+    for (std::size_t k = 0; k < returns.size(); ++k) {
+      returns[k].return_number = static_cast<std::uint8_t>(1 + k);
+      returns[k].return_count = static_cast<std::uint8_t>(returns.size());
+    }
   }
 
   void add_point(std::uint64_t shot, const Ray& axis, const Return& seen, double noise_m,

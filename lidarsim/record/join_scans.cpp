@@ -44,10 +44,12 @@ json hashes_of_common_files(const json& manifest) {
   return hashes;
 }
 
-Part read_part(const fs::path& folder) {
+// A flight in one part, --part 1/1, is a whole scan.
+Part read_part(const fs::path& folder, bool only_one) {
   json manifest = read_manifest(folder);
   try {
     json& options = manifest.at("options");
+    if (only_one && !options.contains("part")) options["part"] = {1, 1};
     if (manifest.at("command") != kFlyCommand || !options.contains("part"))
       throw InputError(folder, "is no part of a flight; lidarsim fly --part I/N makes one");
     Part part{.folder = folder,
@@ -57,6 +59,7 @@ Part read_part(const fs::path& folder) {
               .points = manifest.at("results").at("points"),
               .flight = {}};
     options.erase("part");
+    options.erase("formats");  // of a whole scan; JoinOptions says which are written
     part.flight = {{"plotscan", manifest.at("plotscan")},
                    {"seed", manifest.at("seed")},
                    {"options", options},
@@ -89,7 +92,7 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
   if (folders.empty()) throw InputError("no parts of a flight are given");
   std::vector<Part> parts;
   for (const fs::path& folder : folders) {
-    parts.push_back(read_part(folder));
+    parts.push_back(read_part(folder, folders.size() == 1));
     require_one_flight(parts.front(), parts.back());
     require_unchanged(folder, "");
   }

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "core/coordinate_units.h"
+#include "core/csv.h"
 #include "core/parse.h"
 #include "scan/internal/wkt.h"
 
@@ -25,18 +25,14 @@ std::optional<double> unit_of(const WktNode* node) {
   return std::nullopt;
 }
 
-}  // namespace
-
-std::string local_crs_wkt() {
-  return R"(LOCAL_CS["Plotscan world frame",LOCAL_DATUM["Centre of the farm",0],)"
-         R"(UNIT["metre",1],AXIS["x",EAST],AXIS["y",NORTH],AXIS["z",UP]])";
+std::string utm_name(const UtmZone& zone) {
+  return fmt::format("WGS 84 / UTM zone {}{}", zone.number, zone.north ? 'N' : 'S');
 }
 
-std::string utm_crs_wkt(const UtmZone& zone) {
-  const std::string name =
-      fmt::format("WGS 84 / UTM zone {}{}", zone.number, zone.north ? 'N' : 'S');
+// Without heights.
+std::string projected_utm_wkt(const UtmZone& zone) {
   const int epsg = (zone.north ? 32600 : 32700) + zone.number;
-  return R"(COMPD_CS[")" + name + R"( + ellipsoidal height",PROJCS[")" + name +
+  return R"(PROJCS[")" + utm_name(zone) +
          R"(",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,)"
          R"(AUTHORITY["EPSG","7030"]],AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,)"
          R"(AUTHORITY["EPSG","8901"]],UNIT["degree",0.0174532925199433,)"
@@ -46,9 +42,43 @@ std::string utm_crs_wkt(const UtmZone& zone) {
          R"(PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],)" +
          fmt::format(R"(PARAMETER["false_northing",{}],)", zone.north ? 0 : 10000000) +
          R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],)" +
-         fmt::format(R"(AXIS["Northing",NORTH],AUTHORITY["EPSG","{}"]],)", epsg) +
-         R"(VERT_CS["WGS 84 ellipsoidal height",VERT_DATUM["Ellipsoid",2002],)"
+         fmt::format(R"(AXIS["Northing",NORTH],AUTHORITY["EPSG","{}"]])", epsg);
+}
+
+std::string unit_wkt(double unit_m) {
+  const char* const name = unit_m == 1                 ? "metre"
+                           : unit_m == kFoot_m         ? "foot"
+                           : unit_m == kUsSurveyFoot_m ? "US survey foot"
+                                                       : "unknown";
+  return fmt::format(R"(UNIT["{}",{}])", name, format_number(unit_m));
+}
+
+}  // namespace
+
+std::string local_crs_wkt() {
+  return R"(LOCAL_CS["Plotscan world frame",LOCAL_DATUM["Centre of the farm",0],)"
+         R"(UNIT["metre",1],AXIS["x",EAST],AXIS["y",NORTH],AXIS["z",UP]])";
+}
+
+std::string utm_crs_wkt(const UtmZone& zone) {
+  return R"(COMPD_CS[")" + utm_name(zone) + R"( + ellipsoidal height",)" + projected_utm_wkt(zone) +
+         R"(,VERT_CS["WGS 84 ellipsoidal height",VERT_DATUM["Ellipsoid",2002],)"
          R"(UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Up",UP]]])";
+}
+
+std::string coded_crs_wkt(int epsg, const CoordinateUnits& units) {
+  const std::string name = epsg == 0 ? "unknown" : "EPSG:" + std::to_string(epsg);
+  const std::optional<UtmSystem> utm = utm_system(name);
+  const std::string level =
+      utm && utm->datum == "WGS 84" && units.horizontal_m == 1
+          ? projected_utm_wkt(utm->zone)
+          : fmt::format(R"(LOCAL_CS["{}",LOCAL_DATUM["unknown",0],{},AXIS["x",EAST],)"
+                        R"(AXIS["y",NORTH]])",
+                        name, unit_wkt(units.horizontal_m));
+  if (units.vertical_m == units.horizontal_m) return level;
+  return fmt::format(R"(COMPD_CS["{} + height",{},VERT_CS["unknown",VERT_DATUM["unknown",2005],{},)"
+                     R"(AXIS["Up",UP]]])",
+                     name, level, unit_wkt(units.vertical_m));
 }
 
 std::string short_crs(const std::string& wkt) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/coordinate_units.h"
 #include "core/geodesy.h"
 
 namespace plotscan::scan {
@@ -15,6 +16,11 @@ std::string local_crs_wkt();
 
 // WGS 84 / UTM in the zone, EPSG 326xx or 327xx, with heights over the ellipsoid.
 std::string utm_crs_wkt(const UtmZone& zone);
+
+// A system that is known by its EPSG code (0: none) and units alone. UTM on WGS 84 in metres is
+// described whole; any other is a local system with the code as its name, since what the code
+// stands for is not known here.
+std::string coded_crs_wkt(int epsg, const CoordinateUnits& units);
 
 // "EPSG:<code>" of the projected system that the text (WKT 1 or 2) describes, if it names the code;
 // else the text itself.

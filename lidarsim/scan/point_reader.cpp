@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
+#include "scan/las_crs.h"
 
 namespace plotscan::scan {
 namespace {
@@ -176,6 +177,21 @@ double time_shift_s(const CloudLayout& layout, const CloudInfo& info) {
              : 0;
 }
 
+// A point's floats keep 1e-5 of a degree, which is a metre.
+void require_lengths(const std::filesystem::path& cloud, const CloudLayout& layout) {
+  if (!layout.in_degrees) return;
+  throw InputError(cloud,
+                   "has longitudes and latitudes, which would be rounded to a metre; project it "
+                   "first, for instance to UTM (the estimator reads it as it is)");
+}
+
+// GeoTIFF keys become well-known text, so that no unit is lost.
+std::string crs_wkt_of(const CloudLayout& layout) {
+  if (!layout.crs_wkt.empty()) return layout.crs_wkt;
+  if (layout.crs_epsg == 0 && layout.units == CoordinateUnits{}) return "";
+  return coded_crs_wkt(layout.crs_epsg, layout.units);
+}
+
 }  // namespace
 
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s) {
@@ -192,10 +208,11 @@ Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m) {
 
 CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   const CloudLayout layout = read_cloud_header(cloud);
+  require_lengths(cloud, layout);
   const Selection selection = select(layout);
   CloudInfo info{.points = layout.is_text ? 0 : layout.points,
                  .start = layout.start,
-                 .crs_wkt = layout.crs_wkt};
+                 .crs_wkt = crs_wkt_of(layout)};
   if (!has_float_coordinates(layout)) {
     const FirstPoint first = first_point(cloud, layout);
     info.origin_m = origin_near(first.position_m);

@@ -25,14 +25,16 @@ struct CloudInfo {
   // When the points' time 0 was, if the file states it (LAS with adjusted GPS time). For files not
   // written by Plotscan, the whole second at or before the first point.
   std::optional<UtcTime> start = {};
-  std::string crs_wkt = {};  // the coordinate system, LAS only; "" where the file has none
+  // The coordinate system, LAS only; "" where the file has none. GeoTIFF keys are put as text.
+  std::string crs_wkt = {};
   std::vector<std::string> fields = {};  // those of LabelledPoint, named as in docs/formats.md
 };
 
 // The origin that points near this one count from: each coordinate rounded to whole kilometres.
 Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m);
 
-// Reads a cloud's header and the beginning of its points. Throws InputError as read_points does.
+// Reads a cloud's header and the beginning of its points. Throws InputError as read_points does,
+// and on coordinates in degrees, which floats cannot hold.
 CloudInfo read_cloud_info(const std::filesystem::path& cloud);
 
 // Streams the points of a PCD, PLY, LAS or text cloud with every field of LabelledPoint that the

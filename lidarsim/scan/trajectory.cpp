@@ -30,7 +30,8 @@ void require_flight_time(const std::filesystem::path& file, const Trajectory& tr
   const double taken_s = trajectory.end_s() - trajectory.start_s();
   if (taken_s <= kLongestFlight_s) return;
   throw InputError(file, "the flight takes " + format_number(taken_s) + " s; at most " +
-                             format_number(kLongestFlight_s) + " s are allowed");
+                             format_number(kLongestFlight_s) +
+                             " s are allowed (the file's times are in seconds)");
 }
 
 std::string pose_error(const StampedPose& pose, double previous_s) {

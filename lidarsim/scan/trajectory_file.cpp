@@ -5,10 +5,12 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/parse.h"
+#include "core/text.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::scan {
@@ -41,7 +43,7 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& file) {
   std::size_t line_number = 0;
   for (std::string line; std::getline(in, line);) {
     ++line_number;
-    std::istringstream words(line);
+    std::istringstream words{std::string(without_byte_order_mark(line))};
     std::array<double, kColumns> values{};
     std::size_t count = 0;
     for (std::string word; words >> word; ++count) {
@@ -81,10 +83,11 @@ std::vector<StampedPose> read_trajectory_csv(const std::filesystem::path& file) 
 // A trajectory.csv has commas; TUM text has none outside its comments.
 bool has_commas(const std::filesystem::path& file) {
   std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
+  for (std::string whole; std::getline(in, whole);) {
+    const std::string_view line = without_byte_order_mark(whole);
     const auto first = line.find_first_not_of(" \t\r");
-    if (first != std::string::npos && line[first] != '#')
-      return line.find(',') != std::string::npos;
+    if (first != std::string_view::npos && line[first] != '#')
+      return line.find(',') != std::string_view::npos;
   }
   return false;
 }

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/parse.h"
+#include "core/text.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -70,14 +71,14 @@ void require_different_places(const std::filesystem::path& path, std::vector<Poi
 }  // namespace
 
 std::vector<Eigen::Vector3d> read_xyz(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string whole = read_text(path);
+  const std::string_view text = without_byte_order_mark(whole);
   std::vector<PointOnLine> parsed;
   std::size_t line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     PointOnLine next{.point = Eigen::Vector3d::Zero(), .line = ++line};
-    if (parse(std::string_view(text).substr(begin, end - begin), path, next))
-      parsed.push_back(next);
+    if (parse(text.substr(begin, end - begin), path, next)) parsed.push_back(next);
     if (parsed.size() > kMostTerrainVertices) {
       throw InputError(path, line,
                        "is point " + std::to_string(parsed.size()) + "; at most " +

@@ -40,7 +40,10 @@ scan::LasOptions las_options(const std::filesystem::path& file, const Source& so
     las.start = flight.start;
     las.system = flight.sensor.title;
     const auto angles = std::make_shared<scan::ScanAngles>(flight.reported, flight.body_from_lidar);
-    las.scan_angle_rad = [angles](const scan::LabelledPoint& p) { return angles->angle_rad(p); };
+    las.scan_angle_rad = [angles, &flight](const scan::LabelledPoint& point) {
+      require_flown(flight, point.time);
+      return angles->angle_rad(point);
+    };
   }
   las.labels = options.labels;
   if (options.crs == "utm") place_in_utm(source, file, las);

@@ -34,4 +34,8 @@ struct FlightRecord {
   }
 };
 
+// Throws InputError on a point of the flight's time that lies so far outside its trajectory that it
+// must be in another time: the poses at the trajectory's ends would be taken for its own.
+void require_flown(const FlightRecord& flight, double time_s);
+
 }  // namespace plotscan::record

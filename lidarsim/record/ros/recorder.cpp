@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/csv.h"
-#include "core/error.h"
 #include "record/ros/internal/cloud.h"
 #include "record/ros/internal/inertial.h"
 
@@ -27,8 +25,6 @@ constexpr double kFix_s = 0.1;
 constexpr double kPose_s = 0.01;
 // The duration of a sweep of a sensor that does not turn.
 constexpr double kSweep_s = 0.1;
-// Points further than this before or after the trajectory must be in another time system.
-constexpr double kOutside_s = 1;
 
 ros::Transform transform_of(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d& t = pose.translation();
@@ -94,7 +90,7 @@ std::size_t RosRecorder::topic(const char* name, const char* type, bool latched)
 void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
   const Eigen::Isometry3d lidar_from_body = flight_.body_from_lidar.inverse();
   for (const scan::LabelledPoint& point : points) {
-    require_flown(point.time);
+    require_flown(flight_, point.time);
     if (encoder_) encoder_->write({&point, 1});
     while (point.time >= static_cast<double>(sweeps_done_ + 1) * sweep_interval_s_) end_sweep();
     // The position as seen from the sensor at that instant: motion within the sweep is not
@@ -106,13 +102,6 @@ void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
     const double begin_s = static_cast<double>(sweeps_done_) * sweep_interval_s_;
     add_point(sweep_, point, position.cast<float>(), static_cast<float>(point.time - begin_s));
   }
-}
-
-void RosRecorder::require_flown(double time_s) const {
-  if (time_s >= -kOutside_s && time_s <= duration_s_ + kOutside_s) return;
-  throw InputError("a point was measured " + format_number(time_s) +
-                   " s after the trajectory's first pose, and the trajectory takes " +
-                   format_number(duration_s_) + " s; both have to be in the same time");
 }
 
 void RosRecorder::close() {

@@ -63,8 +63,6 @@ class RosRecorder : public scan::PointWriter {
   void advance(double time_s);
   // Adds a topic and returns its number in the file.
   std::size_t topic(const char* name, const char* type, bool latched = false);
-  // Throws InputError on a time more than 1 s outside the trajectory.
-  void require_flown(double time_s) const;
   // Ends the sweep and begins the next one.
   void end_sweep();
   void emit_packets(double end_s);

@@ -68,11 +68,6 @@ struct TextHeader {
   std::size_t names_line = 0;
 };
 
-std::string_view without_byte_order_mark(std::string_view line) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  return line.starts_with(kMark) ? line.substr(kMark.size()) : line;
-}
-
 void take_header_line(const HeaderLines& lines, std::string_view line, TextHeader& header) {
   const bool comment = is_comment(line);
   const std::size_t begin = comment ? line.find_first_not_of("#/ \t") : 0;

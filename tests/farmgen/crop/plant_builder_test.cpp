@@ -57,6 +57,13 @@ TEST(PlantBuilder, AClosedTubeHoldsTheVolumeOfItsPrism) {
   EXPECT_NEAR(volume(plant.take()), octagon * (0.1 + 0.1 / 3), 1e-3 * octagon);
 }
 
+// A leaflet without a stalk (rachis_share 0) had one whose corners were no numbers.
+TEST(PlantBuilder, ATubeOfNoLengthIsLeftOut) {
+  PlantBuilder plant = builder(Detail::scan);
+  plant.tube({.path = {{0, 0, 0.1}, {0, 0, 0.1}}, .radius_m = {0.01, 0.007}}, "stem");
+  EXPECT_TRUE(plant.take().vertices.empty());
+}
+
 TEST(PlantBuilder, AnEllipsoidFacesOutwardAndKeepsItsHalfAxes) {
   PlantBuilder plant = builder(Detail::scan);
   plant.ellipsoid({0, 0, 1}, Vector3d::UnitX(), Vector3d::UnitY(), {0.03, 0.02, 0.01}, "stem");

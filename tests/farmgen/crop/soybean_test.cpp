@@ -65,6 +65,11 @@ TEST(Soybean, ParametersDoWhatTheySay) {
 
 // Wiersma and Bailey (1975): a trifoliolate leaf has about 2.0 times length times width of its
 // terminal leaflet.
+TEST(Soybean, LeafletsMaySitOnThePetiole) {
+  const Mesh mesh = soybean(3, "R3", {"rachis_share=0"});
+  for (const Eigen::Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
+}
+
 TEST(Soybean, ATrifoliolateLeafHasThePublishedArea) {
   const std::vector<std::string> one_leaf = {"nodes=2",
                                              "unfolding_leaves=0",

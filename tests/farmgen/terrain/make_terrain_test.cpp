@@ -151,6 +151,12 @@ TEST(Xyz, ScatteredPointsKeepTheirCoordinatesWhereAsked) {
   EXPECT_EQ(farm.terrain.triangles().size(), 4u);
 }
 
+TEST(Xyz, AByteOrderMarkIsPassedOver) {
+  const TemporaryFolder folder;
+  folder.write("p.xyz", "\xef\xbb\xbf-3 -3 0\n9 -3 0\n-3 9 0\n9 9 0\n");
+  EXPECT_EQ(planting::generate(on_terrain(folder, "xyz: p.xyz"), 1).terrain.vertices().size(), 4u);
+}
+
 TEST(Xyz, BrokenFilesAreRefusedWithTheLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) {

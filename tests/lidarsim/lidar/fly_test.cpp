@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "farmfolder/write_farm.h"
 #include "small_farm.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
@@ -11,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "lidar/fly_place.h"
 #include "record/convert.h"
 #include "scan/trajectory.h"
 
@@ -244,6 +246,27 @@ TEST(Fly, CropIsAtRestWithoutWind) {
   EXPECT_FALSE(flown_cloud(folder, options) == rest);
   options.wind.mean_m_s = 0;
   EXPECT_TRUE(flown_cloud(folder, options) == rest);
+}
+
+TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
+  const TemporaryFolder folder;
+  const auto place = folder.path() / "farm";
+  farm::Farm farm = testing::small_farm();
+  for (std::size_t i = 0; i < farm.plants.size(); ++i)
+    farm.plants[i].id = static_cast<std::uint32_t>(i + 1);  // as a farm's folder has them
+  farmfolder::write_farm(farm, place, false, {.command = "farmgen generate"});
+  FlyPlaceOptions options{.flight = {.flight = short_flight(folder), .wind_acts_on = "drone"}};
+  options.flight.wind.mean_m_s = 3;
+  const auto fly_here = [&] { fly_place(place, folder.path() / "scan", options); };
+  EXPECT_THAT(message_of<InputError>(fly_here),
+              HasSubstr("--wind 3 moves nothing here: a trajectory (--flight) is flown as it is, "
+                        "and --wind-acts-on drone leaves the plants at rest"));
+  options.flight.wind_acts_on = "both";
+  EXPECT_NO_THROW(fly_here());
+  options.flight.wind_acts_on = "plants";
+  const auto world = folder.write("world.sdf", "<sdf version='1.9'/>");
+  EXPECT_THAT(message_of<InputError>([&] { fly_place(world, folder.path() / "scan", options); }),
+              HasSubstr("only a farm's plants sway"));
 }
 
 TEST(Fly, SwayingCropHasTheSameBytesForAnyNumberOfThreads) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "lidarsim/lidar/small_farm.h"
+#include "lidarsim/scan/foreign_las.h"
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include "core/manifest.h"
 #include "lidar/fly.h"
 #include "record/open_source.h"
+#include "scan/cloud_system.h"
 #include "scan/cloud_writer.h"
 
 namespace plotscan::record {
@@ -250,7 +252,21 @@ TEST_F(Convert, ACloudInAnotherTimeThanItsTrajectoryIsNoRecording) {
   const scan::Trajectory flown = scan::read_trajectory(scan_ / "poses.csv");
   scan::write_tum(folder_.path() / "early.tum", scan::delayed(flown, -5000));
   const ConvertOptions options{.flight = FlightOptions{.trajectory = folder_.path() / "early.tum"}};
-  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag", options), HasSubstr("in the same time"));
+  for (const char* out : {"out.bag", "out.las"})
+    EXPECT_THAT(refusal(scan_ / "cloud.pcd", out, options), HasSubstr("in the same time")) << out;
+}
+
+// A map in US survey feet by GeoTIFF keys, as older LAS have them, stays in feet.
+TEST_F(Convert, LasToLasKeepsTheUnits) {
+  const std::array<std::uint16_t, 12> keys = {1, 1, 0, 2, 3072, 0, 1, 2264, 3076, 0, 1, 9003};
+  const std::string record = scan::record(
+      "LASF_Projection", 34735, {reinterpret_cast<const char*>(keys.data()), sizeof keys});
+  const fs::path feet = folder_.write(
+      "feet.las", scan::bytes_of({.records = record, .record_count = 1}, {{{1000, 2000, 3000}}}));
+  const fs::path out = folder_.path() / "out.las";
+  convert(feet, out, {});
+  EXPECT_EQ(scan::read_cloud_system(out).units, scan::read_cloud_system(feet).units);
+  EXPECT_EQ(scan::crs_name(scan::read_cloud_system(out).crs), "EPSG:2264");
 }
 
 // Its time is told by the file, and --start tells it better.

@@ -85,6 +85,13 @@ TEST_F(Join, GivesTheSameForBeamsSwayAndPoseErrors) {
   expect_same_folders(whole, folder_.path() / "joined");
 }
 
+// As a script for any number of machines may ask for.
+TEST_F(Join, OnePartIsTheWholeFlight) {
+  const fs::path whole = fly_part("whole", {});
+  join_scans({fly_part("part", {1, 1}, {.formats = {"las"}})}, folder_.path() / "joined", {});
+  expect_same_folders(whole, folder_.path() / "joined");
+}
+
 // More parts than batches: most have no shots.
 TEST_F(Join, PartsMayBeEmpty) {
   const auto tum = folder_.write("short.tum", "0 -3 0 5 0 0 0 1\n0.005 0 0 5 0 0 0 1\n");

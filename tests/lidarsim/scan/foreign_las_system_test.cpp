@@ -9,7 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.h"
+#include "scan/cloud_system.h"
 #include "scan/las_crs.h"
+#include "scan/point_reader.h"
 
 namespace plotscan::scan {
 namespace {
@@ -124,6 +127,33 @@ TEST_F(ForeignLasFile, GivenUnitsAreBelieved) {
   EXPECT_EQ(x, 0.3048);
   EXPECT_FALSE(summary.system.zone);
   EXPECT_THAT(summary.system.notes, ElementsAre(HasSubstr("as --units says")));
+}
+
+// What GeoTIFF keys say goes on as well-known text, which alone LAS 1.4 writes.
+TEST_F(ForeignLasFile, KeysBecomeText) {
+  const auto info_of = [&](const std::vector<std::array<std::uint16_t, 2>>& keys) {
+    return read_cloud_info(folder_.write(
+        "a.las", bytes_of({.records = key_record(keys), .record_count = 1}, {{{1000, 0, 0}}})));
+  };
+  const std::string utm = info_of({{1024, 1}, {3072, 32617}, {3076, 9001}}).crs_wkt;
+  EXPECT_EQ(short_crs(utm), "EPSG:32617");
+  EXPECT_EQ(units_of_wkt(utm).horizontal_m, 1);
+  const std::string us_feet = info_of({{1024, 1}, {3072, 2264}, {3076, 9003}}).crs_wkt;
+  EXPECT_EQ(crs_name(us_feet), "EPSG:2264");
+  EXPECT_EQ(units_of_wkt(us_feet).horizontal_m, kUsFoot);
+  const std::string mixed = info_of({{1024, 1}, {3072, 32617}, {4099, 9002}}).crs_wkt;
+  EXPECT_EQ(short_crs(mixed), "EPSG:32617");
+  EXPECT_EQ(units_of_wkt(mixed).vertical_m, 0.3048);
+  EXPECT_EQ(units_of_wkt(info_of({{1024, 1}, {3076, 9002}}).crs_wkt).horizontal_m, 0.3048);
+  EXPECT_EQ(info_of({{1024, 1}, {3076, 9001}}).crs_wkt, "");
+}
+
+// Floats about whole kilometres would round them to a metre.
+TEST_F(ForeignLasFile, DegreesAreNoPoints) {
+  const auto file = folder_.write(
+      "a.las", bytes_of({.records = key_record({{1024, 2}}), .record_count = 1}, {{{1000, 0, 0}}}));
+  EXPECT_THAT(testing::message_of<InputError>([&] { read_cloud_info(file); }),
+              HasSubstr("a.las: has longitudes and latitudes"));
 }
 
 // A survey of Nebraska in US survey feet, of others: the bounds that its header states.

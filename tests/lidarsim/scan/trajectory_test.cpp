@@ -67,6 +67,16 @@ TEST(Trajectory, ReadsTum) {
   EXPECT_LT((first.linear() - about_z(std::numbers::pi / 2).toRotationMatrix()).norm(), 1e-12);
 }
 
+// Editors of Windows put it there, and nobody sees it.
+TEST(Trajectory, AByteOrderMarkIsPassedOver) {
+  const TemporaryFolder folder;
+  const std::string poses = "0 1 2 3 0 0 0 1\n1 1 2 4 0 0 0 1\n";
+  for (const std::string head : {"", "# t, x, y, z\n"}) {
+    const auto file = folder.write("flight.tum", "\xef\xbb\xbf" + head + poses);
+    EXPECT_EQ(read_trajectory(file).poses().back().position_m, Eigen::Vector3d(1, 2, 4)) << head;
+  }
+}
+
 TEST(Trajectory, WhatIsWrittenReadsBackTheSame) {
   const TemporaryFolder folder;
   const Trajectory written({{.time_s = 0.1, .position_m = {1.0 / 3, -1e-9, 1e5}},
