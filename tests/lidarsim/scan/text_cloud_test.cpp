@@ -93,8 +93,6 @@ TEST_F(TextCloud, CountsArePromises) {
   EXPECT_THAT(refusal("3\n1 2 3\n4 5 6\n"), HasSubstr("promises 3 points, the file holds 2"));
   EXPECT_THAT(refusal("3\n1 2 3\n2\n4 5 6\n7 8 9\n"),
               HasSubstr("cloud.txt:3: 3 points are promised before this line, 1 are there"));
-  // .ptx: columns, rows, the scanner's place
-  EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n"), HasSubstr("cloud.txt:2: 2 points are promised"));
 }
 
 TEST_F(TextCloud, WhatIsNotFiniteIsCounted) {
