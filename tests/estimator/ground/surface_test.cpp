@@ -130,6 +130,21 @@ TEST(FitSurface, HoldsAgainstStrayPoints) {
   }
 }
 
+// A flight that lies 8 cm higher over the east of the field, where both flights' returns mix.
+TEST(FitSurface, KnowsWhereTwoLayersOfGroundLie) {
+  std::vector<Eigen::Vector3f> points =
+      returns_of({.terrain = kPlane, .side_m = 30, .plots = two_rows_of_plots()});
+  const Surface one = fit_surface(points, SurfaceOptions());
+  for (std::size_t i = 0; i < points.size(); i += 2)
+    if (points[i].x() > 4) points[i].z() += 0.08f;
+  const Surface two = fit_surface(points, SurfaceOptions());
+  for (double y = -10; y <= 10; y += 0.5) {
+    for (double x = -10; x <= 10; x += 0.5) EXPECT_EQ(one.layers({x, y}), 0);
+    EXPECT_EQ(two.layers({-5, y}), 0);
+    EXPECT_NEAR(two.layers({10, y}), 0.04, 0.01);  // half of what lies between
+  }
+}
+
 TEST(FitSurface, HasNoGroundBeyondReach) {
   std::vector<Eigen::Vector3f> points = returns_of({.terrain = kWaves, .side_m = 20});
   std::erase_if(points, [](const Eigen::Vector3f& p) { return p.x() > 0 && p.y() > 0; });
