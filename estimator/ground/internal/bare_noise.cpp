@@ -70,6 +70,16 @@ double usual_count(const Columns& columns) {
   return self_weighted_median(std::move(counts));
 }
 
+// Returns in the middle one of the columns that hold any.
+double middle_count(const Columns& columns) {
+  std::vector<double> counts;
+  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
+    const std::size_t count = columns.at(i).size();
+    if (count > 0) counts.push_back(static_cast<double>(count));
+  }
+  return counts.empty() ? 0 : selected<double>(counts, counts.size() / 2);
+}
+
 // How many columns a block is wide, so that usual ones have enough returns.
 int block_width(double usual_returns, double cell_m) {
   constexpr double kWidest_m = 0.8;  // bare alleys are about as wide
@@ -130,10 +140,7 @@ class Squares {
   std::vector<std::vector<double>> spreads_;
 };
 
-}  // namespace
-
-std::vector<BlockSpread> block_spreads(const Columns& columns) {
-  const double usual = usual_count(columns);
+std::vector<BlockSpread> spreads_at(const Columns& columns, double usual) {
   constexpr std::size_t kEveryBlock = 3;  // is looked at
   const int width = block_width(usual, columns.grid.cell_m);
   // As dense as where most returns lie: far away the beams come in flat, and see the ground with
@@ -155,6 +162,17 @@ std::vector<BlockSpread> block_spreads(const Columns& columns) {
     }
   }
   return spreads;
+}
+
+}  // namespace
+
+std::vector<BlockSpread> block_spreads(const Columns& columns) {
+  constexpr double kNoSensor_m = 0.1;    // scatters so much
+  constexpr double kFineCells_m = 0.25;  // ground bends in wider ones
+  std::vector<BlockSpread> dense = spreads_at(columns, usual_count(columns));
+  if (bare_noise_m(dense) <= kNoSensor_m || columns.grid.cell_m > kFineCells_m) return dense;
+  std::vector<BlockSpread> usual = spreads_at(columns, middle_count(columns));
+  return bare_noise_m(usual) < bare_noise_m(dense) ? usual : dense;
 }
 
 double bare_noise_m(const std::vector<BlockSpread>& blocks) {
