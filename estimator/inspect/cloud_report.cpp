@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "cloud/coordinate_step.h"
 #include <fmt/core.h>

@@ -13,6 +13,7 @@
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
+#include <Eigen/Geometry>
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
