@@ -179,6 +179,7 @@ double bare_noise_m(const std::vector<BlockSpread>& blocks) {
   constexpr double kUsual_m = 0.03;
   if (blocks.size() < kLeastBlocks) return kUsual_m;
   std::vector<double> spreads;
+  spreads.reserve(blocks.size());
   for (const BlockSpread& block : blocks) spreads.push_back(block.sigma_m);
   const auto place = static_cast<std::size_t>(kPercentile * spreads.size());
   return std::max(kLeastNoise_m, selected<double>(spreads, place));
