@@ -179,20 +179,24 @@ struct LowReturns {
   Columns columns;
   double noise_m = 0;   // sigma of the heights about bare ground
   double spread_m = 0;  // the same about a bilinear patch of it
+  Field excess_m = {};  // noise_excess_m of each node
 };
 
 LowReturns low_returns(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
   Columns columns = sort_into_columns(points, grid_of(points, options.cell_m));
-  const double noise_m =
-      options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : bare_noise_m(columns);
+  const std::vector<BlockSpread> blocks = block_spreads(columns);
+  const double found_m = bare_noise_m(blocks);
+  const double noise_m = options.noise_m ? std::max(*options.noise_m, kLeastNoise_m) : found_m;
   const double spread_m = std::max(noise_m, kLeastSpread_m);
+  Field excess_m = noise_excess_m(columns.grid, blocks, std::max(found_m, spread_m));
   return {.columns = low_part(std::move(columns), static_cast<float>(0.4 + 6 * spread_m)),
           .noise_m = noise_m,
-          .spread_m = spread_m};
+          .spread_m = spread_m,
+          .excess_m = std::move(excess_m)};
 }
 
 Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  auto [low, noise_m, spread_m] = low_returns(points, options);
+  auto [low, noise_m, spread_m, excess_m] = low_returns(points, options);
   Steps steps(options.progress);
   const Grid grid = low.grid;
   const BasePlane base = low.base;
@@ -204,6 +208,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .z_m = ground.z_m,
                   .sd_m = {},
                   .misfit_m = {},
+                  .layers_m = std::move(excess_m),
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
                   .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
@@ -261,6 +266,10 @@ double Surface::standard_error(const Eigen::Vector2d& place) const {
 
 double Surface::misfit(const Eigen::Vector2d& place) const {
   return misfit_m.empty() ? 0 : bilinear(*this, misfit_m, place);
+}
+
+double Surface::layers(const Eigen::Vector2d& place) const {
+  return layers_m.empty() ? 0 : bilinear(*this, layers_m, place);
 }
 
 double Surface::mean_standard_error(const PlotBox& box) const {

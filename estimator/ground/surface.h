@@ -35,6 +35,9 @@ struct Surface {
   std::vector<float> z_m = {};       // NaN where no ground is within reach
   std::vector<float> sd_m = {};      // standard error of z_m; NaN where that is
   std::vector<float> misfit_m = {};  // the part of it that each cell has for itself, see misfit.h
+  // How far apart layers of ground lie, as where strips disagree in height: the surface may follow
+  // any. It is no part of sd_m, which tells where the ground is hidden. 0: one layer, or unknown.
+  std::vector<float> layers_m = {};
   std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
   double noise_m = 0;                   // sigma of the returns' heights about bare ground
   ErrorDraws errors = {};               // what the standard errors come from
@@ -45,6 +48,7 @@ struct Surface {
   double standard_error(const Eigen::Vector2d& place) const;
   // The part of the standard error that is independent from cell to cell; 0 where it is unknown.
   double misfit(const Eigen::Vector2d& place) const;
+  double layers(const Eigen::Vector2d& place) const;
   // Standard error, metres, of the mean of z_m over the box: errors of near places are correlated,
   // except for the misfit. NaN where the box's centre has no ground.
   double mean_standard_error(const PlotBox& box) const;

@@ -18,11 +18,12 @@ bool seen_at(const ground::Surface& surface, const Eigen::Vector2d& place) {
                       static_cast<std::size_t>(column)] != 0;
 }
 
-// The part of a place's standard error that the places around share.
+// The part of a place's error that the places around share.
 double shared_error(const ground::Surface& surface, const Eigen::Vector2d& place) {
   const double error_m = surface.standard_error(place);
   const double own_m = surface.misfit(place);
-  return std::sqrt(std::max(0.0, error_m * error_m - own_m * own_m));
+  const double shared_m = std::sqrt(std::max(0.0, error_m * error_m - own_m * own_m));
+  return std::hypot(shared_m, surface.layers(place));
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "cloud/coordinate_step.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
@@ -35,10 +37,17 @@ void judge_density(CloudReport& report) {
 
 void judge_extent(CloudReport& report) {
   if (report.facts.bounds_m.sizes().head<2>().maxCoeff() < kShortestSide_m)
-    report.obstacles.emplace_back("all points lie within 10 cm of one place");
+    report.obstacles.emplace_back(
+        "all points lie within 10 cm of one place; give "
+        "--crs EPSG:4326 if x and y are longitude and latitude");
   const cloud::Area& field = report.density.field;
   if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
     report.obstacles.emplace_back("the field is over 10 km long: give a part of it (--crop-box)");
+}
+
+void judge_steps(const cloud::CoordinateSteps& steps, CloudReport& report) {
+  const std::string note = cloud::step_note(steps.steps_m(), report.density.median);
+  if (!note.empty()) report.doubts.push_back(note);
 }
 
 // A cloud whose crop was filtered out.
@@ -75,14 +84,18 @@ json time_json(const scan::CloudFacts& facts) {
 
 CloudReport inspect_cloud(const CloudFiles& cloud) {
   cloud::TileCounter tiles;
-  CloudReport report{
-      .facts = record::read_cloud_facts(cloud, [&](auto points) { tiles.add(points); }),
-      .density = {}};
+  cloud::CoordinateSteps steps;
+  const auto take = [&](std::span<const Eigen::Vector3d> points) {
+    tiles.add(points);
+    steps.add(points);
+  };
+  CloudReport report{.facts = record::read_cloud_facts(cloud, take), .density = {}};
   const std::vector<cloud::TileCount> counts = tiles.counts();
   if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");
   report.density = cloud::field_density(counts);
   judge_density(report);
   judge_extent(report);
+  judge_steps(steps, report);
   judge_classes(report);
   return report;
 }

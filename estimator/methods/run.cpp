@@ -152,7 +152,10 @@ void take_system(const scan::CloudSystem& system, const RunOptions& options,
   estimate.crs = system.crs;
   if (!system.zone && (options.cloud.units || system.units != CoordinateUnits{}))
     estimate.units = system.units;
-  estimate.diagnostics.notes = system.notes;
+  std::vector<std::string> notes = system.notes;
+  if (const auto& own = estimate.diagnostics.notes)
+    notes.insert(notes.end(), own->begin(), own->end());
+  estimate.diagnostics.notes = std::move(notes);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/parse.h"
 #include "core/text.h"
 #include "scan/internal/cloud_layout.h"
+#include "scan/internal/foreign_file.h"
 #include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
 
@@ -62,8 +63,10 @@ CloudFormat cloud_format(const std::filesystem::path& file) {
   if (start.starts_with("LASF")) return CloudFormat::las;
   if (is_pcd(start)) return CloudFormat::pcd;
   if (start.empty()) throw InputError(file, "is empty; a PCD, PLY, LAS or text cloud is expected");
-  if (is_text(start)) return CloudFormat::text;
-  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text");
+  const std::string_view foreign = foreign_file(start);
+  if (foreign.empty() && is_text(start)) return CloudFormat::text;
+  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text" +
+                             (foreign.empty() ? "" : ", but " + std::string(foreign)));
 }
 
 CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file) {

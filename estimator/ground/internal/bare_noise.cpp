@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -14,12 +15,20 @@ namespace plotscan::ground {
 namespace {
 
 constexpr double kLeastReturns = 16;  // of a block: the spread of fewer is mostly chance
+constexpr double kPercentile = 0.2;
+// In a large sparse field only chance fills some blocks, with canopy as likely as with ground.
+constexpr std::size_t kLeastBlocks = 30;
 
 // The returns of some columns, east and north of the first one's node, in cells.
 class Block {
  public:
   void add(const Return& r, int columns_east, int rows_north) {
-    if (count_ == 0) z0_ = r.z_m;
+    if (count_ == 0) {
+      z0_ = r.z_m;
+      low_m_ = high_m_ = r.z_m;
+    }
+    low_m_ = std::min(low_m_, r.z_m);
+    high_m_ = std::max(high_m_, r.z_m);
     const Eigen::Vector3d row(1, columns_east + r.east(), rows_north + r.north());
     const double z = r.z_m - z0_;
     normal_ += row * row.transpose();
@@ -28,6 +37,7 @@ class Block {
     ++count_;
   }
   std::size_t count() const { return count_; }
+  float range_m() const { return high_m_ - low_m_; }
 
   // Sigma about the least-squares plane by which its 20th percentile over blocks is unbiased;
   // negative where that is not defined.
@@ -46,6 +56,8 @@ class Block {
   Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
   double squares_ = 0;
   double z0_ = 0;
+  float low_m_ = 0;
+  float high_m_ = 0;
   std::size_t count_ = 0;
 };
 
@@ -56,6 +68,16 @@ double usual_count(const Columns& columns) {
     counts.push_back(columns.first[i + 1] - columns.first[i]);
   }
   return self_weighted_median(std::move(counts));
+}
+
+// Returns in the middle one of the columns that hold any.
+double middle_count(const Columns& columns) {
+  std::vector<double> counts;
+  for (std::size_t i = 0; i < columns.grid.nodes(); ++i) {
+    const std::size_t count = columns.at(i).size();
+    if (count > 0) counts.push_back(static_cast<double>(count));
+  }
+  return counts.empty() ? 0 : selected<double>(counts, counts.size() / 2);
 }
 
 // How many columns a block is wide, so that usual ones have enough returns.
@@ -76,20 +98,55 @@ Block block_at(const Columns& columns, int column, int row, int width) {
   return block;
 }
 
-}  // namespace
+// The spreads of bare blocks in squares of 2 m.
+class Squares {
+ public:
+  Squares(const Grid& grid, const std::vector<BlockSpread>& blocks, double most_range_m)
+      : grid_(grid), nodes_(std::max(1, static_cast<int>(std::lround(kSquare_m / grid.cell_m)))) {
+    columns_ = grid.columns / nodes_ + 1;
+    rows_ = grid.rows / nodes_ + 1;
+    spreads_.resize(static_cast<std::size_t>(columns_) * rows_);
+    for (const BlockSpread& block : blocks)
+      if (block.range_m <= most_range_m) spreads_[of(block.node)].push_back(block.sigma_m);
+  }
 
-double bare_noise_m(const Columns& columns) {
-  constexpr double kPercentile = 0.2;
-  // In a large sparse field only chance fills some blocks, with canopy as likely as with ground.
-  constexpr std::size_t kLeastBlocks = 30;
-  constexpr double kUsual_m = 0.03;
+  std::size_t count() const { return spreads_.size(); }
+  std::size_t of(std::size_t node) const {
+    const std::size_t column = node % grid_.columns / nodes_;
+    return node / grid_.columns / nodes_ * columns_ + column;
+  }
+  // The noise in a square and those around it; nothing where too little is bare.
+  std::optional<double> noise_m(std::size_t square) const {
+    const int column = static_cast<int>(square) % columns_,
+              row = static_cast<int>(square) / columns_;
+    std::vector<double> around;
+    for (int r = std::max(0, row - 1); r < std::min(rows_, row + 2); ++r) {
+      for (int c = std::max(0, column - 1); c < std::min(columns_, column + 2); ++c) {
+        const auto& here = spreads_[static_cast<std::size_t>(r) * columns_ + c];
+        around.insert(around.end(), here.begin(), here.end());
+      }
+    }
+    if (around.size() < kLeastBlocks) return std::nullopt;
+    const auto place = static_cast<std::size_t>(kPercentile * static_cast<double>(around.size()));
+    return selected<double>(around, place);
+  }
+
+ private:
+  static constexpr double kSquare_m = 2;
+  const Grid& grid_;
+  int nodes_ = 1;  // of a square's side
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::vector<double>> spreads_;
+};
+
+std::vector<BlockSpread> spreads_at(const Columns& columns, double usual) {
   constexpr std::size_t kEveryBlock = 3;  // is looked at
-  const double usual = usual_count(columns);
   const int width = block_width(usual, columns.grid.cell_m);
   // As dense as where most returns lie: far away the beams come in flat, and see the ground with
   // less noise in height.
   const double enough = std::max(kLeastReturns, 0.5 * usual * width * width);
-  std::vector<double> spreads;
+  std::vector<BlockSpread> spreads;
   std::size_t number = 0;
   for (int row = 0; row < columns.grid.rows; row += width) {
     for (int column = 0; column < columns.grid.columns; column += width) {
@@ -97,12 +154,54 @@ double bare_noise_m(const Columns& columns) {
       const Block block = block_at(columns, column, row, width);
       if (static_cast<double>(block.count()) < enough) continue;
       const double spread = block.spread();
-      if (spread >= 0) spreads.push_back(spread);
+      if (spread < 0) continue;
+      spreads.push_back({.node = columns.grid.index(column, row),
+                         .width_m = width * columns.grid.cell_m,
+                         .sigma_m = spread,
+                         .range_m = block.range_m()});
     }
   }
-  if (spreads.size() < kLeastBlocks) return kUsual_m;
+  return spreads;
+}
+
+}  // namespace
+
+std::vector<BlockSpread> block_spreads(const Columns& columns) {
+  constexpr double kNoSensor_m = 0.1;    // scatters so much
+  constexpr double kFineCells_m = 0.25;  // ground bends in wider ones
+  std::vector<BlockSpread> dense = spreads_at(columns, usual_count(columns));
+  if (bare_noise_m(dense) <= kNoSensor_m || columns.grid.cell_m > kFineCells_m) return dense;
+  std::vector<BlockSpread> usual = spreads_at(columns, middle_count(columns));
+  return bare_noise_m(usual) < bare_noise_m(dense) ? usual : dense;
+}
+
+double bare_noise_m(const std::vector<BlockSpread>& blocks) {
+  constexpr double kUsual_m = 0.03;
+  if (blocks.size() < kLeastBlocks) return kUsual_m;
+  std::vector<double> spreads;
+  spreads.reserve(blocks.size());
+  for (const BlockSpread& block : blocks) spreads.push_back(block.sigma_m);
   const auto place = static_cast<std::size_t>(kPercentile * spreads.size());
   return std::max(kLeastNoise_m, selected<double>(spreads, place));
+}
+
+Field noise_excess_m(const Grid& grid, const std::vector<BlockSpread>& blocks, double noise_m) {
+  constexpr double kWidestBlock_m = 0.5;  // ground bends in wider ones
+  constexpr double kMostRange = 12;       // of bare ground, in sigmas: two layers 6 sigma apart
+  constexpr double kClear = 1.3;          // other fields' squares reach 1.13
+  constexpr double kLeast_m = 0.02;       // clods and furrows do as much
+  Field excess_m(grid.nodes(), 0);
+  if (blocks.empty() || blocks.front().width_m > kWidestBlock_m) return excess_m;
+  const Squares squares(grid, blocks, kMostRange * noise_m);
+  std::vector<float> of_square(squares.count(), 0);
+  for (std::size_t i = 0; i < squares.count(); ++i) {
+    const double here_m = squares.noise_m(i).value_or(0);
+    if (here_m < kClear * noise_m) continue;
+    const double more_m = std::sqrt(here_m * here_m - noise_m * noise_m);
+    if (more_m >= kLeast_m) of_square[i] = static_cast<float>(more_m);
+  }
+  for (std::size_t i = 0; i < grid.nodes(); ++i) excess_m[i] = of_square[squares.of(i)];
+  return excess_m;
 }
 
 }  // namespace plotscan::ground

@@ -6,12 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "cloud/coordinate_step.h"
 #include "cloud/field_density.h"
 #include "cloud/points_in_boxes.h"
 #include "cloud/surroundings.h"
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
+#include <Eigen/Geometry>
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -100,6 +102,18 @@ std::string too_few(const std::string& for_what) {
                      cloud::kPlotsFound_m2);
 }
 
+// Why a field in which plots were searched shows none.
+std::string why_none(const std::string& by_plots, double density_m2, double noise_m) {
+  constexpr double kRough_m = 0.05;  // sensors and strips that fit scatter less
+  std::string why = by_plots;
+  if (noise_m > kRough_m)
+    why += fmt::format(
+        "; the ground's returns scatter by {:.1f} cm, which hides canopy: the ground was "
+        "removed, strips lie apart in height, or noise",
+        100 * noise_m);
+  return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              const ground::Surface& surface, const Options& options,
@@ -123,9 +137,8 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
   stage.found(std::to_string(field.plots.size()) + " plots");
   diagnostics.of_method["field"] = json_of(field);
   diagnostics.lines = lines_of(field);
-  diagnostics.why_no_plots = field.why_none;
-  if (!field.why_none.empty() && cloud.density_m2 < cloud::kPlotsFound_m2)
-    diagnostics.why_no_plots = too_few("plots") + " (" + field.why_none + ")";
+  if (!field.why_none.empty())
+    diagnostics.why_no_plots = why_none(field.why_none, cloud.density_m2, surface.noise_m);
   std::vector<estimate::PlotEstimate> found;
   for (const plots::FoundPlot& plot : field.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
@@ -198,6 +211,31 @@ std::string no_ground_because(const cloud::FieldCloud& cloud,
   return "the cloud shows no ground" + seen + "cut it to the field with --crop-box";
 }
 
+// Throws NothingToMeasure if all points lie in one place, as a field in degrees does.
+void require_extent(const Points& points) {
+  constexpr float kShortestSide_m = 0.1f;
+  Eigen::AlignedBox2f extent;
+  for (const Eigen::Vector3f& point : points) extent.extend(point.head<2>());
+  if (points.size() <= 1 || extent.sizes().maxCoeff() == 0 ||
+      extent.sizes().maxCoeff() >= kShortestSide_m)
+    return;
+  throw NothingToMeasure(
+      "all points lie within 10 cm of one place; give --crs EPSG:4326 if x and y "
+      "are longitude and latitude, else --units");
+}
+
+// What the user should know of the steps in which the cloud counts, if anything.
+void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnostics) {
+  cloud::CoordinateSteps steps;
+  std::vector<Eigen::Vector3d> one(1);
+  for (const Eigen::Vector3f& point : cloud.points) {
+    one[0] = point.cast<double>();
+    steps.add(one);
+  }
+  std::string note = cloud::step_note(steps.steps_m(), cloud.density_m2);
+  if (!note.empty()) diagnostics.notes = {std::move(note)};
+}
+
 estimate::GroundFacts facts_of(const ground::Surface& surface) {
   std::size_t within = 0;
   std::size_t seen = 0;
@@ -246,7 +284,9 @@ estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& option
                                   const ProgressReport& progress) {
   require_sound(options);
   require_ground_points(cloud, options);
+  require_extent(cloud.points);
   estimate::Estimate estimate{.method = "lattice"};
+  note_steps(cloud, estimate.diagnostics);
   estimate.diagnostics.density_per_m2 = cloud.density_m2;
   tell_work(cloud, options);
   const ground::Surface surface = ground_of(cloud, options, progress);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
+#include <limits>
 
 #include "core/error.h"
 #include "core/parse.h"
@@ -74,8 +75,9 @@ std::string_view trimmed(std::string_view word) {
   return word;
 }
 
-double parse_number(const Lines& lines, std::string_view word) {
+double parse_number(const Lines& lines, const CloudLayout& layout, std::string_view word) {
   if (const std::optional<double> number = number_of(word)) return *number;
+  if (word.empty() && layout.may_lack_values) return std::numeric_limits<double>::quiet_NaN();
   lines.fail("\"" + std::string(word) + "\" is not a number" +
              (word.find(',') == std::string_view::npos ? "" : "; decimals take a point"));
 }
@@ -131,6 +133,7 @@ void split_columns(std::string_view line, char separator, std::vector<std::strin
 }
 
 std::optional<double> number_of(std::string_view word) {
+  if (word == "NA") return std::numeric_limits<double>::quiet_NaN();  // R's missing value
   return parsed<double>(without_plus(word));
 }
 
@@ -155,7 +158,7 @@ void read_ascii(const std::filesystem::path& file, std::ifstream& in, const Clou
     }
     check_columns(lines, layout, columns.size());
     for (const ScalarField& field : wanted.fields)
-      rows.add(parse_number(lines, columns[field.column]));
+      rows.add(parse_number(lines, layout, columns[field.column]));
     rows.end_row();
     ++read;
   }

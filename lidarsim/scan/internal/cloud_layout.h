@@ -58,8 +58,9 @@ struct CloudLayout {
 
   // Only for text clouds (text_header.cpp).
   bool is_text = false;
-  char separator = ' ';     // of a line's columns; ' ': any blanks
-  bool has_counts = false;  // a line of one number counts the points that follow it (.pts)
+  char separator = ' ';          // of a line's columns; ' ': any blanks
+  bool has_counts = false;       // a line of one number counts the points that follow it (.pts)
+  bool may_lack_values = false;  // a table with names: an empty value is one that was not measured
 
   // Only for LAS.
   bool is_las = false;
@@ -104,8 +105,8 @@ class HeaderLines {
 // The columns of an ascii line, without the blanks around them. A separator of ' ' stands for any
 // blanks.
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
-// The number that the whole word stands for, with any sign, nan and inf included; nothing if it is
-// none.
+// The number that the whole word stands for, with any sign, nan, NA and inf included; nothing if it
+// is none.
 std::optional<double> number_of(std::string_view word);
 // Whether a line of a text cloud is a comment: "#..." or "//...".
 bool is_comment(std::string_view line);

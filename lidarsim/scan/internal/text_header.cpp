@@ -13,7 +13,8 @@ namespace {
 // How many lines are searched for the first point.
 constexpr std::size_t kMostHeaderLines = 100;
 
-// Names of x, y and z, as plain_column returns them. The first name that is found counts.
+// Names of x, y and z, as plain_column returns them. The first name that is found counts. Those
+// with colons are ParaView's and VeloView's.
 struct AxisNames {
   const char* axis;
   std::vector<std::string> names;
@@ -21,11 +22,15 @@ struct AxisNames {
 
 const std::array<AxisNames, 3>& axis_names() {
   static const std::array<AxisNames, 3> names = {
-      {{"x", {"x", "xm", "xcoordinate", "easting", "eastingm", "east", "longitude", "lon", "long"}},
-       {"y", {"y", "ym", "ycoordinate", "northing", "northingm", "north", "latitude", "lat"}},
+      {{"x",
+        {"x", "xm", "xcoordinate", "easting", "eastingm", "east", "longitude", "lon", "long", "e",
+         "pointsmxyz:0", "points:0"}},
+       {"y",
+        {"y", "ym", "ycoordinate", "northing", "northingm", "north", "latitude", "lat", "n",
+         "pointsmxyz:1", "points:1"}},
        {"z",
         {"z", "zm", "zcoordinate", "elevation", "elevationm", "elev", "altitude", "altitudem",
-         "alt", "height", "heightm", "up"}}}};
+         "alt", "height", "heightm", "up", "h", "pointsmxyz:2", "points:2"}}}};
   return names;
 }
 
@@ -46,8 +51,12 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-bool is_point(const std::vector<std::string_view>& columns) {
-  return std::ranges::count_if(columns, [](auto word) { return number_of(word).has_value(); }) >= 3;
+// Below names, empty columns are values that were not measured.
+bool is_point(const std::vector<std::string_view>& columns, bool below_names = false) {
+  const auto numbers =
+      std::ranges::count_if(columns, [](auto word) { return number_of(word).has_value(); });
+  const auto empty = below_names && numbers > 0 ? std::ranges::count(columns, "") : 0;
+  return numbers + empty >= 3;
 }
 
 // Whether the line is a point whose numbers have decimal commas.
@@ -97,7 +106,7 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
     const std::string_view line = without_byte_order_mark(*text);
     if (lines.line() == 1) layout.body_offset += text->size() - line.size();
     split_columns(line, separator_of(line), columns);
-    if (!is_comment(line) && is_point(columns)) {
+    if (!is_comment(line) && is_point(columns, !header.names.empty())) {
       header.first_point = line;
       return header;
     }
@@ -181,6 +190,7 @@ CloudLayout read_text_header(const std::filesystem::path& file) {
                      "names " + std::to_string(names.size()) + " columns; the first point has " +
                          std::to_string(columns.size()));
   }
+  layout.may_lack_values = named && layout.separator != ' ';
   layout.in_degrees = named && is_longitude(names[xyz[0]]);
   add_fields(names, xyz, layout);
   return layout;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "synthetic_field.h"
@@ -63,6 +64,25 @@ TEST(FitSurface, FindsTheNoiseOfASparseCloud) {
                         static_cast<float>(canopy ? random.uniform(0.4, 0.9) : low));
   }
   EXPECT_NEAR(fit_surface(points, SurfaceOptions()).noise_m, 0.02, 0.007);
+}
+
+// One point is left in each voxel of 0.1 m: the canopy's columns hold several times those of bare
+// ground.
+TEST(FitSurface, FindsTheNoiseBelowACanopyThatIsDenserThanTheGround) {
+  std::vector<Eigen::Vector3f> points;
+  std::set<std::array<int, 3>> voxels;
+  const SyntheticField field{.terrain = kPlane,
+                             .returns_m2 = 2000,
+                             .plots = two_rows_of_plots(),
+                             .canopy_low_m = 0.1,
+                             .canopy_high_m = 1.2};
+  for (const Eigen::Vector3f& point : returns_of(field)) {
+    const Eigen::Array3i voxel = (10 * point.array()).floor().cast<int>();
+    if (voxels.insert({voxel.x(), voxel.y(), voxel.z()}).second) points.push_back(point);
+  }
+  const Surface surface = fit_surface(points, SurfaceOptions());
+  EXPECT_LT(surface.noise_m, 0.06);
+  for (const PlotBox& plot : field.plots) EXPECT_NEAR(mean_error(surface, kPlane, plot), 0, 0.05);
 }
 
 TEST(FitSurface, TakesBareGroundWithoutNoise) {
@@ -127,6 +147,21 @@ TEST(FitSurface, HoldsAgainstStrayPoints) {
   EXPECT_LT(surface.columns, 80);
   for (const PlotBox& plot : field.plots) {
     EXPECT_NEAR(mean_error(surface, kWaves, plot), 0, 0.01);
+  }
+}
+
+// A flight that lies 8 cm higher over the east of the field, where both flights' returns mix.
+TEST(FitSurface, KnowsWhereTwoLayersOfGroundLie) {
+  std::vector<Eigen::Vector3f> points =
+      returns_of({.terrain = kPlane, .side_m = 30, .plots = two_rows_of_plots()});
+  const Surface one = fit_surface(points, SurfaceOptions());
+  for (std::size_t i = 0; i < points.size(); i += 2)
+    if (points[i].x() > 4) points[i].z() += 0.08f;
+  const Surface two = fit_surface(points, SurfaceOptions());
+  for (double y = -10; y <= 10; y += 0.5) {
+    for (double x = -10; x <= 10; x += 0.5) EXPECT_EQ(one.layers({x, y}), 0);
+    EXPECT_EQ(two.layers({-5, y}), 0);
+    EXPECT_NEAR(two.layers({10, y}), 0.04, 0.01);  // half of what lies between
   }
 }
 

@@ -162,6 +162,15 @@ TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {
               0.002);
 }
 
+TEST(MeasureHeights, TwoLayersOfGroundWidenTheIntervals) {
+  Field field = domes(3);
+  const double sure = field.measured()[0].heights.at("p95").standard_error_m;
+  field.surface.layers_m.assign(field.surface.z_m.size(), 0.04F);
+  const PlotHeights plot = field.measured()[0];
+  EXPECT_NEAR(plot.heights.at("p95").standard_error_m, std::hypot(sure, 0.04), 0.002);
+  EXPECT_THAT(plot.flags, Contains("ground is unsure by centimetres"));
+}
+
 TEST(MeasureHeights, FlagsWhatIsTooLowToBeACrop) {
   for (const PlotHeights& plot : domes(3, 0.05).measured())
     EXPECT_THAT(plot.flags, Contains("canopy is too low to measure"));

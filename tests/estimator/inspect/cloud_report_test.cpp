@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inspect/cloud_report.h"
 
+#include <cmath>
 #include <cstring>
 #include <string>
 
 #include "temporary_folder.h"
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,6 +64,21 @@ TEST(CloudReport, OnePlaceCarriesNoPlots) {
   for (int i = 0; i < 500; ++i) text += "3 4 5\n3.05 4.05 6\n";
   EXPECT_THAT(inspect_cloud(folder.write("place.xyz", text)).obstacles,
               ElementsAre(HasSubstr("within 10 cm of one place")));
+}
+
+// Northings in UTM as floats of 4 bytes, 0.5 m apart; a raster with a point at each of its steps.
+TEST(CloudReport, DoubtsCoordinatesThatLostTheirDigits) {
+  const TemporaryFolder folder;
+  std::string floats;
+  std::string raster;
+  for (int i = 0; i < 40000; ++i) {
+    floats += fmt::format("{:.3f} {:.1f} 5\n", 500000 + 0.0131 * (i % 1500),
+                          std::round((4600000 + i / 2000.0) * 2) / 2);
+    raster += fmt::format("{:.2f} {:.2f} 5\n", 0.1 * (i % 200), 0.1 * (i / 200));
+  }
+  EXPECT_THAT(inspect_cloud(folder.write("floats.xyz", floats)).doubts,
+              ElementsAre(HasSubstr("y counts in steps of 0.5 m")));
+  EXPECT_THAT(inspect_cloud(folder.write("raster.xyz", raster)).doubts, IsEmpty());
 }
 
 // Two points at the ends of the world, and a field of 9 km2.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/run.h"
 
+#include <cmath>
+
 #include "run_on_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +19,9 @@ namespace {
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::kFarm;
 using ::testing::Not;
 using testing::small_run;
@@ -80,6 +84,28 @@ TEST(Run, SaysOfPointsThatAreTooFewForAGroundWhatIsNeeded) {
 TEST(Run, SaysOfACloudWithoutGroundThatItHasNone) {
   const estimate::Estimate estimate = estimate_of(scattered(300000, 20, 3));
   EXPECT_THAT(estimate.diagnostics.why_no_plots, HasSubstr("no ground"));
+}
+
+TEST(Run, SaysOfDegreesThatAreTakenForMetresWhatHelps) {
+  const std::string message =
+      message_of<NothingToMeasure>([&] { estimate_of(scattered(100000, 3e-4, 1)); });
+  EXPECT_THAT(message, AllOf(HasSubstr("within 10 cm of one place"), HasSubstr("--crs EPSG:4326")));
+}
+
+TEST(Run, NotesCoordinatesThatLostTheirDigits) {
+  std::vector<Eigen::Vector3d> points = scattered(100000, 20, 0.1);
+  EXPECT_THAT(estimate_of(points).diagnostics.notes.value(), IsEmpty());
+  for (Eigen::Vector3d& point : points) point.y() = std::round(point.y() * 4) / 4;
+  EXPECT_THAT(estimate_of(points).diagnostics.notes.value(),
+              ElementsAre(HasSubstr("y counts in steps of 0.25 m")));
+}
+
+// Heights that scatter by 7 cm, and by 3.
+TEST(Run, SaysOfARoughGroundThatItMayHideCanopy) {
+  EXPECT_THAT(estimate_of(scattered(200000, 20, 0.25)).diagnostics.why_no_plots,
+              HasSubstr("the ground's returns scatter by 7."));
+  EXPECT_THAT(estimate_of(scattered(200000, 20, 0.1)).diagnostics.why_no_plots,
+              Not(HasSubstr("scatter by")));
 }
 
 TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {

@@ -39,6 +39,24 @@ TEST(BrokenCloud, MissingEmptyAndForeignFilesAreRefused) {
   EXPECT_THAT(refusal(std::string("LASF and so on")), HasSubstr("is truncated"));
 }
 
+TEST(BrokenCloud, ForeignFilesAreNamed) {
+  const auto bytes = [](std::string_view text) { return std::string(text); };
+  using namespace std::string_view_literals;
+  EXPECT_THAT(refusal("ASTM-E57" + std::string(40, '\1')),
+              HasSubstr("but an E57 file: save it as"));
+  EXPECT_THAT(refusal("PK\x03\x04 1 2 3\n"), HasSubstr("zip archive: unpack it"));
+  EXPECT_THAT(refusal(bytes("\x1f\x8b\x08\0"sv)), HasSubstr("gzip archive"));
+  EXPECT_THAT(refusal(bytes("II*\0\x08\0"sv)), HasSubstr("TIFF"));
+  EXPECT_THAT(refusal(bytes("\xff\xfe"
+                            "1\0 \0"sv)),
+              HasSubstr("but UTF-16"));
+  EXPECT_THAT(refusal("<!DOCTYPE html>\n"), HasSubstr("web page"));
+  EXPECT_THAT(refusal("version https://git-lfs.github.com/spec/v1\n"), HasSubstr("git lfs pull"));
+  EXPECT_THAT(refusal("ncols 2\nnrows 1\n1 2\n"), HasSubstr("raster of Esri"));
+  EXPECT_THAT(refusal("# made by hand\no field\nv 1 2 3\n"), HasSubstr("OBJ mesh"));
+  EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n"), HasSubstr("but PTX"));
+}
+
 TEST(BrokenCloud, HeadersThatCannotBeAreRefused) {
   EXPECT_THAT(refusal(kFields + "WIDTH 1\n"), HasSubstr("ends inside its header"));
   EXPECT_THAT(refusal("FIELDS x y\nSIZE 4 4\nTYPE F F\nPOINTS 1\nDATA ascii\n1 2\n"),

@@ -64,6 +64,10 @@ TEST_F(TextCloud, HeadersNameTheColumns) {
                  "a,-1.5,4123456.7891,512345.6789\r\nb,3,20,0.001\r\n"),
             kPoints);
   EXPECT_EQ(read("time y height x\n0 4123456.7891 -1.5 512345.6789\n1 20 3 0.001\n"), kPoints);
+  EXPECT_EQ(read("PointID,E,N,H\n1,512345.6789,4123456.7891,-1.5\n2,0.001,20,3\n"), kPoints);
+  EXPECT_EQ(read("intensity,Points_m_XYZ:0,Points_m_XYZ:1,Points_m_XYZ:2\n"
+                 "9,512345.6789,4123456.7891,-1.5\n9,0.001,20,3\n"),
+            kPoints);
   EXPECT_EQ(read("# made by hand\n# in UTM 17\n512345.6789 4123456.7891 -1.5\n0.001 20 3\n"),
             kPoints);
   EXPECT_EQ(read("//X Y Z Original cloud index\n512345.6789 4123456.7891 -1.5 7\n0.001 20 3 7\n"),
@@ -93,13 +97,19 @@ TEST_F(TextCloud, CountsArePromises) {
   EXPECT_THAT(refusal("3\n1 2 3\n4 5 6\n"), HasSubstr("promises 3 points, the file holds 2"));
   EXPECT_THAT(refusal("3\n1 2 3\n2\n4 5 6\n7 8 9\n"),
               HasSubstr("cloud.txt:3: 3 points are promised before this line, 1 are there"));
-  // .ptx: columns, rows, the scanner's place
-  EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n"), HasSubstr("cloud.txt:2: 2 points are promised"));
 }
 
 TEST_F(TextCloud, WhatIsNotFiniteIsCounted) {
   EXPECT_EQ(read("nan nan nan 0\n0 1 2 5\n"), (Positions{{0, 1, 2}}));
   EXPECT_EQ(summary_.not_finite, 1u);
+}
+
+// R writes NA for what was not measured, pandas nothing.
+TEST_F(TextCloud, MissingValuesAreCounted) {
+  EXPECT_EQ(read("x,y,z\nNA,NA,NA\n0,1,2\n3,4,NA\n"), (Positions{{0, 1, 2}}));
+  EXPECT_EQ(summary_.not_finite, 2u);
+  EXPECT_EQ(read("x;y;z;plot\n0;1;;a\n0;1;2;b\n;;;\n"), (Positions{{0, 1, 2}}));
+  EXPECT_EQ(summary_.not_finite, 2u);
 }
 
 TEST_F(TextCloud, BrokenLinesAreNamed) {
