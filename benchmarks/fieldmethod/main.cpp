@@ -150,11 +150,11 @@ std::vector<DrawnPlot> read_plots(const char* boxes) {
   std::vector<DrawnPlot> plots;
   read_csv(boxes, {"plot_number", "center_x_m", "center_y_m", "width_m", "length_m", "heading_deg"},
            {}, [&](const CsvRow& row) {
-             plots.push_back({row.text(0),
-                              {.center = {row.number(1), row.number(2)},
+             const PlotBox box{.center = {row.number(1), row.number(2)},
                                .width_m = row.number(3),
                                .length_m = row.number(4),
-                               .heading_rad = radians(row.number(5))}});
+                               .heading_rad = radians(row.number(5))};
+             plots.push_back({.number = std::string(row.text(0)), .box = box});
            });
   return plots;
 }

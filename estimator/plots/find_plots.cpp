@@ -108,6 +108,9 @@ PlotField plots_on(const Lattice& lattice, const std::optional<SownRows>& sown_r
                            .confidence = field_confidence * clearness,
                            .cut_off = is_cut_off(lattice, place)});
   }
+  // Whichever axis the search took for that of the rows.
+  std::ranges::sort(field.plots, {},
+                    [](const FoundPlot& plot) { return std::pair(plot.row, plot.column); });
   return field;
 }
 

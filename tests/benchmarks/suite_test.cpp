@@ -2,6 +2,7 @@
 #include "farmbench/suite.h"
 
 #include <algorithm>
+#include <ostream>
 #include <stdexcept>
 
 #include "description/load_description.h"
@@ -182,6 +183,9 @@ struct BadSuite {
   std::string text;
   std::string message;  // after the file's name
 };
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const BadSuite& suite, std::ostream* out) { *out << suite.message; }
 
 class LoadSuiteErrors : public ::testing::TestWithParam<BadSuite> {};
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/find_plots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -130,6 +132,8 @@ void expect_found(const Trial& trial, const Sown& sown = everywhere, double leas
     }
     EXPECT_GT(best, least_iou) << truth.center.transpose();
   }
+  EXPECT_TRUE(std::ranges::is_sorted(
+      field.plots, {}, [](const FoundPlot& plot) { return std::pair(plot.row, plot.column); }));
   const double off_rad = heading_difference(field.plots.front().box.heading_rad, trial.heading_rad);
   EXPECT_LT(off_rad, 0.3 * kDegrees);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <numbers>
+#include <ostream>
 
 #include "description/load_description.h"
 #include "temporary_folder.h"
@@ -115,6 +116,9 @@ struct Mistake {
   const char* new_text;
   const char* message;  // after the file's name
 };
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
 
 class MistakenDescription : public ::testing::TestWithParam<Mistake> {};
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <ostream>
+
 #include "../example_farm.h"
 #include "description/load_description.h"
 #include <gmock/gmock.h>
@@ -84,6 +86,9 @@ struct FieldMistake {
   std::vector<std::string> overrides;
   const char* message;
 };
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const FieldMistake& mistake, std::ostream* out) { *out << mistake.name; }
 
 class MistakenField : public ::testing::TestWithParam<FieldMistake> {};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 
 #include "../example_farm.h"
 #include "description/load_description.h"
@@ -209,6 +210,9 @@ struct Damage {
   const char* new_text;
   const char* message;
 };
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
 
 class DamagedFarm : public ::testing::TestWithParam<Damage> {};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every shipped Velodyne's recording, against the cloud of the same flight.
 #include <algorithm>
+#include <ostream>
 
 #include "lidarsim/record/flown_scan.h"
 #include "lidarsim/record/hovering.h"
@@ -53,6 +54,9 @@ void expect_measured(const FlownScan& scan, const std::vector<scan::LabelledPoin
     ASSERT_EQ(point.return_count, cloud.return_count);
   }
 }
+
+// GoogleTest prints it beside the test's name.
+void PrintTo(const Shipped& sensor, std::ostream* out) { *out << sensor.name; }
 
 class VelodyneSensors : public ::testing::TestWithParam<Shipped> {};
 
