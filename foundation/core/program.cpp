@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -100,7 +101,7 @@ CLI::App& Program::command(const std::string& name, const std::string& descripti
   command.callback([this, run = std::move(run)] {
     if (common_.threads == 0)
       common_.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-    if (quiet_ > 0) common_.verbosity = -1;
+    if (quiet_) common_.verbosity = -1;
     log_to_stderr(common_.verbosity, name_);
     run();
   });
@@ -125,7 +126,12 @@ void Program::add_common_options(CLI::App& command, const Uses& uses) {
         ->check(CLI::Range(0, 1024))
         ->default_str("0, one for each processor");
   if (uses.json) command.add_flag("--json", common_.json, "print the result as one JSON document");
-  command.add_flag("-v,--verbose", common_.verbosity, "say more on stderr (-vv: debug)");
+  // Every command has this flag. CLI11 2.4 would set a number that it counts into to 0 again for
+  // each command that was not called.
+  const auto say_more = [this](std::int64_t times) {
+    common_.verbosity = std::max(common_.verbosity, static_cast<int>(times));
+  };
+  command.add_flag_function("-v,--verbose", say_more, "say more on stderr (-vv: debug)");
   command.add_flag("-q,--quiet", quiet_, "say nothing but errors");
   command.set_version_flag("--version", name_ + " " + version(), "print the version and exit");
   command.set_help_flag("-h,--help", "print this help and exit");

@@ -87,7 +87,7 @@ class Program {
   CLI::App app_;
   std::vector<std::pair<CLI::App*, Uses>> commands_;
   CommonOptions common_;
-  int quiet_ = 0;
+  bool quiet_ = false;
 };
 
 }  // namespace plotscan

@@ -43,6 +43,13 @@ class Robust : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(Robust, VerboseTellsStagesAndQuietSaysNothing) {
+  const std::string generate = "farmgen generate " + kFourPlots;
+  EXPECT_THAT(run_here(generate + " -o told -v").errors, HasSubstr("farmgen: canopies"));
+  const Finished quiet = run_here(generate + " -o quiet -q");
+  EXPECT_EQ(quiet.output + quiet.errors, "");
+}
+
 TEST_F(Robust, AFullStdoutIsAFailure) {
   succeed("farmgen generate " + kFourPlots + " -o farm");
   for (const std::string command :
