@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
 #include "core/extent.h"
@@ -14,6 +15,8 @@
 namespace plotscan::score {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr double kOnePlace = 0.5;  // boxes that overlap by more are of one plot
 
 template <class Plot>
 std::vector<PlotBox> boxes_of(const std::vector<Plot>& plots) {
@@ -52,6 +55,23 @@ std::map<std::string, double> truths_of(const nlohmann::json& properties) {
   return truths_m;
 }
 
+// A plot that is there twice would be found once, and missed once.
+void require_each_once(const fs::path& file, const std::vector<TruePlot>& plots) {
+  std::set<PlotId> ids;
+  for (const TruePlot& plot : plots) {
+    if (!ids.insert(plot.id).second)
+      throw InputError(
+          file, "has two plots with the id " + plot.id.text() + "; it must have each plot once");
+  }
+  const std::vector<PlotBox> boxes = boxes_of(plots);
+  for (const PlotMatch& pair : overlapping_pairs(boxes, boxes, kOnePlace)) {
+    if (pair.truth != pair.estimate)
+      throw InputError(file, "has plots " + plots[pair.truth].id.text() + " and " +
+                                 plots[pair.estimate].id.text() +
+                                 " at the same place; it must have each plot once");
+  }
+}
+
 double root_mean_square(const std::vector<double>& values) {
   std::vector<double> squares;
   squares.reserve(values.size());
@@ -73,6 +93,7 @@ std::vector<TruePlot> read_truth(const fs::path& farm) {
                      .heights_m = truths_of(feature.properties)});
   }
   if (plots.empty()) throw InputError(file, "has no plots");
+  require_each_once(file, plots);
   return plots;
 }
 

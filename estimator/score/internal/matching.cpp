@@ -21,9 +21,19 @@ std::vector<std::size_t> by_x(const std::vector<PlotBox>& boxes) {
   return order;
 }
 
-// The pairs of at least min_iou, found without comparing boxes that are far apart along x.
+std::vector<std::size_t> places_of(const std::vector<bool>& flags, bool value) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (flags[i] == value) places.push_back(i);
+  }
+  return places;
+}
+
+}  // namespace
+
 std::vector<PlotMatch> overlapping_pairs(const std::vector<PlotBox>& truths,
                                          const std::vector<PlotBox>& estimates, double min_iou) {
+  // Boxes that are far apart along x are not compared.
   const std::vector<std::size_t> order = by_x(estimates);
   double reach_m = 0;
   for (const PlotBox& box : estimates) reach_m = std::max(reach_m, half_diagonal(box));
@@ -40,16 +50,6 @@ std::vector<PlotMatch> overlapping_pairs(const std::vector<PlotBox>& truths,
   }
   return pairs;
 }
-
-std::vector<std::size_t> places_of(const std::vector<bool>& flags, bool value) {
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] == value) places.push_back(i);
-  }
-  return places;
-}
-
-}  // namespace
 
 Matching match_plots(const std::vector<PlotBox>& truths, const std::vector<PlotBox>& estimates,
                      double min_iou) {

@@ -22,6 +22,10 @@ struct Matching {
   std::vector<std::size_t> extra;   // estimates without a true plot
 };
 
+// The pairs of at least min_iou, in the order of the true plots.
+std::vector<PlotMatch> overlapping_pairs(const std::vector<PlotBox>& truths,
+                                         const std::vector<PlotBox>& estimates, double min_iou);
+
 // Pairs boxes by descending intersection over union, equal ones by their place, and takes those of
 // at least min_iou. Where true plots do not overlap and min_iou is over one half, an estimate can
 // reach min_iou with one true plot only, so that no other pairing overlaps more in total. Throws

@@ -339,6 +339,22 @@ TEST_F(ScoreRun, SaysWhyThereIsNothingToCompare) {
   EXPECT_THAT(notes_for(5, {{"height_max_m", "0.7"}}), ElementsAre(HasSubstr("no true plot has")));
 }
 
+TEST_F(ScoreRun, RefusesATruthThatHasAPlotTwice) {
+  const auto truth_with = [&](int id, double x) {
+    const std::filesystem::path truth = folder_.path() / "truth.geojson";
+    write_plot_features(truth, {{turned_box(0), {{"plot_number", 4}}},
+                                {turned_box(5), {{"plot_number", 7}}},
+                                {turned_box(x), {{"plot_number", id}}}});
+    return truth;
+  };
+  const auto message_for = [&](int id, double x) {
+    return message_of<InputError>([&] { read_truth(truth_with(id, x)); });
+  };
+  EXPECT_THAT(message_for(4, 10), HasSubstr("truth.geojson: has two plots with the id 4"));
+  EXPECT_THAT(message_for(8, 5.1), HasSubstr("has plots 7 and 8 at the same place"));
+  EXPECT_EQ(read_truth(truth_with(8, 10)).size(), 3U);
+}
+
 TEST_F(ScoreRun, BadInputLeavesNothingBehind) {
   const std::filesystem::path scores = folder_.path() / "scores";
   EXPECT_THAT(message_of<InputError>(
