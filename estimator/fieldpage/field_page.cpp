@@ -34,6 +34,15 @@ bool is_measured_cloud(const fs::path& estimate, const CloudFiles& cloud) {
   });
 }
 
+// The coordinate system that estimator run was told, if it was.
+std::optional<std::string> told_crs(const fs::path& estimate) {
+  const nlohmann::json::json_pointer crs("/options/crs");
+  if (!fs::exists(estimate / "manifest.json")) return std::nullopt;
+  const nlohmann::json manifest = read_manifest(estimate);
+  if (!manifest.contains(crs) || !manifest[crs].is_string()) return std::nullopt;
+  return manifest[crs].get<std::string>();
+}
+
 // Whether the cloud lies beside the rectangle around the field's plots. A sample of few points says
 // nothing of it.
 bool lies_elsewhere(const report::ShownField& field) {
@@ -51,13 +60,15 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
                 const std::optional<CoordinateUnits>& units, const ProgressReport& progress) {
   CloudFiles cloud = *options.cloud;
   cloud.files = cloud_files_of(cloud.files);
+  const bool is_measured = is_measured_cloud(options.estimate, cloud);
   if (!cloud.units) cloud.units = units;  // as estimator run was told
+  if (!cloud.crs && is_measured) cloud.crs = told_crs(options.estimate);
   field.cloud = read_shown_positions(cloud, options.points, progress);
   if (lies_elsewhere(field))
     field.notes.push_back("No point of the cloud " + cloud.name() +
                           " lies among the plots: are both in the same coordinates?");
   field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
-  if (!is_measured_cloud(options.estimate, cloud))
+  if (!is_measured)
     field.notes.push_back("The cloud " + cloud.name() +
                           " is not the file that this estimate was made from (its manifest.json "
                           "has another hash).");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/manifest.h"
 #include "estimate/estimate.h"
 #include "fieldpage/shown.h"
 
@@ -145,6 +146,21 @@ TEST_F(FieldPage, ShowsTheCloudInTheUnitsOfTheEstimate) {
   const nlohmann::json& shown = field["cloud"];
   EXPECT_NEAR(shown["origin"][0].get<double>() + shown["tiles"][0]["low"][0].get<double>(),
               0.3048 * 10.5, 1e-3);
+}
+
+// Text in degrees does not say so; where UTM's zone 17 has its middle, the results are known.
+TEST_F(FieldPage, ShowsTheCloudInTheSystemThatWasTold) {
+  const fs::path folder = folder_.path() / "estimate";
+  fs::create_directories(folder);
+  const fs::path cloud = folder_.write("a.xyz", "-81 0.00001 5\n-81 0.00002 6\n");
+  const PlotBox box{.center = {500'000, 1.5}, .width_m = 1, .length_m = 4};
+  estimate::write_estimate(folder, {.method = "lattice",
+                                    .plots = {{.id = 1, .box = box, .heights_m = {{"max", 0.9}}}},
+                                    .crs = "EPSG:32617"});
+  write_manifest(
+      folder, {.command = "estimator run", .options = {{"crs", "EPSG:4326"}}, .inputs = {cloud}});
+  write_estimate_page({.estimate = folder, .html = html_, .cloud = CloudFiles(cloud)});
+  EXPECT_THAT(field_of(html_)["notes"], IsEmpty());
 }
 
 TEST_F(FieldPage, SaysWhatLiesInOtherCoordinates) {
