@@ -149,12 +149,16 @@ FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path
   return fly_over({site, scene, nullptr}, scan_folder, options, replace, progress);
 }
 
-FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  const SceneContent content = scene_content(farm);
-  const Site site = site_of(farm);
+FlySummary fly(const Site& site, const SceneContent& content,
+               const std::filesystem::path& scan_folder, const FlyOptions& options, bool replace,
+               const ProgressReport& progress) {
   const Scene scene(content);
   return fly_over({site, scene, &content}, scan_folder, options, replace, progress);
+}
+
+FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
+               const FlyOptions& options, bool replace, const ProgressReport& progress) {
+  return fly(site_of(farm), scene_content(farm), scan_folder, options, replace, progress);
 }
 
 }  // namespace plotscan::lidar

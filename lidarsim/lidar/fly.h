@@ -72,7 +72,12 @@ struct FlySummary {
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});
 
-// The same for a farm, whose plants sway if the wind acts on them. Also throws InputError when a
+// The same for content whose plants sway if the wind acts on them.
+FlySummary fly(const Site& site, const SceneContent& content,
+               const std::filesystem::path& scan_folder, const FlyOptions& options, bool replace,
+               const ProgressReport& progress = {});
+
+// The same for a farm. Also throws InputError when a
 // plant names a missing model.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
                const FlyOptions& options, bool replace, const ProgressReport& progress = {});

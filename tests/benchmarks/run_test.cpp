@@ -12,7 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/statistics.h"
+#include "farmbench/farm_scan.h"
 #include "farmbench/internal/farm_queue.h"
 #include "scan/cloud_reader.h"
 
@@ -258,6 +260,36 @@ TEST(RunSuite, PlotsOutsideTheSurveyAreNotScored) {
   EXPECT_LT(left, -5.9);
   EXPECT_LE(right, 1.25);
   EXPECT_GT(right, 1.2);
+}
+
+// A survey of the rectangle that holds all plots is the flight over the plots, in wind as well.
+TEST(RunSuite, PlantsSwayInASurvey) {
+  const TemporaryFolder folder;
+  SuiteCase suite_case{.name = "sway",
+                       .farm = fs::path(PLOTSCAN_SOURCE_DIR) / "worlds/paper_flat.yaml",
+                       .overrides = {"terrain.side_m=20", "plots.rows=[{plots: 2}]"}};
+  suite_case.flight.speed_m_s = 4;
+  suite_case.flight.wind.mean_m_s = 5;
+  suite_case.flight.wind_acts_on = "plants";
+  const farm::Farm farm = make_farm({suite_case, 1, folder.path()});
+  const auto flown = [&](const std::string& name) {
+    const FarmPlace place{suite_case, 1, folder.path() / name};
+    fs::create_directories(place.folder);
+    scan_farm(place, farm, {});
+    std::vector<Eigen::Vector3d> all;
+    scan::read_positions(place.folder / "scan" / "cloud.pcd",
+                         [&](std::span<const Eigen::Vector3d> points) {
+                           all.insert(all.end(), points.begin(), points.end());
+                         });
+    return all;
+  };
+  const std::vector<Eigen::Vector3d> over_plots = flown("plots");
+  const Eigen::AlignedBox2d extent = extent_of(farm.plots, &farm::Plot::box);
+  suite_case.survey = {extent.min().x(), extent.min().y(), extent.max().x(), extent.max().y()};
+  const std::vector<Eigen::Vector3d> surveyed = flown("survey");
+  ASSERT_EQ(surveyed.size(), over_plots.size());
+  for (std::size_t i = 0; i < surveyed.size(); ++i)
+    ASSERT_LT((surveyed[i] - over_plots[i]).norm(), 1e-4) << "point " << i;
 }
 
 TEST(RunSuite, RefusesAFolderOfSomebodyElse) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/error.h"
-#include "lidar/scene.h"
+#include "lidar/scene_content.h"
 #include "lidar/site.h"
 #include "scan/cloud_writer.h"
 #include "scan/point_reader.h"
@@ -38,8 +38,7 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                  .width_m = survey[3] - survey[1],
                  .length_m = survey[2] - survey[0],
                  .heading_rad = 0}};
-  const lidar::Scene scene(lidar::scene_content(farm));
-  return lidar::fly(site, scene, folder, flight, true, progress);
+  return lidar::fly(site, lidar::scene_content(farm), folder, flight, true, progress);
 }
 
 void crop_cloud(const fs::path& cloud, const cloud::Area& area, const fs::path& cropped) {

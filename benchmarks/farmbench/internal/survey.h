@@ -17,8 +17,8 @@ namespace plotscan::farmbench {
 // Only plots that lie wholly in the survey stay scored. Throws InputError when none does.
 void leave_to_survey(std::vector<score::TruePlot>& plots, const cloud::Area& survey);
 
-// Flies strips over the rectangle in place of the farm's plots, whose plants stand still. Throws
-// InputError as lidar::fly does.
+// Flies strips over the rectangle in place of the farm's plots. Throws InputError as lidar::fly
+// does.
 lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                              const std::filesystem::path& folder, const lidar::FlyOptions& flight,
                              const ProgressReport& progress);
