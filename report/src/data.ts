@@ -123,7 +123,7 @@ export interface Sweep {
   truth: string;
   row: string; // of the table: the first method's height
   goal?: { rmse_m: number; found: number };
-  flights: { flight_s: number; points: number }[]; // a case
+  flights: { flight_s: number | null; points: number | null }[]; // a case; null: none was flown
 }
 
 export interface Suite {

@@ -60,7 +60,7 @@ export function flightsOf(suite: Suite, method: string, truth: string): Flight[]
     return {
       values: combination(sweep, i), farms: number(row, "farms"), plots: number(row, "plots"), found: number(row, "found"),
       extra: number(row, "extra"), rmse: number(row, "rmse_m"), low: number(row, "rmse_low_m"), high: number(row, "rmse_high_m"),
-      bias: number(row, "bias_m"), within: number(row, "within_m"), seconds: sweep.flights[i].flight_s, points: sweep.flights[i].points };
+      bias: number(row, "bias_m"), within: number(row, "within_m"), seconds: sweep.flights[i].flight_s ?? NaN, points: sweep.flights[i].points ?? NaN };
   });
 }
 

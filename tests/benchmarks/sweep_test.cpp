@@ -78,6 +78,8 @@ TEST(LoadSweep, TellsWhatIsWrong) {
   EXPECT_THAT(message(swept_with("[vlp16, puck_hires]", "[a/vlp16.yaml, vlp16]")),
               HasSubstr("whose files would be called 6_vlp16"));
   EXPECT_THAT(message(swept_with("height: max", "baseline: mine")), HasSubstr("baseline"));
+  EXPECT_THAT(message(swept_with("height: max", "published_rmse_cm: 6")),
+              HasSubstr("published_rmse_cm is not a known key"));
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -107,18 +109,24 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
     }
     TableRow& row = rows.emplace_back();
     row.case_name = name;
+    row.method = "lattice/mean";
+    row.truth = "height_mean_m";
     row.recall = recall;
     row.rmse_m = rmse_m;
     row.rmse_high_m = high_m;
   };
   add(40, 0.01, 0.02, 1);
-  add(30, 0.02, 0.04, 1);        // perhaps not
-  add(20, 0.01, 0.02, 0.8);      // too few
-  add(10, nothing, nothing, 0);  // nothing found
+  add(30, 0.02, 0.04, 1);                       // perhaps not
+  add(20, 0.01, 0.02, 0.8);                     // too few
+  add(10, nothing, nothing, 0);                 // nothing found
+  result.farms.emplace_back().case_name = "2";  // a third farm, which was not flown
   EXPECT_EQ(flight_needed(result, rows), 0U);
   EXPECT_EQ(flight_costs(result)[2].flight_s, 20);
   rows[1].rmse_high_m = nothing;  // of a single farm: the RMSE counts
   EXPECT_EQ(flight_needed(result, rows), 1U);
+  EXPECT_THAT(sweep_markdown(result, rows), HasSubstr("has altitude_m 2; 30 s over"));
+  for (FarmResult& farm : result.farms) farm.flight_s = 0;  // as of a submission alone
+  EXPECT_THAT(sweep_markdown(result, rows), HasSubstr("the flights' times are not known"));
   result.sweep->goal->rmse_m = 0.005;
   EXPECT_EQ(flight_needed(result, rows), std::nullopt);
 }
@@ -164,7 +172,7 @@ TEST(Sweep, GoesOnAfterAFlightThatSeesNothing) {
   EXPECT_EQ(rows[1].found, 4U);
   const std::string table = read_text(folder.path() / "a/sweep.md");
   EXPECT_THAT(table, HasSubstr("the shortest flight that does has altitude_m 6;"));
-  EXPECT_THAT(table, HasSubstr("| 119 | - | - | 0 of 4 | 0 | none | 0.00 |"));
+  EXPECT_THAT(table, HasSubstr("| 119 | - | - | 0 of 4 | 0 | none | - |"));
   EXPECT_THAT(table, HasSubstr("lattice true-boxes, 119: 1 of 1 farm, no flight: scan/cloud.pcd: "
                                "the cloud is empty"));
 }

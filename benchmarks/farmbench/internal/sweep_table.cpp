@@ -75,9 +75,11 @@ std::string answer(const SuiteResult& result, const std::vector<TableRow>& rows)
   const auto needed = flight_needed(result, rows);
   if (!needed) return asked + ": none of these flights.";
   const TableRow& row = rows[*needed];
+  const double flight_s = flight_costs(result)[place_of(result, row.case_name)].flight_s;
+  if (std::isnan(flight_s))  // a submission, scored where no flight was flown
+    return asked + ": reached, but the flights' times are not known; farmbench sweep flies them.";
   return asked + fmt::format(": the shortest flight that does has {}; {:.0f} s over {} plots.",
-                             named_values(result, row),
-                             flight_costs(result)[place_of(result, row.case_name)].flight_s,
+                             named_values(result, row), flight_s,
                              row.farms == 0 ? 0 : row.plots / row.farms);
 }
 
@@ -95,12 +97,12 @@ double surely_at_most(const TableRow& row) {
 Cells told(const SuiteResult& result, const TableRow& row) {
   const FlightCost cost = flight_costs(result)[place_of(result, row.case_name)];
   Cells cells = values_of(result, row);
-  cells.insert(
-      cells.end(),
-      {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-       number("{:+.2f}", 100 * row.bias_m), fmt::format("{} of {}", row.found, row.plots),
-       std::to_string(row.extra), cost.points == 0 ? "none" : number("{:.0f}", cost.flight_s),
-       number("{:.2f}", 1e-6 * cost.points)});
+  cells.insert(cells.end(),
+               {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                number("{:+.2f}", 100 * row.bias_m), fmt::format("{} of {}", row.found, row.plots),
+                std::to_string(row.extra),
+                std::isnan(cost.flight_s) ? "none" : number("{:.0f}", cost.flight_s),
+                number("{:.2f}", 1e-6 * cost.points)});
   return cells;
 }
 
@@ -118,16 +120,17 @@ std::vector<FlightCost> flight_costs(const SuiteResult& result) {
   std::map<std::string, std::size_t> place;
   for (const CaseInfo& info : result.cases) place.emplace(info.name, place.size());
   std::vector<FlightCost> costs(result.cases.size());
-  std::vector<double> farms(result.cases.size());
+  std::vector<double> flown(result.cases.size());
   for (const FarmResult& farm : result.farms) {
+    if (farm.flight_s == 0) continue;  // it was not flown, or saw nothing
     const std::size_t i = place.at(farm.case_name);
-    farms[i] += 1;
+    flown[i] += 1;
     costs[i].flight_s += farm.flight_s;
     costs[i].points += static_cast<double>(farm.points);
   }
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    costs[i].flight_s /= farms[i];
-    costs[i].points /= farms[i];
+    costs[i].flight_s /= flown[i];
+    costs[i].points /= flown[i];
   }
   return costs;
 }

@@ -11,7 +11,7 @@
 
 namespace plotscan::farmbench {
 
-// What one combination's flights cost, means over its farms.
+// What one combination's flights cost, means over the farms that were flown; NaN where none was.
 struct FlightCost {
   double flight_s = 0;
   double points = 0;  // of the scan
