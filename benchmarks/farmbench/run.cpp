@@ -122,7 +122,7 @@ SuiteResult read_results(const fs::path& output) {
     require_methods(result);
     require_whole(result);
   } catch (const json::exception& error) {
-    throw InputError(file, std::string("not the results of farmbench run: ") + error.what());
+    throw InputError(file, "not the results of farmbench run: " + json_reason(error));
   } catch (const InputError& error) {
     throw InputError(file, error.what());
   }

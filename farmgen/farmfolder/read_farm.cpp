@@ -12,6 +12,7 @@
 #include "farmfolder/terrain_ply.h"
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/place_json.h"
 #include "farm/farm.h"
@@ -65,7 +66,7 @@ FarmRecord read_record(const fs::path& folder) {
     return record;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(folder / "manifest.json",
-                     std::string("is not the manifest of a farm: ") + error.what());
+                     "is not the manifest of a farm: " + json_reason(error));
   }
 }
 

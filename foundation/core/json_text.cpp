@@ -25,11 +25,16 @@ std::string read_json_text(const std::filesystem::path& path) {
   return text;
 }
 
+std::string json_reason(const nlohmann::json::exception& error) {
+  const std::string what = error.what();  // "[json.exception.parse_error.101] parse error at ..."
+  return what.substr(what.find("] ") + 2);
+}
+
 nlohmann::json read_json(const std::filesystem::path& path) {
   try {
     return nlohmann::json::parse(read_json_text(path));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(path, std::string("not JSON: ") + error.what());
+    throw InputError(path, "not JSON: " + json_reason(error));
   }
 }
 

@@ -12,6 +12,9 @@ namespace plotscan {
 // nested deeper than 100 levels: code that walks through it recurses once per level.
 std::string read_json_text(const std::filesystem::path& path);
 
+// What the library says is wrong, without the name of its exception.
+std::string json_reason(const nlohmann::json::exception& error);
+
 // The parsed document of a JSON file. Throws InputError as above, and when it is not JSON.
 nlohmann::json read_json(const std::filesystem::path& path);
 

@@ -100,7 +100,7 @@ void require_unchanged(const fs::path& folder, const std::string& part) {
       }
     }
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json", std::string("lists no outputs: ") + error.what());
+    throw InputError(folder / "manifest.json", "lists no outputs: " + json_reason(error));
   }
 }
 
@@ -111,7 +111,7 @@ std::vector<fs::path> unlisted_files(const fs::path& folder) {
     for (const nlohmann::json& output : manifest.value("outputs", nlohmann::json::array()))
       listed.insert(fs::path(output.at("file").get<std::string>()));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json", std::string("lists no outputs: ") + error.what());
+    throw InputError(folder / "manifest.json", "lists no outputs: " + json_reason(error));
   }
   std::vector<fs::path> unlisted;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

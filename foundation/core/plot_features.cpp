@@ -268,10 +268,8 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
 }
 
 [[noreturn]] void fail_foreign(const std::filesystem::path& path, const json::exception& error) {
-  const std::string_view what = error.what();
-  const std::size_t name_end = what.find("] ");  // of "[json.exception.parse_error.101] "
-  throw InputError(path, "is no map of plots, a GeoJSON FeatureCollection of polygons: " +
-                             std::string(what.substr(name_end + 2)));
+  throw InputError(
+      path, "is no map of plots, a GeoJSON FeatureCollection of polygons: " + json_reason(error));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "record/scan_formats.h"
@@ -68,8 +69,7 @@ Part read_part(const fs::path& folder, bool only_one) {
                    {"files", hashes_of_common_files(manifest)}};
     return part;
   } catch (const json::exception& error) {
-    throw InputError(folder / "manifest.json",
-                     std::string("is not lidarsim fly's: ") + error.what());
+    throw InputError(folder / "manifest.json", "is not lidarsim fly's: " + json_reason(error));
   }
 }
 

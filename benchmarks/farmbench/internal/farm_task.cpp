@@ -161,7 +161,7 @@ void read_times(const fs::path& output, FarmResult& result) {
   try {
     set_times(result, json::parse(read_json_text(file)));
   } catch (const json::exception& error) {
-    throw InputError(file, std::string("not the times of a farm (") + error.what() +
+    throw InputError(file, "not the times of a farm (" + json_reason(error) +
                                "); without this file they are not known");
   }
 }
