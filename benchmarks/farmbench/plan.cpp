@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/json_text.h"
+#include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
@@ -43,6 +44,7 @@ json case_made_from(const Suite& suite, const SuiteCase& suite_case, const std::
 json plan_json(const RunOptions& options) {
   json document = {{"format", kFormat},
                    {"suite", fs::absolute(options.suite).lexically_normal().string()},
+                   {"suite_hash", file_hash(options.suite)},  // what the reports show may change
                    {"methods", options.methods},
                    {"entered", options.entered},
                    {"keep_clouds", options.keep_clouds},
@@ -92,7 +94,7 @@ RunOptions read_plan(const fs::path& output, const std::string& build) {
       throw InputError(file, "is another build's of farmbench; plan again with this one");
     return planned;
   } catch (const json::exception& error) {
-    throw InputError(file, std::string("not farmbench's plan: ") + error.what());
+    throw InputError(file, "not farmbench's plan: " + json_reason(error));
   }
 }
 

@@ -19,12 +19,13 @@ struct PlanSummary {
   std::size_t changed = 0;  // cases planned for the first time, or otherwise than before
 };
 
-// Makes the results folder of a suite before its farms are run: - plan.json: the suite, and what
-// the options choose of it; - plan/CASE.json: what the results of the case's farms are made from,
-// but for the seed; - tasks.csv: farm, case, seed, viewed (1 where views/FARM.cbor is written as
-// well), a row a farm; - manifest.json, as run writes it. Files whose content would not change stay
-// untouched, so that newer files made from them need not be made again. The options jobs, threads,
-// force and seed have no effect. Throws InputError as run does before its first farm.
+// Makes the results folder of a suite before its farms are run: - plan.json: the suite, its file's
+// hash, and what the options choose of it; - plan/CASE.json: what the results of the case's farms
+// are made from, but for the seed; - tasks.csv: farm, case, seed, viewed (1 where views/FARM.cbor
+// is written as well), a row a farm; - manifest.json, as run writes it. Files whose content would
+// not change stay untouched, so that newer files made from them need not be made again. The options
+// jobs, threads, force and seed have no effect. Throws InputError as run does before its first
+// farm.
 PlanSummary plan(const RunOptions& options);
 
 struct PlannedFarmOptions {

@@ -88,6 +88,20 @@ TEST_F(Plan, CommandsOfTheSuitesFolderStayAsTheyWerePlanned) {
   EXPECT_FALSE(run_planned(planned.output, "flat-1", own_).resumed);
 }
 
+// A workflow merges again where plan.json is new.
+TEST_F(Plan, IsNewWhereTheReportsShowSomethingElse) {
+  const fs::path suite = write_suite();
+  plan(options("planned"));
+  const fs::path file = folder_.path() / "planned/plan.json";
+  const std::string before = read_text(file);
+  const auto made = fs::last_write_time(file);
+  plan(options("planned"));
+  EXPECT_EQ(fs::last_write_time(file), made);
+  std::ofstream(suite, std::ios::app) << "truths: [height_max_m]\n";
+  EXPECT_EQ(plan(options("planned")).changed, 0U);
+  EXPECT_NE(read_text(file), before);
+}
+
 // A page of a sweep shows no farm: a workflow must not wait for its view.
 TEST_F(Plan, ASweepsFarmsHaveNoViews) {
   folder_.write("sweep.yaml", "name: swept\nfarm: " + std::string(PLOTSCAN_SOURCE_DIR) +

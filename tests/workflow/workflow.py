@@ -121,6 +121,18 @@ def runs_as_on_one_machine(trial, whole, suite):
     check(f"nothing is left to do: {said}", code == 0 and "Nothing to be done" in said and trial.runs().total() == 6)
 
 
+def shows_other_truths(trial, suite):
+    """The suite's reports are made again, of farms that have run."""
+    before = suite.read_text()
+    results = trial.folder / "planned"
+    suite.write_text(before + "truths: [height_max_m]\n")
+    trial.plan(suite, "planned")
+    code, said = trial.finish(results)
+    check(f"the workflow merges again: {said}", code == 0 and trial.calls.read_text() == "merge \n")
+    check("it shows the other truth alone", "truth height_mean_m" not in (results / "leaderboard.md").read_text())
+    suite.write_text(before)
+
+
 def goes_on_after_kill(trial, whole, suite):
     results = trial.plan(suite, "killed")
     running = trial.snakemake(results)
@@ -189,6 +201,7 @@ def trials(trial):
     whole = trial.folder / "whole"
     trial.run("run", suite, "-o", whole, "-q")
     runs_as_on_one_machine(trial, whole, suite)
+    shows_other_truths(trial, suite)
     goes_on_after_kill(trial, whole, suite)
     if trial.kind == "slurm":
         a_cancelled_job_fails_and_is_run_again(trial, whole, suite)
@@ -217,7 +230,7 @@ def main(kind, farmbench, source):
         else:
             with slurm.Slurm(work / "cluster") as environment:
                 trials(Trial(kind, farmbench, source, work, environment))
-    print(f"workflow: {kind}: as on one machine; killed and resumed; a sweep; failures reported")
+    print(f"workflow: {kind}: as on one machine; other truths; killed and resumed; a sweep; failures reported")
     return 0
 
 
