@@ -57,8 +57,6 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
       suite_case.overrides.back().append("=").append(value);
     }
   }
-  if (section.has("published_rmse_cm"))
-    suite_case.published_rmse_cm = section.number("published_rmse_cm", {0, 1000});
   if (section.has("survey_m")) suite_case.survey = read_survey(section);
   suite_case.without_plots = section.choice("without_plots", {"false", "true"}, 0) == 1;
   if (suite_case.without_plots && suite_case.survey)
@@ -74,12 +72,22 @@ SuiteCase read_base(const YamlSection& root) {
   return base;
 }
 
+std::optional<double> read_published_rmse(const YamlSection& root, const YamlSection& section) {
+  if (!section.has("published_rmse_cm")) return std::nullopt;
+  if (!root.has("published"))
+    section.fail("published_rmse_cm",
+                 "is shown nowhere: the suite must say whose it is, published: {source: ..., "
+                 "methods: [...]}");
+  return section.number("published_rmse_cm", {0, 1000});
+}
+
 std::vector<SuiteCase> read_cases(const YamlSection& root) {
   const lidar::FlyOptions flight = read_flight(root, {});
   std::vector<SuiteCase> cases;
   std::set<std::string> names;
   for (const YamlSection& section : root.list("cases", kMostCases)) {
     cases.push_back(read_case(section, flight));
+    cases.back().published_rmse_cm = read_published_rmse(root, section);
     if (!names.insert(cases.back().name).second)
       section.fail("name", "\"" + cases.back().name + "\" is the name of another case as well");
   }
@@ -171,6 +179,24 @@ bool has_row(const Suite& suite, const std::string& row) {
   return false;
 }
 
+// Whose the cases' published figures are.
+void read_published(const YamlSection& root, Suite& suite) {
+  const YamlSection published = root.section("published");
+  suite.published = {.source = published.text("source"), .methods = {}};
+  for (const YamlSection& entry : published.list("methods", 100, "row")) {
+    suite.published->methods.push_back(entry.text("row"));
+    if (!has_row(suite, suite.published->methods.back()))
+      published.fail("methods", "name \"" + suite.published->methods.back() +
+                                    "\", which is no row of the suite's methods, such as "
+                                    "dhami2020/raw-p99");
+  }
+  const auto has_figure = [](const SuiteCase& suite_case) {
+    return suite_case.published_rmse_cm.has_value();
+  };
+  if (std::ranges::none_of(suite.cases, has_figure))
+    root.fail("published", "has no figures: no case has a published_rmse_cm");
+}
+
 // What the cases are compared with: one of them, and what somebody published.
 void read_comparisons(const YamlSection& root, Suite& suite) {
   if (root.has("baseline")) {
@@ -178,17 +204,7 @@ void read_comparisons(const YamlSection& root, Suite& suite) {
     for (const SuiteCase& suite_case : suite.cases) names.push_back(suite_case.name);
     suite.baseline = names[root.choice("baseline", names)];
   }
-  if (root.has("published")) {
-    const YamlSection published = root.section("published");
-    suite.published = {.source = published.text("source"), .methods = {}};
-    for (const YamlSection& entry : published.list("methods", 100, "row")) {
-      suite.published->methods.push_back(entry.text("row"));
-      if (!has_row(suite, suite.published->methods.back()))
-        published.fail("methods", "name \"" + suite.published->methods.back() +
-                                      "\", which is no row of the suite's methods, such as "
-                                      "dhami2020/raw-p99");
-    }
-  }
+  if (root.has("published")) read_published(root, suite);
 }
 
 }  // namespace

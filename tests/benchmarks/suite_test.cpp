@@ -242,6 +242,10 @@ INSTANTIATE_TEST_SUITE_P(
                  ":6: truths name height_max_m twice"},
         BadSuite{kSound + "published: {source: us, methods: [oracle]}\n",
                  ":6: published.methods name \"oracle\", which is no row"},
+        BadSuite{with(".yaml}", ".yaml, published_rmse_cm: 6}"),
+                 ":3: cases.0.published_rmse_cm is shown nowhere: the suite must say whose it is"},
+        BadSuite{kSound + "published: {source: us, methods: [oracle-ground]}\n",
+                 ":6: published has no figures: no case has a published_rmse_cm"},
         BadSuite{kSound + "flight: fast\n", ":6: flight is not a map"}));
 
 }  // namespace
