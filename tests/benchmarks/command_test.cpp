@@ -159,6 +159,12 @@ TEST_F(Command, IsStoppedWhereItsTimeIsOver) {
   EXPECT_FALSE(lives("sleep 987"));
 }
 
+TEST_F(Command, IsStoppedWhereItsOutputWouldFillTheDisk) {
+  EXPECT_THAT(
+      run_command("sh -c 'yes on and on' {out}", {.seconds = 60, .log_bytes = 1'000'000}).failure,
+      ::testing::StartsWith("printed more than 1 MB and was stopped: "));
+}
+
 TEST_F(Command, IsKeptWithinItsMemory) {
   EXPECT_EQ(run_command("sh -c 'x=$(head -c 60000000 /dev/zero | tr \"\\\\000\" a); exit 3' {out}",
                         {.memory_bytes = std::uint64_t{4} << 30})

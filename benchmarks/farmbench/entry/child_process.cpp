@@ -67,23 +67,35 @@ std::uint64_t peak_bytes(pid_t group) {
   return most;
 }
 
-// Whether it ended before `end`. It is not reaped, so that its number stays its own. `peak` becomes
-// the most memory that was seen.
-bool ends_before(pid_t process, Clock::time_point end, std::uint64_t& peak) {
+// Whether more is in the file, which may not be there yet.
+bool is_larger(const std::filesystem::path& file, std::uintmax_t bytes) {
+  std::error_code missing;
+  const std::uintmax_t size = std::filesystem::file_size(file, missing);
+  return !missing && size > bytes;
+}
+
+// Waits for its end. Why it has to be stopped before, "" where it ended by itself. It is not
+// reaped, so that its number stays its own. `peak` becomes the most memory that was seen.
+std::string reason_to_stop(pid_t process, const std::filesystem::path& log,
+                           const ProcessLimits& limits, std::uint64_t& peak) {
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(limits.seconds));
   for (int look = 0;; ++look) {
     if (look % kLooksAtMemory == 0) peak = std::max(peak, peak_bytes(process));
     siginfo_t info{};
     const int asked = waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOWAIT | WNOHANG);
-    if (asked == 0 && info.si_pid == process) return true;
-    if (asked != 0 && errno != EINTR) return true;
-    if (Clock::now() >= end) return false;
+    if (asked == 0 && info.si_pid == process) return "";
+    if (asked != 0 && errno != EINTR) return "";
+    if (Clock::now() >= end) return fmt::format("took more than {:g} s", limits.seconds);
+    if (is_larger(log, limits.log_bytes))
+      return fmt::format("printed more than {:g} MB", 1e-6 * static_cast<double>(limits.log_bytes));
     std::this_thread::sleep_for(kPause);
   }
 }
 
-std::string failure_of(int status, bool in_time, const std::string& program,
+std::string failure_of(int status, const std::string& stopped, const std::string& program,
                        const ProcessLimits& limits) {
-  if (!in_time) return fmt::format("took more than {:g} s and was stopped", limits.seconds);
+  if (!stopped.empty()) return stopped + " and was stopped";
   if (WIFSIGNALED(status))
     return std::string("was ended by a signal (") + strsignal(WTERMSIG(status)) +
            fmt::format("); it may use {:.1f} GB of memory",
@@ -115,14 +127,12 @@ FinishedProcess run_process(const std::vector<std::string>& arguments,
   setpgid(process, process);  // whichever of the two comes first
   int status = 0;
   std::uint64_t peak = 0;
-  const auto patience =
-      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
-  const bool in_time = ends_before(process, start + patience, peak);
+  const std::string stopped = reason_to_stop(process, log, limits, peak);
   const std::chrono::duration<double> took = Clock::now() - start;
   kill(-process, SIGKILL);
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  return {.failure = failure_of(status, in_time, arguments.front(), limits),
+  return {.failure = failure_of(status, stopped, arguments.front(), limits),
           .seconds = took.count(),
           .peak_bytes = peak};
 }

@@ -12,6 +12,7 @@ namespace plotscan::farmbench {
 struct ProcessLimits {
   double seconds = 3600;                                // of the clock
   std::uint64_t memory_bytes = std::uint64_t{8} << 30;  // of addresses, each of its processes
+  std::uintmax_t log_bytes = 1'000'000'000;             // of stdout and stderr
 };
 
 // How it ended.
@@ -24,8 +25,8 @@ struct FinishedProcess {
 
 // Runs a program (found along PATH if its name has no slash) with these arguments, without a shell,
 // in `folder`, and waits for its end. Its stdin is empty, its stdout and stderr go to the file
-// `log`. When it ends or its time is over, it and its remaining children are killed. Throws
-// std::system_error where no process can be made.
+// `log`. When it ends, or is beyond its time or its log's size, it and its remaining children are
+// killed. Throws std::system_error where no process can be made.
 FinishedProcess run_process(const std::vector<std::string>& arguments,
                             const std::filesystem::path& folder, const std::filesystem::path& log,
                             const ProcessLimits& limits);
