@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/geodesy.h"
@@ -144,6 +146,15 @@ std::vector<std::string> stated_flags(const json& properties) {
   return flags;
 }
 
+void require_plausible(const PlotEstimate& plot, const fs::path& file) {
+  for (const auto& [name, height_m] : plot.heights_m) {
+    if (!is_plausible(height_m))
+      throw InputError(
+          file, fmt::format("plot {}: {} is {:g}; it must be metres, {:g} to {:g}", plot.id.text(),
+                            property_of(name), height_m, kLeastHeight_m, kMostHeight_m));
+  }
+}
+
 // The text at that place of the document; "" where there is none.
 std::string text_at(const json& document, const json::json_pointer& place) {
   const bool is_text = document.contains(place) && document[place].is_string();
@@ -210,19 +221,14 @@ Estimate read_estimate(const fs::path& path) {
   if (is_folder) read_made_by(path, estimate);
   const PlacedPlots placed = read_plot_features(file, "");
   estimate.units = placed.units;
-  bool any_height = false;
-  std::set<std::string> ids;
-  for (const PlotFeature& feature : placed.plots) {
-    estimate.plots.push_back(plot_of(feature, estimate.plots.size() + 1));
-    const std::string id = estimate.plots.back().id.text();
-    if (!ids.insert(id).second) throw InputError(file, "has two plots with the id " + id);
-    any_height = any_height || !estimate.plots.back().heights_m.empty();
-  }
+  estimate.plots = plots_of(placed.plots, file);
   if (is_folder && fs::exists(path / "clusters.geojson")) {
     for (const PlotFeature& cluster : read_plot_features(path / "clusters.geojson", "").plots)
       estimate.clusters.push_back(cluster.box);
   }
   if (estimate.plots.empty() && estimate.method.empty()) throw InputError(file, "has no plots");
+  const bool any_height = std::ranges::any_of(
+      estimate.plots, [](const PlotEstimate& plot) { return !plot.heights_m.empty(); });
   if (!any_height && !estimate.plots.empty()) {
     throw InputError(file,
                      "no plot has a height; a height is a number in a property "
@@ -249,6 +255,18 @@ PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
   if (confidence != feature.properties.end() && confidence->is_number())
     plot.confidence = confidence->get<double>();
   return plot;
+}
+
+std::vector<PlotEstimate> plots_of(const std::vector<PlotFeature>& features, const fs::path& file) {
+  std::vector<PlotEstimate> plots;
+  std::set<PlotId> ids;
+  for (const PlotFeature& feature : features) {
+    plots.push_back(plot_of(feature, plots.size() + 1));
+    const PlotId& id = plots.back().id;
+    if (!ids.insert(id).second) throw InputError(file, "has two plots with the id " + id.text());
+    require_plausible(plots.back(), file);
+  }
+  return plots;
 }
 
 }  // namespace plotscan::estimate

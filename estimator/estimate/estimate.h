@@ -79,8 +79,8 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
 // else its plot_number, else its place in the file. The method is the one that the folder's
 // manifest.json names, "" without a manifest. The ground's grids are not read. Throws InputError as
-// read_plot_features does, when no plot has a height, when two plots have one id, and when a file
-// that no method of ours wrote has no plot.
+// read_plot_features and plots_of do, when no plot has a height, and when a file that no method of
+// ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path);
 
 // The attributes of a feature in the user's map, to be written back (PlotEstimate::attributes): all
@@ -92,5 +92,10 @@ nlohmann::json given_attributes(const PlotFeature& feature);
 // The plot that one feature of a plots.geojson describes; `number` is its place in the file, from
 // 1.
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);
+
+// The plots that the features of a file describe. Throws InputError when two have one id, and on a
+// height that is not plausible (height_properties.h).
+std::vector<PlotEstimate> plots_of(const std::vector<PlotFeature>& features,
+                                   const std::filesystem::path& file);
 
 }  // namespace plotscan::estimate

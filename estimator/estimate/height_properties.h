@@ -19,6 +19,14 @@ inline constexpr std::string_view kSuffix = "_m";
 inline constexpr std::array<const char*, 5> kBoxErrors = {
     "se_center_along_m", "se_center_across_m", "se_width_m", "se_length_m", "se_heading_deg"};
 
+// Whether a height can be one in metres: those of crops can, marks of missing values (-9999)
+// cannot.
+inline constexpr double kLeastHeight_m = -100;
+inline constexpr double kMostHeight_m = 1000;
+inline bool is_plausible(double height_m) {
+  return height_m >= kLeastHeight_m && height_m <= kMostHeight_m;
+}
+
 // The property of a height, and of what belongs to it ("se_", "low95_", "high95_"): the truth's own
 // names, height_p95_m and canopy_p95_m.
 inline std::string property_of(const std::string& height, std::string_view before = "") {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/error.h"
 #include "core/extent.h"
@@ -56,13 +55,7 @@ std::map<std::string, double> truths_of(const nlohmann::json& properties) {
 }
 
 // A plot that is there twice would be found once, and missed once.
-void require_each_once(const fs::path& file, const std::vector<TruePlot>& plots) {
-  std::set<PlotId> ids;
-  for (const TruePlot& plot : plots) {
-    if (!ids.insert(plot.id).second)
-      throw InputError(
-          file, "has two plots with the id " + plot.id.text() + "; it must have each plot once");
-  }
+void require_different_places(const std::vector<TruePlot>& plots, const fs::path& file) {
   const std::vector<PlotBox> boxes = boxes_of(plots);
   for (const PlotMatch& pair : overlapping_pairs(boxes, boxes, kOnePlace)) {
     if (pair.truth != pair.estimate)
@@ -83,17 +76,17 @@ double root_mean_square(const std::vector<double>& values) {
 
 std::vector<TruePlot> read_truth(const fs::path& farm) {
   const fs::path file = fs::is_directory(farm) ? farm / "truth" / "plots.geojson" : farm;
+  const std::vector<PlotFeature> features = read_plot_features(file);
   std::vector<TruePlot> plots;
-  for (const PlotFeature& feature : read_plot_features(file)) {
-    const estimate::PlotEstimate plot = estimate::plot_of(feature, plots.size() + 1);
+  for (const estimate::PlotEstimate& plot : estimate::plots_of(features, file)) {
     plots.push_back({.id = plot.id,
                      .row = plot.row,
                      .column = plot.column,
                      .box = plot.box,
-                     .heights_m = truths_of(feature.properties)});
+                     .heights_m = truths_of(features[plots.size()].properties)});
   }
   if (plots.empty()) throw InputError(file, "has no plots");
-  require_each_once(file, plots);
+  require_different_places(plots, file);
   return plots;
 }
 

@@ -27,8 +27,8 @@ struct TruePlot {
 
 // Reads the true plots of a farm folder (its truth/plots.geojson), or of any GeoJSON file whose
 // plots carry numbers height_<name>_m or canopy_<name>_m, such as hand measurements. Throws
-// InputError as read_plot_features does, when there is no plot, and when one is there twice: two
-// with one id, or at one place.
+// InputError as read_plot_features and estimate::plots_of do, when there is no plot, and when two
+// are at one place.
 std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
 
 // A true plot's match in the estimate: its errors and its estimated heights.

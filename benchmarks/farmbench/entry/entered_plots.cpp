@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "core/text.h"
 #include "core/trial_layout.h"
 #include "estimate/height_properties.h"
 #include "farmbench/entry/internal/entered_rows.h"
@@ -21,20 +22,15 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uintmax_t kMostBytes = 64'000'000;
-constexpr double kLeastHeight_m = -100;
-constexpr double kMostHeight_m = 1000;
 constexpr double kFarthest_m = 1e7;
-
-bool is_plausible(double height_m) {
-  return height_m >= kLeastHeight_m && height_m <= kMostHeight_m;
-}
 
 // A property that has to be a number where it is there; nothing where it is not one.
 std::optional<double> number_in(const EnteredRow& row, const std::string& name,
                                 Problems& problems) {
   const auto found = row.properties.find(name);
   if (found == row.properties.end() || found->is_null()) return std::nullopt;
-  if (found->is_number() && is_plausible(found->get<double>())) return found->get<double>();
+  if (found->is_number() && estimate::is_plausible(found->get<double>()))
+    return found->get<double>();
   problems.add(row.place, name + " is " + found->dump() + "; it must be metres, -100 to 1000");
   return std::nullopt;
 }
@@ -148,8 +144,9 @@ std::vector<EnteredRow> read_rows(const fs::path& file, Problems& problems) {
     return {};
   }
   const std::string text = read_text(file);
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  const bool is_json = first != std::string::npos && text[first] == '{';
+  const std::string_view unmarked = without_byte_order_mark(text);
+  const std::size_t first = unmarked.find_first_not_of(" \t\r\n");
+  const bool is_json = first != std::string_view::npos && unmarked[first] == '{';
   std::vector<EnteredRow> rows =
       is_json ? read_entered_features(file, problems) : read_entered_table(file, problems);
   if (rows.size() > kMostPlots) {

@@ -355,6 +355,18 @@ TEST_F(ScoreRun, RefusesATruthThatHasAPlotTwice) {
   EXPECT_EQ(read_truth(truth_with(8, 10)).size(), 3U);
 }
 
+TEST_F(ScoreRun, RefusesHeightsThatStandForNone) {
+  for (const double height_m : {-9999.0, 1e30}) {
+    write_plot_features(estimate_,
+                        {{turned_box(5), {{"plot_number", 3}, {"height_p95_m", height_m}}}});
+    EXPECT_THAT(message_of<InputError>([&] { read_truth(estimate_); }),
+                HasSubstr("anyones.geojson: plot 3: height_p95_m is "));
+    EXPECT_THAT(message_of<InputError>(
+                    [&] { run({.estimate = estimate_, .truth = folder_.path() / "farm"}); }),
+                HasSubstr("it must be metres, -100 to 1000"));
+  }
+}
+
 TEST_F(ScoreRun, BadInputLeavesNothingBehind) {
   const std::filesystem::path scores = folder_.path() / "scores";
   EXPECT_THAT(message_of<InputError>(
