@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/error.h"
 #include "core/json_text.h"
@@ -38,6 +40,17 @@ EnteredFarm farm_from_json(const json& document, const std::string& method) {
                      .score = score::field_from_json(document.at("score"))}};
 }
 
+// A farm that is there twice would count twice.
+void require_different_farms(const Entry& entry, const fs::path& file) {
+  std::set<std::pair<std::string, std::uint64_t>> farms;
+  for (const EnteredFarm& farm : entry.farms) {
+    if (!farms.emplace(farm.case_name, farm.seed).second)
+      throw InputError(file, "has two farms of case " + farm.case_name + ", seed " +
+                                 std::to_string(farm.seed) +
+                                 "; score the submission again, or remove this file");
+  }
+}
+
 Entry read_entry(const fs::path& file) {
   try {
     const json document = json::parse(read_json_text(file));
@@ -48,9 +61,10 @@ Entry read_entry(const fs::path& file) {
                 .farms = {}};
     for (const json& farm : document.at("farms"))
       entry.farms.push_back(farm_from_json(farm, entry.method));
+    require_different_farms(entry, file);
     return entry;
   } catch (const json::exception& error) {
-    throw InputError(file, std::string("not what farmbench score writes: ") + error.what());
+    throw InputError(file, "not what farmbench score writes: " + json_reason(error));
   }
 }
 

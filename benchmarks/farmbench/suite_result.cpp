@@ -96,6 +96,7 @@ SuiteResult suite_result_from_json(const json& document) {
 
 void require_whole(const SuiteResult& result) {
   if (result.methods.empty()) throw InputError("names no method; it must have one or more");
+  if (result.farms.empty()) throw InputError("has no farms; it must have one or more");
   std::set<std::string> cases;
   for (const CaseInfo& info : result.cases)
     if (!cases.insert(info.name).second)

@@ -38,7 +38,7 @@ nlohmann::json to_json(const SuiteResult& result);
 SuiteResult suite_result_from_json(const nlohmann::json& document);
 // Throws InputError where its parts do not belong together, as tables take for granted that they
 // do: cases and farms that are named twice, farms and a baseline of no case, cases that are not the
-// combinations of a sweep's axes, no method.
+// combinations of a sweep's axes, no method, no farm.
 void require_whole(const SuiteResult& result);
 
 }  // namespace plotscan::farmbench
