@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "farmbench/entries.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/internal/suite_page.h"
@@ -132,6 +133,22 @@ TEST(EnteredPlots, FlagsOfAFeatureAreAListOrATextAsInATable) {
     EXPECT_THAT(read(neither).problems, HasSubstr("it must be a list of texts, or a text"));
 }
 
+TEST(EnteredPlots, GeoJsonThatSaysNothingIsNoEntry) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& properties) {
+    return read_file(folder, "a.geojson",
+                     "\xef\xbb\xbf"
+                     R"({"features": [{"geometry": null, "properties": {)" +
+                         properties + "}}]}")
+        .problems;
+  };
+  EXPECT_THAT(read(R"("plot_number": 1, "height_mean": 0.5)"),
+              HasSubstr("a.geojson: no plot has a box or a height, a property such as"));
+  EXPECT_THAT(read(R"("plot_number": 1, "height_mean_m": NaN)"),
+              HasSubstr("a.geojson: not JSON: "));
+  EXPECT_EQ(read(R"("plot_number": 1, "height_mean_m": null)"), "");
+}
+
 TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
   const TemporaryFolder folder;
   const std::string told =
@@ -167,6 +184,22 @@ TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
   Problems problems;
   read_entered_plots(folder.path() / "c.csv", problems);
   EXPECT_THAT(message_of<InputError>([&] { problems.raise("there"); }), HasSubstr("is no file"));
+}
+
+TEST(Entries, OneWithAFarmTwiceIsRefused) {
+  const TemporaryFolder folder;
+  EnteredFarm farm;
+  farm.case_name = "flat";
+  farm.seed = 3;
+  Entry entry;
+  entry.method = "mine";
+  entry.farms = {farm};
+  write_entry(folder.path(), entry);
+  EXPECT_NO_THROW(require_entries(folder.path(), {"lattice"}));
+  entry.farms.push_back(farm);
+  write_entry(folder.path(), entry);
+  EXPECT_THAT(message_of<InputError>([&] { require_entries(folder.path(), {"lattice"}); }),
+              HasSubstr("entries/mine.json: has two farms of case flat, seed 3"));
 }
 
 // The blind suite run once by our own method, and what that method says of each field.

@@ -14,6 +14,7 @@
 #include "core/parse.h"
 #include "core/place_json.h"
 #include "core/plot_features.h"
+#include "core/printable.h"
 #include "estimate/height_properties.h"
 
 namespace plotscan::farmbench {
@@ -96,7 +97,7 @@ json cell_of(const std::string& column, const std::string& cell, const std::stri
   if (column == "plot_number") return id_of(cell);
   const std::optional<double> number = number_of(cell);
   if (!number) {
-    problems.add(place, column + " is \"" + cell + "\"; it must be a number, or empty");
+    problems.add(place, column + " is \"" + printable(cell) + "\"; it must be a number, or empty");
     return {};
   }
   return *number;
@@ -134,6 +135,22 @@ EnteredRow row_of(const CsvTable& table, const CsvTable::Line& line, const fs::p
   return row;
 }
 
+bool has_height(const json& properties) {
+  for (const auto& [name, value] : properties.items())
+    if (is_height_column(name)) return true;
+  return false;
+}
+
+// Names that are not as documented would be ignored, as any other property is.
+void require_content(const std::vector<EnteredRow>& rows, const std::string& name,
+                     Problems& problems) {
+  const auto says_something = [](const EnteredRow& row) {
+    return row.box_stated || has_height(row.properties);
+  };
+  if (!rows.empty() && std::ranges::none_of(rows, says_something))
+    problems.add(name, "no plot has a box or a height, a property such as height_mean_m");
+}
+
 // The box of one feature of a document, as any map of plots is read.
 std::optional<PlotBox> box_of(const json& document, const json& feature, const EnteredRow& row,
                               Problems& problems) {
@@ -169,7 +186,13 @@ std::vector<EnteredRow> read_entered_table(const fs::path& file, Problems& probl
 std::vector<EnteredRow> read_entered_features(const fs::path& file, Problems& problems) {
   const std::string name = file.filename().string();
   std::vector<EnteredRow> rows;
-  json document = json::parse(read_json_text(file), nullptr, false);
+  json document;
+  try {
+    document = read_json(file);
+  } catch (const InputError& error) {
+    add_error(error, file, problems);
+    return rows;
+  }
   if (!document.is_object() || !document.contains("features") || !document["features"].is_array()) {
     problems.add(name, "is no GeoJSON FeatureCollection");
     return rows;
@@ -192,6 +215,7 @@ std::vector<EnteredRow> read_entered_features(const fs::path& file, Problems& pr
     }
     rows.push_back(std::move(row));
   }
+  require_content(rows, name, problems);
   return rows;
 }
 

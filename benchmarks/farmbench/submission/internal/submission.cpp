@@ -87,7 +87,9 @@ Submission read_submission(const fs::path& folder, const std::vector<BlindField>
   for (const fs::path& file : files) {
     const std::string code = file.stem().string();
     if (std::ranges::find(fields, code, &BlindField::code) == fields.end()) {
-      problems.add(file.filename().string(), "no field is called " + code);
+      problems.add(file.filename().string(),
+                   "no field is called " + code + "; of this suite with these --seeds and " +
+                       "--secret-file they are called such as " + fields.front().code);
     } else if (submission.fields.contains(code)) {
       problems.add(file.filename().string(), "the field has another file as well");
     } else {
