@@ -10,6 +10,11 @@
 
 namespace plotscan::farmbench {
 
+// "1 farm", "3 farms".
+inline std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 // A number in the format; "-" for NaN.
 inline std::string number(fmt::format_string<double&> format, double value) {
   return std::isnan(value) ? "-" : fmt::format(format, value);

@@ -138,21 +138,45 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
   return text;
 }
 
-std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method) {
-  return fmt::format("{:32} {:14}  {:21} {:>7} {:>6}", first_of_method ? row.method : "",
-                     row.case_name, with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+// How wide the columns of names are: as the longest name, so that all columns stay in line.
+struct NameWidths {
+  std::size_t method;
+  std::size_t case_name = 14;
+};
+
+NameWidths widened(NameWidths widths, const std::vector<TableRow>& rows) {
+  for (const TableRow& row : rows) {
+    widths.method = std::max(widths.method, row.method.size());
+    widths.case_name = std::max(widths.case_name, row.case_name.size());
+  }
+  return widths;
+}
+
+// The first two columns of a table's line.
+std::string name_columns(const std::string& method, const std::string& case_name,
+                         const NameWidths& widths) {
+  return fmt::format("{:{}} {:{}} ", method, widths.method, case_name, widths.case_name);
+}
+
+std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method,
+                         const NameWidths& widths) {
+  return name_columns(first_of_method ? row.method : "", row.case_name, widths) +
+         fmt::format(" {:21} {:>7} {:>6}",
+                     with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
                      number("{:+.2f}", 100 * row.bias_m), published_cm(result, row));
 }
 
 std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
+  const NameWidths widths = widened({.method = 21}, rows);
   std::vector<std::string> lines = {
       "Plots found. IoU, centre (cm rms) and heading (degrees rms) over those found",
-      fmt::format("{:21} {:14} {:>9} {:>5} {:>7} {:>9} {:>6} {:>7} {:>8}", "method", "case",
-                  "found  ", "extra", "recall", "precision", "IoU", "centre", "heading")};
+      name_columns("method", "case", widths) +
+          fmt::format("{:>9} {:>5} {:>7} {:>9} {:>6} {:>7} {:>8}", "found  ", "extra", "recall",
+                      "precision", "IoU", "centre", "heading")};
   std::string method;
   for (const TableRow& row : rows) {
-    lines.push_back(fmt::format("{:21} {:14} {:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}",
-                                row.method != method ? row.method : "", row.case_name, row.found,
+    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
+                    fmt::format("{:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}", row.found,
                                 row.plots, row.extra, number("{:.4f}", row.recall),
                                 number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
                                 centimetres(row.center_rmse_m),
@@ -165,16 +189,18 @@ std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
 // The errors after each farm's bias is subtracted, and whether the order of the plots is right.
 std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
   if (rows.empty()) return {};
+  const NameWidths widths = widened({.method = 32}, rows);
   std::vector<std::string> lines = {
       "",
       "Against the truth each height is named after: the farms' own biases, and the rest (cm rms)",
-      fmt::format("{:32} {:14} {:>7} {:>11} {:>11} {:>9} {:>10}", "method", "case", "RMSE",
-                  "bias a farm", "within farm", "R2 within", "rho within")};
+      name_columns("method", "case", widths) + fmt::format("{:>7} {:>11} {:>11} {:>9} {:>10}",
+                                                           "RMSE", "bias a farm", "within farm",
+                                                           "R2 within", "rho within")};
   std::string method;
   for (const TableRow& row : rows) {
-    lines.push_back(fmt::format("{:32} {:14} {:>7} {:>11} {:>11} {:>9} {:>10}",
-                                row.method != method ? row.method : "", row.case_name,
-                                centimetres(row.rmse_m), centimetres(row.within.farm_bias_m),
+    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
+                    fmt::format("{:>7} {:>11} {:>11} {:>9} {:>10}", centimetres(row.rmse_m),
+                                centimetres(row.within.farm_bias_m),
                                 centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
                                 number("{:.2f}", row.within.rho)));
     method = row.method;
@@ -184,19 +210,22 @@ std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
 
 // Lines on the methods that give intervals; no lines where none does.
 std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
+  const NameWidths widths = widened({.method = 21}, rows);
   std::vector<std::string> lines;
   std::string method;
   for (const TableRow& row : rows) {
     if (std::isnan(row.coverage95)) continue;
     if (lines.empty()) {
       lines = {"", "Against the truth each height is named after: truths in its 95 % intervals",
-               fmt::format("{:21} {:14}  {:20} {:>7} {:>7} {:>8} {:>14}", "method", "case", "RMSE",
-                           "bias", "in 95 %", "flagged", "over 5 cm, not")};
+               name_columns("method", "case", widths) +
+                   fmt::format(" {:20} {:>7} {:>7} {:>8} {:>14}", "RMSE", "bias", "in 95 %",
+                               "flagged", "over 5 cm, not")};
     }
-    lines.push_back(fmt::format(
-        "{:21} {:14}  {:20} {:>7} {:>7} {:8} {:>14}", row.method != method ? row.method : "",
-        row.case_name, with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-        number("{:+.2f}", 100 * row.bias_m), percent(row.coverage95), row.flagged, unflagged(row)));
+    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
+                    fmt::format(" {:20} {:>7} {:>7} {:8} {:>14}",
+                                with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                                number("{:+.2f}", 100 * row.bias_m), percent(row.coverage95),
+                                row.flagged, unflagged(row)));
     method = row.method;
   }
   return lines;
@@ -265,11 +294,13 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
     lines.emplace_back("");
     lines.push_back("Truth " + truth +
                     ". RMSE [95 % interval] and bias in cm over the plots found");
-    lines.push_back(
-        fmt::format("{:32} {:14}  {:21} {:>7} {:>6}", "method", "case", "RMSE", "bias", "publ."));
+    const std::vector<TableRow> rows = rows_by_method(table, truth);
+    const NameWidths widths = widened({.method = 32}, rows);
+    lines.push_back(name_columns("method", "case", widths) +
+                    fmt::format(" {:21} {:>7} {:>6}", "RMSE", "bias", "publ."));
     std::string method;
-    for (const TableRow& row : rows_by_method(table, truth)) {
-      lines.push_back(summary_line(result, row, row.method != method));
+    for (const TableRow& row : rows) {
+      lines.push_back(summary_line(result, row, row.method != method, widths));
       method = row.method;
     }
   }

@@ -15,8 +15,9 @@ namespace plotscan::farmbench {
 void write_reports(const std::filesystem::path& folder, const SuiteResult& result,
                    const std::vector<TableRow>& table);
 
-// The table for people, in at most 100 columns: method by case, for the tallest plant (the paper's
-// pattern) and the mean plant, beside the published figures; of a sweep, its flights.
+// The table for people, in at most 100 columns unless names are long: method by case, for the
+// tallest plant (the paper's pattern) and the mean plant, beside the published figures; of a sweep,
+// its flights.
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table);
 

@@ -17,6 +17,7 @@
 namespace plotscan::farmbench {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -259,6 +260,7 @@ TEST(SuiteResultJson, PartsThatDoNotBelongTogetherAreRefused) {
   write([](json&) {});
   EXPECT_NO_THROW(read_results(folder.path()));
   EXPECT_THAT(refused([](json& d) { d["methods"] = json::array(); }), HasSubstr("names no method"));
+  EXPECT_THAT(refused([](json& d) { d["farms"] = json::array(); }), HasSubstr("has no farms"));
   EXPECT_THAT(refused([](json& d) { d["cases"][1]["name"] = "a"; }), HasSubstr("two cases a"));
   EXPECT_THAT(refused([](json& d) { d["farms"][0]["case"] = "c"; }),
               HasSubstr("results.json: farm c-1 is of no case"));
@@ -299,6 +301,31 @@ TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
   EXPECT_THAT(lines[3], ::testing::AllOf(HasSubstr("0/1"), Not(HasSubstr("nan"))));
   EXPECT_THAT(lines[7], ::testing::AllOf(HasSubstr("oracle-ground"), HasSubstr("3.32 ["),
                                          HasSubstr("+2.60"), HasSubstr("4.8")));
+}
+
+// Their last column ends at the right.
+TEST(SummaryLines, StayInLineWhereNamesAreLong) {
+  SuiteResult result = result_with_intervals();
+  for (FarmResult& farm : result.farms) farm.case_name += "-of-a-long-name";
+  for (CaseInfo& info : result.cases) info.name += "-of-a-long-name";
+  const auto lines = summary_lines(result, make_table(result, 1));
+  std::size_t tables = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i].starts_with("method")) continue;
+    ++tables;
+    EXPECT_EQ(lines[i + 1].size(), lines[i].size()) << lines[i + 1];
+  }
+  EXPECT_GE(tables, 4U);
+}
+
+TEST(SummaryLines, SayWhyNoPlotsWereFoundWhereThereAreSome) {
+  SuiteResult result = small_result();
+  MethodResult& in_b = result.farms[3].methods[0];
+  in_b.diagnostics["why_no_plots"] = "too few points";
+  const auto lines = [&] { return summary_lines(result, make_table(result, 1)); };
+  EXPECT_THAT(lines(), Contains("oracle-ground, b: 1 of 1 farm, no plots: too few points"));
+  in_b.score.plots.clear();
+  EXPECT_THAT(lines(), Not(Contains(HasSubstr("too few points"))));
 }
 
 // The page's figures are made from these pairs: they give the table's figures back.

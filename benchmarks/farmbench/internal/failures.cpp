@@ -5,7 +5,21 @@
 
 #include <fmt/core.h>
 
+#include "estimate/diagnostics.h"
+#include "farmbench/format.h"
+
 namespace plotscan::farmbench {
+namespace {
+
+// Why the method measured nothing where plots are, "" where it did.
+std::string reason_of(const MethodResult& run) {
+  if (!run.failure.empty() || run.score.plots.empty()) return run.failure;
+  const auto why = run.diagnostics.find(estimate::kWhyNoPlots);
+  const bool is_told = why != run.diagnostics.end() && why->is_string();
+  return is_told ? "no plots: " + why->get<std::string>() : "";
+}
+
+}  // namespace
 
 std::vector<std::string> failure_lines(const SuiteResult& result) {
   std::vector<std::string> lines;
@@ -18,13 +32,14 @@ std::vector<std::string> failure_lines(const SuiteResult& result) {
         const auto run = std::ranges::find(farm.methods, method, &MethodResult::method);
         if (farm.case_name != info.name || run == farm.methods.end()) continue;
         ++farms;
-        if (run->failure.empty()) continue;
-        if (++failed == 1) first = run->failure;
+        const std::string reason = reason_of(*run);
+        if (reason.empty()) continue;
+        if (++failed == 1) first = reason;
       }
       if (failed == 0) continue;
       std::ranges::replace(first, '\n', ' ');
-      lines.push_back(fmt::format("{}, {}: {} of {} {}, {}", method, info.name, failed, farms,
-                                  farms == 1 ? "farm" : "farms", first));
+      lines.push_back(fmt::format("{}, {}: {} of {}, {}", method, info.name, failed,
+                                  counted(farms, "farm"), first));
     }
   }
   return lines;

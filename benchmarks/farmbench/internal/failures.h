@@ -8,8 +8,9 @@
 
 namespace plotscan::farmbench {
 
-// A line for each method and case where a method gave up, with how often and what it said the first
-// time: "mine, flat: 2 of 10 farms, took more than 60 s and was stopped".
+// A line for each method and case where a method gave up, or says why it found no plots among those
+// that are there, with how often and what it said the first time: "mine, flat: 2 of 10 farms, took
+// more than 60 s and was stopped".
 std::vector<std::string> failure_lines(const SuiteResult& result);
 
 }  // namespace plotscan::farmbench

@@ -8,6 +8,7 @@
 #include "core/data_folder.h"
 #include "farmbench/export/dataset.h"
 #include "farmbench/export/export_suite.h"
+#include "farmbench/format.h"
 
 namespace plotscan {
 namespace {
@@ -20,8 +21,8 @@ void run_export(const Program& program, farmbench::ExportOptions options) {
   program.result({{"output", options.output.string()},
                   {"fields", summary.fields},
                   {"points", summary.points}});
-  program.say(fmt::format("{}: {} fields, {:.1f} million points; TASK.md says what is asked",
-                          options.output.string(), summary.fields,
+  program.say(fmt::format("{}: {}, {:.1f} million points; TASK.md says what is asked",
+                          options.output.string(), farmbench::counted(summary.fields, "field"),
                           1e-6 * static_cast<double>(summary.points)));
 }
 
@@ -47,8 +48,9 @@ void run_dataset(const Program& program, const farmbench::ExportOptions& options
                   {"farms", summary.farms},
                   {"scans", summary.scans},
                   {"points", summary.points}});
-  program.say(fmt::format("{}: {} farms, {} scans, {:.1f} million points; README.md is its card",
-                          options.output.string(), summary.farms, summary.scans,
+  program.say(fmt::format("{}: {}, {}, {:.1f} million points; README.md is its card",
+                          options.output.string(), farmbench::counted(summary.farms, "farm"),
+                          farmbench::counted(summary.scans, "scan"),
                           1e-6 * static_cast<double>(summary.points)));
 }
 

@@ -12,6 +12,7 @@
 #include "core/data_folder.h"
 #include "core/manifest.h"
 #include "core/text.h"
+#include "farmbench/format.h"
 #include "farmbench/plan.h"
 #include "farmbench/reports.h"
 
@@ -27,7 +28,8 @@ void run_plan(const Program& program, farmbench::RunOptions options) {
   program.result({{"output", options.output.string()},
                   {"farms", planned.farms},
                   {"changed", planned.changed}});
-  program.say(fmt::format("{}: {} farms{}", options.output.string(), planned.farms,
+  program.say(fmt::format("{}: {}{}", options.output.string(),
+                          farmbench::counted(planned.farms, "farm"),
                           planned.changed > 0 ? "" : ", planned before"));
   program.say(
       "farmbench farm runs one of tasks.csv, farmbench merge makes the table of all; "

@@ -50,8 +50,9 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
                      });
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  program.say(fmt::format("{} farms, {} of them run before, {:.0f} s", summary.result.farms.size(),
-                          summary.resumed, seconds));
+  program.say(fmt::format("{}, {} of them run before, {:.0f} s",
+                          farmbench::counted(summary.result.farms.size(), "farm"), summary.resumed,
+                          seconds));
   program.say("");
   say_summary(program, summary, options.output.string());
 }
