@@ -51,6 +51,8 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
   scores.field = score_field(truth, estimate, options);
   scores.boxes = score_boxes({&scores.field, 1});
   scores.heights = score_heights(scores.field);
+  if (const std::string& why = estimate.diagnostics.why_no_plots; !why.empty())
+    scores.notes.push_back("The estimate has no plots: " + why);
   if (lie_apart(truth, estimate)) scores.notes.emplace_back(kApart);
   if (scores.boxes.found > 0 && scores.heights.empty()) {
     scores.notes.push_back(std::string("No height is compared: no ") +

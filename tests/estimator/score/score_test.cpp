@@ -339,6 +339,14 @@ TEST_F(ScoreRun, SaysWhyThereIsNothingToCompare) {
   EXPECT_THAT(notes_for(5, {{"height_max_m", "0.7"}}), ElementsAre(HasSubstr("no true plot has")));
 }
 
+TEST_F(ScoreRun, SaysWhyAnEstimateHasNoPlots) {
+  const std::vector<TruePlot> truth = read_truth(folder_.path() / "farm");
+  estimate::Estimate none{.method = "m"};
+  EXPECT_THAT(score(truth, none, {}).notes, IsEmpty());
+  none.diagnostics.why_no_plots = "no canopy";
+  EXPECT_THAT(score(truth, none, {}).notes, ElementsAre("The estimate has no plots: no canopy"));
+}
+
 TEST_F(ScoreRun, RefusesATruthThatHasAPlotTwice) {
   const auto truth_with = [&](int id, double x) {
     const std::filesystem::path truth = folder_.path() / "truth.geojson";
