@@ -63,9 +63,8 @@ FarmRecord read_record(const fs::path& folder) {
     if (results.contains("soil_reflectance"))
       record.soil_reflectance = share_of(folder, results["soil_reflectance"]);
     return record;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json",
-                     std::string("is not the manifest of a farm: ") + error.what());
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(folder, "is no farm folder (its manifest.json is not farmgen generate's)");
   }
 }
 
