@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include "core/data_folder.h"
+#include "core/error.h"
 #include "core/program.h"
 #include "core/text.h"
 #include "lidar/fly_place.h"
@@ -28,6 +29,7 @@ struct Arguments {
   std::string flight;
   std::string waypoints;
   std::string part;
+  const CLI::App* fly = nullptr;
   lidar::FlyPlaceOptions options;
 };
 
@@ -55,8 +57,20 @@ void report(const Program& program, const Arguments& arguments, const lidar::Pla
                   1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
+// Throws InputError on options that would change nothing beside the others.
+void require_effect(const CLI::App& fly, const lidar::FlyOptions& options) {
+  if (fly.count("--spacing") > 0 && options.pattern == "single")
+    throw InputError("--spacing is between neighbouring strips; --pattern single flies only one");
+  const CLI::Option& wind = *fly.get_option("--wind");
+  for (const CLI::Option* option : fly.get_options()) {
+    if (option->get_group() == wind.get_group() && option->count() > 0 && wind.count() == 0)
+      throw InputError(option->get_name() + " tells of a wind, and --wind gives none");
+  }
+}
+
 void run_fly(const Program& program, Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
+  require_effect(*arguments.fly, arguments.options.flight);
   arguments.place = found_file(arguments.place, "worlds");
   lidar::FlyOptions& options = arguments.options.flight;
   options.seed = program.common().seed;
@@ -134,6 +148,7 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                                    "(docs/flight.md)")
                         ->excludes(flight);
   add_settings(fly, options, *flight, *waypoints);
+  arguments.fly = &fly;
   fly.add_option("--format", options.formats,
                  "also write the scan as " + alternatives(record::further_formats()) +
                      " (docs/formats.md) beside cloud.pcd; separated by commas, or repeated")

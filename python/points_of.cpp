@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "points_of.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "plotscan/error.h"
@@ -28,6 +30,31 @@ py::ssize_t place_of(const py::dtype& record, const char* field) {
   return found[1].cast<py::ssize_t>();
 }
 
+// Throws where the first finite point is so far from the origin that float32 counts in steps that
+// blur plots: in UTM northings in half a metre.
+void require_near(const PointsView& relative) {
+  constexpr float kCoarsest_m = 0.05F;
+  for (std::size_t i = 0; i < relative.size(); ++i) {
+    const auto [x, y, z] = relative[i];
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    const auto farthest = static_cast<float>(std::max(std::abs(x), std::abs(y)));
+    const float step_m = std::nextafter(farthest, INFINITY) - farthest;
+    if (step_m <= kCoarsest_m) return;
+    throw BadInput("point " + std::to_string(i) + " lies " +
+                   std::to_string(std::llround(farthest)) +
+                   " m from the origin, where float32 counts in steps of " +
+                   std::to_string(std::lround(1000 * step_m)) +
+                   " mm: give float64, or take an origin off in float64 and give it as origin_m");
+  }
+}
+
+PointsView floats(const void* x, std::size_t points, std::size_t step,
+                  const std::array<double, 3>& origin_m) {
+  const auto* first = static_cast<const float*>(x);
+  require_near({first, points, step});
+  return {first, points, step, origin_m};
+}
+
 }  // namespace
 
 PointsView points_of(const py::array& array, const std::array<double, 3>& origin_m) {
@@ -43,13 +70,11 @@ PointsView points_of(const py::array& array, const std::array<double, 3>& origin
     const auto four = static_cast<py::ssize_t>(sizeof(float));
     if (x < 0 || place_of(dtype, "y") != x + four || place_of(dtype, "z") != x + 2 * four)
       refuse(array);
-    const auto* first = static_cast<const char*>(array.data()) + x;
-    return {reinterpret_cast<const float*>(first), points, step, origin_m};
+    return floats(static_cast<const char*>(array.data()) + x, points, step, origin_m);
   }
   if (array.ndim() != 2 || array.shape(1) < 3) refuse(array);
   if (!empty && array.strides(1) != array.itemsize()) refuse(array);
-  if (dtype.equal(py::dtype::of<float>()))
-    return {static_cast<const float*>(array.data()), points, step, origin_m};
+  if (dtype.equal(py::dtype::of<float>())) return floats(array.data(), points, step, origin_m);
   if (!dtype.equal(py::dtype::of<double>())) refuse(array);
   if (origin_m != std::array<double, 3>{}) {
     throw BadInput(

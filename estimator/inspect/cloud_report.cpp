@@ -21,6 +21,7 @@ using nlohmann::json;
 constexpr double kLongestSide_m = 10000;  // as cloud::require_area has it
 constexpr double kShortestSide_m = 0.1;   // of the smallest plots
 constexpr std::size_t kGroundClass = 2;
+constexpr std::array<std::size_t, 2> kNoiseClasses = {7, 18};
 
 void judge_density(CloudReport& report) {
   const double density = report.density.median;
@@ -52,9 +53,13 @@ void judge_steps(const cloud::CoordinateSteps& steps, CloudReport& report) {
 
 // A cloud whose crop was filtered out.
 void judge_classes(CloudReport& report) {
-  const auto& classes = report.facts.classes;
-  if (classes && (*classes)[kGroundClass] == report.facts.points)
-    report.obstacles.emplace_back("every point is of the class ground: the crop was taken out");
+  if (!report.facts.classes) return;
+  const scan::CountByNumber& classes = *report.facts.classes;
+  std::uint64_t noise = 0;
+  for (const std::size_t number : kNoiseClasses) noise += classes[number];
+  if (classes[kGroundClass] > 0 && classes[kGroundClass] + noise == report.facts.points)
+    report.obstacles.emplace_back(
+        "every point but noise is of the class ground: the crop was taken out");
 }
 
 json counts_json(const std::optional<scan::CountByNumber>& counts) {

@@ -12,7 +12,6 @@
 #include "farmfolder/terrain_ply.h"
 
 #include "core/error.h"
-#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/place_json.h"
 #include "farm/farm.h"
@@ -64,9 +63,8 @@ FarmRecord read_record(const fs::path& folder) {
     if (results.contains("soil_reflectance"))
       record.soil_reflectance = share_of(folder, results["soil_reflectance"]);
     return record;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json",
-                     "is not the manifest of a farm: " + json_reason(error));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(folder, "is no farm folder (its manifest.json is not farmgen generate's)");
   }
 }
 

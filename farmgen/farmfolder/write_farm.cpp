@@ -97,6 +97,7 @@ void write_farm(const farm::Farm& farm, const fs::path& folder, bool replace, Ma
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
+  report(0);
   OutputFolder output(folder, replace, origin.command, origin.inputs);
   write_models(output.path(), farm);
   write_truth(output.path() / "truth", farm, threads);

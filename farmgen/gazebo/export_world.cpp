@@ -94,6 +94,7 @@ nlohmann::json results_of(const EntityCounts& counts, const farm::Farm& farm) {
 ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
                            const fs::path& folder, const ExportOptions& options, Manifest origin,
                            const ProgressReport& progress) {
+  progress(0);
   const std::vector<PlantGroups> groups =
       options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
   require_different_names(farm, groups, options.drone);

@@ -72,6 +72,17 @@ std::vector<std::string> names_of(const CLI::App& app, bool options) {
   return names;
 }
 
+// CLI11's message as people say it.
+std::string plain_words(const std::string& message) {
+  const std::string conversion = "Could not convert: ";
+  if (message.starts_with(conversion))
+    return message.substr(conversion.size()) + " cannot be read as a number";
+  const auto repeated = message.find(": At Most 1 required");
+  if (repeated != std::string::npos)
+    return message.substr(0, repeated) + " is given more than once";
+  return message;
+}
+
 }  // namespace
 
 Program::Program(std::string name, const std::string& description)
@@ -203,7 +214,6 @@ std::string Program::usage_error(const CLI::ParseError& error,
     return "\"" + first + "\" is no command; " +
            (meant ? "did you mean " + *meant + "?" : "there are " + joined(commands, ", ") + help);
   }
-  std::string message = error.what();
   if (known) {
     const std::vector<std::string> options = names_of(*app_.get_subcommand(first), true);
     for (const std::string& argument : arguments) {
@@ -213,7 +223,7 @@ std::string Program::usage_error(const CLI::ParseError& error,
         return "there is no option " + given + "; did you mean " + *meant + "?";
     }
   }
-  return message + help;
+  return plain_words(error.what()) + help;
 }
 
 void Program::say(const std::string& line) const {

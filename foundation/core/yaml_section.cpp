@@ -30,8 +30,15 @@ std::vector<std::string> split_path(const std::string& path) {
   }
 }
 
-// The node's child of that name or index; a map's child is made where it is missing.
-YAML::Node child(YAML::Node node, const std::string& step, const std::string& assignment) {
+std::string path_below(const std::string& path, const std::string& key) {
+  if (path.empty() || key.empty()) return path + key;
+  return path + "." + key;
+}
+
+// The node's child of that name or index; a map's child is made where it is missing. `path` leads
+// to the node.
+YAML::Node child(YAML::Node node, const std::string& path, const std::string& step,
+                 const std::string& assignment) {
   if (node.IsSequence()) {
     const auto index = parsed<std::size_t>(step);
     if (!index || *index >= node.size()) {
@@ -44,6 +51,10 @@ YAML::Node child(YAML::Node node, const std::string& step, const std::string& as
     throw InputError("--set " + assignment + ": \"" + step + "\" names a part of the plain value " +
                      node.Scalar());
   }
+  if (!path.empty() && parsed<std::size_t>(step)) {
+    throw InputError("--set " + assignment + ": there is no list " + path + " of which " + step +
+                     " would be an entry; set the whole list, as in --set " + path + "=[...]");
+  }
   return node[step];
 }
 
@@ -54,9 +65,11 @@ void apply_override(const YAML::Node& root, const std::string& assignment) {
   }
   YAML::Node node;
   node.reset(root);
+  std::string path;
   for (const std::string& step : split_path(assignment.substr(0, equals))) {
     if (step.empty()) throw InputError("--set " + assignment + ": the key has an empty part");
-    node.reset(child(node, step, assignment));
+    node.reset(child(node, path, step, assignment));
+    path = path_below(path, step);
   }
   try {
     node = YAML::Load(assignment.substr(equals + 1));
@@ -115,11 +128,6 @@ YAML::Node parse_map(const std::string& text, const std::filesystem::path& file)
   }
 }
 
-std::string path_below(const std::string& path, const std::string& key) {
-  if (path.empty() || key.empty()) return path + key;
-  return path + "." + key;
-}
-
 // A scalar wrapped in a map with that one key; other entries unchanged.
 YAML::Node as_map(const YAML::Node& entry, const std::string& scalar_key) {
   if (!entry.IsScalar() || scalar_key.empty()) return entry;
@@ -159,7 +167,8 @@ void YamlDocument::fail(const YAML::Mark& mark, const std::string& path,
   const std::string& text = path.empty() ? message : path + " " + message;
   for (auto assignment = overrides_.rbegin(); assignment != overrides_.rend(); ++assignment) {
     const std::string key = assignment->substr(0, assignment->find('='));
-    if (path == key || path.starts_with(key + ".")) {
+    const bool made = mark.is_null() && key.starts_with(path + ".");  // the file has no such part
+    if (path == key || path.starts_with(key + ".") || made) {
       throw InputError("--set " + *assignment + ": " + text);
     }
   }
@@ -259,7 +268,7 @@ std::optional<std::string> YamlSection::scalar(const std::string& key, bool requ
     if (required) fail_missing(key);
     return {};
   }
-  if (!at.IsScalar()) fail(key, "is not a single value");
+  if (!at.IsScalar()) fail(key, at.IsNull() ? "has no value" : "is not a single value");
   return at.Scalar();
 }
 

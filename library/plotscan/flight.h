@@ -33,7 +33,7 @@ struct FlightSummary {
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
   double duration_s = 0;                // of the flight
-  std::vector<std::string> notes = {};  // what of an SDF world is not scanned
+  std::vector<std::string> notes = {};  // what of an SDF world is not scanned, or why nothing is
 };
 
 // What `lidarsim fly` does: flies the drone over a farm folder or an SDF world and writes the scan

@@ -10,6 +10,7 @@
 #include "farm/farm.h"
 #include "gazebo/read_world.h"
 #include "lidar/internal/drone_flight.h"
+#include "sensor/sensor.h"
 
 namespace plotscan::lidar {
 namespace fs = std::filesystem;
@@ -27,6 +28,30 @@ void require_wind_acts(const FlyOptions& options, bool plants_sway) {
                                 : "only a farm's plants sway, not those of an SDF world"));
 }
 
+void require_no_resource_paths(const FlyPlaceOptions& options, const fs::path& farm) {
+  if (options.resource_paths.empty()) return;
+  throw InputError("--resource-path is for SDF worlds; " + farm.string() +
+                   " is a farm folder, which holds its models");
+}
+
+// Why no shot met anything, most likely.
+std::string empty_note(const FlyOptions& options) {
+  const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
+  const std::string range = format_number(sensor.min_range_m) + " to " +
+                            format_number(sensor.max_range_m) + " m, the range of " + sensor.name;
+  const bool planned = !options.flight && !options.waypoints;
+  const std::string why = !planned ? "is the flight over the field, and low enough?"
+                          : options.altitude_m > sensor.max_range_m
+                              ? "--altitude " + format_number(options.altitude_m) + " is too high"
+                              : "does the sensor look down (--mount)?";
+  return "the scan is empty: nothing lies within " + range + "; " + why;
+}
+
+PlaceScan noted(PlaceScan scanned, const FlyOptions& options) {
+  if (scanned.summary.points == 0) scanned.notes.push_back(empty_note(options));
+  return scanned;
+}
+
 PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceOptions& options,
                     const ProgressReport& progress) {
   require_wind_acts(options.flight, false);
@@ -34,9 +59,10 @@ PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceO
       gazebo::read_world(file, {.resource_paths = options.resource_paths});
   options.flight.inputs = world.files;
   const SceneContent content = scene_content(world);
-  return {fly(site_of(world.name, content), Scene(content), scan_folder, options.flight,
-              options.replace, progress),
-          world.notes};
+  return noted({fly(site_of(world.name, content), Scene(content), scan_folder, options.flight,
+                    options.replace, progress),
+                world.notes},
+               options.flight);
 }
 
 }  // namespace
@@ -44,11 +70,13 @@ PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceO
 PlaceScan fly_place(const fs::path& place, const fs::path& scan_folder, FlyPlaceOptions options,
                     const ProgressReport& progress) {
   if (!fs::is_directory(place)) return fly_world(place, scan_folder, options, progress);
+  require_no_resource_paths(options, place);
   require_wind_acts(options.flight, true);
   const farm::Farm farm = farmfolder::read_farm(place);
   // The farm's manifest holds the hashes of its other files.
   options.flight.inputs = {place / "manifest.json"};
-  return {fly(farm, scan_folder, options.flight, options.replace, progress), {}};
+  return noted({fly(farm, scan_folder, options.flight, options.replace, progress), {}},
+               options.flight);
 }
 
 }  // namespace plotscan::lidar

@@ -18,12 +18,12 @@ struct FlyPlaceOptions {
 
 struct PlaceScan {
   FlySummary summary;
-  std::vector<std::string> notes;  // what in the world is not scanned, one line each
+  std::vector<std::string> notes;  // what is not scanned, or why nothing is, a line each
 };
 
 // Scans a place by its path: a farm's folder, or the file of any SDF world or model, and writes the
 // scan folder as fly does. Throws InputError as farmfolder::read_farm, gazebo::read_world and fly
-// do, and on a wind that would move neither the drone nor the plants.
+// do, on a wind that would move neither the drone nor the plants, and on resource paths for a farm.
 PlaceScan fly_place(const std::filesystem::path& place, const std::filesystem::path& scan_folder,
                     FlyPlaceOptions options, const ProgressReport& progress = {});
 

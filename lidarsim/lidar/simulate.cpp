@@ -221,6 +221,7 @@ void simulate(const Scene& scene, const sensor::Sensor& sensor, const Shots& sho
               const ProgressReport& progress) {
   const SequenceRange fired = fired_sequences(shots.fired.sequences(), options);
   const Simulator simulator(scene, sensor, shots, options, fired.end);
+  if (progress) progress(0);  // the time left counts from here, not from the scene's loading
   std::uint64_t next_sequence = fired.begin;
   const auto take = [&](tbb::flow_control& control) {
     const std::uint64_t begin = next_sequence;

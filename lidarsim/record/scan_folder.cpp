@@ -48,6 +48,8 @@ Eigen::Isometry3d mount_pose(const Eigen::Vector3d& rpy_rad) {
 
 FlightRecord read_flight_record(const std::filesystem::path& scan_folder) {
   const json manifest = read_manifest(scan_folder);
+  if (!exists(scan_folder / "sensor.yaml"))
+    throw InputError(scan_folder, "is no scan folder: it has no sensor.yaml");
   try {
     const json& options = manifest.at("options");
     const sensor::Sensor sensor = sensor::load_sensor(scan_folder / "sensor.yaml");

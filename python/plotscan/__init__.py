@@ -160,9 +160,10 @@ def write_cloud(
     origin_m: what the points' x, y, z count from, metres.
     encoding: one of the format's (docs/formats.md): "ascii", "binary", ...; "" is its first.
 
-    Raises BadInput on an extension or encoding that there is not, on a time or intensity that is not finite,
+    Raises BadInput on an extension or encoding that there is not, on masked points, on a time or intensity that is not finite,
     and on a file that exists.
     """
+    _require_unmasked(points)
     crs_wkt = ""
     if isinstance(points, Cloud):
         origin_m, crs_wkt, points = points.origin_m, points.crs_wkt, points.points
@@ -202,6 +203,15 @@ def estimate_settings(method: str = "lattice") -> List[Setting]:
     return _plotscan.estimate_settings(method)
 
 
+def _require_unmasked(points: Union[Cloud, numpy.ndarray]) -> None:
+    """Refuse masked values, which the compiled part would take for points."""
+    if isinstance(points, numpy.ma.MaskedArray) and numpy.any(numpy.asarray(points.mask).view(bool)):
+        raise BadInput(
+            "points have masked values, and masks are not read: give the points that count (points[~mask]), "
+            "or NaN for the others (points.filled(numpy.nan))"
+        )
+
+
 def estimate_field(
     points: Union[Cloud, numpy.ndarray],
     *,
@@ -224,10 +234,12 @@ def estimate_field(
 
     A field without plots has an estimate without plots; `why_no_plots` says why. Raises BadInput on settings that
     there are not or out of their range, on boxes without finite sides above 0, on an array that would have to be
-    copied, and when no point lies in the area; NothingMeasured when the points show no ground.
+    copied, on masked values, on float32 that counts in steps of over 5 cm, as UTM's northings do, and when no point
+    lies in the area; NothingMeasured when the points show no ground.
 
     Method: docs/methods.md, of this project.
     """
+    _require_unmasked(points)
     options = _field_options(crop_box, threads, settings)
     options.boxes = list(boxes)
     return _plotscan.estimate_field(points, options, origin_m, progress)

@@ -63,6 +63,17 @@ TEST(TimeLeft, ASlowStartIsForgotten) {
   }
 }
 
+// Half a minute of loading is no part of 10 s of work.
+TEST(TimeLeft, CountsFromWhereTheWorkBegins) {
+  TimeLeft time;
+  EXPECT_EQ(time.at(30, 0), std::nullopt);
+  for (int s = 1; s < 10; ++s) {
+    const auto left_s = time.at(30 + s, 0.1 * s);
+    EXPECT_EQ(left_s.has_value(), s >= TimeLeft::kSilent_s) << s;
+    EXPECT_NEAR(left_s.value_or(10 - s), 10 - s, 1e-9) << s;
+  }
+}
+
 TEST(WriteError, SaysThatThereIsNoSpaceLeft) {
   EXPECT_STREQ(WriteError("/dev/full").what(), "no space left on /dev/full");
   EXPECT_STREQ(WriteError("/nowhere/f.csv").what(),

@@ -91,5 +91,28 @@ TEST(YamlSection, AMissingKeyNamesTheOneThatIsSpeltNearlySo) {
   EXPECT_EQ(missing("width_m"), "f.yaml:1: width_m is missing") << "a known key is not misspelt";
 }
 
+TEST(YamlSection, AnEmptyValueIsNamed) {
+  const auto message = [](const std::string& text) {
+    return message_of<InputError>([&] { YamlSection::parse(text, "f.yaml").number("a", {0, 9}); });
+  };
+  EXPECT_EQ(message("a:\n"), "f.yaml:1: a has no value");
+  EXPECT_EQ(message("a: [1]\n"), "f.yaml:1: a is not a single value");
+}
+
+// The file has no list: nothing in it is to blame.
+TEST(YamlSection, AnEntryOfAListThatIsNotThereIsRefused) {
+  const auto message = [](const std::string& assignment) {
+    return message_of<InputError>([&] {
+      YamlSection::parse("a: {b: 1}\n", "f.yaml", {assignment}).section("a").list("ways", 9);
+    });
+  };
+  EXPECT_EQ(message("a.ways.0.width=2"),
+            "--set a.ways.0.width=2: there is no list a.ways of which 0 would be an entry; set the "
+            "whole list, as in --set a.ways=[...]");
+  EXPECT_EQ(message("a.ways.width=2"),
+            "--set a.ways.width=2: a.ways is not a list of 1 to 9 entries");
+  EXPECT_NO_THROW(YamlSection::parse("a: 1\n", "f.yaml", {"ways=[{width: 2}]"}).list("ways", 9));
+}
+
 }  // namespace
 }  // namespace plotscan

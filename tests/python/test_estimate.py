@@ -97,6 +97,26 @@ class Estimate(ExampleScan):
         with self.assertRaisesRegex(plotscan.BadInput, "these are float64: add it to them"):
             plotscan.estimate_field(columns, origin_m=(500000, 4000000, 300))
 
+    def test_masks_are_not_ignored(self):
+        points = numpy.ma.array(self.cloud.points)
+        self.assertEqual(plotscan.estimate_field(points).geojson, self.field.geojson)
+        points[3] = numpy.ma.masked
+        columns = numpy.ma.masked_greater(numpy.ones((100, 3)) * [1, 2, 300], 100)
+        for masked in (points, columns):
+            with self.assertRaisesRegex(plotscan.BadInput, "masks are not read"):
+                plotscan.estimate_field(masked)
+        with self.assertRaisesRegex(plotscan.BadInput, "masks are not read"):
+            plotscan.write_cloud(self.folder / "masked.pcd", points)
+
+    def test_float32_far_from_the_origin_is_refused(self):
+        columns = numpy.column_stack([self.cloud.points[axis] for axis in "xyz"])
+        moved = columns.astype(float) + (500000, 4600000, 300)
+        moved[0] = numpy.nan
+        with self.assertRaisesRegex(plotscan.BadInput, "point 1 lies [0-9]+ m .* in steps of 500 mm"):
+            plotscan.estimate_field(moved.astype(numpy.float32))
+        self.assertEqual(len(plotscan.estimate_field(moved).plots), 9)
+        self.assertEqual(len(plotscan.estimate_field(columns, origin_m=(500000, 4600000, 300)).plots), 9)
+
     def test_bad_options_are_refused(self):
         with self.assertRaisesRegex(ValueError, 'crop "rice" must be one of maize'):
             plotscan.estimate_field(self.cloud, crop="rice")

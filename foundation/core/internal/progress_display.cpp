@@ -28,9 +28,10 @@ void ProgressDisplay::show(double share) {
     return;
   }
   const auto now = Clock::now();
+  const auto left_s = time_left_.at(std::chrono::duration<double>(now - start_).count(), share);
   if (now - shown_ < (terminal_ ? Clock::duration(kRedrawn) : Clock::duration(kLine))) return;
   shown_ = now;
-  draw(share, time_left_.at(std::chrono::duration<double>(now - start_).count(), share));
+  draw(share, left_s);
 }
 
 void ProgressDisplay::draw(double share, std::optional<double> left_s) {

@@ -5,7 +5,12 @@
 
 namespace plotscan {
 
-std::optional<double> TimeLeft::at(double elapsed_s, double share) {
+std::optional<double> TimeLeft::at(double now_s, double share) {
+  if (share <= 0) {
+    *this = {};
+    start_s_ = now_s;
+  }
+  const double elapsed_s = now_s - start_s_;
   const double step_s = elapsed_s - before_s_;
   if (step_s > 0) {
     // Older speeds count less, by their age relative to the whole time.

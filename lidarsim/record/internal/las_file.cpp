@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "core/geodesy.h"
+#include "scan/cloud_system.h"
 #include "scan/las_crs.h"
 #include "scan/las_writer.h"
 #ifdef PLOTSCAN_HAVE_LASZIP
@@ -30,6 +31,14 @@ void place_in_utm(const Source& source, const std::filesystem::path& file, scan:
   };
 }
 
+// Clouds of others keep their system.
+void require_local(const Source& source, const std::filesystem::path& file) {
+  const std::string& stated = source.info.crs_wkt;
+  if (stated.empty() || stated == scan::local_crs_wkt()) return;
+  throw InputError(file, "--crs local is for clouds that state no system; this one states " +
+                             scan::crs_name(scan::short_crs(stated)) + ", which is kept");
+}
+
 scan::LasOptions las_options(const std::filesystem::path& file, const Source& source,
                              const WriteOptions& options) {
   scan::LasOptions las{.start = source.info.start, .crs_wkt = source.info.crs_wkt};
@@ -46,6 +55,7 @@ scan::LasOptions las_options(const std::filesystem::path& file, const Source& so
     };
   }
   las.labels = options.labels;
+  if (options.crs == "local") require_local(source, file);
   if (options.crs == "utm") place_in_utm(source, file, las);
   return las;
 }

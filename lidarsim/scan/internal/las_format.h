@@ -34,6 +34,7 @@ inline constexpr std::uint16_t kGeographicModel = 2;  // degrees
 inline constexpr std::uint16_t kProjectedKey = 3072;
 // Units of x and y of a projected system, and of z: EPSG codes.
 inline constexpr std::uint16_t kLinearUnitsKey = 3076;
+inline constexpr std::uint16_t kVerticalKey = 4096;  // the system of heights: its EPSG code
 inline constexpr std::uint16_t kVerticalUnitsKey = 4099;
 inline constexpr std::uint16_t kUserDefined = 32767;  // no code
 // Plotscan's own record: the UTC time of the points' time 0, as text.

@@ -5,8 +5,10 @@
 
 #include <fmt/core.h>
 
+#include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/geodesy.h"
+#include "scan/cloud_system.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
@@ -198,6 +200,22 @@ std::optional<double> unit_of_code(std::uint16_t code, CloudLayout& layout) {
   return std::nullopt;
 }
 
+// Metres in the unit of a system of heights of EPSG's, if it is one of North America's (data set
+// v10.076: NAVD88 and NGVD29, of which each unit has a code of its own).
+std::optional<double> unit_of_heights(std::uint16_t code) {
+  switch (code) {
+    case 5703:
+      return 1;
+    case 8228:
+      return kFoot_m;
+    case 5702:
+    case 6360:
+      return kUsSurveyFoot_m;
+    default:
+      return std::nullopt;
+  }
+}
+
 // GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
 void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& units) {
   std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
@@ -207,6 +225,7 @@ void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& unit
     if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
     if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
     if (key == las::kLinearUnitsKey) units.horizontal_m = unit_of_code(value, layout);
+    if (key == las::kVerticalKey && !units.vertical_m) units.vertical_m = unit_of_heights(value);
     if (key == las::kVerticalUnitsKey) units.vertical_m = unit_of_code(value, layout);
   }
 }
@@ -227,12 +246,14 @@ bool says_geographic(const std::string& wkt) {
 }
 
 // GeoTIFF lets a file leave out the unit of a system of EPSG's (OGC 19-008r4, requirements of
-// ProjLinearUnitsGeoKey): UTM is in metres; for others the unit is not known here, which is noted.
+// ProjLinearUnitsGeoKey), and some well-known text lacks it: UTM is in metres; for others the unit
+// is not known here, which is noted.
 void note_unknown_unit(const StatedUnits& stated, CloudLayout& layout) {
-  const std::string crs = "EPSG:" + std::to_string(layout.crs_epsg);
-  if (layout.crs_epsg == 0 || stated.wkt.horizontal_m || stated.keys.horizontal_m) return;
+  const std::string crs = layout.crs();
+  if (crs.empty() || layout.in_degrees || stated.wkt.horizontal_m || stated.keys.horizontal_m)
+    return;
   if (utm_system(crs) || is_geographic(crs)) return;
-  layout.notes.push_back("it states no unit, and that of its system, " + crs +
+  layout.notes.push_back("it states no unit, and that of its system, " + crs_name(crs) +
                          ", is not known here: taken for metres; --units says otherwise");
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <regex>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -12,6 +13,8 @@ namespace {
 
 // How many lines are searched for the first point.
 constexpr std::size_t kMostHeaderLines = 100;
+// std::regex recurs for each letter.
+constexpr std::size_t kLongestNumber = 50;
 
 // Names of x, y and z, as plain_column returns them. The first name that is found counts. Those
 // with colons are ParaView's and VeloView's.
@@ -68,6 +71,44 @@ bool has_decimal_commas(std::string_view line) {
   return pointed != line && is_point(columns);
 }
 
+// Whether the line begins with three numbers, some of which have their thousands set off: 1,234.5
+// or 4.600.000,25 or 4'600'000.
+bool has_set_off_thousands(std::string_view line) {
+  std::string words(line);
+  std::ranges::replace_if(
+      words, [](char c) { return c == ';' || c == '"'; }, ' ');
+  std::vector<std::string_view> columns;
+  split_columns(words, ' ', columns);
+  static const std::regex kThousands(R"(,*[+-]?\d{1,3}([,.'])\d{3}(\1\d{3})*([.,]\d+)?,*)");
+  static const std::regex kPlain(R"(,*[+-]?\d+([.,]\d+)?,*)");
+  int numbers = 0;
+  int set_off = 0;
+  for (const std::string_view column : columns) {
+    const std::string word(column);
+    if (word == ",") continue;
+    if (word.size() > kLongestNumber) return false;
+    const bool has_thousands = std::regex_match(word, kThousands);
+    if (!has_thousands && !std::regex_match(word, kPlain)) return false;
+    if (has_thousands) ++set_off;
+    if (++numbers == 3) return set_off > 0;
+  }
+  return false;
+}
+
+// Throws InputError where the line is a point whose numbers are written in another way.
+void refuse_other_numbers(const std::filesystem::path& file, const HeaderLines& lines,
+                          std::string_view line) {
+  if (has_decimal_commas(line)) {
+    throw InputError(file, lines.line(),
+                     "has numbers with decimal commas; write them with points (sed 'y/,/./')");
+  }
+  if (has_set_off_thousands(line)) {
+    throw InputError(file, lines.line(),
+                     "has numbers whose thousands are set off, such as 1,234.5; write them as "
+                     "1234.5");
+  }
+}
+
 // The lines before the points, and the first point.
 struct TextHeader {
   std::string first_point;
@@ -110,10 +151,7 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
       header.first_point = line;
       return header;
     }
-    if (!is_comment(line) && has_decimal_commas(line)) {
-      throw InputError(file, lines.line(),
-                       "has numbers with decimal commas; write them with points (sed 'y/,/./')");
-    }
+    if (!is_comment(line)) refuse_other_numbers(file, lines, line);
     take_header_line(lines, line, header);
   }
   throw InputError(file,

@@ -146,6 +146,9 @@ TEST(CloudReport, TellsReturnsClassesAndTime) {
   EXPECT_EQ(document["marked"], 1);
   EXPECT_EQ(document["time"]["first_utc"], "2019-01-01T00:00:00Z");
   EXPECT_EQ(document["time"]["last_utc"], "2019-01-01T00:01:39Z");
+  EXPECT_THAT(report.obstacles,
+              ElementsAre(HasSubstr("are too few"),
+                          "every point but noise is of the class ground: the crop was taken out"));
   EXPECT_THAT(report.facts.fields,
               ElementsAre("x", "y", "z", "intensity", "return_number", "number_of_returns",
                           "classification", "withheld", "gps_time"));

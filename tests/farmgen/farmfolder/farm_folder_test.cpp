@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Damage{"CountThatIsNot", "manifest.json", "\"plants\": 100",
                              "\"plants\": 101", "has 100 plants; the farm has 101"},
                       Damage{"NoFarmManifest", "manifest.json", "\"models\"", "\"moduls\"",
-                             "is not the manifest of a farm"},
+                             "is no farm folder (its manifest.json"},
                       Damage{"BrokenManifest", "manifest.json", "{", "(", "not JSON"},
                       Damage{"HeightThatIsNone", "truth/plots.geojson", "\"height_p99_m\"",
                              "\"height_p98_m\"", "feature 1: height_p99_m is missing"},

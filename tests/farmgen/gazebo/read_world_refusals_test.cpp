@@ -117,6 +117,11 @@ TEST_F(ReadWorld, ErrorsDeepInIncludesAreRefused) {
   write_model("models/inner", "<model name='i'><link name='same'/><link name='same'/></model>");
   EXPECT_THAT(refusal("<include><uri>model://outer</uri></include>"),
               AllOf(HasSubstr("inner/model.sdf"), HasSubstr("same")));
+  // Of this one libsdformat 12 tells on stderr alone.
+  write_model("models/inner",
+              "<model name='i'><link name='l'/></model><model name='k'><link name='l'/></model>");
+  EXPECT_THAT(refusal("<include><uri>model://outer</uri></include>"),
+              AllOf(HasSubstr("inner/model.sdf"), HasSubstr("one model")));
 }
 
 TEST_F(ReadWorld, IncludesInACircleAreRefused) {

@@ -19,7 +19,9 @@
 namespace plotscan::lidar {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::message_of;
 using testing::TemporaryFolder;
 
@@ -248,13 +250,17 @@ TEST(Fly, CropIsAtRestWithoutWind) {
   EXPECT_TRUE(flown_cloud(folder, options) == rest);
 }
 
-TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
-  const TemporaryFolder folder;
-  const auto place = folder.path() / "farm";
+std::filesystem::path written_farm(const TemporaryFolder& folder) {
   farm::Farm farm = testing::small_farm();
   for (std::size_t i = 0; i < farm.plants.size(); ++i)
     farm.plants[i].id = static_cast<std::uint32_t>(i + 1);  // as a farm's folder has them
-  farmfolder::write_farm(farm, place, false, {.command = "farmgen generate"});
+  farmfolder::write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  return folder.path() / "farm";
+}
+
+TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
+  const TemporaryFolder folder;
+  const auto place = written_farm(folder);
   FlyPlaceOptions options{.flight = {.flight = short_flight(folder), .wind_acts_on = "drone"}};
   options.flight.wind.mean_m_s = 3;
   const auto fly_here = [&] { fly_place(place, folder.path() / "scan", options); };
@@ -267,6 +273,31 @@ TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
   const auto world = folder.write("world.sdf", "<sdf version='1.9'/>");
   EXPECT_THAT(message_of<InputError>([&] { fly_place(world, folder.path() / "scan", options); }),
               HasSubstr("only a farm's plants sway"));
+}
+
+TEST(FlyPlace, AnEmptyScanSaysWhy) {
+  const TemporaryFolder folder;
+  const auto place = written_farm(folder);
+  FlyPlaceOptions options{.flight = {.flight = short_flight(folder)}, .replace = true};
+  const auto notes = [&] { return fly_place(place, folder.path() / "scan", options).notes; };
+  EXPECT_THAT(notes(), IsEmpty());
+  options.flight.flight = folder.write("far.tum", "0 9000 0 5 0 0 0 1\n1 9003 0 5 0 0 0 1\n");
+  EXPECT_THAT(
+      notes(),
+      ElementsAre("the scan is empty: nothing lies within 0.4 to 100 m, the range of vlp16; "
+                  "is the flight over the field, and low enough?"));
+  options.flight.flight.reset();
+  options.flight.speed_m_s = 6;
+  options.flight.altitude_m = 120;
+  EXPECT_THAT(notes(), ElementsAre(HasSubstr("--altitude 120 is too high")));
+}
+
+TEST(FlyPlace, AFarmHoldsItsModels) {
+  const TemporaryFolder folder;
+  FlyPlaceOptions options{.resource_paths = {folder.path()}};
+  EXPECT_THAT(
+      message_of<InputError>([&] { fly_place(folder.path(), folder.path() / "scan", options); }),
+      HasSubstr("--resource-path is for SDF worlds"));
 }
 
 TEST(Fly, SwayingCropHasTheSameBytesForAnyNumberOfThreads) {

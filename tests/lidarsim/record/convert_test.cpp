@@ -267,6 +267,9 @@ TEST_F(Convert, LasToLasKeepsTheUnits) {
   convert(feet, out, {});
   EXPECT_EQ(scan::read_cloud_system(out).units, scan::read_cloud_system(feet).units);
   EXPECT_EQ(scan::crs_name(scan::read_cloud_system(out).crs), "EPSG:2264");
+  EXPECT_THAT(refusal(feet, "local.las", {.write = {.crs = "local"}}),
+              HasSubstr("states EPSG:2264, which is kept"));
+  EXPECT_NO_THROW(convert(scan_, folder_.path() / "local.las", {.write = {.crs = "local"}}));
 }
 
 // Its time is told by the file, and --start tells it better.

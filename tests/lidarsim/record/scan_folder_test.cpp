@@ -43,7 +43,7 @@ TEST(ScanFolder, AnotherFolderIsRefused) {
               HasSubstr("no manifest.json"));
   std::ofstream(folder.path() / "manifest.json") << R"({"options": {"sensor": "vlp16"}})";
   EXPECT_THAT(message_of<InputError>([&] { read_flight_record(folder.path()); }),
-              HasSubstr("sensor.yaml"));
+              HasSubstr("is no scan folder: it has no sensor.yaml"));
 }
 
 }  // namespace

@@ -67,6 +67,15 @@ TEST_F(ForeignLasFile, ASystemOfUnknownUnitIsNoted) {
   EXPECT_THAT(notes_of(2263), ElementsAre(HasSubstr("EPSG:2263, is not known here")));
   EXPECT_TRUE(notes_of(32617).empty());
   EXPECT_TRUE(notes_of(26917).empty());
+  const auto notes_of_text = [&](const std::string& wkt) {
+    return read({.records = record("LASF_Projection", 2112, wkt), .record_count = 1}, {{}})
+        .summary.system.notes;
+  };
+  EXPECT_THAT(notes_of_text(R"(PROJCS["NAD83 / New York Long Island",GEOGCS["NAD83"]])"),
+              ElementsAre(HasSubstr("NAD83 / New York Long Island, is not known here")));
+  EXPECT_THAT(notes_of_text(R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","2263"]])"),
+              ElementsAre(HasSubstr("EPSG:2263, is not known here")));
+  EXPECT_TRUE(notes_of_text(R"(PROJCS["a",GEOGCS["b"],AUTHORITY["EPSG","32617"]])").empty());
 }
 
 constexpr double kUsFoot = 1200.0 / 3937.0;
@@ -101,7 +110,13 @@ TEST_F(ForeignLasFile, StatedUnitsBecomeMetres) {
        kUsFoot, 0.3048},
       {key_record({{1024, 1}, {3072, 2264}, {3076, 9003}}), kUsFoot, kUsFoot},
       {key_record({{1024, 1}, {3076, 9002}, {4099, 9001}}), 0.3048, 1},
-      {key_record({{1024, 1}, {3076, 9001}, {4099, 9003}}), 1, kUsFoot}};
+      {key_record({{1024, 1}, {3076, 9001}, {4099, 9003}}), 1, kUsFoot},
+      // NAVD88 in US survey feet, feet and metres, NGVD29 in US survey feet (EPSG).
+      {key_record({{1024, 1}, {3072, 32617}, {4096, 6360}}), 1, kUsFoot},
+      {key_record({{1024, 1}, {3072, 32617}, {4096, 8228}}), 1, 0.3048},
+      {key_record({{1024, 1}, {3076, 9003}, {4096, 5703}}), kUsFoot, 1},
+      {key_record({{1024, 1}, {3072, 32617}, {4096, 5702}}), 1, kUsFoot},
+      {key_record({{1024, 1}, {3072, 32617}, {4096, 6360}, {4099, 9002}}), 1, 0.3048}};
   for (const Case& stated : cases) {
     const ForeignLas las{
         .offset_m = {2e6, 6e5, 1000}, .records = stated.records, .record_count = 1};

@@ -57,6 +57,15 @@ TEST_F(TextCloud, DecimalCommasAreNamed) {
   EXPECT_THAT(refusal("x;y;z\n1,5;2,5;3\n"), HasSubstr("cloud.txt:2: "));
 }
 
+TEST_F(TextCloud, ThousandsThatAreSetOffAreNamed) {
+  for (const char* text :
+       {"1,234.5 2,345.6 12.5\n", "x;y;z\n1.234,5;2.345,6;12.5\n", "512.345,67 4.123.456,78 1,5\n",
+        "512'345.6 4'123'456.7 -1.5\n", "x,y,z\n\"512,345.6\",\"4,123,456.7\",1.5\n"}) {
+    EXPECT_THAT(refusal(text), HasSubstr("thousands are set off")) << text;
+  }
+  EXPECT_THAT(refusal("area 1,234 5,678\nno point\n"), HasSubstr("is neither a PCD"));
+}
+
 TEST_F(TextCloud, HeadersNameTheColumns) {
   EXPECT_EQ(read("//X Y Z R G B\n512345.6789 4123456.7891 -1.5 1 2 3\n0.001 20 3 4 5 6\n"),
             kPoints);
