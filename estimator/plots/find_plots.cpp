@@ -146,7 +146,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
                 int threads) {
   const Frame frame = frame_of(axes);
   const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
-  const std::array scales = {field.scale(), CanopyScale{leaves_m, leaves_m + kStep_m}};
+  const std::array scales = {field.scale(), CanopyScale{leaves_m, leaves_m + kStep_m, true}};
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
   const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
@@ -183,15 +183,18 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error) {
-  const FieldCanopy field(points, noise_m, threads, ground_error);
-  const CanopyRaster coarse =
-      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+  const FieldBlocks blocks(points, noise_m, threads);
   Look best{no_plots("no canopy stands out from the ground here")};
   bool first = true;
-  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
-    Look look = look_along(axes, field, noise_m, hints, threads);
-    if (first || look.evidence > best.evidence) best = std::move(look);
-    first = false;
+  for (const double crop_top_m : blocks.crop_tops_m()) {
+    const FieldCanopy field(points, blocks, crop_top_m, threads, ground_error);
+    const CanopyRaster coarse =
+        rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+    for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
+      Look look = look_along(axes, field, noise_m, hints, threads);
+      if (first || look.evidence > best.evidence) best = std::move(look);
+      first = false;
+    }
   }
   return std::move(best.field);
 }

@@ -146,6 +146,7 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
                 static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
             const std::size_t cell = a * static_cast<std::size_t>(b_cells) + b;
             for (std::size_t k = 0; k < scales.size(); ++k) {
+              if (i >= field.crop_points() && !scales[k].with_tall) continue;
               std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
               sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
                              std::memory_order_relaxed);

@@ -2,14 +2,10 @@
 #include "plots/internal/field_canopy.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -18,199 +14,54 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeast_m = 0.05;          // lower is no canopy, however little the noise
-constexpr double kLeastDensity = 0.1;      // of the usual block's: less is the survey's margin
-constexpr double kLeastCanopyShare = 0.1;  // of a block's returns, where there is canopy
-constexpr double kBlockTop = 0.9;          // quantile of a block's canopy returns: its top
-constexpr std::size_t kMostBlocks = 1 << 18;
-constexpr int kMostPatches = 3;          // of a block's side
-constexpr double kPatchReturns = 12;     // of the usual patch, at least: fewer lie near some plane
-constexpr float kLeastPatchReturns = 4;  // of a patch that is judged
-// Canopy scatters more than this many sigmas of the noise; what scatters less is a surface. Beams
-// straight down have 1.25 times the noise of the field; roofs and cars: 1.0 in the median; soybeans
-// under 5 cm of range noise: 2.1.
-constexpr double kSurfaceSigmas = 1.5;
-constexpr int kCells = 5;  // of a block's side: that of the ground's grid
+constexpr double kTall = 2;  // times the crop's top: no plot of the field grows so tall
+constexpr int kCells = 5;    // of a block's side: that of the ground's grid
 // Standard error of ground that is too unsure, as a share of the usual canopy's height: heights
 // there are known to 12.5 % (95 %). In plots it is 0.05 at most (99 % of the canopy's returns of 44
 // farms), on ridges that a ground cuts off 0.04 to 0.3. Where all ground is unsure, as in sparse
 // clouds, it must be kUnsureTimes that under the usual canopy.
 constexpr double kUnsureShare = 0.0625, kUnsureTimes = 3;
 
-constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
-
-// Counts of heights in bins 10 % wide.
-class HeightCounts {
- public:
-  explicit HeightCounts(double least_m) : least_m_(least_m) {}
-  void add(double height_m) {
-    const double step = std::log(height_m / least_m_) * kPerLog;
-    ++counts_[std::min(counts_.size() - 1, static_cast<std::size_t>(std::max(0.0, step)))];
+// Calls use(number) for a block and those beside it.
+template <typename Use>
+void for_blocks_about(const FieldBlocks& blocks, std::size_t number, const Use& use) {
+  const std::size_t along_y = blocks.along_y(), along_x = blocks.facts().size() / along_y;
+  const std::size_t x = number / along_y, y = number % along_y;
+  for (std::size_t near_x = x - std::min<std::size_t>(x, 1); near_x < std::min(x + 2, along_x);
+       ++near_x) {
+    for (std::size_t near_y = y - std::min<std::size_t>(y, 1); near_y < std::min(y + 2, along_y);
+         ++near_y)
+      use(near_x * along_y + near_y);
   }
-  double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
-  double quantile(double share) const {
-    const double wanted = share * count();
-    double below = 0;
-    std::size_t step = 0;
-    while (step + 1 < counts_.size() && below + counts_[step] < wanted) below += counts_[step++];
-    return least_m_ * std::exp((static_cast<double>(step) + 0.5) / kPerLog);
-  }
-
- private:
-  static constexpr double kPerLog = 10.5;  // steps a factor e
-  double least_m_;
-  std::array<std::uint32_t, 64> counts_{};
-};
-
-// Returns of a patch as if they lay on a plane; metres.
-class Patch {
- public:
-  void add(const Eigen::Vector3f& point) {
-    ++count_;
-    sum_ += point;
-    products_ += point * point.transpose();
-  }
-  float count() const { return count_; }
-  float mean_height() const { return sum_.z() / std::max(1.0F, count_); }
-  // Standard deviation of the returns about the best plane through them, of any orientation.
-  double sd_about_plane() const {
-    const Eigen::Matrix3d covariance =
-        (products_ - sum_ * sum_.transpose() / count_).cast<double>();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, axes.eigenvalues()(0)) / std::max(1.0, count_ - 3.0));
-  }
-
- private:
-  float count_ = 0;
-  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
-  Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
-};
-
-// Half of the canopy's volume has its top below this height. It stays the crop's height even with
-// many blocks around it of low weeds, or of ground to which the survey's strips give different
-// heights.
-double usual_top_m(std::vector<double> tops_m) { return self_weighted_median(std::move(tops_m)); }
-
-// Number of patches along a block's side with which the usual patch holds enough returns.
-std::size_t patches_for(std::span<const std::uint32_t> block_of_point, std::size_t blocks) {
-  std::vector<double> counts(blocks);
-  for (const std::uint32_t block : block_of_point)
-    if (block != kNoBlock) counts[block] += 1;
-  std::erase(counts, 0);
-  if (counts.empty()) return 1;
-  const double most = std::sqrt(quantile(std::move(counts), 0.5) / kPatchReturns);
-  return static_cast<std::size_t>(std::clamp(most, 1.0, 1.0 * kMostPatches));
 }
 
 }  // namespace
 
-struct FieldCanopy::Block {
-  explicit Block(double canopy_m) : heights(canopy_m) {}
-  std::uint32_t count = 0;
-  HeightCounts heights;
-  std::array<Patch, static_cast<std::size_t>(kMostPatches) * kMostPatches> patches{};
-
-  bool has_canopy() const { return heights.count() >= kLeastCanopyShare * count; }
-  // Most of the patches that stand above the ground scatter no more than noise does.
-  bool is_surface(double canopy_m, double noise_m) const {
-    int high = 0, smooth = 0;
-    for (const Patch& patch : patches) {
-      if (patch.count() < kLeastPatchReturns || patch.mean_height() < canopy_m) continue;
-      ++high;
-      smooth += patch.sd_about_plane() < kSurfaceSigmas * noise_m ? 1 : 0;
-    }
-    return 2 * smooth > high;
-  }
-};
-
-// How many blocks cover the points; 0 where no point is finite.
-std::size_t FieldCanopy::lay_out_blocks(std::span<const Eigen::Vector3f> points) {
-  low_.setConstant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low_;
-  for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
-    low_ = low_.cwiseMin(point.head<2>().cast<double>());
-    high = high.cwiseMax(point.head<2>().cast<double>());
-  }
-  if (!(low_.x() <= high.x())) return 0;
-  const auto blocks = [&](double extent_m) {
-    return static_cast<std::size_t>(extent_m / block_m_) + 1;
-  };
-  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
-  blocks_along_y_ = blocks(high.y() - low_.y());
-  return blocks(high.x() - low_.x()) * blocks_along_y_;
-}
-
-// Each task fills blocks of its own with all of their points, in the points' order.
-std::vector<FieldCanopy::Block> FieldCanopy::filled_blocks(std::span<const Eigen::Vector3f> points,
-                                                           std::size_t count,
-                                                           double canopy_m) const {
-  constexpr std::size_t kTasks = 8;
-  std::vector<std::uint32_t> block_of_point(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    block_of_point[i] =
-        points[i].allFinite() ? static_cast<std::uint32_t>(block_of(points[i])) : kNoBlock;
-  });
-  const std::size_t patches = patches_for(block_of_point, count);
-  const double patch_m = block_m_ / static_cast<double>(patches);
-  std::vector<Block> field(count, Block(canopy_m));
-  tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
-    const std::size_t begin = task * count / kTasks, end = (task + 1) * count / kTasks;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (block_of_point[i] < begin || block_of_point[i] >= end) continue;
-      const Eigen::Vector3f& point = points[i];
-      Block& block = field[block_of_point[i]];
-      ++block.count;
-      if (point.z() > canopy_m) block.heights.add(point.z());
-      const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) / patch_m;
-      const Eigen::Vector2d corner(std::floor(at.x()), std::floor(at.y()));
-      const Eigen::Vector2f within = ((at - corner) * patch_m).cast<float>();
-      block
-          .patches[static_cast<std::size_t>(at.x()) % patches * patches +
-                   static_cast<std::size_t>(at.y()) % patches]
-          .add({within.x(), within.y(), point.z()});
-    }
-  });
-  return field;
-}
-
-std::size_t FieldCanopy::block_of(const Eigen::Vector3f& point) const {
-  const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) / block_m_;
-  return static_cast<std::size_t>(at.x()) * blocks_along_y_ + static_cast<std::size_t>(at.y());
-}
-
-std::size_t FieldCanopy::cell_of(const Eigen::Vector3f& point) const {
-  const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * kCells / block_m_;
-  return static_cast<std::size_t>(at.x()) * blocks_along_y_ * kCells +
-         static_cast<std::size_t>(at.y());
-}
-
 // Leaves out surfaces and the blocks beside them, which a surface's edge may fill in part.
 void FieldCanopy::leave_out_surfaces() {
-  const std::size_t along_y = blocks_along_y_, along_x = surface_.size() / along_y;
-  for (std::size_t i = 0; i < surface_.size(); ++i) {
-    if (surface_[i] == 0) continue;
-    const std::size_t x = i / along_y, y = i % along_y;
-    for (std::size_t near_x = x - std::min<std::size_t>(x, 1); near_x < std::min(x + 2, along_x);
-         ++near_x) {
-      for (std::size_t near_y = y - std::min<std::size_t>(y, 1); near_y < std::min(y + 2, along_y);
-           ++near_y)
-        left_out_[near_x * along_y + near_y] = 1;
-    }
+  for (std::size_t i = 0; i < left_out_.size(); ++i) {
+    if (blocks_.facts()[i].surface)
+      for_blocks_about(blocks_, i, [&](std::size_t near) { left_out_[near] = 1; });
+  }
+}
+
+// What is taller than the crop, and the parts of it in the blocks beside it.
+void FieldCanopy::find_tall_blocks() {
+  const std::vector<BlockFacts>& facts = blocks_.facts();
+  const double tall_m = kTall * scale_.high_m;
+  for (std::size_t i = 0; i < tall_.size(); ++i) {
+    if (!facts[i].stands_out || facts[i].top_m < tall_m) continue;
+    for_blocks_about(blocks_, i, [&](std::size_t near) {
+      if (facts[near].highest_m >= tall_m) tall_[near] = 1;
+    });
   }
 }
 
 void FieldCanopy::leave_out_unsure_ground(const GroundError& ground_error) {
-  const auto place_of = [&](std::size_t i, int per_block) {
-    const std::size_t along_y = blocks_along_y_ * static_cast<std::size_t>(per_block);
-    const Eigen::Vector2d corner(static_cast<double>(i / along_y),
-                                 static_cast<double>(i % along_y));
-    return Eigen::Vector2d(low_ + block_m_ / per_block * (corner.array() + 0.5).matrix());
-  };
   std::vector<double> under_canopy;
-  for (std::size_t i = 0; i < stands_out_.size(); ++i) {
-    if (stands_out_[i] == 0 || surface_[i] != 0) continue;
-    const double error_m = ground_error(place_of(i, 1));
+  for (std::size_t i = 0; i < left_out_.size(); ++i) {
+    if (!blocks_.facts()[i].stands_out || blocks_.facts()[i].surface) continue;
+    const double error_m = ground_error(blocks_.middle_of(i));
     if (std::isfinite(error_m)) under_canopy.push_back(error_m);
   }
   if (under_canopy.empty()) return;
@@ -218,60 +69,47 @@ void FieldCanopy::leave_out_unsure_ground(const GroundError& ground_error) {
       std::max(kUnsureShare * scale_.high_m, kUnsureTimes * quantile(std::move(under_canopy), 0.5));
   unsure_.resize(left_out_.size() * kCells * kCells);
   tbb::parallel_for(std::size_t{0}, unsure_.size(), [&](std::size_t i) {
-    unsure_[i] = ground_error(place_of(i, kCells)) > most_m ? 1 : 0;
+    unsure_[i] = ground_error(blocks_.middle_of(i, kCells)) > most_m ? 1 : 0;
   });
 }
 
 bool FieldCanopy::leaves_out(const Eigen::Vector3f& point) const {
-  return !point.allFinite() || left_out_[block_of(point)] != 0 ||
-         (!unsure_.empty() && unsure_[cell_of(point)] != 0);
+  return !point.allFinite() || left_out_[blocks_.number_of(point)] != 0 ||
+         (!unsure_.empty() && unsure_[blocks_.number_of(point, kCells)] != 0);
 }
 
 double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const {
   double all = 0, surfaces = 0;
-  for (std::size_t i = 0; i < stands_out_.size(); ++i) {
-    if (stands_out_[i] == 0) continue;
-    const std::size_t along_x = i / blocks_along_y_, along_y = i % blocks_along_y_;
-    const Eigen::Vector2d middle =
-        low_ + block_m_ * Eigen::Vector2d(static_cast<double>(along_x) + 0.5,
-                                          static_cast<double>(along_y) + 0.5);
+  for (std::size_t i = 0; i < left_out_.size(); ++i) {
+    if (!blocks_.facts()[i].stands_out) continue;
+    const Eigen::Vector2d middle = blocks_.middle_of(i);
     const bool near = std::ranges::any_of(places, [&](const Eigen::Vector2d& place) {
       return (place - middle).squaredNorm() < reach_m * reach_m;
     });
     all += near ? 1 : 0;
-    surfaces += near && surface_[i] != 0 ? 1 : 0;
+    surfaces += near && blocks_.facts()[i].surface ? 1 : 0;
   }
   return surfaces / std::max(1.0, all);
 }
 
-FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
-                         const GroundError& ground_error) {
-  const double low_m = std::max(kLeast_m, 2 * noise_m), canopy_m = 1.5 * low_m;
-  scale_ = {low_m, 2 * low_m};
-  const std::size_t count = lay_out_blocks(points);
-  if (count == 0) return;
-  tbb::task_arena arena(threads);
-  const std::vector<Block> field =
-      arena.execute([&] { return filled_blocks(points, count, canopy_m); });
-  std::vector<double> scanned, tops;
-  for (const Block& block : field)
-    if (block.count > 0) scanned.push_back(block.count);
-  const double least = kLeastDensity * quantile(std::move(scanned), 0.5);
-  for (const Block& block : field) {
-    const bool canopy = block.count >= least && block.has_canopy();
-    stands_out_.push_back(canopy);
-    surface_.push_back(canopy && block.is_surface(canopy_m, noise_m));
-    left_out_.push_back(block.count < least);
-    if (canopy && surface_.back() == 0) tops.push_back(block.heights.quantile(kBlockTop));
-  }
+FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlocks& blocks,
+                         double crop_top_m, int threads, const GroundError& ground_error)
+    : blocks_(blocks),
+      scale_{.low_m = blocks.low_m(), .high_m = std::max(crop_top_m, 2 * blocks.low_m())},
+      tall_(blocks.facts().size()) {
+  for (const BlockFacts& block : blocks.facts()) left_out_.push_back(block.seldom_seen);
   leave_out_surfaces();
-  if (!tops.empty()) {
-    scale_.high_m = std::max(usual_top_m(std::move(tops)), 2 * low_m);
-    if (ground_error) arena.execute([&] { leave_out_unsure_ground(ground_error); });
-  }
+  find_tall_blocks();
+  tbb::task_arena arena(threads);
+  if (ground_error && crop_top_m > 0) arena.execute([&] { leave_out_unsure_ground(ground_error); });
   kept_.reserve(points.size());
-  std::ranges::copy_if(points, std::back_inserter(kept_),
-                       [&](const Eigen::Vector3f& point) { return !leaves_out(point); });
+  std::vector<Eigen::Vector3f> tall;
+  for (const Eigen::Vector3f& point : points) {
+    if (leaves_out(point)) continue;
+    (tall_[blocks_.number_of(point)] != 0 ? tall : kept_).push_back(point);
+  }
+  crop_points_ = kept_.size();
+  std::ranges::copy(tall, std::back_inserter(kept_));
 }
 
 }  // namespace plotscan::plots

@@ -3,6 +3,7 @@
 
 // Private to the library: which of a field's points may be canopy.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "plots/ground_error.h"
+#include "plots/internal/field_blocks.h"
 
 namespace plotscan::plots {
 
@@ -18,46 +20,42 @@ namespace plotscan::plots {
 struct CanopyScale {
   double low_m = 0;
   double high_m = 0;
+  bool with_tall = false;  // blocks that are taller than the crop count too
 };
 
-// A field's points as (x, y, height above the ground), metres. Left out are points that are not
-// finite, blocks of a survey's margin with less than a tenth of the field's density, blocks filled
-// by a smooth surface (canopy scatters heights by more than the sensor's noise; else it is a wall,
-// a car's roof, a sheet, or ground that the ground's model missed), and places whose ground is too
-// uncertain to distinguish ridges from canopy.
+// A field's points as (x, y, height above the ground), metres, for a crop of a given height. Left
+// out are points that are not finite, blocks of a survey's margin with less than a tenth of the
+// field's density, blocks filled by a smooth surface (canopy scatters heights by more than the
+// sensor's noise; else it is a wall, a car's roof, a sheet, or ground that the ground's model
+// missed), and places whose ground is too uncertain to distinguish ridges from canopy.
 class FieldCanopy {
  public:
-  // noise_m is the sigma of the points' heights.
-  FieldCanopy(std::span<const Eigen::Vector3f> points, double noise_m, int threads,
-              const GroundError& ground_error = {});
+  // `blocks` are those of `points` and outlive this.
+  FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlocks& blocks, double crop_top_m,
+              int threads, const GroundError& ground_error = {});
 
-  // The points that are not left out, in their order.
+  // The points that are not left out: those that may be the crop first, in their order, then those
+  // of blocks that are twice as tall, as hedges, trees and cars beside a field are.
   std::span<const Eigen::Vector3f> points() const { return kept_; }
+  std::size_t crop_points() const { return crop_points_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
-  // From the noise to the usual height of the canopy's top, over the blocks that have canopy.
+  // From the noise to the crop's top.
   const CanopyScale& scale() const { return scale_; }
   // Share of smooth surfaces among the blocks that stand out from the ground within reach_m of the
   // places.
   double surface_share(std::span<const Eigen::Vector2d> places, double reach_m) const;
 
  private:
-  struct Block;
-
-  std::size_t lay_out_blocks(std::span<const Eigen::Vector3f> points);
-  std::vector<Block> filled_blocks(std::span<const Eigen::Vector3f> points, std::size_t count,
-                                   double canopy_m) const;
-  std::size_t block_of(const Eigen::Vector3f& point) const;
-  std::size_t cell_of(const Eigen::Vector3f& point) const;
   void leave_out_surfaces();
+  void find_tall_blocks();
   void leave_out_unsure_ground(const GroundError& ground_error);
 
-  std::vector<Eigen::Vector3f> kept_;
-  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
-  double block_m_ = 1;
-  std::size_t blocks_along_y_ = 0;
-  std::vector<std::uint8_t> left_out_, surface_, stands_out_;  // by block
-  std::vector<std::uint8_t> unsure_;                           // by cell of a block
+  const FieldBlocks& blocks_;
   CanopyScale scale_;
+  std::vector<std::uint8_t> left_out_, tall_;  // by block
+  std::vector<std::uint8_t> unsure_;           // by cell of a block
+  std::vector<Eigen::Vector3f> kept_;
+  std::size_t crop_points_ = 0;
 };
 
 }  // namespace plotscan::plots

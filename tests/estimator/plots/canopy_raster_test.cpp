@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/internal/canopy_raster.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -70,7 +71,8 @@ TEST(Rasterise, PutsEveryPointInItsCell) {
                         static_cast<float>(random.uniform(-3, 1)),
                         static_cast<float>(random.uniform(0, 1)));
   }
-  const FieldCanopy field(points, 0.02, 2);
+  const FieldBlocks blocks(points, 0.02, 2);
+  const FieldCanopy field(points, blocks, 1, 2);
   const CanopyScale scale{0.2, 0.7};
   const CanopyRaster raster = rasterise(field, oblique(), 0.4, {&scale, 1}, 2).front();
   const Frame& frame = raster.frame();
@@ -93,9 +95,30 @@ TEST(Rasterise, PutsEveryPointInItsCell) {
   }
 }
 
+// A tree of 3 m on the square metre about (20.5, 0.5), beside a crop of 0.5 m.
+TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    RandomStream random(4, random_purpose("test/raster"), i);
+    const auto x = static_cast<float>(random.uniform(0, 21));
+    const double top_m = x > 20 ? 3 : x < 10 ? 0.5 : 0.01;
+    points.emplace_back(x, static_cast<float>(random.uniform(0, 1)),
+                        static_cast<float>(random.uniform(0, top_m)));
+  }
+  const FieldBlocks blocks(points, 0.02, 2);
+  const FieldCanopy field(points, blocks, 0.45, 2);
+  const std::array scales = {CanopyScale{0.1, 0.4}, CanopyScale{0.1, 0.4, true}};
+  const std::vector<CanopyRaster> rasters = rasterise(field, {}, 0.25, scales, 2);
+  EXPECT_EQ(rasters[0].seen_cells(80, 84, 0, 4), 0);
+  EXPECT_EQ(rasters[1].seen_cells(80, 84, 0, 4), 16);
+  EXPECT_GT(rasters[1].cover(80, 84, 0, 4), 0.85);
+  EXPECT_EQ(rasters[0].cover(0, 40, 0, 4), rasters[1].cover(0, 40, 0, 4));
+}
+
 TEST(Rasterise, OfNoPointsHasNoCells) {
   const CanopyScale scale{0.2, 0.7};
-  EXPECT_EQ(rasterise(FieldCanopy({}, 0.02, 1), {}, 0.1, {&scale, 1}, 1).front().a_cells(), 0);
+  const FieldBlocks none({}, 0.02, 1);
+  EXPECT_EQ(rasterise(FieldCanopy({}, none, 0, 1), {}, 0.1, {&scale, 1}, 1).front().a_cells(), 0);
 }
 
 }  // namespace

@@ -288,6 +288,28 @@ TEST(FindPlots, FindsPlotsBesideALargeRoof) {
   EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
 }
 
+// A hedge of 1.8 m along one side of the field, and trees of 5 m in two corners: most of the
+// volume, if not of the area.
+TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = points_over(boxes);
+  std::uint64_t index = 0;
+  for (Eigen::Vector3f& point : points) {
+    RandomStream random(8, random_purpose("test/hedge"), index++);
+    const float from_tree = std::min((point.head<2>() - Eigen::Vector2f(9, 9)).norm(),
+                                     (point.head<2>() + Eigen::Vector2f(9, 9)).norm());
+    if (from_tree < 2.4F) point.z() = static_cast<float>(random.uniform(1, 5));
+    if (point.y() < -10.6F) point.z() = static_cast<float>(random.uniform(0.6, 1.8));
+  }
+  const PlotField field = find_plots(points, 0.02, {}, 2);
+  EXPECT_EQ(field.why_none, "");
+  ASSERT_EQ(field.plots.size(), boxes.size());
+  for (const FoundPlot& plot : field.plots) {
+    EXPECT_TRUE(std::ranges::any_of(
+        boxes, [&](const PlotBox& box) { return intersection_over_union(box, plot.box) > 0.9; }));
+  }
+}
+
 TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).why_none, ""); }
 
 TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {

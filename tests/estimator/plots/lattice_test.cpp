@@ -110,6 +110,31 @@ TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
   expect_places(layout_of(fit_lattice(bands_of(with_patch, raster), {})), trial);
 }
 
+// The trial's canopy, and all that lies beyond `from_m` along y: a hedge or weeds.
+CanopyRaster with_canopy_beyond(const TrialLayout& trial, double from_m) {
+  return raster_of(14, from_m + 4, [&](double x, double y) {
+    return y > from_m || std::ranges::any_of(trial.places, [&](const TrialPlace& place) {
+             return trial.box(place).contains({x, y});
+           });
+  });
+}
+
+// Bands show a column where the canopy beyond the trial begins; it has no plots' edges.
+TEST(Lattice, LeavesOutAColumnOfWhatLiesBesideTheTrial) {
+  const TrialLayout trial = known_trial({0, 0, 0}), with_more = known_trial({0, 0, 0}, 6);
+  const CanopyRaster raster = with_canopy_beyond(trial, 11.1);
+  expect_places(layout_of(fit_lattice(bands_of(with_more, raster), {})), trial);
+}
+
+// The first plot leans 0.5 m over the field's border.
+TEST(Lattice, KeepsALodgedPlotAtTheBorder) {
+  const TrialLayout bands = known_trial({0, 0, 0});
+  TrialLayout trial = bands;
+  trial.places.front().position_m.x() -= 0.5;
+  const CanopyRaster raster = with_canopy_beyond(trial, 14);
+  EXPECT_EQ(fit_lattice(bands_of(bands, raster), {}).places.size(), trial.places.size());
+}
+
 TEST(Lattice, HoldsTheNumberOfPlotsThatWasTold) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const CanopyRaster raster = canopy_of(trial);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: what stands on each square metre of a field.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace plotscan::plots {
+
+// What the returns of a block say of it.
+struct BlockFacts {
+  bool seldom_seen = false;  // less than a tenth of the usual density: the survey's margin
+  bool stands_out = false;   // something stands on the ground:
+  bool surface = false;      // smooth, as walls and roofs are; else it may be canopy,
+  double top_m = 0;          // nine tenths of whose returns are lower than this,
+  double highest_m = 0;      // and all lower than this
+};
+
+// A field's points (x, y, height above the ground), metres, in blocks 1 m wide; wider on fields of
+// over 26 ha.
+class FieldBlocks {
+ public:
+  // noise_m is the sigma of the points' heights.
+  FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m, int threads);
+
+  const std::vector<BlockFacts>& facts() const { return facts_; }
+  std::size_t along_y() const { return along_y_; }
+  // The number of a finite point's block, or of its cell, of which per_side lie along a block's
+  // side; those that follow each other along y have consecutive numbers.
+  std::size_t number_of(const Eigen::Vector3f& point, int per_side = 1) const {
+    const Eigen::Vector2d at = (point.head<2>().cast<double>() - low_) * per_side / block_m_;
+    return static_cast<std::size_t>(at.x()) * along_y_ * static_cast<std::size_t>(per_side) +
+           static_cast<std::size_t>(at.y());
+  }
+  Eigen::Vector2d middle_of(std::size_t number, int per_side = 1) const;
+  // The height of the lowest returns that count as no ground.
+  double low_m() const { return low_m_; }
+  // The heights that the crop may have, most likely first: that below which half of the volume has
+  // its top. Where much of the area stands lower than half of it, trees or buildings may stand
+  // there, and the same is taken of what is lower. Empty where nothing stands out.
+  std::vector<double> crop_tops_m() const;
+
+ private:
+  struct Block;
+
+  std::size_t lay_out(std::span<const Eigen::Vector3f> points);
+  std::vector<Block> filled(std::span<const Eigen::Vector3f> points, std::size_t count,
+                            double canopy_m) const;
+
+  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
+  double block_m_ = 1, low_m_ = 0;
+  std::size_t along_y_ = 0;
+  std::vector<BlockFacts> facts_;
+};
+
+}  // namespace plotscan::plots

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/field_blocks.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace plotscan::plots {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+
+constexpr double kSigma_m = 0.01;
+
+// 200 returns a square metre over 20 x 20 m: those of a crop on the southern half, up to crop_m; of
+// what is up to beside_m high on squares of side_m in the north; else of the ground.
+std::vector<Eigen::Vector3f> field_of(double crop_m, double beside_m = 0, double side_m = 0) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 80000; ++i) {
+    RandomStream random(6, random_purpose("test/blocks"), i);
+    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
+    double height_m = 0;
+    if (y < 10) height_m = random.uniform(0, crop_m);
+    if (y > 12 && y < 12 + side_m && x < side_m) height_m = random.uniform(0, beside_m);
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(height_m + kSigma_m * random.normal()));
+  }
+  return points;
+}
+
+std::vector<double> crop_tops_m(const std::vector<Eigen::Vector3f>& points) {
+  return FieldBlocks(points, kSigma_m, 2).crop_tops_m();
+}
+
+// Bins of heights are 10 % wide.
+TEST(FieldBlocks, TheCropsHeightIsThatOfHalfTheVolume) {
+  EXPECT_THAT(crop_tops_m(field_of(0.6)), ElementsAre(DoubleNear(0.55, 0.04)));
+  EXPECT_THAT(crop_tops_m(field_of(0.6, 3, 3)), ElementsAre(DoubleNear(0.55, 0.04)));
+}
+
+// Trees on 49 m2 are more than half of the volume, beside a crop on 200 m2.
+TEST(FieldBlocks, BelowTreesTheCropMayBeLower) {
+  EXPECT_THAT(crop_tops_m(field_of(0.6, 5, 7)),
+              ElementsAre(DoubleNear(4.5, 0.4), DoubleNear(0.55, 0.04)));
+}
+
+TEST(FieldBlocks, BareGroundHasNoCrop) { EXPECT_TRUE(crop_tops_m(field_of(0)).empty()); }
+
+TEST(FieldBlocks, KnowWhatStandsOnThem) {
+  const auto points = field_of(0.6, 5, 7);
+  const FieldBlocks blocks(points, kSigma_m, 2);
+  const BlockFacts crop = blocks.facts()[blocks.number_of({10.5F, 5.5F, 0})];
+  const BlockFacts tree = blocks.facts()[blocks.number_of({3.5F, 15.5F, 0})];
+  const BlockFacts ground = blocks.facts()[blocks.number_of({15.5F, 15.5F, 0})];
+  EXPECT_TRUE(crop.stands_out && tree.stands_out);
+  EXPECT_FALSE(ground.stands_out || ground.seldom_seen || crop.surface || tree.surface);
+  EXPECT_NEAR(crop.highest_m, 0.6, 0.04);
+  EXPECT_NEAR(tree.top_m, 4.5, 0.4);
+}
+
+TEST(FieldBlocks, MiddlesLieInTheirBlocks) {
+  const auto points = field_of(0.6);
+  const FieldBlocks blocks(points, kSigma_m, 2);
+  for (const int per_side : {1, 5}) {
+    const Eigen::Vector2d middle =
+        blocks.middle_of(blocks.number_of({7.3F, 3.1F, 0}, per_side), per_side);
+    EXPECT_LT((middle - Eigen::Vector2d(7.3, 3.1)).cwiseAbs().maxCoeff(), 0.5 / per_side + 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace plotscan::plots
