@@ -12,7 +12,7 @@
 namespace plotscan::record::ros {
 namespace {
 
-constexpr std::string_view kNotCompressed = "";
+constexpr std::string_view kNotCompressed;  // an empty name
 
 void append_record(std::string& bytes, McapOp op, std::string_view content) {
   append_values(bytes, op, static_cast<std::uint64_t>(content.size()));
