@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "info_command.h"
-
 #include <memory>
 #include <string>
 
 #include "cloud_options.h"
+#include "commands.h"
 #include "inspect/cloud_report.h"
 #include <fmt/core.h>
 

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "info_command.h"
-#include "report_command.h"
-#include "run_command.h"
-#include "score_command.h"
-
-#include "core/program.h"
+#include "commands.h"
 
 int main(int argc, char** argv) {
   plotscan::Program program("estimator", "Find plots in point clouds and measure crop heights.");

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report_command.h"
-
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "cloud_options.h"
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "fieldpage/field_page.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_command.h"
-
 #include <chrono>
 #include <map>
 #include <memory>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "cloud_options.h"
+#include "commands.h"
 #include "method_options.h"
 #include "methods/run.h"
 #include "say_estimate.h"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "score_command.h"
-
 #include <cmath>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "core/angle.h"

@@ -14,16 +14,17 @@
 #include "view/plant_picture.h"
 #include "view/plot_picture.h"
 
-namespace fs = std::filesystem;
-
 namespace {
+
+using namespace plotscan;
+namespace fs = std::filesystem;
 
 struct PictureArguments {
   fs::path farm;
   std::optional<fs::path> scan;
   std::optional<fs::path> plots;
   fs::path png;
-  plotscan::view::PictureOptions options;
+  view::PictureOptions options;
 };
 
 // A file, or a folder with that file in it.
@@ -31,24 +32,27 @@ fs::path file_or_inside(const fs::path& path, const char* name) {
   return fs::is_directory(path) ? path / name : path;
 }
 
-void draw(const plotscan::Program& program, const PictureArguments& arguments) {
+void tell(const Program& program, const fs::path& png) {
+  program.say("wrote " + png.string());
+  program.result({{"picture", png.string()}});
+}
+
+void draw(const Program& program, const PictureArguments& arguments) {
   std::vector<fs::path> inputs = {arguments.farm};
   for (const auto& input : {arguments.scan, arguments.plots})
     if (input) inputs.push_back(*input);
-  plotscan::require_apart(arguments.png, inputs);
-  const plotscan::farm::Farm farm = plotscan::farmfolder::read_farm(arguments.farm);
-  std::vector<plotscan::PlotBox> boxes;
+  require_apart(arguments.png, inputs);
+  const farm::Farm farm = farmfolder::read_farm(arguments.farm);
+  std::vector<PlotBox> boxes;
   if (arguments.plots) {
-    for (const auto& plot :
-         plotscan::read_plot_features(file_or_inside(*arguments.plots, "plots.geojson"))) {
+    for (const auto& plot : read_plot_features(file_or_inside(*arguments.plots, "plots.geojson"))) {
       boxes.push_back(plot.box);
     }
   }
   std::optional<fs::path> cloud;
   if (arguments.scan) cloud = file_or_inside(*arguments.scan, "cloud.pcd");
-  plotscan::view::draw_picture(farm, cloud, boxes, arguments.png, arguments.options);
-  program.say("wrote " + arguments.png.string());
-  program.result({{"picture", arguments.png.string()}});
+  view::draw_picture(farm, cloud, boxes, arguments.png, arguments.options);
+  tell(program, arguments.png);
 }
 
 struct PlantsArguments {
@@ -56,29 +60,27 @@ struct PlantsArguments {
   std::vector<std::string> labels;
   std::string up;
   fs::path png;
-  plotscan::view::PlantPictureOptions options;
+  view::PlantPictureOptions options;
 };
 
-void draw_plants(const plotscan::Program& program, const PlantsArguments& arguments) {
-  using plotscan::mesh::UpAxis;
-  plotscan::require_apart(arguments.png, arguments.meshes);
+void draw_plants(const Program& program, const PlantsArguments& arguments) {
+  require_apart(arguments.png, arguments.meshes);
   if (!arguments.labels.empty() && arguments.labels.size() != arguments.meshes.size()) {
-    throw plotscan::InputError("--labels names " + std::to_string(arguments.labels.size()) +
-                               " plants where there are " +
-                               std::to_string(arguments.meshes.size()) + " meshes");
+    throw InputError("--labels names " + std::to_string(arguments.labels.size()) +
+                     " plants where there are " + std::to_string(arguments.meshes.size()) +
+                     " meshes");
   }
-  plotscan::mesh::MeshImportOptions import;
-  if (!arguments.up.empty()) import.up = arguments.up == "y" ? UpAxis::y : UpAxis::z;
-  std::vector<plotscan::view::PicturedPlant> plants;
+  mesh::MeshImportOptions import;
+  if (!arguments.up.empty()) import.up = arguments.up == "y" ? mesh::UpAxis::y : mesh::UpAxis::z;
+  std::vector<view::PicturedPlant> plants;
   for (std::size_t i = 0; i < arguments.meshes.size(); ++i) {
     const fs::path& path = arguments.meshes[i];
     plants.push_back(
         {.label = arguments.labels.empty() ? path.stem().string() : arguments.labels[i],
-         .mesh = plotscan::mesh::import_mesh(path, import)});
+         .mesh = mesh::import_mesh(path, import)});
   }
-  plotscan::view::draw_plants(plants, arguments.png, arguments.options);
-  program.say("wrote " + arguments.png.string());
-  program.result({{"picture", arguments.png.string()}});
+  view::draw_plants(plants, arguments.png, arguments.options);
+  tell(program, arguments.png);
 }
 
 struct EstimateArguments {
@@ -86,41 +88,37 @@ struct EstimateArguments {
   fs::path estimate;
   fs::path png;
   std::string plot;
-  plotscan::view::FieldPictureOptions field;
-  plotscan::view::PlotPictureOptions side;
+  view::FieldPictureOptions field;
+  view::PlotPictureOptions side;
 };
 
-plotscan::estimate::Estimate estimate_with_ground(const fs::path& folder) {
+estimate::Estimate estimate_with_ground(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
-    throw plotscan::InputError(folder, "is no estimate folder, as estimator run writes it");
+    throw InputError(folder, "is no estimate folder, as estimator run writes it");
   }
-  plotscan::estimate::Estimate estimate = plotscan::estimate::read_estimate(folder);
+  estimate::Estimate estimate = estimate::read_estimate(folder);
   if (!fs::exists(folder / "ground.asc")) {
-    throw plotscan::InputError(folder,
-                               "has no ground.asc: its method models no ground to draw "
-                               "over; estimator run --method lattice does");
+    throw InputError(folder,
+                     "has no ground.asc: its method models no ground to draw "
+                     "over; estimator run --method lattice does");
   }
-  estimate.ground =
-      plotscan::estimate::read_ground(folder, estimate.units.value_or(plotscan::CoordinateUnits{}));
+  estimate.ground = estimate::read_ground(folder, estimate.units.value_or(CoordinateUnits{}));
   return estimate;
 }
 
-void draw_field(const plotscan::Program& program, const EstimateArguments& arguments) {
-  plotscan::require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
-  plotscan::view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
-                             estimate_with_ground(arguments.estimate), arguments.png,
-                             arguments.field);
-  program.say("wrote " + arguments.png.string());
-  program.result({{"picture", arguments.png.string()}});
+void draw_field(const Program& program, const EstimateArguments& arguments) {
+  require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
+  view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
+                   estimate_with_ground(arguments.estimate), arguments.png, arguments.field);
+  tell(program, arguments.png);
 }
 
-void draw_plot(const plotscan::Program& program, const EstimateArguments& arguments) {
-  plotscan::require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
-  plotscan::view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
-                            estimate_with_ground(arguments.estimate),
-                            plotscan::PlotId(arguments.plot), arguments.png, arguments.side);
-  program.say("wrote " + arguments.png.string());
-  program.result({{"picture", arguments.png.string()}});
+void draw_plot(const Program& program, const EstimateArguments& arguments) {
+  require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
+  view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
+                  estimate_with_ground(arguments.estimate), PlotId(arguments.plot), arguments.png,
+                  arguments.side);
+  tell(program, arguments.png);
 }
 
 void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
@@ -146,7 +144,7 @@ void add_view_options(CLI::App& command, Options& options) {
                      "of the camera over the horizon (degrees)");
 }
 
-void declare_picture(plotscan::Program& program, PictureArguments& arguments) {
+void declare_picture(Program& program, PictureArguments& arguments) {
   CLI::App& picture =
       program.command("picture", "Draw a farm, and a scan with plot boxes beside it, into a PNG.",
                       [&] { draw(program, arguments); });
@@ -160,7 +158,7 @@ void declare_picture(plotscan::Program& program, PictureArguments& arguments) {
   picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");
 }
 
-void declare_plants(plotscan::Program& program, PlantsArguments& arguments) {
+void declare_plants(Program& program, PlantsArguments& arguments) {
   CLI::App& plants = program.command("plants", "Draw plant meshes side by side into a PNG.",
                                      [&] { draw_plants(program, arguments); });
   plants.add_option("MESH", arguments.meshes, "plant meshes: OBJ, DAE, glTF, PLY, STL")->required();
@@ -177,7 +175,7 @@ void declare_plants(plotscan::Program& program, PlantsArguments& arguments) {
   add_view_options(plants, arguments.options);
 }
 
-void declare_field(plotscan::Program& program, EstimateArguments& arguments) {
+void declare_field(Program& program, EstimateArguments& arguments) {
   CLI::App& field = program.command(
       "field", "Draw an estimate's plots over its cloud, from straight above, into a PNG.",
       [&] { draw_field(program, arguments); });
@@ -187,7 +185,7 @@ void declare_field(plotscan::Program& program, EstimateArguments& arguments) {
   field.add_option("--margin", arguments.field.margin_m, "shown around the plots (metres)");
 }
 
-void declare_plot(plotscan::Program& program, EstimateArguments& arguments) {
+void declare_plot(Program& program, EstimateArguments& arguments) {
   CLI::App& plot =
       program.command("plot", "Draw a plot from the side, with its ground and heights, into a PNG.",
                       [&] { draw_plot(program, arguments); });
@@ -205,8 +203,8 @@ void declare_plot(plotscan::Program& program, EstimateArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  plotscan::Program program(
-      "plotview", "Draw virtual phenotyping farms, scans of them, and the plots found there.");
+  Program program("plotview",
+                  "Draw virtual phenotyping farms, scans of them, and the plots found there.");
   PictureArguments picture;
   PlantsArguments plants;
   EstimateArguments field, plot;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
 #include <fstream>
-#include <span>
 
 #include "calibration/field_sample.h"
 #include <nlohmann/json.hpp>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "cloud/points_in_boxes.h"
 #include "methods/dhami2020/ground_plane.h"

@@ -3,8 +3,6 @@
 // one run. See README.md.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>

@@ -13,6 +13,18 @@ namespace {
 
 using nlohmann::json;
 
+// The fields' strata in their order, each tallied.
+std::vector<StratumTally> tally_strata(std::span<const MeasuredField> fields) {
+  std::vector<StratumTally> tallies;
+  for (std::size_t first = 0; first < fields.size();) {
+    std::size_t end = first;
+    while (end < fields.size() && fields[end].stratum == fields[first].stratum) ++end;
+    tallies.push_back(tally(fields[first].stratum, fields.subspan(first, end - first)));
+    first = end;
+  }
+  return tallies;
+}
+
 std::string number(fmt::format_string<double&> format, double value) {
   return std::isnan(value) ? "-" : fmt::format(format, value);
 }
@@ -122,17 +134,6 @@ json json_list(const Items& items) {
 }
 
 }  // namespace
-
-std::vector<StratumTally> tally_strata(std::span<const MeasuredField> fields) {
-  std::vector<StratumTally> tallies;
-  for (std::size_t first = 0; first < fields.size();) {
-    std::size_t end = first;
-    while (end < fields.size() && fields[end].stratum == fields[first].stratum) ++end;
-    tallies.push_back(tally(fields[first].stratum, fields.subspan(first, end - first)));
-    first = end;
-  }
-  return tallies;
-}
 
 std::vector<std::string> table_lines(const Measurement& measurement) {
   std::vector<std::string> lines;

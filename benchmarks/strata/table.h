@@ -18,9 +18,6 @@ struct Measurement {
   std::vector<MeasuredField> empty_fields;
 };
 
-// The fields' strata in their order, each tallied.
-std::vector<StratumTally> tally_strata(std::span<const MeasuredField> fields);
-
 // The table for people: a line a stratum, a line a kind of field without plots, the confidence.
 std::vector<std::string> table_lines(const Measurement& measurement);
 

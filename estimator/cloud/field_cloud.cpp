@@ -9,10 +9,10 @@
 #include "cloud/internal/field_hull.h"
 #include "cloud/internal/haze.h"
 #include "cloud/internal/outliers.h"
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "core/each_index.h"
 #include "core/error.h"
 #include "core/stage.h"
 #include "core/statistics.h"
@@ -36,12 +36,9 @@ Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
 
 TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int threads) {
   std::vector<Eigen::Vector3f> points(tiles.all().size());
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, tiles.tiles.size(), [&](std::size_t tile) {
-      for (std::size_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i)
-        points[i] = point_of(tiles.tiles[tile], tiles.keys[i], origin);
-    });
+  for_each_index(tiles.tiles.size(), threads, [&](std::size_t tile) {
+    for (std::size_t i = tiles.begin[tile]; i < tiles.begin[tile + 1]; ++i)
+      points[i] = point_of(tiles.tiles[tile], tiles.keys[i], origin);
   });
   return {std::move(tiles.tiles), std::move(tiles.begin), std::move(points)};
 }

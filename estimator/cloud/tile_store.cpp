@@ -6,9 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "core/each_index.h"
 #include "core/packed_pair.h"
 
 namespace plotscan::cloud {
@@ -137,15 +135,12 @@ void TileStore::merge(const std::vector<Slot>& order) {
   new_keys_.clear();
   new_slots_.clear();
 
-  tbb::task_arena arena(options_.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
-      TileState& tile = tiles_[order[i]];
-      const std::span keys(&grouped[begin[order[i]]], sizes[order[i]]);
-      const Thinned thinned = thin(keys, tile.kept, options_.points_per_cell);
-      tile.kept = thinned.kept;
-      tile.repeated += thinned.repeated;
-    });
+  for_each_index(order.size(), options_.threads, [&](std::size_t i) {
+    TileState& tile = tiles_[order[i]];
+    const std::span keys(&grouped[begin[order[i]]], sizes[order[i]]);
+    const Thinned thinned = thin(keys, tile.kept, options_.points_per_cell);
+    tile.kept = thinned.kept;
+    tile.repeated += thinned.repeated;
   });
 
   kept_size_ = 0;

@@ -34,40 +34,38 @@ bool is_measured(std::string property) {
   if (property == "points" || property == "confidence" || property == "flags") return true;
   if (std::ranges::count(kPlane, property) > 0) return true;
   if (std::ranges::count(kBoxErrors, property) > 0) return true;
-  for (const std::string_view before : {kError, kLow, kHigh}) {
+  for (const auto& [before, value] : kErrorProperties) {
     if (property.starts_with(before)) property.erase(0, before.size());
   }
   return !height_of(property).empty();
 }
 
-void add_box_error(const PlotBoxError& error, json& properties) {
-  const std::array values = {error.along_m, error.across_m, error.width_m, error.length_m,
-                             error.heading_rad / kDegrees};
-  for (std::size_t i = 0; i < values.size(); ++i) properties[kBoxErrors[i]] = values[i];
+// Adds numbers as properties of these names.
+template <std::size_t Count>
+void add_numbers(const std::array<const char*, Count>& names,
+                 const std::array<double, Count>& values, json& properties) {
+  for (std::size_t i = 0; i < Count; ++i) properties[names[i]] = values[i];
 }
 
 PlotFeature feature_of(const PlotEstimate& plot, const std::string& id_property) {
   PlotFeature feature{.box = plot.box, .properties = plot.attributes, .id = plot.id};
   if (!feature.properties.contains(id_property)) feature.properties[id_property] = plot.id.json();
   feature.properties["points"] = plot.points;
-  if (plot.box_error) add_box_error(*plot.box_error, feature.properties);
+  if (plot.box_error) add_numbers(kBoxErrors, numbers_of(*plot.box_error), feature.properties);
   if (plot.row > 0) feature.properties["row_number"] = plot.row;
   if (plot.column > 0) feature.properties["col_number"] = plot.column;
   for (const auto& [name, height_m] : plot.heights_m) {
     feature.properties[property_of(name)] = height_m;
   }
   for (const auto& [name, error] : plot.errors) {
-    feature.properties[property_of(name, kError)] = error.standard_error_m;
-    feature.properties[property_of(name, kLow)] = error.low95_m;
-    feature.properties[property_of(name, kHigh)] = error.high95_m;
+    for (const auto& [before, value] : kErrorProperties)
+      feature.properties[property_of(name, before)] = error.*value;
   }
   if (plot.confidence) feature.properties["confidence"] = *plot.confidence;
   if (!plot.flags.empty()) feature.properties["flags"] = plot.flags;
-  if (plot.ground) {
-    const PlotGround& ground = *plot.ground;
-    const std::array values = {ground.z_m, ground.slope.x(), ground.slope.y(), ground.tolerance_m};
-    for (std::size_t i = 0; i < values.size(); ++i) feature.properties[kPlane[i]] = values[i];
-  }
+  if (const auto& ground = plot.ground)
+    add_numbers(kPlane, {ground->z_m, ground->slope.x(), ground->slope.y(), ground->tolerance_m},
+                feature.properties);
   return feature;
 }
 
@@ -101,10 +99,9 @@ std::map<std::string, HeightError> errors_of(const json& properties,
                                              const std::map<std::string, double>& heights_m) {
   std::map<std::string, HeightError> errors;
   for (const auto& [name, height_m] : heights_m) {
-    const auto number = [&properties, &name = name](std::string_view before) {
-      return number_in(properties, property_of(name, before));
-    };
-    const HeightError error{number(kError), number(kLow), number(kHigh)};
+    HeightError error;
+    for (const auto& [before, value] : kErrorProperties)
+      error.*value = number_in(properties, property_of(name, before));
     if (std::isfinite(error.low95_m) && std::isfinite(error.high95_m)) errors[name] = error;
   }
   return errors;

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/angle.h"
+#include "estimate/estimate.h"
+
 namespace plotscan::estimate {
 
 // What heights are called in files.
@@ -15,9 +18,23 @@ inline constexpr std::string_view kHigh = "high95_";
 inline constexpr std::string_view kCanopy = "canopy_";
 inline constexpr std::string_view kSuffix = "_m";
 
+// A number of HeightError, and what stands before the height's property in its own.
+struct ErrorProperty {
+  std::string_view before;
+  double HeightError::*value;
+};
+inline constexpr std::array<ErrorProperty, 3> kErrorProperties = {
+    {{kError, &HeightError::standard_error_m},
+     {kLow, &HeightError::low95_m},
+     {kHigh, &HeightError::high95_m}}};
+
 // The standard errors of a box (PlotBoxError), in its order.
 inline constexpr std::array<const char*, 5> kBoxErrors = {
     "se_center_along_m", "se_center_across_m", "se_width_m", "se_length_m", "se_heading_deg"};
+inline std::array<double, 5> numbers_of(const PlotBoxError& error) {
+  return {error.along_m, error.across_m, error.width_m, error.length_m,
+          error.heading_rad / kDegrees};
+}
 
 // Whether a height can be one in metres: those of crops can, marks of missing values (-9999)
 // cannot.

@@ -24,13 +24,6 @@ struct Column {
   std::function<std::string(const PlotEstimate&)> text;
 };
 
-template <class Value>
-std::string text_or_blank(const std::map<std::string, Value>& values, const std::string& name,
-                          double (*number)(const Value&)) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : format_number(number(found->second));
-}
-
 // The heights of any of the plots, each followed by its standard error and interval.
 void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
   std::set<std::string> names;
@@ -39,21 +32,17 @@ void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& co
     for (const auto& [name, height_m] : plot.heights_m) names.insert(name);
     for (const auto& [name, error] : plot.errors) with_errors.insert(name);
   }
-  using Number = double (*)(const HeightError&);
-  const std::vector<std::pair<std::string_view, Number>> parts = {
-      {kError, [](const HeightError& error) { return error.standard_error_m; }},
-      {kLow, [](const HeightError& error) { return error.low95_m; }},
-      {kHigh, [](const HeightError& error) { return error.high95_m; }}};
   for (const std::string& name : names) {
     columns.push_back({property_of(name), [name](const PlotEstimate& plot) {
-                         return text_or_blank<double>(
-                             plot.heights_m, name, [](const double& height_m) { return height_m; });
+                         const auto found = plot.heights_m.find(name);
+                         return found == plot.heights_m.end() ? "" : format_number(found->second);
                        }});
     if (!with_errors.contains(name)) continue;
-    for (const auto& [before, number] : parts) {
+    for (const auto& [before, value] : kErrorProperties) {
       columns.push_back(
-          {property_of(name, before), [name, number = number](const PlotEstimate& plot) {
-             return text_or_blank<HeightError>(plot.errors, name, number);
+          {property_of(name, before), [name, value = value](const PlotEstimate& plot) {
+             const auto found = plot.errors.find(name);
+             return found == plot.errors.end() ? "" : format_number(found->second.*value);
            }});
     }
   }
@@ -104,16 +93,11 @@ void add_place(std::vector<Column>& columns, const std::string& without) {
 void add_box_errors(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
   if (std::ranges::none_of(plots, [](const auto& plot) { return plot.box_error.has_value(); }))
     return;
-  const auto add = [&](const char* name, double PlotBoxError::*error, double unit) {
-    columns.push_back({name, [error, unit](const PlotEstimate& plot) {
-                         return plot.box_error ? format_number(*plot.box_error.*error / unit) : "";
+  for (std::size_t i = 0; i < kBoxErrors.size(); ++i) {
+    columns.push_back({kBoxErrors[i], [i](const PlotEstimate& plot) {
+                         return plot.box_error ? format_number(numbers_of(*plot.box_error)[i]) : "";
                        }});
-  };
-  add(kBoxErrors[0], &PlotBoxError::along_m, 1);
-  add(kBoxErrors[1], &PlotBoxError::across_m, 1);
-  add(kBoxErrors[2], &PlotBoxError::width_m, 1);
-  add(kBoxErrors[3], &PlotBoxError::length_m, 1);
-  add(kBoxErrors[4], &PlotBoxError::heading_rad, kDegrees);
+  }
 }
 
 std::vector<Column> columns_of(const Estimate& estimate) {

@@ -44,15 +44,8 @@ FromOthers from_others_of(const json& document) {
 
 // The calibration with only the farms whose index `is_kept` accepts.
 Calibration with_farms(const Calibration& calibration, auto&& is_kept) {
-  Calibration fewer{.features = calibration.features,
-                    .heights = calibration.heights,
-                    .center = calibration.center,
-                    .scale = calibration.scale,
-                    .crops = calibration.crops,
-                    .crop_kernel = calibration.crop_kernel,
-                    .crop_sharpness = calibration.crop_sharpness,
-                    .ratio_kernels = calibration.ratio_kernels,
-                    .within = calibration.within};
+  Calibration fewer = calibration;
+  fewer.farms.clear();
   for (std::size_t i = 0; i < calibration.farms.size(); ++i)
     if (is_kept(i)) fewer.farms.push_back(calibration.farms[i]);
   return fewer;

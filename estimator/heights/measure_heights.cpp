@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "core/each_index.h"
 #include "heights/features.h"
 #include "heights/internal/box_cells.h"
 #include "heights/internal/flags.h"
@@ -63,11 +61,8 @@ SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
 std::vector<SeenPlot> see_all(std::span<const PlotPoints> plots, const ground::Surface& surface,
                               int threads) {
   std::vector<SeenPlot> seen(plots.size());
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) {
-      if (!plots[i].points.empty()) seen[i] = see(plots[i], surface);
-    });
+  for_each_index(plots.size(), threads, [&](std::size_t i) {
+    if (!plots[i].points.empty()) seen[i] = see(plots[i], surface);
   });
   return seen;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_files.h"
 
-#include <cmath>
 #include <fstream>
 #include <set>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "core/error.h"
 #include "core/text.h"
 #include "core/yaml_section.h"
 #include "crop/cultivar.h"

@@ -5,10 +5,7 @@
 #include "core/text.h"
 #include "crop/internal/crop_files.h"
 #include "crop/internal/form.h"
-#include "crop/internal/maize.h"
-#include "crop/internal/soybean.h"
 #include "crop/internal/textures.h"
-#include "crop/internal/wheat.h"
 
 namespace plotscan::crop {
 namespace {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "description/load_description.h"
 
-#include "description/internal/models_section.h"
-#include "description/internal/plants_section.h"
-#include "description/internal/plots_section.h"
-#include "description/internal/terrain_section.h"
+#include "description/internal/sections.h"
 #include "description/internal/values.h"
-#include "description/internal/weeds_section.h"
 #include "planting/layout_table.h"
 
-#include "core/error.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmfolder/write_farm.h"
 
-#include <utility>
-
 #include "farmfolder/internal/plant_table.h"
 #include "farmfolder/internal/world.h"
 #include "farmfolder/plot_table.h"

@@ -6,14 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
-#include <unordered_map>
 
 #include "planting/plants_description.h"
 #include "terrain/terrain.h"
 
 #include "core/angle.h"
 #include "core/csv.h"
-#include "core/error.h"
 
 namespace plotscan::planting {
 namespace {

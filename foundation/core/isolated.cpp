@@ -5,12 +5,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <mutex>
 #include <new>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #include "core/manifest.h"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <memory>
 #include <set>

@@ -2,7 +2,6 @@
 #include "core/plot_features.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 

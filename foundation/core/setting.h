@@ -15,6 +15,12 @@
 // setting gives access to the member of the options that it sets, and knows its allowed values.
 namespace plotscan {
 
+// A member, or a member's member: member<&FlyOptions::wind, &WindOptions::from_deg>(options).
+template <auto... Path, class Options>
+auto& member(Options& options) {
+  return (options.*....*Path);
+}
+
 // Every number in the value must lie in the range; an absent value is allowed.
 template <class Options, class Value>
 struct RangedSetting {

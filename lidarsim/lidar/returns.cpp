@@ -11,7 +11,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.h"
 #include "lidar/internal/rounded.h"
 
 namespace plotscan::lidar {

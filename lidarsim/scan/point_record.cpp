@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/point_record.h"
 
-#include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
-#include <type_traits>
+
+#include "core/number_text.h"
 
 namespace plotscan::scan {
 
@@ -53,12 +52,7 @@ char* PointRecord::pack(const LabelledPoint& point, char* record) const {
 }
 
 void PointRecord::print(const LabelledPoint& point, std::string& text) const {
-  each(point, [&text](const auto& value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    text.append(digits.data(), end);
-    text += ' ';
-  });
+  each(point, [&text](const auto& value) { text.append(NumberText(value)).append(" "); });
   text.back() = '\n';
 }
 

@@ -6,13 +6,15 @@
 
 #include <fmt/core.h>
 
+#include "core/error.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
+#include "ground/surface.h"
 #include "record/scan_folder.h"
 #include "report/page.h"
 #include "report/shown_field.h"
-#include "scanpage/internal/fitted_ground.h"
+#include "report/shown_grid.h"
 #include "scanpage/read_cloud.h"
 
 namespace plotscan::scanpage {
@@ -62,6 +64,18 @@ std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownClou
   facts.push_back(
       {"flight", fmt::format("{:.1f} s", flight.reported.end_s() - flight.reported.start_s())});
   return facts;
+}
+
+// The ground fitted under a cloud's shown points; nothing if they show none.
+std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, int threads) {
+  std::vector<Eigen::Vector3f> places;
+  places.reserve(cloud.points.size());
+  for (const report::ShownPoint& point : cloud.points) places.push_back(point.place);
+  try {
+    return report::shown_grid(ground::fit_surface(places, {.threads = threads}), cloud.origin);
+  } catch (const InputError&) {
+    return std::nullopt;  // such as a too large field: the page then shows the cloud's own heights
+  }
 }
 
 }  // namespace

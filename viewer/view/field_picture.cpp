@@ -2,7 +2,6 @@
 #include "view/field_picture.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/core.h>

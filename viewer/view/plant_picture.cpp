@@ -23,6 +23,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "view/internal/camera.h"
 #include "view/internal/display.h"
 #include "view/internal/plant_layout.h"
 #include "view/internal/scale.h"
@@ -40,24 +41,6 @@ constexpr int kLabelFont_px = 15;
 constexpr int kTickFont_px = 13;
 // A wide letter of the label's font.
 constexpr double kLetter_px = 0.6 * kLabelFont_px;
-
-// The picture's plane and the direction from there to the camera, world frame.
-struct View {
-  Eigen::Vector3d right;
-  Eigen::Vector3d up;
-  Eigen::Vector3d back;
-};
-
-View view_from(const PlantPictureOptions& options) {
-  const double azimuth = options.azimuth_deg * kDegrees;
-  const double elevation = options.elevation_deg * kDegrees;
-  View view;
-  view.back = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-               std::sin(elevation)};
-  view.right = {-std::sin(azimuth), std::cos(azimuth), 0};
-  view.up = view.back.cross(view.right);
-  return view;
-}
 
 void validate(const std::vector<PicturedPlant>& plants, const PlantPictureOptions& options) {
   require_range(options.width_px, kPlantPictureSize_px, "picture width");
@@ -206,7 +189,7 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
   validate(plants, options);
   const Display display;
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
-  const View view = view_from(options);
+  const View view = view_from({options.azimuth_deg, options.elevation_deg});
   std::vector<PlantExtent> extents;
   extents.reserve(plants.size());
   for (const PicturedPlant& plant : plants) extents.push_back(plant_extent(plant, view));

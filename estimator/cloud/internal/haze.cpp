@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "core/each_index.h"
 #include "core/statistics.h"
 
 namespace plotscan::cloud {
@@ -232,11 +230,8 @@ std::size_t drop_haze(TiledPoints& cloud, const HazeOptions& options) {
   if (cloud.points.empty()) return 0;
   const Air air(cloud, options);
   std::vector<Marked> marked(cloud.tiles.size());
-  tbb::task_arena arena(options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, marked.size(),
-                      [&](std::size_t tile) { marked[tile] = air.alone(tile); });
-  });
+  for_each_index(marked.size(), options.threads,
+                 [&](std::size_t tile) { marked[tile] = air.alone(tile); });
   std::map<Block, std::vector<char>> hazy;
   for (const auto& [block, alone] : profiles_of(cloud, air, marked))
     hazy[block] = hazy_slabs(alone);

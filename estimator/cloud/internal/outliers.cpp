@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "core/each_index.h"
 
 namespace plotscan::cloud {
 namespace {
@@ -25,7 +24,7 @@ int slab_of(double z_m) { return static_cast<int>(std::floor(z_m / kSlab_m)); }
 class Columns {
  public:
   Columns(const TiledPoints& cloud, const OutlierOptions& options)
-      : cloud_(cloud), options_(options), arena_(options.threads), rows_(cloud.tiles) {
+      : cloud_(cloud), options_(options), rows_(cloud.tiles) {
     for (const double level : tile_levels(cloud, rows_, options.threads))
       first_slab_.push_back(slab_of(level - options.farthest_m));
     count_slabs();
@@ -51,7 +50,7 @@ class Columns {
   // Calls work(tile) for all tiles.
   template <class Work>
   void for_each(const Work& work) const {
-    arena_.execute([&] { tbb::parallel_for(std::size_t{0}, cloud_.tiles.size(), work); });
+    for_each_index(cloud_.tiles.size(), options_.threads, work);
   }
 
  private:
@@ -125,7 +124,6 @@ class Columns {
 
   const TiledPoints& cloud_;
   const OutlierOptions& options_;
-  mutable tbb::task_arena arena_;
   TileRows rows_;
   std::vector<int> first_slab_;  // of each tile's column
   std::size_t slabs_ = 0;        // of a column

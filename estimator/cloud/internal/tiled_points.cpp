@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud/internal/tiled_points.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "core/each_index.h"
 #include "core/statistics.h"
 
 namespace plotscan::cloud {
@@ -26,21 +24,17 @@ TileRows::TileRows(const std::vector<Tile>& tiles)
 std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads) {
   std::vector<float> own(cloud.tiles.size());
   std::vector<double> result(cloud.tiles.size());
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t tile) {
-      const std::size_t step = std::max<std::size_t>(1, cloud.size(tile) / kLevelSample);
-      std::vector<float> z;
-      for (std::size_t i = cloud.begin[tile]; i < cloud.begin[tile + 1]; i += step)
-        z.push_back(cloud.points[i].z());
-      own[tile] = selected<float>(z, z.size() / 2);
-    });
-    tbb::parallel_for(std::size_t{0}, own.size(), [&](std::size_t tile) {
-      std::vector<float> levels;
-      rows.visit_around(tile, kLevelReach,
-                        [&](std::size_t other) { levels.push_back(own[other]); });
-      result[tile] = selected<float>(levels, levels.size() / 2);
-    });
+  for_each_index(own.size(), threads, [&](std::size_t tile) {
+    const std::size_t step = std::max<std::size_t>(1, cloud.size(tile) / kLevelSample);
+    std::vector<float> z;
+    for (std::size_t i = cloud.begin[tile]; i < cloud.begin[tile + 1]; i += step)
+      z.push_back(cloud.points[i].z());
+    own[tile] = selected<float>(z, z.size() / 2);
+  });
+  for_each_index(own.size(), threads, [&](std::size_t tile) {
+    std::vector<float> levels;
+    rows.visit_around(tile, kLevelReach, [&](std::size_t other) { levels.push_back(own[other]); });
+    result[tile] = selected<float>(levels, levels.size() / 2);
   });
   return result;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/internal/vector_map.h"
 
-#include <algorithm>
 #include <string>
 
 #include "core/error.h"

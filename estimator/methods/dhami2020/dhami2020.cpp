@@ -2,8 +2,6 @@
 #include "methods/dhami2020/dhami2020.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
 
 #include "cloud/surroundings.h"

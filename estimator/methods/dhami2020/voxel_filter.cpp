@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/dhami2020/voxel_filter.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace plotscan::methods::dhami2020 {

@@ -15,11 +15,10 @@
 #include "methods/lattice/work_estimate.h"
 #include <Eigen/Geometry>
 #include <fmt/core.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include "core/angle.h"
 #include "core/csv.h"
+#include "core/each_index.h"
 #include "core/error.h"
 #include "core/stage.h"
 #include "estimate/given_plots.h"
@@ -76,12 +75,9 @@ Points ground_told(const CloudFiles& cloud, const cloud::FieldCloud& field,
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
 Points above_ground(Points points, const ground::Surface& surface, int threads) {
   const Stage stage("heights above the ground");
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-      const double ground_z = surface.height(points[i].head<2>().cast<double>());
-      points[i].z() = static_cast<float>(points[i].z() - ground_z);
-    });
+  for_each_index(points.size(), threads, [&](std::size_t i) {
+    const double ground_z = surface.height(points[i].head<2>().cast<double>());
+    points[i].z() = static_cast<float>(points[i].z() - ground_z);
   });
   std::erase_if(points, [](const Eigen::Vector3f& point) { return std::isnan(point.z()); });
   return points;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/internal/maize.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"
+#include "crop/internal/form.h"
 #include "crop/internal/grass.h"
 
 namespace plotscan::crop {

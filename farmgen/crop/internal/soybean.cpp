@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/internal/soybean.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"
+#include "crop/internal/form.h"
 #include "crop/internal/soybean_organs.h"
 
 namespace plotscan::crop {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crop/internal/wheat.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"
+#include "crop/internal/form.h"
 #include "crop/internal/grass.h"
 #include "crop/internal/wheat_ear.h"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "description/internal/models_section.h"
-
 #include <algorithm>
 #include <set>
 
+#include "description/internal/sections.h"
 #include "description/internal/values.h"
 
 #include "core/yaml_section.h"

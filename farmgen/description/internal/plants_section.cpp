@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "description/internal/plants_section.h"
-
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "description/internal/models_section.h"
+#include "description/internal/sections.h"
 #include "description/internal/values.h"
 #include "planting/plot_layout.h"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "description/internal/plots_section.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "description/internal/sections.h"
 #include "planting/plot_layout.h"
 #include <Eigen/Geometry>
 #include <fmt/core.h>

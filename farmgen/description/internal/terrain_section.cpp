@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "description/internal/terrain_section.h"
-
 #include <string>
 
+#include "description/internal/sections.h"
 #include "description/internal/values.h"
 
 #include "core/angle.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "description/internal/weeds_section.h"
-
 #include <tuple>
 
-#include "description/internal/models_section.h"
+#include "description/internal/sections.h"
 #include "description/internal/values.h"
 
 #include "core/yaml_section.h"

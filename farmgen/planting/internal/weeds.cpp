@@ -2,7 +2,6 @@
 #include "planting/internal/weeds.h"
 
 #include <cmath>
-#include <string>
 
 #include "planting/plot_layout.h"
 #include "terrain/extent.h"

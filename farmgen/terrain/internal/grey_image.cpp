@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "terrain/internal/grey_image.h"
 
-#include <array>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>

@@ -12,8 +12,8 @@
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include "core/each_index.h"
 #include "core/stage.h"
 #include "core/statistics.h"
 #include "lidar/internal/canopy_ceiling.h"
@@ -148,12 +148,10 @@ void measure_canopies(farm::Farm& farm, int threads) {
   const Scene scene(scene_content(farm));
   const CanopyCeiling ceiling(farm);
   const double step_m = step_of(farm);
-  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, farm.plots.size(), [&](std::size_t i) {
-      farm::Plot& plot = farm.plots[i];
-      plot.canopy = canopy_of(scene, ceiling, farm.terrain, RayGrid(plot.box, step_m));
-    });
+  const int most = std::min(threads, tbb::info::default_concurrency());
+  for_each_index(farm.plots.size(), most, [&](std::size_t i) {
+    farm::Plot& plot = farm.plots[i];
+    plot.canopy = canopy_of(scene, ceiling, farm.terrain, RayGrid(plot.box, step_m));
   });
 }
 

@@ -4,7 +4,6 @@
 // Private to the library; only built where LASzip is.
 
 #include <filesystem>
-#include <string>
 
 #include <laszip/laszip_api.h>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/error.h"
 #include "scan/internal/las_format.h"
 #include "scan/internal/laszip_file.h"
 #include "scan/internal/rows.h"

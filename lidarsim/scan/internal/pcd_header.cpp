@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <optional>
 
-#include "core/error.h"
 #include "scan/internal/cloud_layout.h"
 
 namespace plotscan::scan {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
-#include "core/error.h"
 #include "scan/internal/cloud_layout.h"
 
 namespace plotscan::scan {

@@ -2,7 +2,6 @@
 #include "view/internal/actors.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "terrain/extent.h"
 #include <vtkActor.h>

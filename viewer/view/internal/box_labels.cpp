@@ -2,7 +2,6 @@
 #include "view/internal/box_labels.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/angle.h"
 #include "view/internal/page.h"

@@ -45,15 +45,20 @@ Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
   return {from_eye.dot(right) / (depth * right_slope), from_eye.dot(up) / (depth * up_slope)};
 }
 
-Camera camera_that_sees(const std::vector<Eigen::Vector3d>& points, const Direction& direction,
-                        double aspect) {
+View view_from(const Direction& direction) {
   const double azimuth = direction.azimuth_deg * kDegrees;
   const double elevation = direction.elevation_deg * kDegrees;
-  Camera camera;
-  camera.back = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                 std::sin(elevation)};
-  camera.right = {-std::sin(azimuth), std::cos(azimuth), 0};
-  camera.up = camera.back.cross(camera.right);
+  View view;
+  view.back = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+               std::sin(elevation)};
+  view.right = {-std::sin(azimuth), std::cos(azimuth), 0};
+  view.up = view.back.cross(view.right);
+  return view;
+}
+
+Camera camera_that_sees(const std::vector<Eigen::Vector3d>& points, const Direction& direction,
+                        double aspect) {
+  Camera camera{view_from(direction)};
   const double up_slope = kUpSlope / kMargin, right_slope = aspect * kUpSlope / kMargin;
   const auto sides = [&](const Eigen::Vector3d& axis, double slope) {
     return sides_of(points, axis, camera.back, slope);

@@ -15,12 +15,18 @@ struct Direction {
   double elevation_deg = 0;
 };
 
-// A perspective camera. World frame, metres.
-struct Camera {
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
-  Eigen::Vector3d back = Eigen::Vector3d::UnitZ();  // unit vectors: away from what is seen,
+// How a camera is turned: unit vectors in the picture's plane and away from what is seen.
+struct View {
+  Eigen::Vector3d back = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+};
+
+View view_from(const Direction& direction);
+
+// A perspective camera. World frame, metres.
+struct Camera : View {
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
   double right_slope = 0, up_slope = 0;  // of the lines of sight to the picture's edges
 
   // A point's place in the picture: -1 to 1 from left to right and from the lower to the upper

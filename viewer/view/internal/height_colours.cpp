@@ -23,21 +23,20 @@ constexpr std::array<Rgb, 9> kSteps = {{{255, 255, 229},
 // Bare ground is not the paper's white.
 constexpr double kGround = 0.6;  // where 0 m lies among the steps
 
-std::uint8_t between(std::uint8_t a, std::uint8_t b, double share) {
-  return static_cast<std::uint8_t>(std::lround(a + (b - a) * share));
-}
-
 }  // namespace
+
+Rgb mixed(const Rgb& from, const Rgb& to, double share) {
+  const auto part = [share](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround(a + (b - a) * share));
+  };
+  return {part(from.red, to.red), part(from.green, to.green), part(from.blue, to.blue)};
+}
 
 Rgb HeightColours::of(double height_m) const {
   const double last = static_cast<double>(kSteps.size() - 1);
   const double at = kGround + std::clamp(height_m / top_m, 0.0, 1.0) * (last - kGround);
   const auto step = std::min(static_cast<std::size_t>(at), kSteps.size() - 2);
-  const double share = at - static_cast<double>(step);
-  const Rgb& a = kSteps[step];
-  const Rgb& b = kSteps[step + 1];
-  return {between(a.red, b.red, share), between(a.green, b.green, share),
-          between(a.blue, b.blue, share)};
+  return mixed(kSteps[step], kSteps[step + 1], at - static_cast<double>(step));
 }
 
 void draw_colour_bar(Page& page, const HeightColours& colours, const Eigen::AlignedBox2d& bar_px,

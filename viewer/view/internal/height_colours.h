@@ -9,6 +9,9 @@
 
 namespace plotscan::view {
 
+// The colour at a share of the way from one to the other.
+Rgb mixed(const Rgb& from, const Rgb& to, double share);
+
 // Heights as colours from light to dark, in an order that colour-blind readers see too: Brewer's
 // YlGn of nine (C. A. Brewer, colorbrewer2.org; values as in d3-scale-chromatic's YlGn).
 struct HeightColours {

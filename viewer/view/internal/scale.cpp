@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 namespace plotscan::view {
+namespace {
 
 double round_step(double least) {
   const double decade = std::pow(10, std::floor(std::log10(least)));
@@ -15,6 +16,8 @@ double round_step(double least) {
   }
   return 10 * decade;
 }
+
+}  // namespace
 
 std::string Ticks::text(double value, double origin) const {
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));

@@ -6,10 +6,7 @@
 
 namespace plotscan::view {
 
-// 1, 2 or 5 times a power of ten, at least that large.
-double round_step(double least);
-
-// Marks of an axis at multiples of a round step.
+// Marks of an axis at multiples of a step: 1, 2 or 5 times a power of ten.
 struct Ticks {
   double step = 1;
   std::vector<double> values = {};

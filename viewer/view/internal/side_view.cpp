@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/internal/height_colours.h"
+
 namespace plotscan::view {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr double kOpacity = 0.55;  // of one point
 constexpr double kCover = 0.12;
 constexpr double kSmallestDot_px = 2;
 constexpr double kLargestDot_px = 6;
-
-std::uint8_t mixed(std::uint8_t paper, std::uint8_t ink, double share) {
-  return static_cast<std::uint8_t>(std::lround(paper + (ink - paper) * share));
-}
 
 }  // namespace
 
@@ -56,10 +54,7 @@ Raster SideView::drawn(const Axes& axes, const Rgb& inside, const Rgb& beyond) c
   for (std::size_t i = 0; i < count.size(); ++i) {
     const double x = static_cast<double>(i % static_cast<std::size_t>(size.x())) + 0.5;
     const Rgb& ink = x >= start_px && x <= end_px ? inside : beyond;
-    const double share = 1 - std::pow(1 - kOpacity, count[i]);
-    raster.pixels.push_back({mixed(kWhite.red, ink.red, share),
-                             mixed(kWhite.green, ink.green, share),
-                             mixed(kWhite.blue, ink.blue, share)});
+    raster.pixels.push_back(mixed(kWhite, ink, 1 - std::pow(1 - kOpacity, count[i])));
   }
   return raster;
 }

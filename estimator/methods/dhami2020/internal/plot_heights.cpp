@@ -6,9 +6,8 @@
 
 #include "cloud/points_in_boxes.h"
 #include "methods/dhami2020/ground_plane.h"
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include "core/each_index.h"
 #include "core/statistics.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -75,11 +74,8 @@ void measure_heights(std::vector<estimate::PlotEstimate>& plots, Points raw, Poi
   const std::vector<PlotBox> boxes = extended_boxes(plots, options.extend_m);
   const auto raw_by_plot = cloud::points_in_boxes(raw, boxes);
   const auto voxels_by_plot = cloud::points_in_boxes(voxels, boxes);
-  tbb::task_arena arena(options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) {
-      measure_plot(plots[i], raw_by_plot[i], voxels_by_plot[i], options.plane_tolerance_m);
-    });
+  for_each_index(plots.size(), options.threads, [&](std::size_t i) {
+    measure_plot(plots[i], raw_by_plot[i], voxels_by_plot[i], options.plane_tolerance_m);
   });
 }
 

@@ -3,14 +3,12 @@
 #include <map>
 
 #include "record/ros/file.h"
+#include "record/ros/internal/bag_format.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/unpack.h"
 
 namespace plotscan::record::ros {
 namespace {
-
-constexpr std::uint8_t kMessage = 2, kFileHeader = 3, kIndex = 4, kChunk = 5, kChunkInfo = 6,
-                       kConnection = 7;
 
 // The "name=value" fields of a record's header.
 class HeaderFields {
@@ -50,27 +48,25 @@ class BagReader {
   BagReader(const std::filesystem::path& file, const MessageSink& sink) : in_(file), sink_(sink) {}
 
   void run() {
-    const auto magic = in_.read(std::min<std::uint64_t>(in_.left(), kMagic.size()));
-    if (std::string_view(magic.data(), magic.size()) != kMagic)
+    const auto magic = in_.read(std::min<std::uint64_t>(in_.left(), kBagMagic.size()));
+    if (std::string_view(magic.data(), magic.size()) != kBagMagic)
       throw InputError("is no ROS bag of format 2.0");
     while (in_.left() > 0) {
       const HeaderFields header(in_.read(in_.number<std::uint32_t>()));
       const auto size = in_.number<std::uint32_t>();
       const auto data = in_.read(size);
-      const auto op = header.number<std::uint8_t>("op");
-      if (op == kFileHeader)
+      const auto op = header.number<BagOp>("op");
+      if (op == BagOp::file_header)
         require_finished(header);
-      else if (op == kChunk)
+      else if (op == BagOp::chunk)
         read_chunk(
             unpacked(header.text("compression"), data, header.number<std::uint32_t>("size")));
-      else if (op != kConnection && op != kIndex && op != kChunkInfo)
-        throw InputError("is broken: unknown record " + std::to_string(op));
+      else if (op != BagOp::connection && op != BagOp::index && op != BagOp::chunk_info)
+        throw InputError("is broken: unknown record " + std::to_string(static_cast<int>(op)));
     }
   }
 
  private:
-  static constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-
   void require_finished(const HeaderFields& header) const {
     if (!header.text_or("encryptor", "").empty()) throw InputError("is encrypted");
     const auto index_at = header.number<std::uint64_t>("index_pos");
@@ -81,13 +77,13 @@ class BagReader {
     for (RecordReader reader(chunk); !reader.empty();) {
       const HeaderFields header(reader.read(reader.number<std::uint32_t>()));
       const auto data = reader.read(reader.number<std::uint32_t>());
-      const auto op = header.number<std::uint8_t>("op");
-      if (op == kConnection)
+      const auto op = header.number<BagOp>("op");
+      if (op == BagOp::connection)
         add_topic(header, HeaderFields(data));
-      else if (op == kMessage)
+      else if (op == BagOp::message)
         hand_on(header, data);
       else
-        throw InputError("is broken: a chunk holds record " + std::to_string(op));
+        throw InputError("is broken: a chunk holds record " + std::to_string(static_cast<int>(op)));
     }
   }
 

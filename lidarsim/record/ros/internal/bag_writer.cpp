@@ -3,6 +3,7 @@
 #include <map>
 
 #include "record/ros/file.h"
+#include "record/ros/internal/bag_format.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
 
@@ -13,29 +14,18 @@ namespace {
 constexpr std::size_t kFileHeaderSize = 4096;
 constexpr std::uint32_t kIndexVersion = 1;
 
-enum class Op : std::uint8_t {
-  message = 2,
-  file_header = 3,
-  index = 4,
-  chunk = 5,
-  chunk_info = 6,
-  connection = 7
-};
-
 // The "name=value" fields of a record's header.
 class Fields {
  public:
-  explicit Fields(Op op) { add("op", static_cast<std::uint8_t>(op)); }
+  explicit Fields(BagOp op) { add("op", op); }
   Fields() = default;
 
   template <class Number>
   Fields& add(std::string_view name, Number value) {
-    std::string bytes;
-    append_number(bytes, value);
-    return add_text(name, bytes);
+    return add_text(name, bytes_of(value));
   }
   Fields& add_text(std::string_view name, std::string_view value) {
-    append_text(bytes_, std::string(name) + "=" + std::string(value));
+    append_values(bytes_, std::string(name) + "=" + std::string(value));
     return *this;
   }
   Fields& add_time(std::string_view name, Time time) {
@@ -48,8 +38,7 @@ class Fields {
 };
 
 void append_record(std::string& bytes, const Fields& header, std::string_view data) {
-  append_text(bytes, header.bytes());
-  append_text(bytes, data);
+  append_values(bytes, header.bytes(), data);
 }
 
 void append_connection(std::string& bytes, std::uint32_t id, const Topic& topic) {
@@ -59,7 +48,7 @@ void append_connection(std::string& bytes, std::uint32_t id, const Topic& topic)
       .add_text("md5sum", md5_sum(topic.type))
       .add_text("message_definition", message_definition(topic.type, Version::ros1));
   if (topic.latched) data.add_text("callerid", "/plotscan").add_text("latching", "1");
-  append_record(bytes, Fields(Op::connection).add("conn", id).add_text("topic", topic.name),
+  append_record(bytes, Fields(BagOp::connection).add("conn", id).add_text("topic", topic.name),
                 data.bytes());
 }
 
@@ -80,7 +69,7 @@ class BagWriter : public FileWriter {
  public:
   BagWriter(const std::filesystem::path& file, std::vector<Topic> topics)
       : out_(file), topics_(std::move(topics)), seen_(topics_.size()) {
-    out_.write("#ROSBAG V2.0\n");
+    out_.write(kBagMagic);
     header_at_ = out_.offset();
     out_.write(file_header(0));
   }
@@ -95,9 +84,9 @@ class BagWriter : public FileWriter {
     TopicIndex& index = index_[id];
     ++index.count;
     index.entries += encode(Version::ros1, time);
-    append_number(index.entries, static_cast<std::uint32_t>(chunk_.size()));
+    append_values(index.entries, static_cast<std::uint32_t>(chunk_.size()));
     info_.last = time;
-    append_record(chunk_, Fields(Op::message).add("conn", id).add_time("time", time), message);
+    append_record(chunk_, Fields(BagOp::message).add("conn", id).add_time("time", time), message);
     if (chunk_.size() > kChunkSize) end_chunk();
   }
 
@@ -116,7 +105,7 @@ class BagWriter : public FileWriter {
  private:
   std::string file_header(std::uint64_t index_at) const {
     const auto topics = static_cast<std::uint32_t>(std::ranges::count(seen_, true));
-    const Fields header = Fields(Op::file_header)
+    const Fields header = Fields(BagOp::file_header)
                               .add("index_pos", index_at)
                               .add("conn_count", topics)
                               .add("chunk_count", static_cast<std::uint32_t>(chunks_.size()));
@@ -131,14 +120,14 @@ class BagWriter : public FileWriter {
     if (chunk_.empty()) return;
     std::string bytes;
     append_record(bytes,
-                  Fields(Op::chunk)
+                  Fields(BagOp::chunk)
                       .add_text("compression", "none")
                       .add("size", static_cast<std::uint32_t>(chunk_.size())),
                   chunk_);
     for (const auto& [id, index] : index_) {
       append_record(
           bytes,
-          Fields(Op::index).add("ver", kIndexVersion).add("conn", id).add("count", index.count),
+          Fields(BagOp::index).add("ver", kIndexVersion).add("conn", id).add("count", index.count),
           index.entries);
       info_.counts[id] = index.count;
     }
@@ -150,12 +139,9 @@ class BagWriter : public FileWriter {
 
   static void append_chunk_info(std::string& bytes, const ChunkInfo& chunk) {
     std::string counts;
-    for (const auto& [id, count] : chunk.counts) {
-      append_number(counts, id);
-      append_number(counts, count);
-    }
+    for (const auto& [id, count] : chunk.counts) append_values(counts, id, count);
     append_record(bytes,
-                  Fields(Op::chunk_info)
+                  Fields(BagOp::chunk_info)
                       .add("ver", kIndexVersion)
                       .add("chunk_pos", chunk.offset)
                       .add_time("start_time", chunk.first)

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/error.h"
@@ -18,16 +18,27 @@ namespace plotscan::record {
 // The size at which a chunk of messages is written, bytes.
 inline constexpr std::size_t kChunkSize = std::size_t{768} << 10;
 
-// Appends a number as it lies in memory (little endian).
-template <class Number>
-void append_number(std::string& bytes, Number value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+// Appends numbers as they lie in memory (little endian), and texts behind their lengths in 32 bits.
+template <class... Value>
+void append_values(std::string& bytes, const Value&... values) {
+  const auto append = [&bytes](const auto& value) {
+    if constexpr (std::is_convertible_v<decltype(value), std::string_view>) {
+      const std::string_view text = value;
+      append_values(bytes, static_cast<std::uint32_t>(text.size()));
+      bytes += text;
+    } else {
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  };
+  (append(values), ...);
 }
 
-// Appends the text's length in 32 bits, then the text.
-inline void append_text(std::string& bytes, std::string_view text) {
-  append_number(bytes, static_cast<std::uint32_t>(text.size()));
-  bytes += text;
+// The same alone.
+template <class... Value>
+std::string bytes_of(const Value&... values) {
+  std::string bytes;
+  append_values(bytes, values...);
+  return bytes;
 }
 
 // A file written from its beginning to its end.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/internal/inertial.h"
 
-#include <algorithm>
-
 #include "core/gravity.h"
 
 namespace plotscan::record {

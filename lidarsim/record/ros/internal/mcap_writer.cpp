@@ -12,17 +12,11 @@
 namespace plotscan::record::ros {
 namespace {
 
-void append_record(std::string& bytes, McapOp op, std::string_view content) {
-  append_number(bytes, op);
-  append_number(bytes, static_cast<std::uint64_t>(content.size()));
-  bytes += content;
-}
+constexpr std::string_view kNotCompressed;  // an empty name
 
-std::string header_content() {
-  std::string content;
-  append_text(content, "ros2");
-  append_text(content, "plotscan");
-  return content;
+void append_record(std::string& bytes, McapOp op, std::string_view content) {
+  append_values(bytes, op, static_cast<std::uint64_t>(content.size()));
+  bytes += content;
 }
 
 // Quality of service as rosbag2 writes it up to version 8 of its metadata: keep the last 10,
@@ -36,13 +30,6 @@ std::string qos_profiles(bool latched) {
          "  liveliness_lease_duration:\n" + forever + "  avoid_ros_namespace_conventions: false";
 }
 
-std::string rosbag2_metadata() {
-  std::string content;
-  append_text(content, "rosbag2");
-  append_text(content, "");  // an empty map
-  return content;
-}
-
 struct ChunkIndex {
   std::int64_t first_ns = 0;
   std::int64_t last_ns = 0;
@@ -54,22 +41,10 @@ struct ChunkIndex {
 };
 
 std::string content_of(const ChunkIndex& chunk) {
-  std::string content;
-  append_number(content, chunk.first_ns);
-  append_number(content, chunk.last_ns);
-  append_number(content, chunk.offset);
-  append_number(content, chunk.length);
   std::string offsets;
-  for (const auto& [channel, offset] : chunk.index_offsets) {
-    append_number(offsets, channel);
-    append_number(offsets, offset);
-  }
-  append_text(content, offsets);
-  append_number(content, chunk.index_length);
-  append_text(content, "");  // compression
-  append_number(content, chunk.size);
-  append_number(content, chunk.size);
-  return content;
+  for (const auto& [channel, offset] : chunk.index_offsets) append_values(offsets, channel, offset);
+  return bytes_of(chunk.first_ns, chunk.last_ns, chunk.offset, chunk.length, offsets,
+                  chunk.index_length, kNotCompressed, chunk.size, chunk.size);
 }
 
 class McapWriter : public FileWriter {
@@ -80,9 +55,9 @@ class McapWriter : public FileWriter {
     std::uint16_t next = 0;
     for (auto& [type, id] : schemas_) id = ++next;
     std::string bytes(kMcapMagic);
-    append_record(bytes, McapOp::header, header_content());
+    append_record(bytes, McapOp::header, bytes_of("ros2", "plotscan"));
     metadata_at_ = bytes.size();
-    append_record(bytes, McapOp::metadata, rosbag2_metadata());
+    append_record(bytes, McapOp::metadata, bytes_of("rosbag2", ""));  // an empty map
     metadata_length_ = bytes.size() - metadata_at_;
     bytes += schema_records() + channel_records();
     write_data(bytes);
@@ -95,25 +70,17 @@ class McapWriter : public FileWriter {
     if (chunk_.empty()) chunk_first_ = time;
     if (!first_) first_ = time;
     last_ = time;
-    std::string& entries = index_[channel];
-    append_number(entries, time.ns);
-    append_number(entries, static_cast<std::uint64_t>(chunk_.size()));
-    std::string content;
-    append_number(content, channel);
-    append_number(content, static_cast<std::uint32_t>(counts_[topic]++));
-    append_number(content, time.ns);
-    append_number(content, time.ns);
-    content += message;
-    append_record(chunk_, McapOp::message, content);
+    append_values(index_[channel], time.ns, static_cast<std::uint64_t>(chunk_.size()));
+    const auto sequence = static_cast<std::uint32_t>(counts_[topic]++);
+    append_record(chunk_, McapOp::message,
+                  bytes_of(channel, sequence, time.ns, time.ns).append(message));
     if (chunk_.size() > kChunkSize) end_chunk();
   }
 
   void close() override {
     end_chunk();
     std::string bytes;
-    std::string crc;
-    append_number(crc, data_crc_);
-    append_record(bytes, McapOp::data_end, crc);
+    append_record(bytes, McapOp::data_end, bytes_of(data_crc_));
     out_.write(bytes);
     write_summary();
     out_.close();
@@ -124,12 +91,9 @@ class McapWriter : public FileWriter {
   std::string schema_records() const {
     std::string records;
     for (const auto& [type, id] : schemas_) {
-      std::string content;
-      append_number(content, id);
-      append_text(content, ros2_name(type));
-      append_text(content, "ros2msg");
-      append_text(content, message_definition(type, Version::ros2));
-      append_record(records, McapOp::schema, content);
+      append_record(
+          records, McapOp::schema,
+          bytes_of(id, ros2_name(type), "ros2msg", message_definition(type, Version::ros2)));
     }
     return records;
   }
@@ -137,16 +101,12 @@ class McapWriter : public FileWriter {
   std::string channel_records() const {
     std::string records;
     for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
-      std::string metadata;
-      append_text(metadata, "offered_qos_profiles");
-      append_text(metadata, qos_profiles(topics_[topic].latched));
-      std::string content;
-      append_number(content, static_cast<std::uint16_t>(topic + 1));
-      append_number(content, schemas_.at(topics_[topic].type));
-      append_text(content, topics_[topic].name);
-      append_text(content, "cdr");
-      append_text(content, metadata);
-      append_record(records, McapOp::channel, content);
+      const std::string metadata =
+          bytes_of("offered_qos_profiles", qos_profiles(topics_[topic].latched));
+      append_record(
+          records, McapOp::channel,
+          bytes_of(static_cast<std::uint16_t>(topic + 1), schemas_.at(topics_[topic].type),
+                   topics_[topic].name, "cdr", metadata));
     }
     return records;
   }
@@ -158,23 +118,15 @@ class McapWriter : public FileWriter {
                      .offset = out_.offset(),
                      .index_offsets = {},
                      .size = chunk_.size()};
-    std::string content;
-    append_number(content, chunk.first_ns);
-    append_number(content, chunk.last_ns);
-    append_number(content, chunk.size);
-    append_number(content, mcap_crc(chunk_));
-    append_text(content, "");  // compression
-    append_number(content, chunk.size);
-    content += chunk_;
     std::string bytes;
-    append_record(bytes, McapOp::chunk, content);
+    append_record(bytes, McapOp::chunk,
+                  bytes_of(chunk.first_ns, chunk.last_ns, chunk.size, mcap_crc(chunk_),
+                           kNotCompressed, chunk.size)
+                      .append(chunk_));
     chunk.length = bytes.size();
     for (const auto& [channel, entries] : index_) {
       chunk.index_offsets[channel] = chunk.offset + bytes.size();
-      std::string index;
-      append_number(index, channel);
-      append_text(index, entries);
-      append_record(bytes, McapOp::message_index, index);
+      append_record(bytes, McapOp::message_index, bytes_of(channel, entries));
     }
     chunk.index_length = bytes.size() - chunk.length;
     write_data(bytes);
@@ -189,11 +141,8 @@ class McapWriter : public FileWriter {
     std::string bytes;
     std::string offsets;
     const auto group = [&](McapOp op, const std::string& records) {
-      std::string content;
-      append_number(content, op);
-      append_number(content, begin + bytes.size());
-      append_number(content, static_cast<std::uint64_t>(records.size()));
-      append_record(offsets, McapOp::summary_offset, content);
+      append_record(offsets, McapOp::summary_offset,
+                    bytes_of(op, begin + bytes.size(), static_cast<std::uint64_t>(records.size())));
       bytes += records;
     };
     group(McapOp::schema, schema_records());
@@ -206,11 +155,8 @@ class McapWriter : public FileWriter {
     if (!chunks_.empty()) group(McapOp::chunk_index, chunk_records);
     const std::uint64_t offsets_begin = begin + bytes.size();
     bytes += offsets;
-    append_number(bytes, McapOp::footer);
-    append_number(bytes, kMcapFooterSize);
-    append_number(bytes, begin);
-    append_number(bytes, offsets_begin);
-    append_number(bytes, mcap_crc(bytes));
+    append_values(bytes, McapOp::footer, kMcapFooterSize, begin, offsets_begin);
+    append_values(bytes, mcap_crc(bytes));
     out_.write(bytes + std::string(kMcapMagic));
   }
 
@@ -219,31 +165,23 @@ class McapWriter : public FileWriter {
     std::string counts;
     for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
       messages += counts_[topic];
-      append_number(counts, static_cast<std::uint16_t>(topic + 1));
-      append_number(counts, counts_[topic]);
+      append_values(counts, static_cast<std::uint16_t>(topic + 1), counts_[topic]);
     }
-    std::string content;
-    append_number(content, messages);
-    append_number(content, static_cast<std::uint16_t>(schemas_.size()));
-    append_number(content, static_cast<std::uint32_t>(topics_.size()));
-    append_number(content, std::uint32_t{0});  // attachments
-    append_number(content, std::uint32_t{1});  // metadata
-    append_number(content, static_cast<std::uint32_t>(chunks_.size()));
-    append_number(content, first_.value_or(Time{}).ns);
-    append_number(content, last_.ns);
-    append_text(content, counts);
+    constexpr std::uint32_t kAttachments = 0;
+    constexpr std::uint32_t kMetadata = 1;
     std::string record;
-    append_record(record, McapOp::statistics, content);
+    append_record(record, McapOp::statistics,
+                  bytes_of(messages, static_cast<std::uint16_t>(schemas_.size()),
+                           static_cast<std::uint32_t>(topics_.size()), kAttachments, kMetadata,
+                           static_cast<std::uint32_t>(chunks_.size()), first_.value_or(Time{}).ns,
+                           last_.ns, counts));
     return record;
   }
 
   std::string metadata_index_record() const {
-    std::string content;
-    append_number(content, metadata_at_);
-    append_number(content, metadata_length_);
-    append_text(content, "rosbag2");
     std::string record;
-    append_record(record, McapOp::metadata_index, content);
+    append_record(record, McapOp::metadata_index,
+                  bytes_of(metadata_at_, metadata_length_, "rosbag2"));
     return record;
   }
 

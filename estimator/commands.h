@@ -3,9 +3,12 @@
 
 #include "core/program.h"
 
+// Each adds the command of its name to `estimator`.
 namespace plotscan {
 
-// Adds `estimator report EST -o PAGE`.
+void declare_run(Program& program);
+void declare_info(Program& program);
+void declare_score(Program& program);
 void declare_report(Program& program);
 
 }  // namespace plotscan
