@@ -211,9 +211,15 @@ YAML::Node YamlSection::value(const std::string& key) const {
   return std::as_const(reading_->node)[key];
 }
 
+// A value that is empty has the mark of what follows: it is blamed at its key.
 void YamlSection::fail(const std::string& key, const std::string& message) const {
   const YAML::Node at = std::as_const(reading_->node)[key];
-  document_->fail(at ? at.Mark() : reading_->node.Mark(), path_of(key), message);
+  YAML::Mark mark = at ? at.Mark() : reading_->node.Mark();
+  if (at && at.IsNull()) {
+    for (const auto& entry : reading_->node)
+      if (name_of(entry.first) == key) mark = entry.first.Mark();
+  }
+  document_->fail(mark, path_of(key), message);
 }
 
 // If a key that nobody asked for is spelt almost like this one, the user probably meant this one.
