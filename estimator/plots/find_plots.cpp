@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -146,7 +147,9 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
                 int threads) {
   const Frame frame = frame_of(axes);
   const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
-  const std::array scales = {field.scale(), CanopyScale{leaves_m, leaves_m + kStep_m, true}};
+  const std::array scales = {
+      field.scale(),
+      CanopyScale{.low_m = leaves_m, .high_m = leaves_m + kStep_m, .with_tall = true}};
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
   const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
@@ -179,24 +182,60 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   return look;
 }
 
+Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, int threads) {
+  const CanopyRaster coarse =
+      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+  std::optional<Look> best;
+  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
+    Look look = look_along(axes, field, noise_m, hints, threads);
+    if (!best || look.evidence > best->evidence) best = std::move(look);
+  }
+  return best ? std::move(*best) : Look{no_plots("no canopy stands out from the ground here")};
+}
+
+// Whether plots were found that hold nearly all of the canopy.
+bool holds_most(const Look& look) {
+  constexpr double kMost = 0.9;
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
+}
+
+// Where a part of what stands on a field is taken for something else, what is left may be few
+// pieces of anything: they must be so many.
+bool is_field(const Look& look) {
+  constexpr std::size_t kLeastPlots = 4;
+  return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
+}
+
+// Whether a look without another crop shows a field of more plots, and more clearly. The evidence
+// of the two is not that of the same canopy.
+bool explains_more(const Look& without, const Look& all) {
+  return all.evidence == 0 ||
+         (without.field.plots.size() > all.field.plots.size() &&
+          field_confidence(*without.field.signs) > field_confidence(*all.field.signs));
+}
+
 }  // namespace
 
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error) {
   const FieldBlocks blocks(points, noise_m, threads);
-  Look best{no_plots("no canopy stands out from the ground here")};
-  bool first = true;
-  for (const double crop_top_m : blocks.crop_tops_m()) {
-    const FieldCanopy field(points, blocks, crop_top_m, threads, ground_error);
-    const CanopyRaster coarse =
-        rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
-    for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
-      Look look = look_along(axes, field, noise_m, hints, threads);
-      if (first || look.evidence > best.evidence) best = std::move(look);
-      first = false;
-    }
+  const auto looks_for = [&](const Crop& crop) {
+    const FieldCanopy field(points, blocks, crop, threads, ground_error);
+    return look_for(field, noise_m, hints, threads);
+  };
+  std::optional<Look> best;
+  for (const double top_m : blocks.crop_tops_m()) {
+    Look look = looks_for({.top_m = top_m});
+    if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
-  return std::move(best.field);
+  if (!best) return no_plots("no canopy stands out from the ground here");
+  const std::vector<bool> closed = blocks.closed();
+  if (holds_most(*best) || std::ranges::count(closed, true) == 0) return std::move(best->field);
+  for (const double top_m : blocks.crop_tops_m()) {
+    Look look = looks_for({.top_m = top_m, .others = closed});
+    if (is_field(look) && explains_more(look, *best)) best = std::move(look);
+  }
+  return std::move(best->field);
 }
 
 }  // namespace plotscan::plots

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -32,6 +33,9 @@ constexpr float kLeastPatchReturns = 4;  // of a patch that is judged
 constexpr double kSurfaceSigmas = 1.5;
 // Of the area that stands out: so much of it, lower than half of the usual top, may be the crop.
 constexpr double kLeastLowShare = 0.25;
+
+constexpr std::size_t kClosed_blocks = 4;  // side of a square that is covered all over: no plot's
+constexpr double kClosedMean = 0.9, kClosedLeast = 0.7;  // of the well covered blocks' cover
 
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 
@@ -101,7 +105,7 @@ struct FieldBlocks::Block {
   HeightCounts heights;
   std::array<Patch, static_cast<std::size_t>(kMostPatches) * kMostPatches> patches{};
 
-  bool has_canopy() const { return heights.count() >= kLeastCanopyShare * count; }
+  double cover() const { return heights.count() / std::max(1.0, 1.0 * count); }
   // Most of the patches that stand above the ground scatter no more than noise does.
   bool is_surface(double canopy_m, double noise_m) const {
     int high = 0, smooth = 0;
@@ -176,9 +180,10 @@ FieldBlocks::FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m
     if (block.count > 0) scanned.push_back(block.count);
   const double least = kLeastDensity * quantile(std::move(scanned), 0.5);
   for (const Block& block : blocks) {
-    const bool canopy = block.count >= least && block.has_canopy();
+    const bool canopy = block.count >= least && block.cover() >= kLeastCanopyShare;
     facts_.push_back({.seldom_seen = block.count < least,
                       .stands_out = canopy,
+                      .cover = block.cover(),
                       .surface = canopy && block.is_surface(canopy_m, noise_m),
                       .top_m = block.heights.quantile(kBlockTop),
                       .highest_m = block.heights.quantile(1)});
@@ -205,6 +210,52 @@ std::vector<double> FieldBlocks::crop_tops_m() const {
     if (static_cast<double>(left.size()) < kLeastLowShare * all) break;
   }
   return tops;
+}
+
+std::vector<bool> FieldBlocks::closed() const {
+  std::vector<double> covers;
+  for (const BlockFacts& block : facts_)
+    if (block.stands_out) covers.push_back(block.cover);
+  const double well_covered = quantile(std::move(covers), 0.75);
+  const auto is_covered = [&](std::size_t number) {
+    return facts_[number].cover >= kClosedLeast * well_covered;
+  };
+  std::vector<std::size_t> found = closed_squares(well_covered);
+  std::vector<bool> closed(facts_.size());
+  for (const std::size_t number : found) closed[number] = true;
+  // What follows on from the squares, then what lies beside it.
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for_each_about(found[i], [&](std::size_t near) {
+      if (closed[near] || !is_covered(near)) return;
+      closed[near] = true;
+      found.push_back(near);
+    });
+  }
+  for (const std::size_t number : found)
+    for_each_about(number, [&](std::size_t near) { closed[near] = true; });
+  return closed;
+}
+
+// The blocks of squares that are covered all over, each once.
+std::vector<std::size_t> FieldBlocks::closed_squares(double well_covered) const {
+  const std::size_t along_x = facts_.size() / std::max<std::size_t>(1, along_y_);
+  std::set<std::size_t> blocks;
+  for (std::size_t x = 0; x + kClosed_blocks <= along_x; ++x) {
+    for (std::size_t y = 0; y + kClosed_blocks <= along_y_; ++y) {
+      std::vector<std::size_t> square;
+      for (std::size_t i = 0; i < kClosed_blocks * kClosed_blocks; ++i)
+        square.push_back((x + i / kClosed_blocks) * along_y_ + y + i % kClosed_blocks);
+      double sum = 0, least = 1;
+      for (const std::size_t number : square) {
+        sum += facts_[number].cover;
+        least = std::min(least, facts_[number].cover);
+      }
+      const double mean = sum / static_cast<double>(square.size());
+      if (mean >= kClosedMean * well_covered && least >= kClosedLeast * well_covered)
+        blocks.insert(square.begin(), square.end());
+    }
+  }
+  return {blocks.begin(), blocks.end()};
 }
 
 }  // namespace plotscan::plots

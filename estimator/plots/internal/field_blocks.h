@@ -3,6 +3,7 @@
 
 // Private to the library: what stands on each square metre of a field.
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -15,6 +16,7 @@ namespace plotscan::plots {
 struct BlockFacts {
   bool seldom_seen = false;  // less than a tenth of the usual density: the survey's margin
   bool stands_out = false;   // something stands on the ground:
+  double cover = 0;          // share of the returns that are of it,
   bool surface = false;      // smooth, as walls and roofs are; else it may be canopy,
   double top_m = 0;          // nine tenths of whose returns are lower than this,
   double highest_m = 0;      // and all lower than this
@@ -28,7 +30,6 @@ class FieldBlocks {
   FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m, int threads);
 
   const std::vector<BlockFacts>& facts() const { return facts_; }
-  std::size_t along_y() const { return along_y_; }
   // The number of a finite point's block, or of its cell, of which per_side lie along a block's
   // side; those that follow each other along y have consecutive numbers.
   std::size_t number_of(const Eigen::Vector3f& point, int per_side = 1) const {
@@ -43,6 +44,19 @@ class FieldBlocks {
   // its top. Where much of the area stands lower than half of it, trees or buildings may stand
   // there, and the same is taken of what is lower. Empty where nothing stands out.
   std::vector<double> crop_tops_m() const;
+  // Which blocks are covered all over, in squares of 4 m and what follows on from them, or lie
+  // beside such: a crop that is sown without gaps, as around many trials, or plots whose gaps
+  // leaves close.
+  std::vector<bool> closed() const;
+  // Calls use(number) for a block and those beside it.
+  template <typename Use>
+  void for_each_about(std::size_t number, const Use& use) const {
+    const std::size_t along_x = facts_.size() / along_y_;
+    const std::size_t x = number / along_y_, y = number % along_y_;
+    for (std::size_t near_x = x > 0 ? x - 1 : 0; near_x < std::min(x + 2, along_x); ++near_x)
+      for (std::size_t near_y = y > 0 ? y - 1 : 0; near_y < std::min(y + 2, along_y_); ++near_y)
+        use(near_x * along_y_ + near_y);
+  }
 
  private:
   struct Block;
@@ -50,6 +64,7 @@ class FieldBlocks {
   std::size_t lay_out(std::span<const Eigen::Vector3f> points);
   std::vector<Block> filled(std::span<const Eigen::Vector3f> points, std::size_t count,
                             double canopy_m) const;
+  std::vector<std::size_t> closed_squares(double well_covered) const;
 
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1, low_m_ = 0;

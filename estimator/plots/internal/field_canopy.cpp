@@ -22,26 +22,13 @@ constexpr int kCells = 5;    // of a block's side: that of the ground's grid
 // clouds, it must be kUnsureTimes that under the usual canopy.
 constexpr double kUnsureShare = 0.0625, kUnsureTimes = 3;
 
-// Calls use(number) for a block and those beside it.
-template <typename Use>
-void for_blocks_about(const FieldBlocks& blocks, std::size_t number, const Use& use) {
-  const std::size_t along_y = blocks.along_y(), along_x = blocks.facts().size() / along_y;
-  const std::size_t x = number / along_y, y = number % along_y;
-  for (std::size_t near_x = x - std::min<std::size_t>(x, 1); near_x < std::min(x + 2, along_x);
-       ++near_x) {
-    for (std::size_t near_y = y - std::min<std::size_t>(y, 1); near_y < std::min(y + 2, along_y);
-         ++near_y)
-      use(near_x * along_y + near_y);
-  }
-}
-
 }  // namespace
 
 // Leaves out surfaces and the blocks beside them, which a surface's edge may fill in part.
 void FieldCanopy::leave_out_surfaces() {
   for (std::size_t i = 0; i < left_out_.size(); ++i) {
     if (blocks_.facts()[i].surface)
-      for_blocks_about(blocks_, i, [&](std::size_t near) { left_out_[near] = 1; });
+      blocks_.for_each_about(i, [&](std::size_t near) { left_out_[near] = 1; });
   }
 }
 
@@ -51,7 +38,7 @@ void FieldCanopy::find_tall_blocks() {
   const double tall_m = kTall * scale_.high_m;
   for (std::size_t i = 0; i < tall_.size(); ++i) {
     if (!facts[i].stands_out || facts[i].top_m < tall_m) continue;
-    for_blocks_about(blocks_, i, [&](std::size_t near) {
+    blocks_.for_each_about(i, [&](std::size_t near) {
       if (facts[near].highest_m >= tall_m) tall_[near] = 1;
     });
   }
@@ -93,15 +80,17 @@ double FieldCanopy::surface_share(std::span<const Eigen::Vector2d> places, doubl
 }
 
 FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlocks& blocks,
-                         double crop_top_m, int threads, const GroundError& ground_error)
+                         const Crop& crop, int threads, const GroundError& ground_error)
     : blocks_(blocks),
-      scale_{.low_m = blocks.low_m(), .high_m = std::max(crop_top_m, 2 * blocks.low_m())},
+      scale_{.low_m = blocks.low_m(), .high_m = std::max(crop.top_m, 2 * blocks.low_m())},
       tall_(blocks.facts().size()) {
   for (const BlockFacts& block : blocks.facts()) left_out_.push_back(block.seldom_seen);
+  for (std::size_t i = 0; i < crop.others.size(); ++i)
+    if (crop.others[i]) left_out_[i] = 1;
   leave_out_surfaces();
   find_tall_blocks();
   tbb::task_arena arena(threads);
-  if (ground_error && crop_top_m > 0) arena.execute([&] { leave_out_unsure_ground(ground_error); });
+  if (ground_error && crop.top_m > 0) arena.execute([&] { leave_out_unsure_ground(ground_error); });
   kept_.reserve(points.size());
   std::vector<Eigen::Vector3f> tall;
   for (const Eigen::Vector3f& point : points) {

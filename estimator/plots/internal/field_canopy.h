@@ -23,15 +23,21 @@ struct CanopyScale {
   bool with_tall = false;  // blocks that are taller than the crop count too
 };
 
-// A field's points as (x, y, height above the ground), metres, for a crop of a given height. Left
-// out are points that are not finite, blocks of a survey's margin with less than a tenth of the
-// field's density, blocks filled by a smooth surface (canopy scatters heights by more than the
+// What may be the crop that the plots are sown with.
+struct Crop {
+  double top_m = 0;               // its height; 0 where nothing stands out
+  std::vector<bool> others = {};  // of each block, whether it holds another crop; none where empty
+};
+
+// A field's points as (x, y, height above the ground), metres, for one crop. Left out are points
+// that are not finite, blocks of other crops, blocks of a survey's margin with less than a tenth of
+// the field's density, blocks filled by a smooth surface (canopy scatters heights by more than the
 // sensor's noise; else it is a wall, a car's roof, a sheet, or ground that the ground's model
 // missed), and places whose ground is too uncertain to distinguish ridges from canopy.
 class FieldCanopy {
  public:
   // `blocks` are those of `points` and outlive this.
-  FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlocks& blocks, double crop_top_m,
+  FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlocks& blocks, const Crop& crop,
               int threads, const GroundError& ground_error = {});
 
   // The points that are not left out: those that may be the crop first, in their order, then those

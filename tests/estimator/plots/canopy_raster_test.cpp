@@ -72,7 +72,7 @@ TEST(Rasterise, PutsEveryPointInItsCell) {
                         static_cast<float>(random.uniform(0, 1)));
   }
   const FieldBlocks blocks(points, 0.02, 2);
-  const FieldCanopy field(points, blocks, 1, 2);
+  const FieldCanopy field(points, blocks, {.top_m = 1}, 2);
   const CanopyScale scale{0.2, 0.7};
   const CanopyRaster raster = rasterise(field, oblique(), 0.4, {&scale, 1}, 2).front();
   const Frame& frame = raster.frame();
@@ -106,8 +106,9 @@ TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
                         static_cast<float>(random.uniform(0, top_m)));
   }
   const FieldBlocks blocks(points, 0.02, 2);
-  const FieldCanopy field(points, blocks, 0.45, 2);
-  const std::array scales = {CanopyScale{0.1, 0.4}, CanopyScale{0.1, 0.4, true}};
+  const FieldCanopy field(points, blocks, {.top_m = 0.45}, 2);
+  const std::array scales = {CanopyScale{.low_m = 0.1, .high_m = 0.4},
+                             CanopyScale{.low_m = 0.1, .high_m = 0.4, .with_tall = true}};
   const std::vector<CanopyRaster> rasters = rasterise(field, {}, 0.25, scales, 2);
   EXPECT_EQ(rasters[0].seen_cells(80, 84, 0, 4), 0);
   EXPECT_EQ(rasters[1].seen_cells(80, 84, 0, 4), 16);
@@ -118,7 +119,7 @@ TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
 TEST(Rasterise, OfNoPointsHasNoCells) {
   const CanopyScale scale{0.2, 0.7};
   const FieldBlocks none({}, 0.02, 1);
-  EXPECT_EQ(rasterise(FieldCanopy({}, none, 0, 1), {}, 0.1, {&scale, 1}, 1).front().a_cells(), 0);
+  EXPECT_EQ(rasterise(FieldCanopy({}, none, {}, 1), {}, 0.1, {&scale, 1}, 1).front().a_cells(), 0);
 }
 
 }  // namespace

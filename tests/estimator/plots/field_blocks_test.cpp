@@ -49,7 +49,28 @@ TEST(FieldBlocks, BelowTreesTheCropMayBeLower) {
               ElementsAre(DoubleNear(4.5, 0.4), DoubleNear(0.55, 0.04)));
 }
 
-TEST(FieldBlocks, BareGroundHasNoCrop) { EXPECT_TRUE(crop_tops_m(field_of(0)).empty()); }
+// In the south a crop without gaps, in the north plots of 2 m with gaps of 1 m.
+TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 80000; ++i) {
+    RandomStream random(7, random_purpose("test/blocks"), i);
+    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
+    const bool sown = y < 8 || (y > 10 && std::fmod(x, 3) < 2);
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
+  }
+  const FieldBlocks blocks(points, kSigma_m, 2);
+  const std::vector<bool> closed = blocks.closed();
+  for (std::size_t number = 0; number < closed.size(); ++number) {
+    const double y = blocks.middle_of(number).y();
+    if (std::abs(y - 9) > 1) EXPECT_EQ(closed[number], y < 9) << y;
+  }
+}
+
+TEST(FieldBlocks, BareGroundHasNoCrop) {
+  EXPECT_TRUE(crop_tops_m(field_of(0)).empty());
+  EXPECT_TRUE(FieldBlocks({}, kSigma_m, 2).closed().empty());
+}
 
 TEST(FieldBlocks, KnowWhatStandsOnThem) {
   const auto points = field_of(0.6, 5, 7);

@@ -33,7 +33,8 @@ std::vector<Eigen::Vector3f> points_over(const Height& height, double noise_m = 
 struct Field {
   explicit Field(const std::vector<Eigen::Vector3f>& points, double noise_m = kNoise_m,
                  const GroundError& ground_error = {})
-      : blocks(points, noise_m, 2), canopy(points, blocks, crop_top_m(), 2, ground_error) {}
+      : blocks(points, noise_m, 2),
+        canopy(points, blocks, {.top_m = crop_top_m()}, 2, ground_error) {}
 
   double crop_top_m() const {
     const std::vector<double> tops_m = blocks.crop_tops_m();
@@ -139,7 +140,7 @@ TEST(FieldCanopy, WhatIsTwiceAsTallAsTheCropComesLast) {
     return in_middle(x, y) ? random.uniform(0, 0.5) : NAN;
   });
   const FieldBlocks blocks(points, kNoise_m, 2);
-  const FieldCanopy field(points, blocks, 0.45, 2);
+  const FieldCanopy field(points, blocks, {.top_m = 0.45}, 2);
   ASSERT_EQ(field.points().size(), points.size());
   const auto is_in_hedge = [](const Eigen::Vector3f& point) {
     return point.x() > 17.3F && point.x() < 18.6F;
@@ -150,7 +151,7 @@ TEST(FieldCanopy, WhatIsTwiceAsTallAsTheCropComesLast) {
   EXPECT_TRUE(std::ranges::all_of(tall, [](const auto& point) { return point.x() > 16.9F; }))
       << "whole blocks";
   // All blocks are the crop's where it may be as tall.
-  EXPECT_EQ(FieldCanopy(points, blocks, 1.8, 2).crop_points(), points.size());
+  EXPECT_EQ(FieldCanopy(points, blocks, {.top_m = 1.8}, 2).crop_points(), points.size());
 }
 
 TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {

@@ -288,6 +288,15 @@ TEST(FindPlots, FindsPlotsBesideALargeRoof) {
   EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
 }
 
+void expect_those(const std::vector<PlotBox>& boxes, const PlotField& field) {
+  EXPECT_EQ(field.why_none, "");
+  ASSERT_EQ(field.plots.size(), boxes.size());
+  for (const FoundPlot& plot : field.plots) {
+    EXPECT_TRUE(std::ranges::any_of(
+        boxes, [&](const PlotBox& box) { return intersection_over_union(box, plot.box) > 0.9; }));
+  }
+}
+
 // A hedge of 1.8 m along one side of the field, and trees of 5 m in two corners: most of the
 // volume, if not of the area.
 TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
@@ -301,13 +310,24 @@ TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
     if (from_tree < 2.4F) point.z() = static_cast<float>(random.uniform(1, 5));
     if (point.y() < -10.6F) point.z() = static_cast<float>(random.uniform(0.6, 1.8));
   }
-  const PlotField field = find_plots(points, 0.02, {}, 2);
-  EXPECT_EQ(field.why_none, "");
-  ASSERT_EQ(field.plots.size(), boxes.size());
-  for (const FoundPlot& plot : field.plots) {
-    EXPECT_TRUE(std::ranges::any_of(
-        boxes, [&](const PlotBox& box) { return intersection_over_union(box, plot.box) > 0.9; }));
+  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+}
+
+// The same crop without plots, 24 x 12 m, beyond an alley of 1.3 m: more of it than in the plots.
+TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = points_over(boxes);
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    RandomStream random(9, random_purpose("test/bulk"), i);
+    const double height_m = random.uniform() < 0.9 ? random.uniform(0.3, 0.8) : 0;
+    points.emplace_back(static_cast<float>(random.uniform(-12, 12)),
+                        static_cast<float>(random.uniform(-24, -10)),
+                        static_cast<float>(height_m + 0.02 * random.normal()));
   }
+  std::erase_if(points, [](const Eigen::Vector3f& point) {
+    return point.y() < -10 && point.y() > -12 && point.z() < 0.2F;
+  });
+  expect_those(boxes, find_plots(points, 0.02, {}, 2));
 }
 
 TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).why_none, ""); }
