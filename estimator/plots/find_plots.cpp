@@ -229,8 +229,9 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
     if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
   if (!best) return no_plots("no canopy stands out from the ground here");
+  if (holds_most(*best)) return std::move(best->field);
   const std::vector<bool> closed = blocks.closed();
-  if (holds_most(*best) || std::ranges::count(closed, true) == 0) return std::move(best->field);
+  if (std::ranges::count(closed, true) == 0) return std::move(best->field);
   for (const double top_m : blocks.crop_tops_m()) {
     Look look = looks_for({.top_m = top_m, .others = closed});
     if (is_field(look) && explains_more(look, *best)) best = std::move(look);

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -217,16 +216,14 @@ std::vector<bool> FieldBlocks::closed() const {
   for (const BlockFacts& block : facts_)
     if (block.stands_out) covers.push_back(block.cover);
   const double well_covered = quantile(std::move(covers), 0.75);
-  const auto is_covered = [&](std::size_t number) {
-    return facts_[number].cover >= kClosedLeast * well_covered;
-  };
-  std::vector<std::size_t> found = closed_squares(well_covered);
-  std::vector<bool> closed(facts_.size());
-  for (const std::size_t number : found) closed[number] = true;
+  std::vector<bool> closed = in_closed_squares(well_covered);
+  std::vector<std::size_t> found;
+  for (std::size_t number = 0; number < closed.size(); ++number)
+    if (closed[number]) found.push_back(number);
   // What follows on from the squares, then what lies beside it.
   for (std::size_t i = 0; i < found.size(); ++i) {
     for_each_about(found[i], [&](std::size_t near) {
-      if (closed[near] || !is_covered(near)) return;
+      if (closed[near] || facts_[near].cover < kClosedLeast * well_covered) return;
       closed[near] = true;
       found.push_back(near);
     });
@@ -236,26 +233,25 @@ std::vector<bool> FieldBlocks::closed() const {
   return closed;
 }
 
-// The blocks of squares that are covered all over, each once.
-std::vector<std::size_t> FieldBlocks::closed_squares(double well_covered) const {
+// Which blocks lie in squares that are covered all over.
+std::vector<bool> FieldBlocks::in_closed_squares(double well_covered) const {
   const std::size_t along_x = facts_.size() / std::max<std::size_t>(1, along_y_);
-  std::set<std::size_t> blocks;
+  std::vector<bool> closed(facts_.size());
+  std::array<std::size_t, kClosed_blocks * kClosed_blocks> square{};
   for (std::size_t x = 0; x + kClosed_blocks <= along_x; ++x) {
     for (std::size_t y = 0; y + kClosed_blocks <= along_y_; ++y) {
-      std::vector<std::size_t> square;
-      for (std::size_t i = 0; i < kClosed_blocks * kClosed_blocks; ++i)
-        square.push_back((x + i / kClosed_blocks) * along_y_ + y + i % kClosed_blocks);
       double sum = 0, least = 1;
-      for (const std::size_t number : square) {
-        sum += facts_[number].cover;
-        least = std::min(least, facts_[number].cover);
+      for (std::size_t i = 0; i < square.size(); ++i) {
+        square[i] = (x + i / kClosed_blocks) * along_y_ + y + i % kClosed_blocks;
+        sum += facts_[square[i]].cover;
+        least = std::min(least, facts_[square[i]].cover);
       }
       const double mean = sum / static_cast<double>(square.size());
       if (mean >= kClosedMean * well_covered && least >= kClosedLeast * well_covered)
-        blocks.insert(square.begin(), square.end());
+        for (const std::size_t number : square) closed[number] = true;
     }
   }
-  return {blocks.begin(), blocks.end()};
+  return closed;
 }
 
 }  // namespace plotscan::plots

@@ -64,7 +64,7 @@ class FieldBlocks {
   std::size_t lay_out(std::span<const Eigen::Vector3f> points);
   std::vector<Block> filled(std::span<const Eigen::Vector3f> points, std::size_t count,
                             double canopy_m) const;
-  std::vector<std::size_t> closed_squares(double well_covered) const;
+  std::vector<bool> in_closed_squares(double well_covered) const;
 
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1, low_m_ = 0;
