@@ -219,13 +219,13 @@ bool explains_more(const Look& without, const Look& all) {
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error) {
   const FieldBlocks blocks(points, noise_m, threads);
-  const auto looks_for = [&](const Crop& crop) {
+  const auto try_crop = [&](const Crop& crop) {
     const FieldCanopy field(points, blocks, crop, threads, ground_error);
     return look_for(field, noise_m, hints, threads);
   };
   std::optional<Look> best;
   for (const double top_m : blocks.crop_tops_m()) {
-    Look look = looks_for({.top_m = top_m});
+    Look look = try_crop({.top_m = top_m});
     if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
   if (!best) return no_plots("no canopy stands out from the ground here");
@@ -233,7 +233,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const std::vector<bool> closed = blocks.closed();
   if (std::ranges::count(closed, true) == 0) return std::move(best->field);
   for (const double top_m : blocks.crop_tops_m()) {
-    Look look = looks_for({.top_m = top_m, .others = closed});
+    Look look = try_crop({.top_m = top_m, .others = closed});
     if (is_field(look) && explains_more(look, *best)) best = std::move(look);
   }
   return std::move(best->field);

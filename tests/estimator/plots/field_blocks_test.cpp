@@ -63,7 +63,8 @@ TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
   const std::vector<bool> closed = blocks.closed();
   for (std::size_t number = 0; number < closed.size(); ++number) {
     const double y = blocks.middle_of(number).y();
-    if (std::abs(y - 9) > 1) EXPECT_EQ(closed[number], y < 9) << y;
+    if (std::abs(y - 9) < 1) continue;  // beside the closed crop, where blocks may hold both
+    EXPECT_EQ(closed[number], y < 9) << y;
   }
 }
 
