@@ -52,6 +52,7 @@ Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world)
 
 std::uint64_t share_of(double z_m, const CanopyScale& scale) {
   const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): at least 0, and lround is a call for each return.
   return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kFullCover + 0.5);
 }
 

@@ -191,8 +191,8 @@ FieldBlocks::FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m
 
 Eigen::Vector2d FieldBlocks::middle_of(std::size_t number, int per_side) const {
   const std::size_t along_y = along_y_ * static_cast<std::size_t>(per_side);
-  const Eigen::Array2d corner(static_cast<double>(number / along_y),
-                              static_cast<double>(number % along_y));
+  const std::size_t x = number / along_y, y = number % along_y;
+  const Eigen::Array2d corner(static_cast<double>(x), static_cast<double>(y));
   return low_ + block_m_ / per_side * (corner + 0.5).matrix();
 }
 
