@@ -27,6 +27,8 @@ constexpr double kCell_m = 0.05;
 constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
 constexpr double kStep_m = 1e-3;         // from no leaves to leaves
 
+constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
+
 constexpr int kSizeRounds = 2;  // of size and centres in turn
 
 PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
@@ -190,7 +192,7 @@ Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, int 
     Look look = look_along(axes, field, noise_m, hints, threads);
     if (!best || look.evidence > best->evidence) best = std::move(look);
   }
-  return best ? std::move(*best) : Look{no_plots("no canopy stands out from the ground here")};
+  return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
 }
 
 // Whether plots were found that hold nearly all of the canopy.
@@ -223,16 +225,17 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
     const FieldCanopy field(points, blocks, crop, threads, ground_error);
     return look_for(field, noise_m, hints, threads);
   };
+  const std::vector<double> tops_m = blocks.crop_tops_m();
   std::optional<Look> best;
-  for (const double top_m : blocks.crop_tops_m()) {
+  for (const double top_m : tops_m) {
     Look look = try_crop({.top_m = top_m});
     if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
-  if (!best) return no_plots("no canopy stands out from the ground here");
+  if (!best) return no_plots(kNoCanopy);
   if (holds_most(*best)) return std::move(best->field);
   const std::vector<bool> closed = blocks.closed();
   if (std::ranges::count(closed, true) == 0) return std::move(best->field);
-  for (const double top_m : blocks.crop_tops_m()) {
+  for (const double top_m : tops_m) {
     Look look = try_crop({.top_m = top_m, .others = closed});
     if (is_field(look) && explains_more(look, *best)) best = std::move(look);
   }
