@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/entry/entered_plots.h"
 
+#include <filesystem>
+#include <string>
+
 #include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +13,7 @@
 namespace plotscan::farmbench {
 namespace {
 
+namespace fs = std::filesystem;
 using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
