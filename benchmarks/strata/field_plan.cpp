@@ -154,6 +154,21 @@ void maize(const Field& field) {
   field.plan.flight.altitude_m += 2;
 }
 
+void draw_any(const Field& field) {
+  using Draw = void (*)(const Field&);
+  pick(field.random, std::array<Draw, 4>{ordinary, drilled, offset, maize})(field);
+}
+
+void objects(const Field& field) {
+  draw_any(field);
+  field.plan.beside = Beside::objects;
+}
+
+void border(const Field& field) {
+  draw_any(field);
+  field.plan.beside = Beside::border;
+}
+
 void others(const Field& field) {
   draw_layout(field,
               {.width_m = field.random.uniform(1.2, 2), .length_m = field.random.uniform(3, 6)});
@@ -213,9 +228,10 @@ struct Stratum {
 
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
-      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},   {"touching", touching},
-      {"maize", maize},       {"others", others},   {"realism", realism}, {"sensors", sensors},
-      {"kentland", kentland}, {"paper", paper},     {"steep", steep}};
+      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},     {"touching", touching},
+      {"maize", maize},       {"objects", objects}, {"border", border},     {"others", others},
+      {"realism", realism},   {"sensors", sensors}, {"kentland", kentland}, {"paper", paper},
+      {"steep", steep}};
   return all;
 }
 

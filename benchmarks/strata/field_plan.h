@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lidar/fly.h"
+#include "strata/beside.h"
 #include "strata/plant_draw.h"
 
 namespace plotscan::strata {
@@ -31,6 +32,7 @@ struct FieldPlan {
   lidar::FlyOptions flight = {};
   // A larger cloud is thinned to this many random points, as from a lidar that fires less often.
   std::optional<std::size_t> most_points = std::nullopt;
+  Beside beside = Beside::nothing;  // drawn by the seed
 };
 
 // What makes the field: two plans with equal documents make the same one.

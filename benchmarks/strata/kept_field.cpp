@@ -50,6 +50,8 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   lidar::fly(farm, scan.path(), flight, true);
   std::vector<Eigen::Vector3f> points = read_positions(scan.path() / "cloud.pcd");
   if (plan.most_points) thin(points, *plan.most_points, plan.seed);
+  RandomStream random(plan.seed, random_purpose("strata/beside"), 0);
+  lift(points, draw_beside(plan.beside, farm.plots, random), random);
   write_positions(field.cloud, points);
 }
 

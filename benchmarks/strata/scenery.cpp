@@ -133,6 +133,7 @@ double return_height(const Thing& thing, const Eigen::Vector2d& place, RandomStr
     case Shape::mound:
       return mound_height(thing, at, random);
     case Shape::canopy:
+      if (thing.cover < 1 && random.uniform() > thing.cover) return 0;
       return canopy_height(thing, place, random);
   }
   return 0;

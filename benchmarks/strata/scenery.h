@@ -27,7 +27,7 @@ struct Thing {
   Shape shape = Shape::block;
   PlotBox outline;      // an ellipse's bounding box for crown and mound
   double height_m = 1;  // of its highest point
-  double cover = 1;     // of crown, hedge and block: share of shots that it stops
+  double cover = 1;     // of crown, hedge, block and canopy: share of shots that it stops
 };
 
 // Smooth random ground: a plane and a few sine waves.
