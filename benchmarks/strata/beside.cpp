@@ -72,15 +72,17 @@ Thing place_thing(Shape shape, const Size& size, const FieldSide& side, RandomSt
 
 // Single plants about a place.
 Things patch_of_weeds(const FieldSide& side, RandomStream& random) {
+  constexpr double kWidest_m = 0.7;
   const Size patch{{1, 3}, {1, 4}, {0.2, 0.8}};
   const Thing area = place_thing(Shape::crown, patch, side, random);
   Things weeds(static_cast<std::size_t>(draw_count(random, 5, 20)), area);
   for (Thing& weed : weeds) {
-    const Eigen::Vector2d at{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
     PlotBox& box = weed.outline;
-    box.center +=
-        at.x() * box.length_m * box.length_axis() + at.y() * box.width_m * box.width_axis();
-    box.width_m = box.length_m = random.uniform(0.2, 0.7);
+    const double reach_m = kWidest_m / 2;
+    const double along_m = random.uniform(-1, 1) * (box.length_m / 2 - reach_m);
+    const double across_m = random.uniform(-1, 1) * (box.width_m / 2 - reach_m);
+    box.center += along_m * box.length_axis() + across_m * box.width_axis();
+    box.width_m = box.length_m = random.uniform(0.2, kWidest_m);
     weed.height_m *= random.uniform(0.5, 1);
   }
   return weeds;

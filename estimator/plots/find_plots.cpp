@@ -195,10 +195,10 @@ Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, int 
   return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
 }
 
-// Whether plots were found that hold nearly all of the canopy.
-bool holds_most(const Look& look) {
+// Whether plots were found that hold nearly all of the canopy, and that it covers.
+bool is_all(const Look& look) {
   constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost;
+  return look.evidence > 0 && look.field.signs->held_share > kMost && is_even(*look.field.signs);
 }
 
 // Where a part of what stands on a field is taken for something else, what is left may be few
@@ -232,7 +232,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
     if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
   if (!best) return no_plots(kNoCanopy);
-  if (holds_most(*best)) return std::move(best->field);
+  if (is_all(*best)) return std::move(best->field);
   const std::vector<bool> closed = blocks.closed();
   if (std::ranges::count(closed, true) == 0) return std::move(best->field);
   for (const double top_m : tops_m) {

@@ -187,6 +187,9 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
     line.independent += profile.independent;
   }
   line.price = std::log(std::max(2.0, line.independent));
+  constexpr double kOfPiece = 2;  // parameters: its place and its level
+  if (hint.free_ends)
+    for (ProfileSums& profile : line.profiles) profile.free_ends(kOfPiece * line.price);
   return line;
 }
 

@@ -11,10 +11,11 @@
 
 namespace plotscan::plots {
 
-// What the user knows of the plots along an axis.
+// What is known of the plots along an axis.
 struct AxisHint {
   std::optional<double> side_m = std::nullopt;  // of a plot
   std::optional<int> count = std::nullopt;      // of plots that follow each other
+  bool free_ends = true;                        // anything may stand beside the plots
 };
 
 // How well bands of one shape explain what is seen along an axis.

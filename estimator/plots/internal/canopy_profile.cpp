@@ -9,8 +9,12 @@ namespace plotscan::plots {
 namespace {
 
 // All values are our choice.
-constexpr double kBlock_m = 0.5;      // across the line: as wide as plants, that differ by chance
-constexpr double kTrend_m = 0.75;     // on either side: a block's own trend, which is no noise
+constexpr double kBlock_m = 0.5;   // across the line: as wide as plants, that differ by chance
+constexpr double kTrend_m = 0.75;  // on either side: a block's own trend, which is no noise
+// Cells, from one place to the next where a free end may break. Coarse: with exact edges it would
+// explain plots as well as bands do.
+constexpr int kPiece = 8;
+constexpr int kBeside = 4;            // cells next to a band that have the level beside it
 constexpr double kLeastError = 0.02;  // of the profile's greatest mean: no model is better
 
 // Mean over what the cells within reach hold, each a sum of counts[i] values.
@@ -152,6 +156,44 @@ double ProfileSums::squares(int begin, int end, double from, double to) const {
   const double slope = (to - from) / (end - begin), start = from - slope * begin;
   return squares(begin, end, start) - 2 * slope * (xy_[e] - xy_[b]) +
          2 * start * slope * (x_[e] - x_[b]) + slope * slope * (xx_[e] - xx_[b]);
+}
+
+ProfileSums::Stretch ProfileSums::even(int begin, int end) const {
+  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  const double weight = weight_[e] - weight_[b], y = y_[e] - y_[b];
+  const double level = weight > 0 ? y / weight : 0;
+  return {level, yy_[e] - yy_[b] - level * y};
+}
+
+void ProfileSums::free_ends(double piece_price) {
+  until_.assign(weight_.size(), 0);
+  from_ = until_;
+  for (int end = 0; end <= cells(); ++end) {
+    double least = even(0, end).misfit;
+    for (int begin = kPiece; begin < end; begin += kPiece) {
+      const double before = until_[static_cast<std::size_t>(begin)] + piece_price;
+      least = std::min(least, before + even(begin, end).misfit);
+    }
+    until_[static_cast<std::size_t>(end)] = least;
+  }
+  for (int begin = cells(); begin >= 0; --begin) {
+    double least = even(begin, cells()).misfit;
+    for (int end = kPiece * ((begin / kPiece) + 1); end < cells(); end += kPiece) {
+      const double after = from_[static_cast<std::size_t>(end)] + piece_price;
+      least = std::min(least, even(begin, end).misfit + after);
+    }
+    from_[static_cast<std::size_t>(begin)] = least;
+  }
+}
+
+ProfileSums::Stretch ProfileSums::until(int end) const {
+  if (until_.empty()) return even(0, end);
+  return {mean(std::max(0, end - kBeside), end), until_[static_cast<std::size_t>(end)]};
+}
+
+ProfileSums::Stretch ProfileSums::from(int begin) const {
+  if (from_.empty()) return even(begin, cells());
+  return {mean(begin, std::min(cells(), begin + kBeside)), from_[static_cast<std::size_t>(begin)]};
 }
 
 }  // namespace plotscan::plots

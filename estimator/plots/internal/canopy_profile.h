@@ -36,8 +36,25 @@ class ProfileSums {
   double squares(int begin, int end, double level) const;
   double squares(int begin, int end, double from, double to) const;
 
+  // Cells without a band, the level next to it, and what they cost.
+  struct Stretch {
+    double level = 0;
+    double misfit = 0;
+  };
+  // Of one level.
+  Stretch even(int begin, int end) const;
+  // From the line's begin to a cell, and from a cell to the line's end: of one level too, or,
+  // once the ends are free, of anything.
+  Stretch until(int end) const;
+  Stretch from(int begin) const;
+  // From now on, the line's ends are made of pieces, each with a level of its own, at a price for
+  // each but the outermost (optimal partitioning: Jackson et al., IEEE Signal Processing Letters
+  // 12, 2005). Their edges are coarse, every 8 cells.
+  void free_ends(double piece_price);
+
  private:
   std::vector<double> weight_, y_, yy_, x_, xx_, xy_;
+  std::vector<double> until_, from_;  // by cell: misfit of free ends; empty where they are even
 };
 
 }  // namespace plotscan::plots

@@ -94,9 +94,12 @@ bool is_longer_along(bool a_axis, const Layout& layout) {
   return along >= across;
 }
 
-// The plots' length may lie along either axis of the raster.
+// The plots' length may lie along either axis of the raster. Where the user counted the plots, what
+// stands here is plots.
 std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints) {
-  const AxisHint length{hints.length_m, hints.rows}, width{hints.width_m, hints.columns};
+  const bool counted = hints.rows || hints.columns || hints.plots;
+  const AxisHint length{hints.length_m, hints.rows, !counted};
+  const AxisHint width{hints.width_m, hints.columns, !counted};
   std::vector<Layout> layouts;
   for (const bool along_a : {true, false}) {
     for (Layout& layout :

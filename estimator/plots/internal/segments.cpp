@@ -25,19 +25,14 @@ Level level_of(const ProfileSums& sums, const BandShape& shape, int begin) {
   return {canopy, sums.squares(low, high, canopy)};
 }
 
-// A stretch without a band.
-struct BandGap {
-  double level = 0;
-  double misfit = 0;
-};
-
 // The gap from the end of one band, at its level, to the beginning of the next; -1 in place of a
 // band stands for the line's begin or end.
-BandGap gap_between(const ProfileSums& sums, int blur, int end, double from, int begin, double to) {
-  const int low = end < 0 ? 0 : end + blur;
-  const int high = begin < 0 ? sums.cells() : begin - blur;
-  BandGap gap{.level = sums.mean(low, high)};
-  gap.misfit = sums.squares(low, high, gap.level);
+ProfileSums::Stretch gap_between(const ProfileSums& sums, int blur, int end, double from, int begin,
+                                 double to) {
+  const int low = end + blur, high = begin < 0 ? sums.cells() : begin - blur;
+  ProfileSums::Stretch gap = end < 0     ? sums.until(high)
+                             : begin < 0 ? sums.from(low)
+                                         : sums.even(low, high);
   if (end >= 0) gap.misfit += sums.squares(end - blur, low, from, gap.level);
   if (begin >= 0) gap.misfit += sums.squares(high, begin + blur, gap.level, to);
   return gap;
@@ -98,13 +93,13 @@ double level_of(const Start& start) {
 }
 
 // The gap on all profiles together; a null pointer stands for the line's begin or end.
-BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
-                    const Start* from, const Start* to) {
+ProfileSums::Stretch gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
+                                 const Start* from, const Start* to) {
   const int end = from != nullptr ? from->begin + shape.size : -1;
   const int begin = to != nullptr ? to->begin : -1;
-  BandGap sum;
+  ProfileSums::Stretch sum;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
-    const BandGap gap =
+    const ProfileSums::Stretch gap =
         gap_between(profiles[i], shape.blur, end, from != nullptr ? from->levels[i].canopy : 0,
                     begin, to != nullptr ? to->levels[i].canopy : 0);
     sum.level += gap.level;
@@ -116,7 +111,7 @@ BandGap gap_between(std::span<const ProfileSums> profiles, const BandShape& shap
 // The cost of a gap; infinite where the gap is not lower than both bands beside it.
 double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
                 const Start* to) {
-  const BandGap gap = gap_between(profiles, shape, from, to);
+  const ProfileSums::Stretch gap = gap_between(profiles, shape, from, to);
   const double lower =
       std::min(from != nullptr ? level_of(*from) : kNever, to != nullptr ? level_of(*to) : kNever);
   return gap.level > kMostGap * lower ? kNever : gap.misfit;

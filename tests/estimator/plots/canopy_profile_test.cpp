@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/internal/canopy_profile.h"
 
+#include <limits>
+
 #include "known_trial.h"
 #include <gtest/gtest.h>
 
@@ -65,6 +67,46 @@ TEST(ProfileSums, CentroidOfATriangleLiesAtTwoThirds) {
     ramp.weight.push_back(1);
   }
   EXPECT_NEAR(ProfileSums(ramp).centroid(0, 300), 200, 0.01);
+}
+
+// The least that pieces with levels of their own leave of the cells [begin, end), all ways to break
+// them at multiples of eight tried one by one.
+double least_of_pieces(const ProfileSums& sums, int begin, int end, double price) {
+  std::vector<int> places;
+  for (int at = 8; at < end; at += 8)
+    if (at > begin) places.push_back(at);
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned chosen = 0; chosen < 1U << places.size(); ++chosen) {
+    double misfit = 0;
+    int from = begin;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if ((chosen >> i & 1) == 0) continue;
+      misfit += sums.squares(from, places[i], sums.mean(from, places[i])) + price;
+      from = places[i];
+    }
+    least = std::min(least, misfit + sums.squares(from, end, sums.mean(from, end)));
+  }
+  return least;
+}
+
+TEST(ProfileSums, FreeEndsAreTheBestOfAllPieces) {
+  CanopyProfile profile;
+  for (int i = 0; i < 70; ++i) {
+    RandomStream random(6, random_purpose("test/free_ends"), static_cast<std::uint64_t>(i));
+    profile.mean.push_back((i > 15 && i < 40 ? 0.6 : 0.1) + 0.1 * random.normal());
+    profile.weight.push_back(50 + 50 * random.uniform());
+  }
+  constexpr double kPrice = 3;
+  ProfileSums sums(profile);
+  EXPECT_NEAR(sums.until(30).misfit, sums.squares(0, 30, sums.mean(0, 30)), 1e-9);
+  EXPECT_EQ(sums.from(30).level, sums.mean(30, 70));
+  sums.free_ends(kPrice);
+  for (const int cell : {0, 3, 8, 21, 30, 62, 70}) {
+    EXPECT_NEAR(sums.until(cell).misfit, least_of_pieces(sums, 0, cell, kPrice), 1e-9) << cell;
+    EXPECT_NEAR(sums.from(cell).misfit, least_of_pieces(sums, cell, 70, kPrice), 1e-9) << cell;
+  }
+  EXPECT_EQ(sums.until(30).level, sums.mean(26, 30));
+  EXPECT_EQ(sums.from(10).level, sums.mean(10, 14));
 }
 
 TEST(EqualParts, CoverABandWithoutGaps) {

@@ -313,6 +313,26 @@ TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
   expect_those(boxes, find_plots(points, 0.02, {}, 2));
 }
 
+// A row of straw as high as the crop, at several distances from the field: as wide as the plots, so
+// that it could be a row of them.
+TEST(FindPlots, FindsPlotsBesideAWindrow) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  const std::vector<Eigen::Vector3f> alone = points_over(boxes);
+  const PlotBox axes{.heading_rad = 33 * kDegrees};
+  for (const double gap_m : {1.5, 2.0, 3.0}) {
+    std::vector<Eigen::Vector3f> points = alone;
+    std::uint64_t index = 0;
+    for (Eigen::Vector3f& point : points) {
+      RandomStream random(10, random_purpose("test/windrow"), index++);
+      const Eigen::Vector2d at = axes.box_from_world(point.head<2>().cast<double>());
+      if (at.x() > 6.8 + gap_m && at.x() < 8.4 + gap_m && std::abs(at.y()) < 5.5)
+        point.z() = static_cast<float>(random.uniform(0.3, 0.8));
+    }
+    SCOPED_TRACE(gap_m);
+    expect_those(boxes, find_plots(points, 0.02, {}, 2));
+  }
+}
+
 // The same crop without plots, 24 x 12 m, beyond an alley of 1.3 m: more of it than in the plots.
 TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
   const std::vector<PlotBox> boxes = Trial{}.boxes();
