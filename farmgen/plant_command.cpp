@@ -85,7 +85,8 @@ void run_plant(const Program& program, const PlantArguments& arguments) {
   options.detail = arguments.detail == "light" ? crop::Detail::light : crop::Detail::scan;
   const mesh::Mesh mesh = crop::grow(options, program.common().seed);
   write_mesh(output, mesh, arguments.force);
-  const crop::StageFacts facts = crop::stage_facts(options.crop, options.stage);
+  const crop::StageFacts facts =
+      crop::stage_facts(options.crop, options.stage, options.cultivar_file);
   const double height_m = mesh::mesh_height(mesh);
   const double leaf_area_m2 = mesh::ScaledArea::of_leaves(mesh).at();
   program.result({{"mesh", arguments.output},
@@ -126,11 +127,11 @@ std::string keys_help(const crop::Cultivar& cultivar) {
 }
 
 // --list: of one crop, or of all where none is named.
-std::string list_of(const std::string& crop) {
+std::string list_of(const crop::GrowOptions& options) {
   std::string text;
   for (const std::string& name : crop::crops()) {
-    if (!crop.empty() && name != crop) continue;
-    const crop::Cultivar cultivar = crop::cultivar(name);
+    if (!options.crop.empty() && name != options.crop) continue;
+    const crop::Cultivar cultivar = crop::cultivar(name, options.cultivar_file);
     text += (text.empty() ? "" : "\n") + name + " (" + cultivar.species + ")\nStages:\n" +
             stages_help(cultivar) + "Keys of --set with default, unit and range:\n" +
             keys_help(cultivar);
@@ -165,13 +166,13 @@ void add_plant_command(Program& program) {
   plant.add_option("-o,--output", arguments->output, "mesh to write (OBJ, metres, z up)")
       ->required();
   plant.add_flag("--force", arguments->force, "replace a mesh that is already there");
-  const auto list = [crop = &arguments->options.crop] {
-    std::cout << list_of(*crop);
+  const auto list = [options = &arguments->options] {
+    std::cout << list_of(*options);
     throw CLI::Success();
   };
   plant.add_flag_callback("--list", list,
                           "only print the crop's stages and its parameters with defaults, units "
-                          "and ranges; without CROP, those of all crops");
+                          "and ranges, of --cultivar if given; without CROP, those of all crops");
 }
 
 }  // namespace plotscan

@@ -159,6 +159,19 @@ TEST_F(Farmgen, MakesPlants) {
   EXPECT_LT(mine["leaf_area_m2"], 0.4 * light["leaf_area_m2"].get<double>());
 }
 
+TEST_F(Farmgen, SaysOfACultivarWhatItsFileStates) {
+  folder_.write("mine.yaml",
+                "crop: soybean\ndefault_stage: V2\nplot: {plants_per_m2: 25}\n"
+                "parameters: {branch_angle_deg: {value: 51}}\n");
+  EXPECT_EQ(json_of("plant soybean --cultivar mine.yaml -o s.obj")["stage"], "V2");
+  const std::string grown = run("plant soybean --cultivar mine.yaml -o s.obj --force").out;
+  EXPECT_THAT(grown, HasSubstr("s.obj: soybean at V2"));
+  EXPECT_THAT(grown, HasSubstr("a plot of 25 plants per m2 at V2"));
+  const std::string listed = run("plant soybean --cultivar mine.yaml --list").out;
+  EXPECT_THAT(listed, HasSubstr("first trifoliolate leaf full grown (default)"));
+  EXPECT_THAT(listed, ::testing::ContainsRegex("branch_angle_deg +51 "));
+}
+
 TEST_F(Farmgen, PlantListsStagesAndKeysOfACropOrOfAll) {
   const std::string soybean = run("plant soybean --list").out;
   for (const char* text :
