@@ -182,6 +182,12 @@ TEST_F(Farmgen, PlantListsStagesAndKeysOfACropOrOfAll) {
   const std::string all = run("plant --list").out;
   EXPECT_THAT(all, HasSubstr(soybean));
   EXPECT_THAT(all, HasSubstr("maize (Zea mays"));
+  const auto maize = json_of("plant maize --list");
+  ASSERT_EQ(maize.size(), 1U);
+  EXPECT_EQ(maize[0]["default_stage"], "R1");
+  EXPECT_EQ(maize[0]["stages"][0]["stage"], "V3");
+  EXPECT_EQ(maize[0]["parameters"][0]["key"], "leaves");
+  EXPECT_EQ(maize[0]["parameters"][0]["range"][1], 26);
   EXPECT_EQ(run("plant oat --list").exit_code, 2);
   const std::string help = run("plant --help").out;
   EXPECT_LT(std::ranges::count(help, '\n'), 40);
