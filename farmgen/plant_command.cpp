@@ -85,7 +85,8 @@ void run_plant(const Program& program, const PlantArguments& arguments) {
   options.detail = arguments.detail == "light" ? crop::Detail::light : crop::Detail::scan;
   const mesh::Mesh mesh = crop::grow(options, program.common().seed);
   write_mesh(output, mesh, arguments.force);
-  const crop::StageFacts facts = crop::stage_facts(options.crop, options.stage);
+  const crop::StageFacts facts =
+      crop::stage_facts(options.crop, options.stage, options.cultivar_file);
   const double height_m = mesh::mesh_height(mesh);
   const double leaf_area_m2 = mesh::ScaledArea::of_leaves(mesh).at();
   program.result({{"mesh", arguments.output},
@@ -125,17 +126,46 @@ std::string keys_help(const crop::Cultivar& cultivar) {
   return text;
 }
 
+std::string text_of(const crop::Cultivar& cultivar) {
+  return cultivar.crop + " (" + cultivar.species + ")\nStages:\n" + stages_help(cultivar) +
+         "Keys of --set with default, unit and range:\n" + keys_help(cultivar);
+}
+
+nlohmann::json json_of(const crop::Parameter& parameter) {
+  nlohmann::json document = {{"key", parameter.name},
+                             {"unit", parameter.unit},
+                             {"range", {parameter.range.low, parameter.range.high}},
+                             {"meaning", parameter.meaning}};
+  if (!parameter.by_stage) document["value"] = parameter.value;
+  return document;
+}
+
+nlohmann::json json_of(const crop::Cultivar& cultivar) {
+  nlohmann::json document = {{"crop", cultivar.crop},
+                             {"species", cultivar.species},
+                             {"default_stage", cultivar.default_stage},
+                             {"stages", nlohmann::json::array()},
+                             {"parameters", nlohmann::json::array()}};
+  for (const crop::Stage& stage : cultivar.stages)
+    document["stages"].push_back(
+        {{"stage", stage.name}, {"meaning", stage.meaning}, {"values", stage.values}});
+  for (const crop::Parameter& parameter : cultivar.parameters)
+    document["parameters"].push_back(json_of(parameter));
+  return document;
+}
+
 // --list: of one crop, or of all where none is named.
-std::string list_of(const std::string& crop) {
+void list(const Program& program, const crop::GrowOptions& options) {
   std::string text;
+  nlohmann::json document = nlohmann::json::array();
   for (const std::string& name : crop::crops()) {
-    if (!crop.empty() && name != crop) continue;
-    const crop::Cultivar cultivar = crop::cultivar(name);
-    text += (text.empty() ? "" : "\n") + name + " (" + cultivar.species + ")\nStages:\n" +
-            stages_help(cultivar) + "Keys of --set with default, unit and range:\n" +
-            keys_help(cultivar);
+    if (!options.crop.empty() && name != options.crop) continue;
+    const crop::Cultivar cultivar = crop::cultivar(name, options.cultivar_file);
+    text += (text.empty() ? "" : "\n") + text_of(cultivar);
+    document.push_back(json_of(cultivar));
   }
-  return text;
+  program.result(document);
+  if (!program.common().json) std::cout << text;
 }
 
 }  // namespace
@@ -165,13 +195,15 @@ void add_plant_command(Program& program) {
   plant.add_option("-o,--output", arguments->output, "mesh to write (OBJ, metres, z up)")
       ->required();
   plant.add_flag("--force", arguments->force, "replace a mesh that is already there");
-  const auto list = [crop = &arguments->options.crop] {
-    std::cout << list_of(*crop);
+  const auto print_list = [&program, &plant, options = &arguments->options] {
+    // It is declared after --list, and would be read after it.
+    if (plant.count("--json") > 0) plant.get_option("--json")->run_callback();
+    list(program, *options);
     throw CLI::Success();
   };
-  plant.add_flag_callback("--list", list,
+  plant.add_flag_callback("--list", print_list,
                           "only print the crop's stages and its parameters with defaults, units "
-                          "and ranges; without CROP, those of all crops");
+                          "and ranges, of --cultivar if given; without CROP, those of all crops");
 }
 
 }  // namespace plotscan

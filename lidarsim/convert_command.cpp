@@ -50,18 +50,23 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
 
 void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
   arguments.of_flight = {
-      convert.add_option("--trajectory", arguments.trajectory,
-                         "of a bare cloud: where the drone was, TUM text or trajectory.csv, in the "
-                         "cloud's frame and time"),
-      convert.add_option("--sensor", arguments.flight.sensor,
-                         "of a bare cloud: a shipped sensor's name or the file of your own"),
+      convert.add_option(
+          "--trajectory", arguments.trajectory,
+          "of a bare cloud or a pcap: where the drone was, TUM text or trajectory.csv, in the "
+          "cloud's frame and time"),
+      convert.add_option(
+          "--sensor", arguments.flight.sensor,
+          "of a bare cloud or a pcap: a shipped sensor's name or the file of your own"),
       convert.add_option("--spin", arguments.flight.spin_hz,
                          "of a bare cloud: turns of the sensor a second; by default its own"),
       convert
-          .add_option("--mount", arguments.mount_deg,
-                      "of a bare cloud: the sensor in the body's frame, roll,pitch,yaw in degrees")
+          .add_option(
+              "--mount", arguments.mount_deg,
+              "of a bare cloud or a pcap: the sensor in the body's frame, roll,pitch,yaw in "
+              "degrees")
           ->delimiter(',')
-          ->expected(3),
+          ->expected(3)
+          ->default_str("0,90,0"),
       convert.add_option("--start", arguments.flight.start_utc,
                          "of a bare cloud: when its time 0 was, UTC; else as it says itself")};
 }
@@ -102,7 +107,7 @@ void declare_convert(Program& program) {
                   "file to write; its extension says the format (docs/formats.md)")
       ->required();
   convert.add_option("--topic", arguments->options.topic,
-                     "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or "
+                     "of a bag or MCAP: the topic of its clouds (default: /velodyne_points, or "
                      "the only one)");
   convert.add_option("--encoding", arguments->options.write.encoding,
                      encodings_of_formats() + "; compressing keeps the whole cloud in memory");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -57,6 +58,22 @@ void report(const Program& program, const Arguments& arguments, const lidar::Pla
                   1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
+void require_swaying(const CLI::App& fly, const lidar::FlyOptions& options) {
+  if (options.wind_acts_on != "drone") return;
+  for (const std::string flag : {"--sway", "--sway-frequency", "--sway-swing"}) {
+    if (fly.count(flag) > 0)
+      throw InputError(flag + " is of plants, and --wind-acts-on drone leaves them at rest");
+  }
+}
+
+void require_drift(const CLI::App& fly, const std::string& time,
+                   const std::vector<std::string>& drifts) {
+  const auto is_given = [&](const std::string& flag) { return fly.count(flag) > 0; };
+  if (is_given(time) && !is_given("--pose-error") && std::ranges::none_of(drifts, is_given))
+    throw InputError(time + " is of a drift, and none is given: " + joined(drifts, ", ") +
+                     " or --pose-error");
+}
+
 // Throws InputError on options that would change nothing beside the others.
 void require_effect(const CLI::App& fly, const lidar::FlyOptions& options) {
   if (fly.count("--spacing") > 0 && options.pattern == "single")
@@ -66,6 +83,9 @@ void require_effect(const CLI::App& fly, const lidar::FlyOptions& options) {
     if (option->get_group() == wind.get_group() && option->count() > 0 && wind.count() == 0)
       throw InputError(option->get_name() + " tells of a wind, and --wind gives none");
   }
+  require_swaying(fly, options);
+  require_drift(fly, "--position-drift-time", {"--position-drift", "--height-drift"});
+  require_drift(fly, "--attitude-drift-time", {"--tilt-drift", "--heading-drift"});
 }
 
 void run_fly(const Program& program, Arguments& arguments) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <span>
+
 #include "farmfolder/read_farm.h"
 
 #include "core/error.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/program.h"
+#include "core/text.h"
 #include "estimate/estimate.h"
 #include "estimate/ground_grids.h"
 #include "farm/farm.h"
@@ -32,6 +35,11 @@ fs::path file_or_inside(const fs::path& path, const char* name) {
   return fs::is_directory(path) ? path / name : path;
 }
 
+void require_picture(const fs::path& png, std::span<const fs::path> inputs) {
+  require_apart(png, inputs);
+  if (lower_extension(png) != ".png") throw InputError(png, "does not end in .png");
+}
+
 void tell(const Program& program, const fs::path& png) {
   program.say("wrote " + png.string());
   program.result({{"picture", png.string()}});
@@ -41,7 +49,7 @@ void draw(const Program& program, const PictureArguments& arguments) {
   std::vector<fs::path> inputs = {arguments.farm};
   for (const auto& input : {arguments.scan, arguments.plots})
     if (input) inputs.push_back(*input);
-  require_apart(arguments.png, inputs);
+  require_picture(arguments.png, inputs);
   const farm::Farm farm = farmfolder::read_farm(arguments.farm);
   std::vector<PlotBox> boxes;
   if (arguments.plots) {
@@ -64,7 +72,7 @@ struct PlantsArguments {
 };
 
 void draw_plants(const Program& program, const PlantsArguments& arguments) {
-  require_apart(arguments.png, arguments.meshes);
+  require_picture(arguments.png, arguments.meshes);
   if (!arguments.labels.empty() && arguments.labels.size() != arguments.meshes.size()) {
     throw InputError("--labels names " + std::to_string(arguments.labels.size()) +
                      " plants where there are " + std::to_string(arguments.meshes.size()) +
@@ -107,14 +115,14 @@ estimate::Estimate estimate_with_ground(const fs::path& folder) {
 }
 
 void draw_field(const Program& program, const EstimateArguments& arguments) {
-  require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
+  require_picture(arguments.png, {{arguments.cloud, arguments.estimate}});
   view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
                    estimate_with_ground(arguments.estimate), arguments.png, arguments.field);
   tell(program, arguments.png);
 }
 
 void draw_plot(const Program& program, const EstimateArguments& arguments) {
-  require_apart(arguments.png, {{arguments.cloud, arguments.estimate}});
+  require_picture(arguments.png, {{arguments.cloud, arguments.estimate}});
   view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
                   estimate_with_ground(arguments.estimate), PlotId(arguments.plot), arguments.png,
                   arguments.side);

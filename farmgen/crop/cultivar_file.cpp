@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/csv.h"
 #include "core/text.h"
 #include "core/yaml_section.h"
 #include "crop/cultivar.h"
@@ -34,6 +35,7 @@ class CultivarFile {
     if (given("stages")) {
       for (const YamlSection& stage : file_.list("stages", kMostStages)) read_stage(stage);
     }
+    require_values_in_ranges();
     cultivar_.default_stage = text(file_, "default_stage", cultivar_.default_stage);
     stage_named(cultivar_.default_stage, file_, "default_stage");
     file_.refuse_unread();
@@ -173,6 +175,23 @@ class CultivarFile {
       if (!parameter.by_stage || !(complete_ || values.has(parameter.name))) continue;
       stage.values[parameter.name] = value(values, parameter.name, parameter);
     }
+  }
+
+  // A user's range may leave out a value of the crop's own that the file keeps.
+  void require_values_in_ranges() const {
+    for (const Parameter& parameter : cultivar_.parameters) {
+      if (!parameter.by_stage) require_in_range(parameter, parameter.value);
+      for (const Stage& stage : cultivar_.stages) {
+        if (parameter.by_stage) require_in_range(parameter, stage.values.at(parameter.name));
+      }
+    }
+  }
+
+  void require_in_range(const Parameter& parameter, double value) const {
+    if (parameter.range.contains(value)) return;
+    file_.section("parameters")
+        .section(parameter.name)
+        .fail("range", "leaves out the crop's value " + format_number(value) + ": give another");
   }
 
   const YamlSection& file_;

@@ -62,11 +62,11 @@ Cultivar cultivar(const std::string& crop, const std::string& file) {
   return file.empty() ? own : override_cultivar(own, file);
 }
 
-StageFacts stage_facts(const std::string& crop, const std::string& stage) {
-  const Cultivar own = cultivar(crop);
-  return {.stage = own.stage(stage),
-          .plants_per_m2 = own.plants_per_m2,
-          .row_spacing_m = own.row_spacing_m};
+StageFacts stage_facts(const std::string& crop, const std::string& stage, const std::string& file) {
+  const Cultivar described = cultivar(crop, file);
+  return {.stage = described.stage(stage),
+          .plants_per_m2 = described.plants_per_m2,
+          .row_spacing_m = described.row_spacing_m};
 }
 
 mesh::Mesh grow(const GrowOptions& options, std::uint64_t seed) {

@@ -35,8 +35,10 @@ struct StageFacts {
   double plants_per_m2 = 0;
   double row_spacing_m = 0;
 };
-// The default stage for "". Throws InputError on an unknown crop or stage.
-StageFacts stage_facts(const std::string& crop, const std::string& stage = "");
+// The default stage for "", with a user's file as in cultivar(). Throws InputError on an unknown
+// crop or stage, or a file that is not sound.
+StageFacts stage_facts(const std::string& crop, const std::string& stage = "",
+                       const std::string& file = "");
 
 // Grows one plant, its stem's foot at the origin, metres, z up. The same options and seed give the
 // same mesh; both details show the same plant. Throws InputError on an unknown crop, stage or key,

@@ -45,7 +45,9 @@ double heading_of_strips(const std::vector<PlotBox>& areas, const StripOptions& 
 
 double strips_needed(const Field& field, const StripOptions& options) {
   if (options.pattern == Pattern::single) return 1;
-  return std::max(1.0, std::ceil(field.bounds.sizes().y() / options.spacing_m));
+  // A turned field is wider by rounding: three spacings stay three strips.
+  constexpr double kRounding = 1e-9;
+  return std::max(1.0, std::ceil(field.bounds.sizes().y() / options.spacing_m - kRounding));
 }
 
 std::vector<Eigen::Vector3d> strips_along(const Field& field, const StripOptions& options) {

@@ -15,7 +15,7 @@ constexpr Range kHold_s{0, 3600};
 
 StatedWaypoint read_waypoint(const YamlSection& section) {
   if (section.has("z_m") == section.has("altitude_m"))
-    section.fail("altitude_m", "either z_m or altitude_m must be given");
+    section.fail("z_m", "or altitude_m has to be given, one of the two");
   StatedWaypoint stated;
   Waypoint& waypoint = stated.waypoint;
   waypoint.position_m = {section.number("x_m", kPlace_m), section.number("y_m", kPlace_m),

@@ -36,7 +36,8 @@ void validate(const FlyOptions& options, const sensor::Sensor& sensor) {
   }
   record::require_formats(options.formats, sensor);
   if (!parse_utc(options.start_utc))
-    throw InputError("--start \"" + options.start_utc + "\" must be like 2026-06-01T10:00:00Z");
+    throw InputError("--start \"" + options.start_utc +
+                     "\" must be like 2026-06-01T10:00:00Z, from 1980 to 2099");
   if (!options.part.whole() && !options.formats.empty())
     throw InputError("--format is not for a part of a flight; lidarsim join --format writes them");
   if (options.threads < 1 || options.threads > kMaxThreads)

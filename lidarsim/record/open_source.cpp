@@ -18,7 +18,9 @@ constexpr const char* kStart = "2026-06-01T10:00:00Z";
 
 UtcTime parsed_start(const std::string& start_utc) {
   const auto start = parse_utc(start_utc);
-  if (!start) throw InputError("--start \"" + start_utc + "\" must be like " + std::string(kStart));
+  if (!start)
+    throw InputError("--start \"" + start_utc + "\" must be like " + std::string(kStart) +
+                     ", from 1980 to 2099");
   return *start;
 }
 

@@ -96,9 +96,9 @@ void read_spin(const YamlSection& root, Sensor& sensor) {
 void read_sequence(const YamlSection& root, Sensor& sensor) {
   const bool by_clock = root.has("firing_sequence_us");
   if (by_clock == root.has("columns_per_turn")) {
-    root.fail(by_clock ? "columns_per_turn" : "",
-              "give either firing_sequence_us, for a sensor that fires by the clock, or "
-              "columns_per_turn, for one that fires by its azimuth");
+    root.fail("firing_sequence_us",
+              "or columns_per_turn has to be given, one of the two: the first of a sensor that "
+              "fires by the clock, the second of one that fires by its azimuth");
   }
   if (by_clock) {
     sensor.sequence_s = 1e-6 * root.number("firing_sequence_us", kSequence_us);

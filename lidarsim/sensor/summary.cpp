@@ -26,7 +26,7 @@ std::string spin(const SensorSummary& summary) {
 
 std::string line(const std::array<std::string, 7>& cells) {
   const auto& [name, channels, view, shots, range, spin, title] = cells;
-  return fmt::format("{:12} {:>8}  {:20} {:>9}  {:12}  {:15}  {}", name, channels, view, shots,
+  return fmt::format("{:12} {:>8}  {:23} {:>9}  {:12}  {:15}  {}", name, channels, view, shots,
                      range, spin, title);
 }
 

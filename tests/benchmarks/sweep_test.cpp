@@ -73,9 +73,17 @@ TEST(LoadSweep, TellsWhatIsWrong) {
               HasSubstr("s.yaml:6: axes.altitude_m name 6 twice"));
   EXPECT_THAT(message(swept_with("[6, 9.5, 119]", "[6, 9000]")), HasSubstr("altitude_m"));
   EXPECT_THAT(message(swept_with("height: max", "height: tallest")), HasSubstr("s.yaml:8: height"));
+  EXPECT_THAT(
+      message(swept_with("puck_hires]", "puck]")),
+      HasSubstr("s.yaml:7: axes.sensor.1.sensor does not hold: sensor \"puck\" is unknown"));
+  EXPECT_THAT(message(swept_with("sensor: [vlp16, puck_hires]", "start_utc: [noon]")),
+              HasSubstr("s.yaml:7: axes.start_utc.0.start_utc \"noon\" is not like 2026-06-01T"));
+  EXPECT_THAT(message(swept_with("spin_jitter: none", "altitude_m: 8")),
+              HasSubstr("s.yaml:6: axes.altitude_m is given under flight as well"));
   EXPECT_THAT(message(swept_with("height: max", "height: max\ntruth: tallest")),
               HasSubstr("s.yaml:9: truth"));
-  EXPECT_THAT(message(swept_with("[vlp16, puck_hires]", "[a/vlp16.yaml, vlp16]")),
+  EXPECT_THAT(message(swept_with("[vlp16, puck_hires]", "[" + std::string(PLOTSCAN_SOURCE_DIR) +
+                                                            "/models/sensors/vlp16.yaml, vlp16]")),
               HasSubstr("whose files would be called 6_vlp16"));
   EXPECT_THAT(message(swept_with("height: max", "baseline: mine")), HasSubstr("baseline"));
   EXPECT_THAT(message(swept_with("height: max", "published_rmse_cm: 6")),

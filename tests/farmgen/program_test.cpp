@@ -159,6 +159,19 @@ TEST_F(Farmgen, MakesPlants) {
   EXPECT_LT(mine["leaf_area_m2"], 0.4 * light["leaf_area_m2"].get<double>());
 }
 
+TEST_F(Farmgen, SaysOfACultivarWhatItsFileStates) {
+  folder_.write("mine.yaml",
+                "crop: soybean\ndefault_stage: V2\nplot: {plants_per_m2: 25}\n"
+                "parameters: {branch_angle_deg: {value: 51}}\n");
+  EXPECT_EQ(json_of("plant soybean --cultivar mine.yaml -o s.obj")["stage"], "V2");
+  const std::string grown = run("plant soybean --cultivar mine.yaml -o s.obj --force").out;
+  EXPECT_THAT(grown, HasSubstr("s.obj: soybean at V2"));
+  EXPECT_THAT(grown, HasSubstr("a plot of 25 plants per m2 at V2"));
+  const std::string listed = run("plant soybean --cultivar mine.yaml --list").out;
+  EXPECT_THAT(listed, HasSubstr("first trifoliolate leaf full grown (default)"));
+  EXPECT_THAT(listed, ::testing::ContainsRegex("branch_angle_deg +51 "));
+}
+
 TEST_F(Farmgen, PlantListsStagesAndKeysOfACropOrOfAll) {
   const std::string soybean = run("plant soybean --list").out;
   for (const char* text :
@@ -169,6 +182,12 @@ TEST_F(Farmgen, PlantListsStagesAndKeysOfACropOrOfAll) {
   const std::string all = run("plant --list").out;
   EXPECT_THAT(all, HasSubstr(soybean));
   EXPECT_THAT(all, HasSubstr("maize (Zea mays"));
+  const auto maize = json_of("plant maize --list");
+  ASSERT_EQ(maize.size(), 1U);
+  EXPECT_EQ(maize[0]["default_stage"], "R1");
+  EXPECT_EQ(maize[0]["stages"][0]["stage"], "V3");
+  EXPECT_EQ(maize[0]["parameters"][0]["key"], "leaves");
+  EXPECT_EQ(maize[0]["parameters"][0]["range"][1], 26);
   EXPECT_EQ(run("plant oat --list").exit_code, 2);
   const std::string help = run("plant --help").out;
   EXPECT_LT(std::ranges::count(help, '\n'), 40);

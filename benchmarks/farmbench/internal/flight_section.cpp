@@ -4,6 +4,10 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.h"
+#include "core/utc_time.h"
+#include "sensor/sensor.h"
+
 namespace plotscan::farmbench {
 namespace {
 
@@ -36,12 +40,26 @@ void read_into(const YamlSection& section, const std::string& key,
                            : setting.choices[section.choice(key, setting.choices)];
 }
 
+// The names that no table of choices holds: of a sensor or its file, and of an instant.
+void require_known(const YamlSection& section, const std::string& key,
+                   const lidar::FlyOptions& flight) {
+  try {
+    if (key == "sensor") sensor::load_sensor(flight.sensor);
+  } catch (const InputError& error) {
+    section.fail(key, std::string("does not hold: ") + error.what());
+  }
+  if (key == "start_utc" && !parse_utc(flight.start_utc))
+    section.fail(
+        key, "\"" + flight.start_utc + "\" is not like 2026-06-01T10:00:00Z, from 1980 to 2099");
+}
+
 }  // namespace
 
 void read_fly_setting(const YamlSection& section, const lidar::FlySetting& setting,
                       lidar::FlyOptions& flight) {
   std::visit([&](const auto& value) { read_into(section, setting.key, value, flight); },
              setting.value);
+  require_known(section, setting.key, flight);
 }
 
 lidar::FlyOptions read_flight(const YamlSection& parent, lidar::FlyOptions flight) {

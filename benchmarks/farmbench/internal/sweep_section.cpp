@@ -65,6 +65,14 @@ std::vector<SuiteCase> varied(const YamlSection& axes, const std::vector<SuiteCa
   return all;
 }
 
+// A flight's option is either what all flights have in common or an axis.
+void require_given_once(const YamlSection& root, const YamlSection& axes) {
+  if (!root.has("flight")) return;
+  const YamlSection flight = root.section("flight");
+  for (const std::string& key : axes.keys())
+    if (flight.has(key)) axes.fail(key, "is given under flight as well; give one of the two");
+}
+
 void require_names(const YamlSection& root, const std::vector<SuiteCase>& cases) {
   std::set<std::string> names;
   for (const SuiteCase& suite_case : cases) {
@@ -105,6 +113,7 @@ void read_sweep(const YamlSection& root, const SuiteCase& base, Suite& suite) {
   sweep.truth = read_height_truth(root, sweep.height);
   if (root.has("enough")) sweep.goal = read_goal(root.section("enough"));
   const YamlSection axes = root.section("axes");
+  require_given_once(root, axes);
   suite.cases = {base};
   suite.cases.front().name.clear();
   for (const std::string& key : axes.keys()) {

@@ -64,6 +64,7 @@ poses() {
   awk -F, -v step="$step_s" -v begin="$begin_s" -v end="$end_s" -v file="$trajectory" '
     function bad(what) { print file ": " what > "/dev/stderr"; failed = 1; exit 2 }
     function asin_of(x) { return atan2(x, sqrt(x < 1 && x > -1 ? 1 - x * x : 0)) }
+    function in_flight(x) { return x + 0 == x && x >= t[0] && x <= t[n - 1] }
     BEGIN { n = 0 }
     /^[ \t\r]*(#|$)/ { next }
     !header {
@@ -82,8 +83,10 @@ poses() {
     END {
       if (failed) exit 2
       if (n < 2) bad("holds fewer than two poses")
-      first = begin == "" ? t[0] : begin + 0
-      last = end == "" ? t[n - 1] : end + 0
+      first = begin == "" ? t[0] : begin
+      last = end == "" ? t[n - 1] : end
+      if (!in_flight(first) || !in_flight(last) || first + 0 > last + 0)
+        bad("lasts from " t[0] " to " t[n - 1] " s; -b and -e are times in it, -b the earlier")
       i = 0
       for (pose = 0; first + pose * step <= last + 1e-9; ++pose) {
         now = first + pose * step

@@ -107,8 +107,9 @@ class Follower {
     }
     tinyxml2::XMLDocument document;
     if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
-      throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
-                       std::string("cannot be parsed as XML: ") + document.ErrorName());
+      throw InputError(
+          file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
+          std::string("cannot be parsed as XML, which SDF is: ") + document.ErrorName());
     }
     if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
     require_sdf(*document.RootElement(), file);

@@ -80,6 +80,13 @@ TEST(Cultivar, RefusesAUsersFileThatDoesNotFit) {
               HasSubstr("parameters.angle_deg.value 100 is not in [0, 90]"));
   EXPECT_THAT(message("crop: reed\nparameters: {angle_deg: {range: [0, 100]}}\n"),
               HasSubstr("is not a pair of numbers in [0, 90]"));
+  EXPECT_THAT(message("crop: reed\nparameters: {angle_deg: {range: [50, 60]}}\n"),
+              HasSubstr("mine.yaml:2: parameters.angle_deg.range leaves out the crop's value 40"));
+  EXPECT_THAT(message("crop: reed\nparameters: {nodes: {range: [5, 20]}}\n"),
+              HasSubstr("parameters.nodes.range leaves out the crop's value 4"));
+  EXPECT_NO_THROW(
+      with("crop: reed\nparameters: {nodes: {range: [5, 20]}}\n"
+           "stages: [{name: short, values: {nodes: 6}}]\n"));
   EXPECT_THAT(message("crop: reed\nparameters: {nodes: {value: 5}}\n"),
               HasSubstr("parameters.nodes.value is given by each stage: set it under stages"));
   EXPECT_THAT(message("crop: reed\nparameters: {angle_deg: {unit: rad}}\n"),

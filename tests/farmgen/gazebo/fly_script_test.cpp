@@ -308,6 +308,10 @@ TEST_F(FlyScript, RefusesWhatIsNoTrajectory) {
            {"back.csv", "line 3: times do not increase"},
            {"short.csv", "fewer than two poses"},
            {"-s 0 trajectory.csv", "at least 0.001 s"},
+           {"-b 0.9 -e 0.6 trajectory.csv", "trajectory.csv: lasts from 0.5 to 1.28 s; -b and -e"},
+           {"-b 0.4 trajectory.csv", "lasts from 0.5 to 1.28 s"},
+           {"-e 2 trajectory.csv", "lasts from 0.5 to 1.28 s"},
+           {"-b 1s trajectory.csv", "lasts from 0.5 to 1.28 s"},
            {"-x trajectory.csv", "usage:"}}) {
     EXPECT_EQ(run(Gazebo::sim, arguments), 2) << arguments;
     EXPECT_THAT(error(), HasSubstr(message)) << arguments;

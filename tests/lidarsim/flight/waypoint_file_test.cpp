@@ -39,8 +39,9 @@ TEST(WaypointFile, BadFilesAreRefusedWithTheirLine) {
     return testing::message_of<InputError>([&] { read_waypoints(file); });
   };
   EXPECT_THAT(refusal("{x_m: 1, y_m: 2}"),
-              AllOf(HasSubstr("way.yaml:3"), HasSubstr("either z_m or altitude_m")));
-  EXPECT_THAT(refusal("{x_m: 1, y_m: 2, z_m: 3, altitude_m: 4}"), HasSubstr("way.yaml:3"));
+              HasSubstr("way.yaml:3: waypoints.1.z_m or altitude_m has to be given, one of the"));
+  EXPECT_THAT(refusal("{x_m: 1, y_m: 2, z_m: 3, altitude_m: 4}"),
+              HasSubstr("way.yaml:3: waypoints.1.z_m or altitude_m has to be given, one of the"));
   EXPECT_THAT(refusal("{x_m: .nan, y_m: 2, z_m: 3}"), HasSubstr("way.yaml:3"));
   EXPECT_THAT(refusal("{x_m: 1e9, y_m: 2, z_m: 3}"), HasSubstr("way.yaml:3"));
   EXPECT_THAT(refusal("{x_m: 1, z_m: 3}"), HasSubstr("y_m"));

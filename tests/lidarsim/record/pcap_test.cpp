@@ -306,7 +306,8 @@ TEST(PcapFile, DamagedPacketsAreLeftOut) {
   EXPECT_THAT(refusal(23, 0x06), HasSubstr("no data packets"));  // TCP
   EXPECT_THAT(refusal(38, 0x0F), HasSubstr("no data packets"));  // a longer datagram
   EXPECT_THAT(refusal(42, 0x00), HasSubstr("no data packets"));  // the first block's flag
-  EXPECT_THAT(refusal(42 + 1205, 0x63), HasSubstr("product 0x63"));
+  EXPECT_THAT(refusal(42 + 1205, 0x63),
+              HasSubstr("product 0x63, which no shipped sensor is; --sensor"));
   EXPECT_THAT(refusal(42 + 1203, -1), HasSubstr("beyond the hour"));
 }
 

@@ -177,10 +177,10 @@ TEST(SensorFile, SpinAndFiringAreChecked) {
   EXPECT_THAT(refusal(kSpinning, "firing_sequence_us: 100", "firing_sequence_us: 0"),
               HasSubstr("mine.yaml:6: firing_sequence_us 0 is not in"));
   EXPECT_THAT(refusal(kSpinning, "firing_sequence_us: 100\n", ""),
-              HasSubstr("give either firing_sequence_us"));
+              HasSubstr("firing_sequence_us or columns_per_turn has to be given"));
   EXPECT_THAT(
       refusal(kSpinning, "firing_sequence_us: 100", "firing_sequence_us: 100\ncolumns_per_turn: 9"),
-      HasSubstr("mine.yaml:7: columns_per_turn give either firing_sequence_us"));
+      HasSubstr("mine.yaml:6: firing_sequence_us or columns_per_turn has to be given"));
   const auto jitter = [](const std::string& sequence) {
     return refusal(kSpinning, "firing_sequence_us: 100", sequence);
   };

@@ -216,8 +216,10 @@ sensor::Sensor sensor_of_product(std::uint8_t product, const std::filesystem::pa
     sensor::Sensor sensor = sensor::load_sensor(name);
     if (sensor.packets && sensor.packets->product == product) return sensor;
   }
-  throw InputError(
-      file, fmt::format("was recorded by product 0x{:02X}, which no shipped sensor is", product));
+  throw InputError(file,
+                   fmt::format("was recorded by product 0x{:02X}, which no shipped sensor is; "
+                               "--sensor FILE.yaml with --trajectory reads it",
+                               product));
 }
 
 PcapSummary read_pcap(const std::filesystem::path& file, const sensor::Sensor& sensor,
