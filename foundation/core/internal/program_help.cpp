@@ -2,6 +2,7 @@
 #include "core/internal/program_help.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -44,9 +45,9 @@ std::string range_of(const CLI::Option& option) {
   return "";
 }
 
-std::string excluded_by(const CLI::Option& option) {
+std::string names_of(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
-  for (const CLI::Option* other : option.get_excludes()) names.push_back(other->get_name());
+  for (const CLI::Option* option : options) names.push_back(option->get_name());
   return joined(names, ", ");
 }
 
@@ -57,7 +58,9 @@ std::string notes_of(const CLI::Option& option) {
   if (!range.empty()) notes.push_back(range);
   const std::string usual = default_of(option);
   if (!usual.empty()) notes.push_back("default: " + usual);
-  const std::string others = excluded_by(option);
+  const std::string needed = names_of(option.get_needs());
+  if (!needed.empty()) notes.push_back("only with " + needed);
+  const std::string others = names_of(option.get_excludes());
   if (!others.empty()) notes.push_back("not with " + others);
   return notes.empty() ? "" : " [" + joined(notes, "; ") + "]";
 }
