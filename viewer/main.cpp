@@ -124,7 +124,7 @@ void draw_plot(const Program& program, const EstimateArguments& arguments) {
 void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
   command
       .add_option("CLOUD", arguments.cloud,
-                  "the cloud, PCD, PLY or LAS, or the scan folder with it")
+                  "the cloud, PCD, PLY, LAS or text, or the scan folder with it")
       ->required();
   command
       .add_option("EST", arguments.estimate,

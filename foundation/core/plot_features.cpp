@@ -245,7 +245,7 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
     if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
     throw InputError(path,
                      "is in longitude and latitude, which are converted only to UTM's metres, " +
-                         (crs.empty() ? "and no such system is stated (estimator run: --crs)"
+                         (crs.empty() ? "and no such system is known here (estimator run: --crs)"
                                       : "and the cloud is in " + crs) +
                          "; give the map in the cloud's coordinates");
   }
