@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <vector>
-
-#include <fmt/core.h>
 
 #include "core/error.h"
 #include "record/open_source.h"
@@ -135,16 +132,6 @@ void add_facts(const Source& source, const scan::PositionSink& sink, scan::Cloud
       });
 }
 
-// A few points may follow the last pose; more of them are piled up at one place.
-void note_late(const Source& source, double share, scan::CloudSystem& system) {
-  constexpr double kFew = 0.01;
-  if (!(share > kFew)) return;
-  system.notes.push_back(fmt::format(
-      "{:.0f} % of the points of {} are later than its trajectory, at whose end the body is taken "
-      "to stand still: is it the trajectory of this flight?",
-      100 * share, source.path.filename().string()));
-}
-
 }  // namespace
 
 scan::CloudSummary read_positions(const CloudFiles& cloud, const scan::PositionSink& sink,
@@ -154,16 +141,8 @@ scan::CloudSummary read_positions(const CloudFiles& cloud, const scan::PositionS
   const std::vector<Source> sources = open_recordings(cloud);
   scan::CloudSummary summary{.system = system_of(cloud, sources)};
   for (const Source& source : sources) {
-    const double end_s =
-        source.flight ? source.flight->reported.end_s() : std::numeric_limits<double>::infinity();
-    std::uint64_t points = 0;
-    std::uint64_t late = 0;
-    summary.not_finite += stream(source, summary.system, sink, [&](const auto& point, const auto&) {
-      ++points;
-      if (point.time > end_s) ++late;
-    });
-    note_late(source, static_cast<double>(late) / static_cast<double>(points), summary.system);
-    summary.points += points;
+    summary.not_finite +=
+        stream(source, summary.system, sink, [&](const auto&, const auto&) { ++summary.points; });
   }
   if (summary.points == 0) throw InputError(cloud.name() + ": holds no point");
   return summary;
