@@ -62,6 +62,8 @@ void declare_shown_cloud(CLI::App& command, CloudArguments& arguments) {
                   "points are shown")
       ->allow_extra_args(false);
   declare_frame(command, arguments);
+  for (const char* told : {"--units", "--crs", "--trajectory", "--mount", "--sensor", "--topic"})
+    command.get_option(told)->needs("--cloud");
 }
 
 CloudFiles cloud_of(const CloudArguments& arguments) {

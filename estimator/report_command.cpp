@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "fieldpage/field_page.h"
+#include "report/shown_cloud.h"
 
 namespace plotscan {
 namespace {
@@ -53,8 +54,10 @@ void declare_report(Program& program) {
                     "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres: "
                     "errors are shown");
   declare_shown_cloud(report, shared->cloud);
-  report.add_option("--points", options.points, "points on the page, at most (1 to 5000000)")
-      ->capture_default_str();
+  report.add_option("--points", options.points, "points on the page, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1}, report::kMostPoints))
+      ->needs("--cloud");
   report.add_flag("--force", options.replace, "replace an existing page");
 }
 

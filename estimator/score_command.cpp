@@ -109,7 +109,7 @@ void declare_score(Program& program) {
                    "folder to write scores.json and plots.csv to (default: write nothing)");
   score.add_option("--min-iou", options.score.min_iou,
                    "a plot is found where its box overlaps the true one by at least this "
-                   "intersection over union");
+                   "intersection over union (above 0, at most 1)");
   score.add_flag("--force", options.replace, "replace an existing scores folder");
 }
 

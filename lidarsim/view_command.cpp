@@ -10,6 +10,7 @@
 
 #include "core/text.h"
 #include "record/formats.h"
+#include "report/shown_cloud.h"
 #include "scanpage/scan_page.h"
 
 namespace plotscan {
@@ -56,8 +57,9 @@ void declare_view(Program& program) {
   view.add_option("-o,--output", options->html, "page to write (.html)")->required();
   view.add_option("--plots", options->plots,
                   "boxes to show: a farm folder, or a map of plots (GeoJSON) in the cloud's frame");
-  view.add_option("--points", options->points, "points on the page, at most (1 to 5000000)")
-      ->capture_default_str();
+  view.add_option("--points", options->points, "points on the page, at most")
+      ->capture_default_str()
+      ->check(CLI::Range(std::size_t{1}, report::kMostPoints));
   view.add_option("--topic", options->source.topic,
                   "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or the "
                   "only one)");

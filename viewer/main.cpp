@@ -132,7 +132,7 @@ void draw_plot(const Program& program, const EstimateArguments& arguments) {
 void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
   command
       .add_option("CLOUD", arguments.cloud,
-                  "the cloud, PCD, PLY or LAS, or the scan folder with it")
+                  "the cloud, PCD, PLY, LAS or text, or the scan folder with it")
       ->required();
   command
       .add_option("EST", arguments.estimate,
@@ -188,9 +188,12 @@ void declare_field(Program& program, EstimateArguments& arguments) {
       "field", "Draw an estimate's plots over its cloud, from straight above, into a PNG.",
       [&] { draw_field(program, arguments); });
   add_estimate_arguments(field, arguments);
-  field.add_option("--width", arguments.field.width_px, "of the picture at most (pixels)");
-  field.add_option("--height", arguments.field.height_px, "of the picture at most (pixels)");
-  field.add_option("--margin", arguments.field.margin_m, "shown around the plots (metres)");
+  field.add_option("--width", arguments.field.width_px, "of the picture at most (pixels)")
+      ->type_name("INT in [400, 8192]");
+  field.add_option("--height", arguments.field.height_px, "of the picture at most (pixels)")
+      ->type_name("INT in [400, 8192]");
+  field.add_option("--margin", arguments.field.margin_m, "shown around the plots (metres)")
+      ->type_name("FLOAT in [0, 10000]");
 }
 
 void declare_plot(Program& program, EstimateArguments& arguments) {
@@ -203,9 +206,12 @@ void declare_plot(Program& program, EstimateArguments& arguments) {
                   "heights to draw, separated by commas (default: mean,p95,max)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  plot.add_option("--beyond", arguments.side.beyond_m, "shown before and behind the plot (metres)");
-  plot.add_option("--width", arguments.side.width_px, "of the picture (pixels)");
-  plot.add_option("--height", arguments.side.height_px, "of the picture at most (pixels)");
+  plot.add_option("--beyond", arguments.side.beyond_m, "shown before and behind the plot (metres)")
+      ->type_name("FLOAT in [0, 100]");
+  plot.add_option("--width", arguments.side.width_px, "of the picture (pixels)")
+      ->type_name("INT in [600, 8192]");
+  plot.add_option("--height", arguments.side.height_px, "of the picture at most (pixels)")
+      ->type_name("INT in [400, 8192]");
 }
 
 }  // namespace

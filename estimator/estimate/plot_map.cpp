@@ -111,6 +111,7 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
       if (i != row && i != column) plots.back().properties[table.columns[i]] = line.fields[i];
     }
   }
+  if (plots.empty()) throw InputError(file, "has no plots");
   const auto property = id_property_of(file, plots, id_property);
   if (!property)
     throw InputError(file, "has no id of a plot; --id names the column, such as plot_id");

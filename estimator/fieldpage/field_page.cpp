@@ -5,7 +5,6 @@
 
 #include "farmfolder/terrain_ply.h"
 
-#include "core/extent.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
@@ -43,19 +42,6 @@ std::optional<std::string> told_crs(const fs::path& estimate) {
   return manifest[crs].get<std::string>();
 }
 
-// Whether the cloud lies beside the rectangle around the field's plots. A sample of few points says
-// nothing of it.
-bool lies_elsewhere(const report::ShownField& field) {
-  constexpr std::size_t kEnough = 1000;
-  const std::vector<report::ShownPoint>& points = field.cloud->points;
-  if (field.plots.empty() || (points.size() < kEnough && points.size() < field.cloud->read))
-    return false;
-  const Eigen::AlignedBox2d plots = extent_of(field.plots, &report::ShownPlot::box);
-  return std::ranges::none_of(points, [&](const report::ShownPoint& point) {
-    return plots.contains((field.cloud->origin + point.place.cast<double>()).head<2>());
-  });
-}
-
 void show_cloud(report::ShownField& field, const PageOptions& options,
                 const std::optional<CoordinateUnits>& units, const ProgressReport& progress) {
   CloudFiles cloud = *options.cloud;
@@ -64,9 +50,7 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
   if (!cloud.units) cloud.units = units;  // as estimator run was told
   if (!cloud.crs && is_measured) cloud.crs = told_crs(options.estimate);
   field.cloud = read_shown_positions(cloud, options.points, progress);
-  if (lies_elsewhere(field))
-    field.notes.push_back("No point of the cloud " + cloud.name() +
-                          " lies among the plots: are both in the same coordinates?");
+  report::note_cloud_elsewhere(field, cloud.name());
   field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
   if (!is_measured)
     field.notes.push_back("The cloud " + cloud.name() +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/plot_box.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -75,10 +76,15 @@ double heading_difference(double a_rad, double b_rad) {
   return std::min(difference, kPi - difference);
 }
 
+// Counted from the centre of `a`: products of UTM's millions would take the area's digits.
 double intersection_area(const PlotBox& a, const PlotBox& b) {
-  const auto a_corners = a.corners();
+  PlotBox centred = a;
+  centred.center.setZero();
+  PlotBox other = b;
+  other.center -= a.center;
+  const auto a_corners = centred.corners();
   Polygon polygon(a_corners.begin(), a_corners.end());
-  const auto edges = b.corners();
+  const auto edges = other.corners();
   for (std::size_t i = 0; i < edges.size() && !polygon.empty(); ++i) {
     polygon = clip_left_of(polygon, edges[i], edges[(i + 1) % edges.size()]);
   }
@@ -88,7 +94,7 @@ double intersection_area(const PlotBox& a, const PlotBox& b) {
 double intersection_over_union(const PlotBox& a, const PlotBox& b) {
   const double shared = intersection_area(a, b);
   const double joined = a.area_m2() + b.area_m2() - shared;
-  return joined > 0 ? shared / joined : 0.0;
+  return joined > 0 ? std::min(1.0, shared / joined) : 0.0;
 }
 
 }  // namespace plotscan

@@ -243,10 +243,11 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
   const std::optional<UtmSystem> utm = unit_m == 1 ? utm_system(crs) : std::nullopt;
   if (is_in_degrees(document, utm.has_value())) {
     if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
-    throw InputError(path, "is in longitude and latitude, and coordinates are wanted of a system " +
-                               (crs.empty() ? "that is not known"
-                                            : "(" + crs + ") that is not UTM's in metres") +
-                               "; give the map in these coordinates");
+    throw InputError(path,
+                     "is in longitude and latitude, which are converted only to UTM's metres, " +
+                         (crs.empty() ? "and no such system is known here (estimator run: --crs)"
+                                      : "and the cloud is in " + crs) +
+                         "; give the map in the cloud's coordinates");
   }
   if (!may_be_same(stated_crs(document), crs)) {
     throw InputError(path, "is in the coordinate system " + stated_crs(document) +

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/shown_field.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/extent.h"
 #include "report/decimals.h"
 #include "report/internal/pack_cloud.h"
 #include "report/internal/packed.h"
@@ -99,7 +101,25 @@ json packed(const std::vector<Item>& items) {
   return list;
 }
 
+// A sample of few points says nothing of it.
+bool lies_elsewhere(const ShownField& field) {
+  constexpr std::size_t kEnough = 1000;
+  const std::vector<ShownPoint>& points = field.cloud->points;
+  if (field.plots.empty() || (points.size() < kEnough && points.size() < field.cloud->read))
+    return false;
+  const Eigen::AlignedBox2d plots = extent_of(field.plots, &ShownPlot::box);
+  return std::ranges::none_of(points, [&](const ShownPoint& point) {
+    return plots.contains((field.cloud->origin + point.place.cast<double>()).head<2>());
+  });
+}
+
 }  // namespace
+
+void note_cloud_elsewhere(ShownField& field, const std::string& cloud) {
+  if (!field.cloud || !lies_elsewhere(field)) return;
+  field.notes.push_back("No point of the cloud " + cloud +
+                        " lies among the plots: are both in the same coordinates?");
+}
 
 std::string shown_name(const std::filesystem::path& path) {
   const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal();

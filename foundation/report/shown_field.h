@@ -101,6 +101,10 @@ struct ShownField {
 // "field/scan/" and of "." there.
 std::string shown_name(const std::filesystem::path& path);
 
+// Adds a note if no point of the field's cloud, which it calls `cloud`, lies in the rectangle
+// around the plots.
+void note_cloud_elsewhere(ShownField& field, const std::string& cloud);
+
 // The field as pages hold it (docs/report-format.md), with binary values for write_page.
 nlohmann::json packed_field(const ShownField& field);
 

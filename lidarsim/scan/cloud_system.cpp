@@ -170,7 +170,9 @@ CloudSystem read_cloud_system(const CloudFiles& cloud) {
       first = system;
       continue;
     }
-    const bool same_place = first->zone ? system.zone.has_value() : system.crs == first->crs;
+    const bool in_degrees = system.zone.has_value();
+    const bool same_place =
+        in_degrees == first->zone.has_value() && (in_degrees || system.crs == first->crs);
     if (!same_place || system.units != first->units) {
       throw InputError(file, "states another coordinate system or other units than " +
                                  cloud.files.front().string());

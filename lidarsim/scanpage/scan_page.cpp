@@ -101,6 +101,7 @@ PageSummary write_scan_page(const PageOptions& options, const ProgressReport& pr
       .read = scan.cloud.read, .shown = scan.cloud.points.size(), .plots = field.plots.size()};
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
+  report::note_cloud_elsewhere(field, field.name);
   nlohmann::json document = {{"kind", "scan"}, {"title", "Scan " + field.name}};
   document["fields"] = nlohmann::json::array();
   document["fields"].push_back(report::packed_field(field));

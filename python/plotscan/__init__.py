@@ -163,7 +163,7 @@ def write_cloud(
     Raises BadInput on an extension or encoding that there is not, on masked points, on a time or intensity that is not finite,
     and on a file that exists.
     """
-    _require_unmasked(points)
+    _require_points(points)
     crs_wkt = ""
     if isinstance(points, Cloud):
         origin_m, crs_wkt, points = points.origin_m, points.crs_wkt, points.points
@@ -203,8 +203,12 @@ def estimate_settings(method: str = "lattice") -> List[Setting]:
     return _plotscan.estimate_settings(method)
 
 
-def _require_unmasked(points: Union[Cloud, numpy.ndarray]) -> None:
-    """Refuse masked values, which the compiled part would take for points."""
+def _require_points(points: Union[Cloud, numpy.ndarray]) -> None:
+    """Refuse what is no array, and masked values, which the compiled part would take for points."""
+    if not isinstance(points, (Cloud, numpy.ndarray)):
+        raise BadInput(
+            f"points are a NumPy array or a cloud, not of type {type(points).__name__}; numpy.asarray makes an array"
+        )
     if isinstance(points, numpy.ma.MaskedArray) and numpy.any(numpy.asarray(points.mask).view(bool)):
         raise BadInput(
             "points have masked values, and masks are not read: give the points that count (points[~mask]), "
@@ -239,7 +243,7 @@ def estimate_field(
 
     Method: docs/methods.md, of this project.
     """
-    _require_unmasked(points)
+    _require_points(points)
     options = _field_options(crop_box, threads, settings)
     options.boxes = list(boxes)
     return _plotscan.estimate_field(points, options, origin_m, progress)

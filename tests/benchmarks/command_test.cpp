@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -112,6 +113,20 @@ TEST_F(Command, GetsWhatItNamesAndHandsInWhatItWrites) {
   EXPECT_FALSE(fs::exists("x"));
   const auto entries = fs::directory_iterator(folder_.path());
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);  // its folder is gone
+}
+
+// A long PATH, none of whose first places has the program, keeps the child from becoming it.
+TEST_F(Command, TheMemoryOfThisProgramIsNotTheirs) {
+  const std::vector<char> own(std::size_t{300} << 20, 'x');
+  const std::string path = getenv("PATH");
+  std::string long_path;
+  for (int i = 0; i < 40000; ++i) long_path += "/:";
+  setenv("PATH", (long_path + path).c_str(), 1);
+  const CommandResult result = run_command("true {out}");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(own.back(), 'x');
+  EXPECT_EQ(result.failure, "wrote no output");
+  EXPECT_LT(result.peak_memory_mb, 100);
 }
 
 TEST_F(Command, FailuresAreResults) {

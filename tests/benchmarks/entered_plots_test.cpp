@@ -124,6 +124,13 @@ TEST(EnteredPlots, GeoJsonThatSaysNothingIsNoEntry) {
   EXPECT_EQ(read(R"("plot_number": 1, "height_mean_m": null)"), "");
 }
 
+TEST(EnteredPlots, ATableThatSaysNothingIsNoEntry) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(read_file(folder, "a.csv", "plot_number,confidence\n1,0.5\n").problems,
+              HasSubstr("a.csv:1: no column is a height, such as height_mean_m, or of a box"));
+  EXPECT_EQ(read_file(folder, "b.csv", "plot_number,confidence\n").problems, "");
+}
+
 TEST(EnteredPlots, EveryProblemIsToldAtOnce) {
   const TemporaryFolder folder;
   const std::string told =

@@ -247,14 +247,16 @@ TEST_F(Chain, EveryCommandExplainsTheCommonOptionsThatItUses) {
 }
 
 TEST_F(Chain, HelpTellsDefaultsRangesAndWhatIsExcluded) {
-  const std::string pages =
-      succeed("lidarsim fly --help").output + succeed("estimator run --help").output;
+  const std::string pages = succeed("lidarsim fly --help").output +
+                            succeed("estimator run --help").output +
+                            succeed("estimator report --help").output;
   const std::string help = std::regex_replace(pages, std::regex("\\s+"), " ");
   for (const char* text :
        {"--altitude FLOAT metres above the mean ground of the plots, 0.5 to 120 "
         "[default: 8; not with --flight, --waypoints]",
         "--mount FLOAT x 3", "[default: 0,90,0]", "--returns {strongest,last,dual}", "[required]",
-        "[0 to 255]", "[0 to 1024; default: 0, one for each processor]"})
+        "[0 to 255]", "[0 to 1024; default: 0, one for each processor]",
+        "[1 to 5000000; default: 3000000; only with --cloud]"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 

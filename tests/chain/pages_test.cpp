@@ -36,6 +36,11 @@ class Pages : public ::testing::TestWithParam<const char*> {
     EXPECT_EQ(finished.errors, "") << command;
     return finished.output;
   }
+  // The source of the program's manual page, with its hyphens as they are read.
+  std::string manual() {
+    return std::regex_replace(output_of(std::string(GetParam()) + " --print-manual"),
+                              std::regex(R"(\\-)"), "-");
+  }
   // What bash, zsh or fish offers at the end of a command line.
   std::set<std::string> offered(const std::string& shell, const std::string& line) {
     const std::string program = line.substr(0, line.find(' '));
@@ -62,15 +67,27 @@ class Pages : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(Pages, TellEveryOptionOfEveryCommand) {
-  std::string manual = output_of(std::string(GetParam()) + " --print-manual");
-  manual = std::regex_replace(manual, std::regex(R"(\\-)"), "-");
+  const std::string page = manual();
   ASSERT_FALSE(commands().empty());
   for (const std::string& command : commands()) {
-    ASSERT_THAT(manual, HasSubstr("\n.SS " + command + "\n"));
-    const std::string section = manual.substr(manual.find("\n.SS " + command + "\n"));
+    ASSERT_THAT(page, HasSubstr("\n.SS " + command + "\n"));
+    const std::string section = page.substr(page.find("\n.SS " + command + "\n"));
     ASSERT_GE(long_flags(command).size(), 5u) << command;
     for (const std::string& flag : long_flags(command))
       EXPECT_THAT(section.substr(0, section.find("\n.S", 1)), HasSubstr(flag));
+  }
+}
+
+// What --help says in brackets, without its line breaks, is in the manual.
+TEST_P(Pages, TellRangesDefaultsAndExclusionsAsHelpDoes) {
+  const std::string program = GetParam();
+  const std::string page = manual();
+  for (const std::string& command : commands()) {
+    const std::string help =
+        std::regex_replace(output_of(program + " " + command + " --help"), std::regex("\\s+"), " ");
+    const std::regex notes(R"(\[(?:required|default: |only with|not with|[-+0-9.e]+ to )[^\]]*\])");
+    for (std::sregex_iterator at(help.begin(), help.end(), notes), end; at != end; ++at)
+      EXPECT_THAT(page, HasSubstr(at->str())) << command;
   }
 }
 

@@ -34,6 +34,20 @@ TEST(PlotBox, OverlapOfShiftedEqualBoxesIsKnown) {
   EXPECT_NEAR(intersection_over_union(a, b), 3.0 / 5.0, 1e-12);
 }
 
+TEST(PlotBox, OverlapIsTheSameFarFromTheOrigin) {
+  for (const double heading_rad : {0.0, 0.3, 1.571}) {
+    const PlotBox a{.center = {512345.678, 4123456.789},
+                    .width_m = 1.5,
+                    .length_m = 4,
+                    .heading_rad = heading_rad};
+    PlotBox b = a;
+    EXPECT_NEAR(intersection_over_union(a, b), 1, 1e-12);
+    EXPECT_LE(intersection_over_union(a, b), 1);
+    b.center += a.length_axis();
+    EXPECT_NEAR(intersection_over_union(a, b), 3.0 / 5.0, 1e-8);
+  }
+}
+
 TEST(PlotBox, CrossOfTwoStripsSharesASquare) {
   const PlotBox a{.width_m = 1, .length_m = 4, .heading_rad = 0.2};
   const PlotBox b{.width_m = 1, .length_m = 4, .heading_rad = 0.2 + kPi / 2};

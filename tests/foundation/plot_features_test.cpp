@@ -169,7 +169,7 @@ TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
     return testing::message_of<InputError>([&] { read_plot_features(path, crs); });
   };
   const std::string wgs84 = R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::4326"}},)";
-  EXPECT_THAT(message(file(wgs84), ""), ::testing::HasSubstr("longitude and latitude"));
+  EXPECT_THAT(message(file(wgs84), ""), ::testing::HasSubstr("known here (estimator run: --crs)"));
   EXPECT_THAT(message(file(wgs84), "EPSG:2193"), ::testing::HasSubstr("EPSG:2193"));
   const std::string other = R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::32633"}},)";
   EXPECT_THAT(message(file(other), "EPSG:32632"), ::testing::HasSubstr("EPSG:32633"));

@@ -97,6 +97,12 @@ class Estimate(ExampleScan):
         with self.assertRaisesRegex(plotscan.BadInput, "these are float64: add it to them"):
             plotscan.estimate_field(columns, origin_m=(500000, 4000000, 300))
 
+    def test_lists_are_refused_in_one_line(self):
+        rows = numpy.ones((1000, 3)).tolist()
+        for call in (plotscan.estimate_field, lambda points: plotscan.write_cloud(self.folder / "list.pcd", points)):
+            with self.assertRaisesRegex(plotscan.BadInput, "^points are a NumPy array or a cloud, not of type list; .*$"):
+                call(rows)
+
     def test_masks_are_not_ignored(self):
         points = numpy.ma.array(self.cloud.points)
         self.assertEqual(plotscan.estimate_field(points).geojson, self.field.geojson)

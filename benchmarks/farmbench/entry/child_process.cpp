@@ -10,9 +10,11 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -25,11 +27,13 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kNotStarted = 127;  // as shells say it
 constexpr auto kPause = std::chrono::milliseconds(2);
-constexpr int kLooksAtMemory = 5;  // pauses from one look to the next
+constexpr int kLooksAtMemory = 5;  // pauses from one look to the next, after as many at each
+constexpr int kBegun = 3;          // the child's file that is closed when its program begins
 
-// In the child: nothing that allocates, since another thread may have held the heap's lock.
+// In the child: nothing that allocates, since another thread may have held the heap's lock. `begun`
+// is closed when the program begins.
 [[noreturn]] void become(char* const* arguments, const char* folder, const char* log, pid_t parent,
-                         std::uint64_t memory_bytes) {
+                         std::uint64_t memory_bytes, int begun) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
@@ -45,11 +49,36 @@ constexpr int kLooksAtMemory = 5;  // pauses from one look to the next
   dup2(input, STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);
-  close_range(3, ~0U, 0);
+  if (begun != kBegun) dup3(begun, kBegun, O_CLOEXEC);
+  close_range(kBegun + 1, ~0U, 0);
   if (chdir(folder) != 0) _exit(kNotStarted);
   execvp(arguments[0], arguments);
   _exit(kNotStarted);
 }
+
+// A pipe that ends for its reader when the child's program begins. Until then the child holds this
+// program's memory.
+struct Begun {
+  int ends[2] = {-1, -1};
+
+  Begun() {
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "no pipe can be made");
+  }
+  Begun(const Begun&) = delete;
+  Begun& operator=(const Begun&) = delete;
+  ~Begun() {
+    for (const int end : ends)
+      if (end >= 0) close(end);
+  }
+  // A second at most: a child of another thread may hold the other end for a while.
+  void wait() {
+    close(std::exchange(ends[1], -1));
+    pollfd end{.fd = ends[0], .events = POLLIN, .revents = 0};
+    while (poll(&end, 1, 1000) < 0 && errno == EINTR) {
+    }
+  }
+};
 
 // The most memory that a process of the group has held, as far as it lives. (wait4 tells no less
 // than this program held when it forked.)
@@ -81,7 +110,8 @@ std::string reason_to_stop(pid_t process, const std::filesystem::path& log,
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(limits.seconds));
   for (int look = 0;; ++look) {
-    if (look % kLooksAtMemory == 0) peak = std::max(peak, peak_bytes(process));
+    if (look < kLooksAtMemory || look % kLooksAtMemory == 0)
+      peak = std::max(peak, peak_bytes(process));
     siginfo_t info{};
     const int asked = waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOWAIT | WNOHANG);
     if (asked == 0 && info.si_pid == process) return "";
@@ -119,12 +149,15 @@ FinishedProcess run_process(const std::vector<std::string>& arguments,
   const std::string log_text = log.string();
   const pid_t parent = getpid();
   const auto start = Clock::now();
+  Begun begun;
   const pid_t process = fork();
   if (process == 0)
-    become(pointers.data(), folder_text.c_str(), log_text.c_str(), parent, limits.memory_bytes);
+    become(pointers.data(), folder_text.c_str(), log_text.c_str(), parent, limits.memory_bytes,
+           begun.ends[1]);
   if (process < 0)
     throw std::system_error(errno, std::generic_category(), "no process can be started");
   setpgid(process, process);  // whichever of the two comes first
+  begun.wait();
   int status = 0;
   std::uint64_t peak = 0;
   const std::string stopped = reason_to_stop(process, log, limits, peak);

@@ -22,7 +22,12 @@ std::vector<std::string> flags_of(const CLI::Option& option);
 
 bool takes_value(const CLI::Option& option);
 
-// The option's default, if it has one that its description does not state; else empty.
-std::string default_of(const CLI::Option& option);
+// What there is of " [required; RANGE; default: ...; only with ...; not with ...]"; else empty. A
+// default that the description states is left out.
+std::string notes_of(const CLI::Option& option);
+
+// In the name of an option's type, in front of its range: "INT:INT in [0 - 255]" as CLI11 states
+// it, "INT in [0, 255]" as settings do.
+inline constexpr const char* kRange = " in [";
 
 }  // namespace plotscan

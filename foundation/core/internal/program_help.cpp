@@ -14,10 +14,7 @@ namespace {
 constexpr std::size_t kTextColumn = 28;
 constexpr std::size_t kColumns = 100;
 
-constexpr const char* kRange = " in [";
-
-// CLI11's type name states a choice as "TEXT:{a,b}" and a range as "INT:INT in [0 - 255]"; a
-// setting's states a range as "INT in [0, 255]".
+// The type's name without its choices and its range.
 std::string placeholder_of(const CLI::Option& option) {
   if (!takes_value(option)) return "";
   const std::string type = option.get_type_name();
@@ -29,37 +26,6 @@ std::string placeholder_of(const CLI::Option& option) {
   else if (option.get_expected_min() > 1)
     value += " x " + std::to_string(option.get_expected_min());
   return value;
-}
-
-std::string range_of(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t begin = type.find(kRange);
-  if (begin == std::string::npos) return "";
-  const std::size_t low = begin + std::string(kRange).size();
-  std::string range = type.substr(low, type.find(']', low) - low);
-  for (const std::string between : {" - ", ", "}) {
-    const std::size_t middle = range.find(between);
-    if (middle != std::string::npos) return range.replace(middle, between.size(), " to ");
-  }
-  return "";
-}
-
-std::string excluded_by(const CLI::Option& option) {
-  std::vector<std::string> names;
-  for (const CLI::Option* other : option.get_excludes()) names.push_back(other->get_name());
-  return joined(names, ", ");
-}
-
-std::string notes_of(const CLI::Option& option) {
-  std::vector<std::string> notes;
-  if (option.get_required() && !option.get_positional()) notes.push_back("required");
-  const std::string range = range_of(option);
-  if (!range.empty()) notes.push_back(range);
-  const std::string usual = default_of(option);
-  if (!usual.empty()) notes.push_back("default: " + usual);
-  const std::string others = excluded_by(option);
-  if (!others.empty()) notes.push_back("not with " + others);
-  return notes.empty() ? "" : " [" + joined(notes, "; ") + "]";
 }
 
 // Wraps the text behind `begun`, which is already on the first line.

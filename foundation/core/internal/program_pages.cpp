@@ -34,9 +34,7 @@ std::string entry(const CLI::Option& option) {
   std::string page = ".TP\n.B " + roff(name) + "\n" + roff(option.get_description());
   const std::string choices = joined(choices_of(option), " ");
   if (!choices.empty()) page += "; one of " + roff(choices);
-  const std::string usual = default_of(option);
-  if (!usual.empty()) page += "; by default " + roff(usual);
-  page += "\n";
+  page += roff(notes_of(option)) + "\n";
   return page;
 }
 

@@ -95,12 +95,26 @@ bool has_set_off_thousands(std::string_view line) {
   return false;
 }
 
+// Whether the line is a point whose numbers are in quotes.
+bool has_quoted_numbers(std::string_view line) {
+  std::vector<std::string_view> columns;
+  split_columns(line, separator_of(line), columns);
+  for (std::string_view& word : columns)
+    if (word.size() > 2 && word.front() == '"' && word.back() == '"')
+      word = word.substr(1, word.size() - 2);
+  return is_point(columns);
+}
+
 // Throws InputError where the line is a point whose numbers are written in another way.
 void refuse_other_numbers(const std::filesystem::path& file, const HeaderLines& lines,
                           std::string_view line) {
   if (has_decimal_commas(line)) {
     throw InputError(file, lines.line(),
                      "has numbers with decimal commas; write them with points (sed 'y/,/./')");
+  }
+  if (has_quoted_numbers(line)) {
+    throw InputError(file, lines.line(),
+                     "has numbers in quotes; write them without (sed 's/\"//g')");
   }
   if (has_set_off_thousands(line)) {
     throw InputError(file, lines.line(),
@@ -182,6 +196,15 @@ std::optional<std::array<std::size_t, 3>> named_columns(const std::vector<std::s
   return columns;
 }
 
+// Whether the names' places are those of the columns. Behind x, y and z, names may hold blanks, and
+// a comment need not name all. R's tables have a first column that no name stands for.
+bool fit(const TextHeader& header, std::size_t names, bool in_front,
+         const std::vector<std::string_view>& columns) {
+  if (!in_front) return names == columns.size();
+  const std::size_t filled = columns.size() - (columns.back().empty() ? 1 : 0);
+  return names == 0 || header.names_in_comment || names >= filled;
+}
+
 bool is_longitude(const std::string& name) { return plain_column(name).starts_with("lon"); }
 
 // Adds every column as a field under its name; those of x, y and z get these names.
@@ -223,7 +246,7 @@ CloudLayout read_text_header(const std::filesystem::path& file) {
   }
   const std::array<std::size_t, 3> xyz = named.value_or(std::array<std::size_t, 3>{0, 1, 2});
   const bool in_front = xyz == std::array<std::size_t, 3>{0, 1, 2};
-  if (names.size() != columns.size() && !in_front) {
+  if (!fit(header, names.size(), in_front, columns)) {
     throw InputError(file, header.names_line,
                      "names " + std::to_string(names.size()) + " columns; the first point has " +
                          std::to_string(columns.size()));

@@ -143,6 +143,7 @@ TEST(PlotNames, AreRefusedWhereTheyDoNotFitTheField) {
   EXPECT_THAT(message("row,column,plot_id\n1,x,A\n"), HasSubstr("book.csv:2: column \"x\""));
   EXPECT_THAT(message("row,plot_id\n1,A\n"), HasSubstr("has no column column or col"));
   EXPECT_THAT(message("row,column,label\n1,1,A\n"), HasSubstr("--id names the column"));
+  EXPECT_THAT(message("row,column,plot_id\n"), HasSubstr("has no plots"));
 }
 
 }  // namespace

@@ -116,6 +116,20 @@ TEST_F(ForeignLasFile, SeveralFilesAreOneCloud) {
               HasSubstr("c.las: states another coordinate system or other units than"));
 }
 
+// Degrees are projected to the system that the other file states, but its numbers are no degrees.
+TEST_F(ForeignLasFile, DegreesBesideMetresAreRefused) {
+  const std::string wkt = R"(PROJCS["x",AUTHORITY["EPSG","32632"]])";
+  const auto metres = folder_.write(
+      "metres.las", bytes_of({.records = record("LASF_Projection", 2112, wkt), .record_count = 1},
+                             {{{500000, 4982950, 70}}}));
+  const auto degrees = folder_.write("degrees.csv", "lon,lat,z\n9,45,70\n");
+  for (const CloudFiles& cloud : {CloudFiles({metres, degrees}), CloudFiles({degrees, metres})}) {
+    EXPECT_THAT(message_of<InputError>([&] { read_positions(cloud, [](auto) {}); }),
+                HasSubstr("states another coordinate system"))
+        << cloud.files.front();
+  }
+}
+
 // Fields of these names in other files are labels, and labels are the truth.
 TEST_F(ForeignLasFile, MarksAreNotReadFromOtherFormats) {
   const Read result = read(

@@ -66,6 +66,13 @@ TEST_F(TextCloud, ThousandsThatAreSetOffAreNamed) {
   EXPECT_THAT(refusal("area 1,234 5,678\nno point\n"), HasSubstr("is neither a PCD"));
 }
 
+TEST_F(TextCloud, NumbersInQuotesAreNamed) {
+  for (const char* text : {"\"x\",\"y\",\"z\"\n\"512345.678\",\"4123456.789\",\"99.746\"\n",
+                           "\"1\" \"2\" \"3.5\"\n", "a,b\n\"1.5\",2,3\n"}) {
+    EXPECT_THAT(refusal(text), HasSubstr("has numbers in quotes")) << text;
+  }
+}
+
 TEST_F(TextCloud, HeadersNameTheColumns) {
   EXPECT_EQ(read("//X Y Z R G B\n512345.6789 4123456.7891 -1.5 1 2 3\n0.001 20 3 4 5 6\n"),
             kPoints);
@@ -131,6 +138,9 @@ TEST_F(TextCloud, BrokenLinesAreNamed) {
   EXPECT_THAT(refusal("row,col,yield\n1,2,3\n"),
               HasSubstr("cloud.txt:1: names the columns row, col, yield; x, y and z"));
   EXPECT_THAT(refusal("id z x y\n1 2 3\n"), HasSubstr("names 4 columns; the first point has 3"));
+  EXPECT_THAT(refusal("\"x\" \"y\" \"z\"\n\"1\" 1 2 3\n"),  // R's write.table with row names
+              HasSubstr("cloud.txt:1: names 3 columns; the first point has 4"));
+  EXPECT_THAT(refusal("x,y,z\n1,234.5,6,789.0,10\n"), HasSubstr("names 3 columns"));
   EXPECT_THAT(refusal("a story\nwithout any points\n"), HasSubstr("is a point, x y z"));
   EXPECT_THAT(refusal("x y z\n"), HasSubstr("is a point, x y z"));
   EXPECT_THAT(refusal("1 2 3\n" + std::string(3 << 20, '7')),

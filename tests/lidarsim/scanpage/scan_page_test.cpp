@@ -65,6 +65,22 @@ TEST(ScanPage, HoldsPointsGroundAndPlots) {
   EXPECT_NEAR(field["ground"]["z"]["low"].get<double>(), 0, 0.01);
 }
 
+TEST(ScanPage, SaysWhenThePlotsLieElsewhere) {
+  const TemporaryFolder folder;
+  const fs::path cloud = folder.write("a.ply", field_ply());
+  const fs::path html = folder.path() / "page.html";
+  const auto notes_with_plot_at = [&](const std::string& x0, const std::string& x1) {
+    const fs::path plots = folder.write(
+        "plots.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature",
+      "properties":{},"geometry":{"type":"Polygon","coordinates":[[[)" +
+                             x0 + ",2],[" + x1 + ",2],[" + x1 + ",4.5],[" + x0 + ",4.5]]]}}]}");
+    write_scan_page({.scan = cloud, .html = html, .plots = plots, .replace = true});
+    return document_of(html)["fields"][0]["notes"];
+  };
+  EXPECT_EQ(notes_with_plot_at("2", "4"), nlohmann::json::array());
+  EXPECT_THAT(notes_with_plot_at("-81", "-79").dump(), HasSubstr("a.ply lies among the plots"));
+}
+
 TEST(ScanPage, RefusesWithOneMessageAndLeavesNothing) {
   const TemporaryFolder folder;
   const fs::path cloud = folder.write("a.ply", field_ply());

@@ -53,6 +53,16 @@ void require_known_column(const std::string& column, const fs::path& file, Probl
                                                     (meant ? "; " + *meant + " may be meant" : ""));
 }
 
+// A table of ids alone measures nothing.
+void require_content(const CsvTable& table, const fs::path& file, Problems& problems) {
+  const auto says_something = [](const std::string& column) {
+    return is_height_column(column) || std::ranges::count(kBoxProperties, column) > 0;
+  };
+  if (!table.lines.empty() && std::ranges::none_of(table.columns, says_something))
+    problems.add(file.filename().string() + ":1",
+                 "no column is a height, such as height_mean_m, or of a box");
+}
+
 // "FOLDER/FILE:4: what is wrong" as a problem of FILE:4.
 void add_error(const InputError& error, const fs::path& file, Problems& problems) {
   std::string what = error.what();
@@ -175,6 +185,7 @@ std::vector<EnteredRow> read_entered_table(const fs::path& file, Problems& probl
   try {
     const CsvTable table = read_csv_table(file);
     for (const std::string& column : table.columns) require_known_column(column, file, problems);
+    require_content(table, file, problems);
     for (const CsvTable::Line& line : table.lines)
       rows.push_back(row_of(table, line, file, problems));
   } catch (const InputError& error) {
