@@ -28,6 +28,8 @@ function(plotscan_compile_options target)
     $<$<BOOL:${PLOTSCAN_WERROR}>:-Werror>)
   if(PLOTSCAN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE} -fno-omit-frame-pointer)
+    # As Debian's PCL was built, whose vectors we free: Eigen changes how it allocates under the address sanitizer.
+    target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
     target_link_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE})
   endif()
 endfunction()
