@@ -146,7 +146,7 @@ struct Look {
 };
 
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
-                int threads) {
+                Ends ends, int threads) {
   const Frame frame = frame_of(axes);
   const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
   const std::array scales = {
@@ -158,7 +158,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   Layout layout;
   std::string rival;
   arena.execute([&] {
-    layout = best_layout(canopy, hints);
+    layout = best_layout(canopy, hints, ends);
     if (hints.tell_layout()) rival = rival_of(layout, canopy);
   });
   if (layout.rows.empty()) {
@@ -184,12 +184,13 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   return look;
 }
 
-Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, int threads) {
+Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
+              int threads) {
   const CanopyRaster coarse =
       rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
   std::optional<Look> best;
   for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
-    Look look = look_along(axes, field, noise_m, hints, threads);
+    Look look = look_along(axes, field, noise_m, hints, ends, threads);
     if (!best || look.evidence > best->evidence) best = std::move(look);
   }
   return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
@@ -208,12 +209,12 @@ bool is_field(const Look& look) {
   return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
 }
 
-// Whether a look without another crop shows a field of more plots, and more clearly. The evidence
-// of the two is not that of the same canopy.
-bool explains_more(const Look& without, const Look& all) {
-  return all.evidence == 0 ||
-         (without.field.plots.size() > all.field.plots.size() &&
-          field_confidence(*without.field.signs) > field_confidence(*all.field.signs));
+// Whether a look shows more plots than the one before, and more clearly. The evidence of the two is
+// not that of the same canopy.
+bool explains_more(const Look& look, const Look& before) {
+  return before.evidence == 0 ||
+         (look.field.plots.size() > before.field.plots.size() &&
+          field_confidence(*look.field.signs) > field_confidence(*before.field.signs));
 }
 
 }  // namespace
@@ -221,23 +222,27 @@ bool explains_more(const Look& without, const Look& all) {
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error) {
   const FieldBlocks blocks(points, noise_m, threads);
-  const auto try_crop = [&](const Crop& crop) {
-    const FieldCanopy field(points, blocks, crop, threads, ground_error);
-    return look_for(field, noise_m, hints, threads);
-  };
   const std::vector<double> tops_m = blocks.crop_tops_m();
+  const auto try_crop = [&](const Crop& crop, Ends ends) {
+    const FieldCanopy field(points, blocks, crop, threads, ground_error);
+    return look_for(field, noise_m, hints, ends, threads);
+  };
   std::optional<Look> best;
   for (const double top_m : tops_m) {
-    Look look = try_crop({.top_m = top_m});
+    Look look = try_crop({.top_m = top_m}, Ends::free);
     if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
   }
   if (!best) return no_plots(kNoCanopy);
-  if (is_all(*best)) return std::move(best->field);
-  const std::vector<bool> closed = blocks.closed();
-  if (std::ranges::count(closed, true) == 0) return std::move(best->field);
-  for (const double top_m : tops_m) {
-    Look look = try_crop({.top_m = top_m, .others = closed});
+  const auto try_too = [&](const Crop& crop, Ends ends) {
+    if (is_all(*best)) return;
+    Look look = try_crop(crop, ends);
     if (is_field(look) && explains_more(look, *best)) best = std::move(look);
+  };
+  const std::vector<bool> closed = blocks.closed();
+  const bool has_closed = std::ranges::count(closed, true) > 0;
+  for (const double top_m : tops_m) {
+    if (has_closed) try_too({.top_m = top_m, .others = closed}, Ends::free);
+    try_too({.top_m = top_m}, Ends::even);
   }
   return std::move(best->field);
 }

@@ -94,12 +94,12 @@ bool is_longer_along(bool a_axis, const Layout& layout) {
   return along >= across;
 }
 
-// The plots' length may lie along either axis of the raster. Where the user counted the plots, what
-// stands here is plots.
-std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints) {
+// The plots' length may lie along either axis of the raster.
+std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints, Ends ends) {
   const bool counted = hints.rows || hints.columns || hints.plots;
-  const AxisHint length{hints.length_m, hints.rows, !counted};
-  const AxisHint width{hints.width_m, hints.columns, !counted};
+  const bool free_ends = ends == Ends::free && !counted;
+  const AxisHint length{hints.length_m, hints.rows, free_ends};
+  const AxisHint width{hints.width_m, hints.columns, free_ends};
   std::vector<Layout> layouts;
   for (const bool along_a : {true, false}) {
     for (Layout& layout :
@@ -122,7 +122,7 @@ bool may_hold(const Layout& layout, int plots) {
 // Layouts with the user's number of plots: those that the canopy suggests, else full grids of that
 // many.
 std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
-  std::vector<Layout> layouts = layouts_as_told(view, hints);
+  std::vector<Layout> layouts = layouts_as_told(view, hints, Ends::even);
   const auto keep_told = [&] {
     std::erase_if(layouts, [&](const Layout& layout) { return !may_hold(layout, *hints.plots); });
   };
@@ -135,22 +135,26 @@ std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
     whole_rows.columns = *hints.plots / rows;
     if (hints.rows.value_or(rows) != rows) continue;
     if (hints.columns.value_or(*whole_rows.columns) != *whole_rows.columns) continue;
-    for (Layout& layout : layouts_as_told(view, whole_rows)) layouts.push_back(std::move(layout));
+    for (Layout& layout : layouts_as_told(view, whole_rows, Ends::even))
+      layouts.push_back(std::move(layout));
   }
   keep_told();
   return layouts;
 }
 
-std::vector<Layout> layouts_in(const RowView& view, const Hints& hints) {
+std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, Ends ends) {
   if (hints.plots) return layouts_of_plots(view, hints);
-  return hints.tell_layout() ? layouts_as_told(view, hints) : layouts_on(view, {});
+  if (hints.tell_layout()) return layouts_as_told(view, hints, ends);
+  const AxisHint unknown{.free_ends = ends == Ends::free};
+  return layouts_on(view, {unknown, unknown});
 }
 
 // Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
 // along both axes, where all plots' edges add up, and cell by cell.
-void leave_best_aligned(const RowView& view, std::vector<Layout>& layouts) {
-  const Line a = line_of(view, {whole(view.c_cells())}, {});
-  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {});
+void leave_best_aligned(const RowView& view, Ends ends, std::vector<Layout>& layouts) {
+  const AxisHint unknown{.free_ends = ends == Ends::free};
+  const Line a = line_of(view, {whole(view.c_cells())}, unknown);
+  const Line b = line_of(view.turned(), {whole(view.r_cells())}, unknown);
   const auto cost = [&](const Layout& layout) {
     const bool turned = layout.view.swapped;
     return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
@@ -258,12 +262,12 @@ std::optional<Layout> in_columns(Layout layout) {
   return layout;
 }
 
-Layout best_layout(const CanopyRaster& raster, const Hints& hints) {
+Layout best_layout(const CanopyRaster& raster, const Hints& hints, Ends ends) {
   const RowView view{.raster = &raster};
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
-  std::vector<Layout> layouts = layouts_in(view, hints);
+  std::vector<Layout> layouts = layouts_in(view, hints, ends);
   leave_out_drill_rows(layouts);
-  leave_best_aligned(view, layouts);
+  leave_best_aligned(view, ends, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});

@@ -16,6 +16,13 @@ struct Row {
   std::vector<Band> plots = {};  // along it
 };
 
+// What may stand before the first and after the last plot of a line. Where the user counted the
+// plots, it is always even.
+enum class Ends {
+  free,  // anything
+  even,  // ground, or a canopy of one level
+};
+
 // Rows of equal plots, and how clearly the canopy shows them.
 struct Layout {
   RowView view;
@@ -38,6 +45,6 @@ std::optional<Layout> in_columns(Layout layout);
 // over the whole field along either axis, or over the whole field along one and in each row by
 // itself along the other. The result has no rows where nothing stands out, or nothing that agrees
 // with the hints.
-Layout best_layout(const CanopyRaster& raster, const Hints& hints = {});
+Layout best_layout(const CanopyRaster& raster, const Hints& hints = {}, Ends ends = Ends::free);
 
 }  // namespace plotscan::plots
