@@ -242,7 +242,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const bool has_closed = std::ranges::count(closed, true) > 0;
   for (const double top_m : tops_m) {
     if (has_closed) try_too({.top_m = top_m, .others = closed}, Ends::free);
-    try_too({.top_m = top_m}, Ends::even);
+    if (best->evidence == 0) try_too({.top_m = top_m}, Ends::even);
   }
   return std::move(best->field);
 }
