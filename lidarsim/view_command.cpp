@@ -61,7 +61,7 @@ void declare_view(Program& program) {
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, report::kMostPoints));
   view.add_option("--topic", options->source.topic,
-                  "of a bag or MCAP: the topic of its clouds; (default: /velodyne_points, or the "
+                  "of a bag or MCAP: the topic of its clouds (default: /velodyne_points, or the "
                   "only one)");
   view.add_flag("--force", options->replace, "replace an existing page");
 }

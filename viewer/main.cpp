@@ -187,19 +187,21 @@ void declare_field(Program& program, EstimateArguments& arguments) {
   CLI::App& field = program.command(
       "field", "Draw an estimate's plots over its cloud, from straight above, into a PNG.",
       [&] { draw_field(program, arguments); });
+  using Options = view::FieldPictureOptions;
   add_estimate_arguments(field, arguments);
   field.add_option("--width", arguments.field.width_px, "of the picture at most (pixels)")
-      ->type_name("INT in [400, 8192]");
+      ->type_name("INT in " + Options::kSize_px.text());
   field.add_option("--height", arguments.field.height_px, "of the picture at most (pixels)")
-      ->type_name("INT in [400, 8192]");
+      ->type_name("INT in " + Options::kSize_px.text());
   field.add_option("--margin", arguments.field.margin_m, "shown around the plots (metres)")
-      ->type_name("FLOAT in [0, 10000]");
+      ->type_name("FLOAT in " + Options::kMargin_m.text());
 }
 
 void declare_plot(Program& program, EstimateArguments& arguments) {
   CLI::App& plot =
       program.command("plot", "Draw a plot from the side, with its ground and heights, into a PNG.",
                       [&] { draw_plot(program, arguments); });
+  using Options = view::PlotPictureOptions;
   add_estimate_arguments(plot, arguments);
   plot.add_option("--plot", arguments.plot, "id of the plot")->required();
   plot.add_option("--heights", arguments.side.heights,
@@ -207,11 +209,11 @@ void declare_plot(Program& program, EstimateArguments& arguments) {
       ->delimiter(',')
       ->allow_extra_args(false);
   plot.add_option("--beyond", arguments.side.beyond_m, "shown before and behind the plot (metres)")
-      ->type_name("FLOAT in [0, 100]");
+      ->type_name("FLOAT in " + Options::kBeyond_m.text());
   plot.add_option("--width", arguments.side.width_px, "of the picture (pixels)")
-      ->type_name("INT in [600, 8192]");
+      ->type_name("INT in " + Options::kWidth_px.text());
   plot.add_option("--height", arguments.side.height_px, "of the picture at most (pixels)")
-      ->type_name("INT in [400, 8192]");
+      ->type_name("INT in " + Options::kHeight_px.text());
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include <Eigen/Geometry>
 
@@ -95,9 +94,9 @@ Things draw_object(const FieldSide& side, RandomStream& random) {
   };
   static const std::array kinds = {
       Kind{Shape::crown, {{2, 5}, {2, 5}, {3, 6}}},             // a tree
-      Kind{Shape::hedge, {{0.8, 1.5}, {5, 20}, {1.2, 2.5}}},    //
+      Kind{Shape::hedge, {{0.8, 1.5}, {5, 20}, {1.2, 2.5}}},    // a hedge
       Kind{Shape::hedge, {{0.8, 1.6}, {5, 25}, {0.4, 0.8}}},    // a windrow
-      Kind{Shape::car, {{1.65, 1.95}, {3.7, 5}, {1.4, 1.9}}},   //
+      Kind{Shape::car, {{1.65, 1.95}, {3.7, 5}, {1.4, 1.9}}},   // a car
       Kind{Shape::roof, {{2.5, 4}, {3, 6}, {2.2, 3.5}}},        // a shed
       Kind{Shape::block, {{0.4, 0.6}, {0.4, 0.6}, {1.6, 1.9}}}  // a person
   };

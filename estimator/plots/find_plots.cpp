@@ -196,10 +196,10 @@ Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, Ends
   return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
 }
 
-// Whether plots were found that hold nearly all of the canopy, and that it covers.
-bool is_all(const Look& look) {
+// Whether plots were found that hold nearly all of the canopy.
+bool holds_most(const Look& look) {
   constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost && is_even(*look.field.signs);
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
 }
 
 // Where a part of what stands on a field is taken for something else, what is left may be few
@@ -234,16 +234,15 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   }
   if (!best) return no_plots(kNoCanopy);
   const auto try_too = [&](const Crop& crop, Ends ends) {
-    if (is_all(*best)) return;
     Look look = try_crop(crop, ends);
     if (is_field(look) && explains_more(look, *best)) best = std::move(look);
   };
+  if (holds_most(*best)) return std::move(best->field);
   const std::vector<bool> closed = blocks.closed();
-  const bool has_closed = std::ranges::count(closed, true) > 0;
-  for (const double top_m : tops_m) {
-    if (has_closed) try_too({.top_m = top_m, .others = closed}, Ends::free);
-    if (best->evidence == 0) try_too({.top_m = top_m}, Ends::even);
-  }
+  if (std::ranges::count(closed, true) > 0)
+    for (const double top_m : tops_m) try_too({.top_m = top_m, .others = closed}, Ends::free);
+  if (best->evidence > 0) return std::move(best->field);
+  for (const double top_m : tops_m) try_too({.top_m = top_m}, Ends::even);
   return std::move(best->field);
 }
 

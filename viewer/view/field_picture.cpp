@@ -20,7 +20,6 @@
 namespace plotscan::view {
 namespace {
 
-constexpr Range kSize_px{400, 8192};
 constexpr double kWidest = 1.6;       // of the heights; wider pictures have smaller text
 constexpr double kLeastWidth = 42;    // of the page in texts, for title and legend
 constexpr double kLabelShare = 0.85;  // of the other text
@@ -33,9 +32,9 @@ constexpr double kColouredShare = 0.995;
 constexpr double kLeastTop_m = 0.1;
 
 void validate(const estimate::Estimate& estimate, const FieldPictureOptions& options) {
-  require_range(options.width_px, kSize_px, "picture width");
-  require_range(options.height_px, kSize_px, "picture height");
-  require_range(options.margin_m, {0, 1e4}, "margin in metres");
+  require_range(options.width_px, FieldPictureOptions::kSize_px, "picture width");
+  require_range(options.height_px, FieldPictureOptions::kSize_px, "picture height");
+  require_range(options.margin_m, FieldPictureOptions::kMargin_m, "margin in metres");
   if (!estimate.ground) throw InputError("the estimate has no ground");
 }
 

@@ -3,14 +3,17 @@
 
 #include <filesystem>
 
+#include "core/range.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::view {
 
 struct FieldPictureOptions {
-  int width_px = 1600;   // the picture is as large as fits in, 400 to 8192
-  int height_px = 1400;  // 400 to 8192
-  double margin_m = 3;   // shown around the plots, 0 to 1e4
+  static constexpr Range kSize_px{400, 8192}, kMargin_m{0, 1e4};
+
+  int width_px = 1600;  // the picture is as large as fits in
+  int height_px = 1400;
+  double margin_m = 3;  // shown around the plots
 };
 
 // Draws an estimate's field as seen from straight above, north up, and writes a PNG: the cloud

@@ -23,8 +23,6 @@
 namespace plotscan::view {
 namespace {
 
-constexpr Range kWidth_px{600, 8192};
-constexpr Range kHeight_px{400, 8192};
 constexpr double kWidestPlot = 2;  // of the heights; wider pictures have smaller text
 constexpr double kLeastChart = 5;  // height of the chart, in texts
 constexpr Rgb kInside{0, 136, 96};
@@ -37,9 +35,9 @@ constexpr std::array<double, 7> kExaggerations = {20, 10, 5, 3, 2, 1.5, 1};
 using Profile = std::vector<ProfilePoint>;
 
 void validate(const estimate::Estimate& estimate, const PlotPictureOptions& options) {
-  require_range(options.width_px, kWidth_px, "picture width");
-  require_range(options.height_px, kHeight_px, "picture height");
-  require_range(options.beyond_m, {0, 100}, "metres beyond the plot");
+  require_range(options.width_px, PlotPictureOptions::kWidth_px, "picture width");
+  require_range(options.height_px, PlotPictureOptions::kHeight_px, "picture height");
+  require_range(options.beyond_m, PlotPictureOptions::kBeyond_m, "metres beyond the plot");
   if (!estimate.ground) throw InputError("the estimate has no ground");
 }
 

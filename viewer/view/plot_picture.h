@@ -6,14 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "core/range.h"
 #include "estimate/estimate.h"
 
 namespace plotscan::view {
 
 struct PlotPictureOptions {
-  int width_px = 1600;   // 600 to 8192
-  int height_px = 1000;  // at most, 400 to 8192
-  double beyond_m = 1;   // shown before and behind the plot, 0 to 100
+  static constexpr Range kWidth_px{600, 8192}, kHeight_px{400, 8192}, kBeyond_m{0, 100};
+
+  int width_px = 1600;
+  int height_px = 1000;  // at most
+  double beyond_m = 1;   // shown before and behind the plot
   // Names of the heights to draw, such as "p95"; empty: those of mean, p95 and max that the plot
   // has, all that it has where it has none of them.
   std::vector<std::string> heights = {};

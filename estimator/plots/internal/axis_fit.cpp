@@ -188,7 +188,7 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
   }
   line.price = std::log(std::max(2.0, line.independent));
   constexpr double kOfPiece = 2;  // parameters: its place and its level
-  if (hint.free_ends)
+  if (hint.ends == Ends::free)
     for (ProfileSums& profile : line.profiles) profile.free_ends(kOfPiece * line.price);
   return line;
 }

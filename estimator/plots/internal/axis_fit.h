@@ -11,11 +11,17 @@
 
 namespace plotscan::plots {
 
+// What may stand before the first and after the last plot of a line.
+enum class Ends {
+  free,  // anything
+  even,  // ground, or a canopy of one level
+};
+
 // What is known of the plots along an axis.
 struct AxisHint {
   std::optional<double> side_m = std::nullopt;  // of a plot
   std::optional<int> count = std::nullopt;      // of plots that follow each other
-  bool free_ends = true;                        // anything may stand beside the plots
+  Ends ends = Ends::free;
 };
 
 // How well bands of one shape explain what is seen along an axis.

@@ -167,14 +167,12 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (!square && (few || signs.straightness < kStraight))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
   if (signs.mean_unevenness > kMostUneven ||
-      (!is_even(signs) && signs.held_share < kLeastHeldOfUneven))
+      (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
     return "single bushes or trees stand here, not plots that are covered by a crop";
   if (signs.filled_share < kLeastFilled || field_confidence(signs) < kLeastConfidence)
     return "canopy lies here, but not in plots of one size at equal steps";
   return "";
 }
-
-bool is_even(const FieldSigns& signs) { return signs.unevenness <= kMostUneven; }
 
 double field_confidence(const FieldSigns& signs) {
   const auto share = [](double value, double none, double all) {

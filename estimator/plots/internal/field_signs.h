@@ -17,10 +17,6 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);
 
-// Whether canopy covers the usual plot all over. It does not where few plants stand in each, or
-// where other plots or rows lie inside what was taken for one.
-bool is_even(const FieldSigns& signs);
-
 // 0 to 1: how clearly the field is one of plots.
 double field_confidence(const FieldSigns& signs);
 

@@ -96,10 +96,8 @@ bool is_longer_along(bool a_axis, const Layout& layout) {
 
 // The plots' length may lie along either axis of the raster.
 std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints, Ends ends) {
-  const bool counted = hints.rows || hints.columns || hints.plots;
-  const bool free_ends = ends == Ends::free && !counted;
-  const AxisHint length{hints.length_m, hints.rows, free_ends};
-  const AxisHint width{hints.width_m, hints.columns, free_ends};
+  const AxisHint length{hints.length_m, hints.rows, ends};
+  const AxisHint width{hints.width_m, hints.columns, ends};
   std::vector<Layout> layouts;
   for (const bool along_a : {true, false}) {
     for (Layout& layout :
@@ -145,16 +143,14 @@ std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
 std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, Ends ends) {
   if (hints.plots) return layouts_of_plots(view, hints);
   if (hints.tell_layout()) return layouts_as_told(view, hints, ends);
-  const AxisHint unknown{.free_ends = ends == Ends::free};
-  return layouts_on(view, {unknown, unknown});
+  return layouts_on(view, {{.ends = ends}, {.ends = ends}});
 }
 
 // Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
 // along both axes, where all plots' edges add up, and cell by cell.
 void leave_best_aligned(const RowView& view, Ends ends, std::vector<Layout>& layouts) {
-  const AxisHint unknown{.free_ends = ends == Ends::free};
-  const Line a = line_of(view, {whole(view.c_cells())}, unknown);
-  const Line b = line_of(view.turned(), {whole(view.r_cells())}, unknown);
+  const Line a = line_of(view, {whole(view.c_cells())}, {.ends = ends});
+  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {.ends = ends});
   const auto cost = [&](const Layout& layout) {
     const bool turned = layout.view.swapped;
     return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
@@ -170,9 +166,9 @@ void leave_best_aligned(const RowView& view, Ends ends, std::vector<Layout>& lay
   layouts = std::move(left);
 }
 
-// Whether the layout's plots are one by one the drill rows that another's consist of.
+// Whether the layout's plots are one by one the drill rows that another's consist of: too narrow
+// for two of them.
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
-  constexpr double kAlike = 1.5;
   constexpr double kLeastAspect = 6;  // of a drill row; chosen
   if (!drilled.drilled) return false;
   double width = layout.r_shape.size, length = layout.c_shape.size;
@@ -265,6 +261,7 @@ std::optional<Layout> in_columns(Layout layout) {
 Layout best_layout(const CanopyRaster& raster, const Hints& hints, Ends ends) {
   const RowView view{.raster = &raster};
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
+  if (hints.rows || hints.columns || hints.plots) ends = Ends::even;
   std::vector<Layout> layouts = layouts_in(view, hints, ends);
   leave_out_drill_rows(layouts);
   leave_best_aligned(view, ends, layouts);

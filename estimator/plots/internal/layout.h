@@ -16,13 +16,6 @@ struct Row {
   std::vector<Band> plots = {};  // along it
 };
 
-// What may stand before the first and after the last plot of a line. Where the user counted the
-// plots, it is always even.
-enum class Ends {
-  free,  // anything
-  even,  // ground, or a canopy of one level
-};
-
 // Rows of equal plots, and how clearly the canopy shows them.
 struct Layout {
   RowView view;
@@ -43,7 +36,8 @@ std::optional<Layout> in_columns(Layout layout);
 
 // The layout that explains the canopy along both axes best, for its number of parameters: bands
 // over the whole field along either axis, or over the whole field along one and in each row by
-// itself along the other. The result has no rows where nothing stands out, or nothing that agrees
+// itself along the other. Where the user counted the plots, nothing else stands here, and the ends
+// of lines are even. The result has no rows where nothing stands out, or nothing that agrees
 // with the hints.
 Layout best_layout(const CanopyRaster& raster, const Hints& hints = {}, Ends ends = Ends::free);
 
