@@ -209,12 +209,13 @@ bool is_field(const Look& look) {
   return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
 }
 
-// Whether a look shows more plots than the one before, and more clearly. The evidence of the two is
-// not that of the same canopy.
-bool explains_more(const Look& look, const Look& before) {
-  return before.evidence == 0 ||
-         (look.field.plots.size() > before.field.plots.size() &&
-          field_confidence(*look.field.signs) > field_confidence(*before.field.signs));
+// Whether a look shows more plots than the one before, as far as they are plots. The evidence of
+// the two is not that of the same canopy.
+bool shows_more(const Look& look, const Look& before) {
+  const auto expected = [](const Look& of) {
+    return static_cast<double>(of.field.plots.size()) * field_confidence(*of.field.signs);
+  };
+  return before.evidence == 0 || expected(look) > expected(before);
 }
 
 }  // namespace
@@ -223,26 +224,21 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
                      int threads, const GroundError& ground_error) {
   const FieldBlocks blocks(points, noise_m, threads);
   const std::vector<double> tops_m = blocks.crop_tops_m();
+  std::optional<Look> best;
   const auto try_crop = [&](const Crop& crop, Ends ends) {
     const FieldCanopy field(points, blocks, crop, threads, ground_error);
-    return look_for(field, noise_m, hints, ends, threads);
+    Look look = look_for(field, noise_m, hints, ends, threads);
+    if (!best || (is_field(look) && shows_more(look, *best))) best = std::move(look);
   };
-  std::optional<Look> best;
-  for (const double top_m : tops_m) {
-    Look look = try_crop({.top_m = top_m}, Ends::free);
-    if (!best || (is_field(look) && look.evidence > best->evidence)) best = std::move(look);
-  }
+  for (const double top_m : tops_m) try_crop({.top_m = top_m}, Ends::free);
   if (!best) return no_plots(kNoCanopy);
-  const auto try_too = [&](const Crop& crop, Ends ends) {
-    Look look = try_crop(crop, ends);
-    if (is_field(look) && explains_more(look, *best)) best = std::move(look);
-  };
   if (holds_most(*best)) return std::move(best->field);
-  const std::vector<bool> closed = blocks.closed();
-  if (std::ranges::count(closed, true) > 0)
-    for (const double top_m : tops_m) try_too({.top_m = top_m, .others = closed}, Ends::free);
+  for (const std::vector<bool>& others : blocks.closed()) {
+    for (const double top_m : tops_m) try_crop({.top_m = top_m, .others = others}, Ends::free);
+    if (holds_most(*best)) break;
+  }
   if (best->evidence > 0) return std::move(best->field);
-  for (const double top_m : tops_m) try_too({.top_m = top_m}, Ends::even);
+  for (const double top_m : tops_m) try_crop({.top_m = top_m}, Ends::even);
   return std::move(best->field);
 }
 

@@ -125,7 +125,7 @@ AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
   for (const AxisFit& fit : fits) {
     if (!std::isfinite(fit.misfit)) break;
     const AxisFit plots = put_together(line, fit);
-    const bool is_one = plots.drilled || is_regular(line, fit);
+    const bool is_one = plots.row_spacing > 0 || is_regular(line, fit);
     if (line.hint.count ? has_told_count(line, plots) : is_one) return fit;
   }
   return line.hint.count || fits.empty() ? AxisFit{} : fits.front();
@@ -135,7 +135,7 @@ AxisFit best_of(const Line& line, std::vector<AxisFit> fits) {
 void leave_out_texture(const Line& line, std::vector<AxisFit>& fits) {
   std::erase_if(fits, [&](const AxisFit& fit) {
     const bool narrow = !line.hint.side_m && fit.shape.size * line.cell_m < kLeastSide_m;
-    return narrow && !(std::isfinite(fit.misfit) && put_together(line, fit).drilled);
+    return narrow && !(std::isfinite(fit.misfit) && put_together(line, fit).row_spacing > 0);
   });
 }
 
@@ -199,7 +199,7 @@ AxisFit put_together(const Line& line, AxisFit fit) {
   if (line.hint.side_m || has_told_count(line, fit)) return fit;  // the bands are the plots
   if (const auto plots = drilled_plots(middles_of(line, fit), kMostSpacing_m / line.cell_m,
                                        kLeastGap_m / line.cell_m)) {
-    fit.drilled = true;
+    fit.row_spacing = plots->spacing;
     fit.shape.size = static_cast<int>(std::lround(plots->width()));
     fit.begins = rounded(plots->begins);
   } else if (auto joined = joined_parts(line.profiles, fit.begins, fit.shape.size)) {

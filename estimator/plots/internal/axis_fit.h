@@ -30,8 +30,8 @@ struct AxisFit {
   std::vector<std::vector<int>> begins = {};  // by profile; one list where they share it
   double misfit = std::numeric_limits<double>::infinity();
   double parameters = 0;
-  bool drilled = false;       // put together from drill rows,
-  BandShape seen_shape = {};  // which are these bands
+  double row_spacing = 0;     // in cells, of drill rows that were put together; 0 for none
+  BandShape seen_shape = {};  // the bands before that,
   std::vector<std::vector<int>> seen = {};
 
   double cost(double price) const { return misfit + price * parameters; }

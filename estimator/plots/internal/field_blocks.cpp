@@ -211,26 +211,36 @@ std::vector<double> FieldBlocks::crop_tops_m() const {
   return tops;
 }
 
-std::vector<bool> FieldBlocks::closed() const {
+std::vector<std::vector<bool>> FieldBlocks::closed() const {
   std::vector<double> covers;
   for (const BlockFacts& block : facts_)
     if (block.stands_out) covers.push_back(block.cover);
   const double well_covered = quantile(std::move(covers), 0.75);
-  std::vector<bool> closed = in_closed_squares(well_covered);
+  const std::vector<bool> squares = in_closed_squares(well_covered);
+  if (std::ranges::count(squares, true) == 0) return {};
+  return {with_beside(squares), with_beside(followed_on(squares, kClosedLeast * well_covered))};
+}
+
+// Adds the blocks with so much cover that lie beside these, beside those, and so on.
+std::vector<bool> FieldBlocks::followed_on(std::vector<bool> closed, double least_cover) const {
   std::vector<std::size_t> found;
   for (std::size_t number = 0; number < closed.size(); ++number)
     if (closed[number]) found.push_back(number);
-  // What follows on from the squares, then what lies beside it.
   for (std::size_t i = 0; i < found.size(); ++i) {
     for_each_about(found[i], [&](std::size_t near) {
-      if (closed[near] || facts_[near].cover < kClosedLeast * well_covered) return;
+      if (closed[near] || facts_[near].cover < least_cover) return;
       closed[near] = true;
       found.push_back(near);
     });
   }
-  for (const std::size_t number : found)
-    for_each_about(number, [&](std::size_t near) { closed[near] = true; });
   return closed;
+}
+
+std::vector<bool> FieldBlocks::with_beside(const std::vector<bool>& closed) const {
+  std::vector<bool> with = closed;
+  for (std::size_t number = 0; number < closed.size(); ++number)
+    if (closed[number]) for_each_about(number, [&](std::size_t near) { with[near] = true; });
+  return with;
 }
 
 // Which blocks lie in squares that are covered all over.

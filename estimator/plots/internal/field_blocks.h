@@ -44,10 +44,10 @@ class FieldBlocks {
   // its top. Where much of the area stands lower than half of it, trees or buildings may stand
   // there, and the same is taken of what is lower. Empty where nothing stands out.
   std::vector<double> crop_tops_m() const;
-  // Which blocks are covered all over, in squares of 4 m and what follows on from them, or lie
-  // beside such: a crop that is sown without gaps, as around many trials, or plots whose gaps
-  // leaves close.
-  std::vector<bool> closed() const;
+  // Which blocks are covered all over, or lie beside such: a crop that is sown without gaps, as
+  // around many trials, or plots whose gaps leaves close. Squares of 4 m first, then these and what
+  // follows on from them. Empty where there are no such squares.
+  std::vector<std::vector<bool>> closed() const;
   // Calls use(number) for a block and those beside it.
   template <typename Use>
   void for_each_about(std::size_t number, const Use& use) const {
@@ -65,6 +65,8 @@ class FieldBlocks {
   std::vector<Block> filled(std::span<const Eigen::Vector3f> points, std::size_t count,
                             double canopy_m) const;
   std::vector<bool> in_closed_squares(double well_covered) const;
+  std::vector<bool> followed_on(std::vector<bool> closed, double least_cover) const;
+  std::vector<bool> with_beside(const std::vector<bool>& closed) const;
 
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1, low_m_ = 0;

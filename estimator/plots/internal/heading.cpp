@@ -20,8 +20,10 @@ constexpr int kMostSkew_deg = 15;  // of the axes, off the right angle
 constexpr double kSkewDoubt = 0.25;
 constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: one is tilted
 constexpr double kHintReach_rad = 5 * kDegrees;
-constexpr double kLeastCover = 0.1;  // of a block with canopy
-constexpr double kBareAround_m = 2;  // of bare ground about the canopy
+constexpr int kApart_deg = 10;         // between pairs of which neither family is the same
+constexpr double kLeastOfBest = 0.25;  // of the best pair's worth: the other may be the plots'
+constexpr double kLeastCover = 0.1;    // of a block with canopy
+constexpr double kBareAround_m = 2;    // of bare ground about the canopy
 
 struct Cell {
   float x, y, cover;
@@ -136,15 +138,24 @@ struct Pair {
   double worth = 0;  // product of their sharpnesses: a field has both families
 };
 
-// The best perpendicular pair; a skewed pair only where it is far better, since rows with different
-// offsets look skewed too.
-Pair best_pair(const std::vector<double>& values, const std::optional<double>& hint_rad) {
+// Whether neither has a family of the other.
+bool are_apart(const Pair& a, const Pair& b) {
+  const auto apart = [](int one, int other) {
+    return std::abs(std::remainder(one - other, kAngles)) > kApart_deg;
+  };
+  return apart(a.first, b.first) && apart(a.first, b.second) && apart(a.second, b.first) &&
+         apart(a.second, b.second);
+}
+
+// The best perpendicular pair of those that may be; a skewed pair only where it is far better,
+// since rows with different offsets look skewed too.
+template <typename MayBe>
+Pair best_pair(const std::vector<double>& values, const MayBe& may_be) {
   Pair best;
   for (int first = 0; first < kAngles; ++first) {
-    if (hint_rad && std::abs(std::remainder(first * kDegrees - *hint_rad, kPi)) > kHintReach_rad)
-      continue;
     for (int skew = -kMostSkew_deg; skew <= kMostSkew_deg; ++skew) {
       const int second = first + 90 + skew;
+      if (!may_be(Pair{first, second})) continue;
       const double doubt = std::abs(skew) <= 1 ? 1 : kSkewDoubt;
       const double worth = doubt * values[static_cast<std::size_t>(first)] *
                            values[static_cast<std::size_t>(second % kAngles)];
@@ -152,6 +163,36 @@ Pair best_pair(const std::vector<double>& values, const std::optional<double>& h
     }
   }
   return best;
+}
+
+// The best pair, and the next where it is hardly worse: a few straight things beside the plots,
+// such as a hedge and a windrow, may be sharper than these. With a hint only the best near it.
+std::vector<Pair> best_pairs(const std::vector<double>& values,
+                             const std::optional<double>& hint_rad) {
+  const Pair best = best_pair(values, [&](const Pair& pair) {
+    return !hint_rad ||
+           std::abs(std::remainder(pair.first * kDegrees - *hint_rad, kPi)) <= kHintReach_rad;
+  });
+  if (hint_rad) return {best};
+  const Pair next = best_pair(values, [&](const Pair& pair) { return are_apart(pair, best); });
+  return next.worth > kLeastOfBest * best.worth ? std::vector{best, next} : std::vector{best};
+}
+
+std::vector<FieldAxes> axes_of(const Pair& pair, const std::vector<Cell>& cells, double bin_m,
+                               int threads) {
+  const auto fine = [&](double guess_rad) {
+    const double closer = refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, bin_m, threads);
+    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, bin_m, threads);
+  };
+  FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
+  if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
+  // A perpendicular pair from each family alone: offsets of rows can tilt the lines of one family.
+  const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
+  const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
+  if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};
+  const double sharp_first = LineFamily(cells, axes.first_rad, bin_m).sharpness();
+  const double sharp_second = LineFamily(cells, axes.second_rad, bin_m).sharpness();
+  return {sharp_first >= sharp_second ? of_first : of_second};
 }
 
 }  // namespace
@@ -165,20 +206,10 @@ std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<doubl
   angles.reserve(kAngles);
   for (int i = 0; i < kAngles; ++i) angles.push_back(i * kDegrees);
   const std::vector<double> values = sharpnesses(cells, angles, bin_m, threads);
-  const auto fine = [&](double guess_rad) {
-    const double closer = refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, bin_m, threads);
-    return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, bin_m, threads);
-  };
-  const Pair pair = best_pair(values, hint_rad);
-  FieldAxes axes{fine(pair.first * kDegrees), fine(pair.second * kDegrees)};
-  if (std::abs(pair.second - pair.first - 90) > 1) return {axes};
-  // A perpendicular pair from each family alone: offsets of rows can tilt the lines of one family.
-  const FieldAxes of_first{axes.first_rad, axes.first_rad + kPi / 2};
-  const FieldAxes of_second{axes.second_rad - kPi / 2, axes.second_rad};
-  if (std::abs(of_second.first_rad - of_first.first_rad) > kTilt_rad) return {of_first, of_second};
-  const double sharp_first = LineFamily(cells, axes.first_rad, bin_m).sharpness();
-  const double sharp_second = LineFamily(cells, axes.second_rad, bin_m).sharpness();
-  return {sharp_first >= sharp_second ? of_first : of_second};
+  std::vector<FieldAxes> found;
+  for (const Pair& pair : best_pairs(values, hint_rad))
+    for (const FieldAxes& axes : axes_of(pair, cells, bin_m, threads)) found.push_back(axes);
+  return found;
 }
 
 }  // namespace plotscan::plots

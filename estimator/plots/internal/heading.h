@@ -16,8 +16,9 @@ struct FieldAxes {
 };
 
 // The pair of directions along which the canopy's lines are sharpest: the squared steps, from line
-// to line, of the mean canopy along lines through the whole field. Two pairs where the families
-// disagree, and none without canopy. With a hint, the first direction is sought near it.
+// to line, of the mean canopy along lines through the whole field; the next best one too where it
+// is hardly less sharp. The perpendicular pairs of either family where the two disagree, and none
+// without canopy. With a hint, the first direction is sought near it, and no other pair.
 std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
                                  int threads);
 

@@ -45,7 +45,7 @@ Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_f
   layout.aligned = c_fit.begins.size() == 1;
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
   layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
-  layout.drilled = c_fit.drilled;
+  layout.row_spacing = c_fit.row_spacing;
   const std::vector<Band> rows = bands_of(r_fit, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     layout.rows.push_back({rows[i], bands_of(c_fit, i)});
@@ -170,11 +170,9 @@ void leave_best_aligned(const RowView& view, Ends ends, std::vector<Layout>& lay
 // for two of them.
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
   constexpr double kLeastAspect = 6;  // of a drill row; chosen
-  if (!drilled.drilled) return false;
   double width = layout.r_shape.size, length = layout.c_shape.size;
   if (layout.view.swapped == drilled.view.swapped) std::swap(width, length);
-  const double row = drilled.c_seen.shape.size;
-  return length > kLeastAspect * width && width < kAlike * row && row < kAlike * width;
+  return length > kLeastAspect * width && width < drilled.row_spacing;
 }
 
 // Where rows of plots have different offsets, their drill rows may by chance form columns through

@@ -21,7 +21,7 @@ struct Layout {
   RowView view;
   BandShape r_shape = {}, c_shape = {};   // of a plot along r and along c
   Segmentation r_seen = {}, c_seen = {};  // the bands that show: drill rows, or the plots
-  bool drilled = false;                   // plots put together from drill rows along c
+  double row_spacing = 0;  // in cells, of drill rows put together along c; 0 for none
   std::vector<Row> rows = {};
   bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
   double evidence = 0;  // by how much it explains the profiles better than one closed canopy

@@ -61,14 +61,14 @@ TEST(PutTogether, MakesPlotsOfDrillRows) {
   const CanopyRaster raster = striped(begins_m, 0.4);
   const Line line = line_along(raster);
   const AxisFit plots = put_together(line, fit_axis(line, true));
-  EXPECT_TRUE(plots.drilled);
+  EXPECT_NEAR(plots.row_spacing, 12, 1);
   EXPECT_NEAR(plots.shape.size, 24, 2);
   EXPECT_EQ(plots.seen.front().size(), 10U);
   ASSERT_EQ(plots.begins.front().size(), 5U);
   for (int plot = 0; plot < 5; ++plot)
     EXPECT_NEAR(plots.begins.front()[static_cast<std::size_t>(plot)], 20 + 40 * plot, 1);
   const Line told = line_along(raster, {.side_m = 0.4});
-  EXPECT_FALSE(put_together(told, fit_axis(told, true)).drilled);
+  EXPECT_EQ(put_together(told, fit_axis(told, true)).row_spacing, 0);
 }
 
 // Three plots, the third behind an alley: of two steps one is not the usual one.
@@ -88,7 +88,7 @@ TEST(PutTogether, SeesRowsThatAreClose) {
     for (int row = 0; row < 5; ++row) begins_m.push_back(1 + 2 * plot + 0.36 * row + 0.08);
   const Line line = line_along(striped(begins_m, 0.2));
   const AxisFit plots = put_together(line, fit_axis(line, true));
-  EXPECT_TRUE(plots.drilled);
+  EXPECT_NEAR(plots.row_spacing, 7.2, 0.2);
   EXPECT_NEAR(plots.shape.size, 36, 1);
   ASSERT_EQ(plots.begins.front().size(), 5U);
   for (int plot = 0; plot < 5; ++plot)

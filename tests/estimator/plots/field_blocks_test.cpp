@@ -60,11 +60,34 @@ TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
                         static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
   }
   const FieldBlocks blocks(points, kSigma_m, 2);
-  const std::vector<bool> closed = blocks.closed();
-  for (std::size_t number = 0; number < closed.size(); ++number) {
+  const std::vector<std::vector<bool>> closed = blocks.closed();
+  ASSERT_EQ(closed.size(), 2U);
+  for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
     const double y = blocks.middle_of(number).y();
     if (std::abs(y - 9) < 1) continue;  // beside the closed crop, where blocks may hold both
-    EXPECT_EQ(closed[number], y < 9) << y;
+    EXPECT_EQ(closed[0][number], y < 9) << y;
+    EXPECT_EQ(closed[1][number], y < 9) << y;
+  }
+}
+
+// A strip 3 m wide runs from a closed crop: no square, but the crop goes on in it.
+TEST(FieldBlocks, ClosedFollowsOn) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 80000; ++i) {
+    RandomStream random(8, random_purpose("test/blocks"), i);
+    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
+    const bool sown = y < 8 || (x > 6 && x < 9);
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
+  }
+  const FieldBlocks blocks(points, kSigma_m, 2);
+  const std::vector<std::vector<bool>> closed = blocks.closed();
+  ASSERT_EQ(closed.size(), 2U);
+  for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
+    const Eigen::Vector2d at = blocks.middle_of(number);
+    if (at.y() < 10 || std::abs(at.x() - 6) < 1 || std::abs(at.x() - 9) < 1) continue;
+    EXPECT_FALSE(closed[0][number]) << at.transpose();
+    EXPECT_EQ(closed[1][number], at.x() > 6 && at.x() < 9) << at.transpose();
   }
 }
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 #include <vector>
 
+#include "trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,38 +18,6 @@ namespace plotscan::plots {
 namespace {
 
 using testing::HasSubstr;
-
-// Plots 4 m long on a lattice turned by 33 degrees, with the given gaps.
-struct Trial {
-  int rows = 3, columns = 6;
-  double gap_m = 0.4, row_gap_m = 0.8, heading_rad = 33 * kDegrees;
-  std::vector<double> offsets_m = {0, 0, 0};
-  int missing = -1;  // number of the plot that is not there, row by row
-  double width_m = 1.5;
-
-  std::vector<PlotBox> boxes() const {
-    std::vector<PlotBox> list;
-    const PlotBox axes{.heading_rad = heading_rad};
-    for (int row = 0; row < rows; ++row) {
-      for (int column = 0; column < columns; ++column) {
-        if (row * columns + column == missing) continue;
-        const double along = (row - 1) * (4 + row_gap_m);
-        const double across =
-            (column - 2.5) * (width_m + gap_m) + offsets_m[static_cast<std::size_t>(row)];
-        list.push_back({.center = axes.length_axis() * along + axes.width_axis() * across,
-                        .width_m = width_m,
-                        .length_m = 4,
-                        .heading_rad = heading_rad});
-      }
-    }
-    return list;
-  }
-};
-
-// Whether a plant stands at a place of a plot; `from_center` is along its length and its width.
-using Sown = std::function<bool(const PlotBox& box, const Eigen::Vector2d& from_center)>;
-
-bool everywhere(const PlotBox&, const Eigen::Vector2d&) { return true; }
 
 // Two rows of plants 0.75 m apart, their leaves 0.36 m wide, half a row's spacing from the edges.
 bool in_two_drill_rows(const PlotBox&, const Eigen::Vector2d& from_center) {
@@ -98,31 +66,9 @@ bool at_either_end(const PlotBox& box, const Eigen::Vector2d& from_center) {
   return at_one_end(box, number_of(box) % 2 == 0 ? from_center : -from_center);
 }
 
-// Returns spread evenly over a square; of those in a box where plants stand, three of four are from
-// its canopy.
-std::vector<Eigen::Vector3f> points_over(const std::vector<PlotBox>& boxes,
-                                         const Sown& sown = everywhere) {
-  constexpr int kPoints = 400000;
-  constexpr double kHalf_m = 12;
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < kPoints; ++i) {
-    RandomStream random(7, random_purpose("test/point"), static_cast<std::uint64_t>(i));
-    const Eigen::Vector2d place(random.uniform(-kHalf_m, kHalf_m),
-                                random.uniform(-kHalf_m, kHalf_m));
-    double height = 0.02 * random.normal();
-    for (const PlotBox& box : boxes) {
-      if (!box.contains(place) || !sown(box, box.box_from_world(place))) continue;
-      if (random.uniform() < 0.75) height = random.uniform(0.3, 0.8);
-    }
-    points.emplace_back(place.cast<float>().x(), place.cast<float>().y(),
-                        static_cast<float>(height));
-  }
-  return points;
-}
-
 void expect_found(const Trial& trial, const Sown& sown = everywhere, double least_iou = 0.9) {
   const std::vector<PlotBox> truths = trial.boxes();
-  const PlotField field = find_plots(points_over(truths, sown), 0.02, {}, 2);
+  const PlotField field = find_plots(cloud_over(truths, sown), 0.02, {}, 2);
   EXPECT_EQ(field.why_none, "");
   ASSERT_EQ(field.plots.size(), truths.size());
   for (const PlotBox& truth : truths) {
@@ -171,7 +117,7 @@ TEST(FindPlots, TellsPlotsOfFewPlantsFromTreesAtEqualPlaces) {
   constexpr double kUneven = 0.65 / 1.15;
   const std::vector<PlotBox> boxes = Trial{}.boxes();
   const auto signs_where = [&](const Sown& sown) {
-    return find_plots(points_over(boxes, sown), 0.02, {.width_m = 1.5, .length_m = 4}, 2).signs;
+    return find_plots(cloud_over(boxes, sown), 0.02, {.width_m = 1.5, .length_m = 4}, 2).signs;
   };
   const auto plants = signs_where(at_either_end), trees = signs_where(at_one_end);
   ASSERT_TRUE(plants && trees);
@@ -192,7 +138,7 @@ std::vector<Eigen::Vector3f> points_over_strips() {
       strips.back().width_m = 0.66;
     }
   }
-  return points_over(strips);
+  return cloud_over(strips);
 }
 
 TEST(FindPlots, TakesTheSidesThatAreKnown) {
@@ -218,7 +164,7 @@ TEST(FindPlots, TakesTheNumbersThatAreKnown) {
 
 // What contradicts the canopy is taken all the same, and said.
 TEST(FindPlots, SaysWhatTheCanopyShowsMoreClearlyThanWhatWasTold) {
-  const std::vector<Eigen::Vector3f> points = points_over(Trial{}.boxes());
+  const std::vector<Eigen::Vector3f> points = cloud_over(Trial{}.boxes());
   const PlotField told = find_plots(points, 0.02, {.width_m = 0.9, .length_m = 4}, 2);
   EXPECT_THAT(told.rival, HasSubstr("3 rows of 6 plots of 1.5"));
   EXPECT_EQ(find_plots(points, 0.02, {.width_m = 1.5, .length_m = 4}, 2).rival, "");
@@ -227,11 +173,11 @@ TEST(FindPlots, SaysWhatTheCanopyShowsMoreClearlyThanWhatWasTold) {
 TEST(FindPlots, LeavesOutTheMissingOneOfTheNumberThatIsKnown) {
   const std::vector<PlotBox> boxes = Trial{.missing = 8}.boxes();
   const auto plots = static_cast<int>(boxes.size());
-  EXPECT_EQ(find_plots(points_over(boxes), 0.02, {.plots = plots}, 2).plots.size(), boxes.size());
+  EXPECT_EQ(find_plots(cloud_over(boxes), 0.02, {.plots = plots}, 2).plots.size(), boxes.size());
 }
 
 TEST(FindPlots, SaysThatBareGroundHasNone) {
-  const PlotField field = find_plots(points_over({}), 0.02, {}, 2);
+  const PlotField field = find_plots(cloud_over({}), 0.02, {}, 2);
   EXPECT_TRUE(field.plots.empty());
   EXPECT_NE(field.why_none, "");
 }
@@ -240,7 +186,7 @@ TEST(FindPlots, FindsOneToThreePlots) {
   for (const std::size_t count : {1U, 2U, 3U}) {
     std::vector<PlotBox> few = Trial{}.boxes();
     few.resize(count);
-    const PlotField field = find_plots(points_over(few), 0.02, {}, 2);
+    const PlotField field = find_plots(cloud_over(few), 0.02, {}, 2);
     ASSERT_EQ(field.plots.size(), count) << field.why_none;
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_GT(intersection_over_union(few[i], field.plots[i].box), 0.9);
@@ -258,14 +204,14 @@ TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
                        .length_m = random.uniform(0.4, 0.9),
                        .heading_rad = random.uniform(0, 3)});
     }
-    EXPECT_NE(find_plots(points_over(boxes), 0.02, {}, 2).why_none, "") << bushes;
+    EXPECT_NE(find_plots(cloud_over(boxes), 0.02, {}, 2).why_none, "") << bushes;
   }
 }
 
 // 60 returns a square metre: most cells of the raster are empty.
 TEST(FindPlots, FindsPlotsInFewReturns) {
   const std::vector<PlotBox> boxes = Trial{}.boxes();
-  const std::vector<Eigen::Vector3f> all = points_over(boxes);
+  const std::vector<Eigen::Vector3f> all = cloud_over(boxes);
   std::vector<Eigen::Vector3f> few;
   for (std::size_t i = 0; i < all.size(); i += 12) few.push_back(all[i]);
   const PlotField field = find_plots(few, 0.02, {}, 2);
@@ -273,104 +219,10 @@ TEST(FindPlots, FindsPlotsInFewReturns) {
   EXPECT_EQ(field.plots.size(), boxes.size());
 }
 
-// A task of the raster gets none but points that are left out.
-TEST(FindPlots, FindsPlotsBesideALargeRoof) {
-  std::vector<Eigen::Vector3f> points;
-  for (std::uint64_t i = 0; i < 140000; ++i) {
-    RandomStream random(8, random_purpose("test/roof"), i);
-    points.emplace_back(static_cast<float>(random.uniform(20, 35)),
-                        static_cast<float>(random.uniform(-7, 7)),
-                        static_cast<float>(4 + 0.02 * random.normal()));
-  }
-  EXPECT_NE(find_plots(points, 0.02, {}, 2).why_none, "");
-  const std::vector<PlotBox> boxes = Trial{}.boxes();
-  std::ranges::copy(points_over(boxes), std::back_inserter(points));
-  EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
-}
-
-void expect_those(const std::vector<PlotBox>& boxes, const PlotField& field,
-                  double least_iou = 0.9) {
-  EXPECT_EQ(field.why_none, "");
-  ASSERT_EQ(field.plots.size(), boxes.size());
-  for (const FoundPlot& plot : field.plots) {
-    EXPECT_TRUE(std::ranges::any_of(boxes, [&](const PlotBox& box) {
-      return intersection_over_union(box, plot.box) > least_iou;
-    }));
-  }
-}
-
-// Two rows of three end 0.8 m early at the field's border, as grazed ones do: what stands there is
-// no longer like the plots of the middle row, but nothing else either.
-TEST(FindPlots, FindsPlotsOfOuterRowsThatAreShorter) {
-  for (const double gap_m : {0.2, 0.3}) {
-    std::vector<PlotBox> boxes = Trial{.gap_m = gap_m, .row_gap_m = 0.6, .width_m = 1.35}.boxes();
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (i / 6 == 1) continue;
-      boxes[i].length_m -= 0.8;
-      boxes[i].center += (i / 6 == 0 ? 0.4 : -0.4) * boxes[i].length_axis();
-    }
-    SCOPED_TRACE(gap_m);
-    expect_those(boxes, find_plots(points_over(boxes), 0.02, {}, 2), 0.75);
-  }
-}
-
-// A hedge of 1.8 m along one side of the field, and trees of 5 m in two corners: most of the
-// volume, if not of the area.
-TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
-  const std::vector<PlotBox> boxes = Trial{}.boxes();
-  std::vector<Eigen::Vector3f> points = points_over(boxes);
-  std::uint64_t index = 0;
-  for (Eigen::Vector3f& point : points) {
-    RandomStream random(8, random_purpose("test/hedge"), index++);
-    const float from_tree = std::min((point.head<2>() - Eigen::Vector2f(9, 9)).norm(),
-                                     (point.head<2>() + Eigen::Vector2f(9, 9)).norm());
-    if (from_tree < 2.4F) point.z() = static_cast<float>(random.uniform(1, 5));
-    if (point.y() < -10.6F) point.z() = static_cast<float>(random.uniform(0.6, 1.8));
-  }
-  expect_those(boxes, find_plots(points, 0.02, {}, 2));
-}
-
-// A row of straw as high as the crop, at several distances from the field: as wide as the plots, so
-// that it could be a row of them.
-TEST(FindPlots, FindsPlotsBesideAWindrow) {
-  const std::vector<PlotBox> boxes = Trial{}.boxes();
-  const std::vector<Eigen::Vector3f> alone = points_over(boxes);
-  const PlotBox axes{.heading_rad = 33 * kDegrees};
-  for (const double gap_m : {1.5, 2.0, 3.0}) {
-    std::vector<Eigen::Vector3f> points = alone;
-    std::uint64_t index = 0;
-    for (Eigen::Vector3f& point : points) {
-      RandomStream random(10, random_purpose("test/windrow"), index++);
-      const Eigen::Vector2d at = axes.box_from_world(point.head<2>().cast<double>());
-      if (at.x() > 6.8 + gap_m && at.x() < 8.4 + gap_m && std::abs(at.y()) < 5.5)
-        point.z() = static_cast<float>(random.uniform(0.3, 0.8));
-    }
-    SCOPED_TRACE(gap_m);
-    expect_those(boxes, find_plots(points, 0.02, {}, 2));
-  }
-}
-
-// The same crop without plots, 24 x 12 m, beyond an alley of 1.3 m: more of it than in the plots.
-TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
-  const std::vector<PlotBox> boxes = Trial{}.boxes();
-  std::vector<Eigen::Vector3f> points = points_over(boxes);
-  for (std::uint64_t i = 0; i < 200000; ++i) {
-    RandomStream random(9, random_purpose("test/bulk"), i);
-    const double height_m = random.uniform() < 0.9 ? random.uniform(0.3, 0.8) : 0;
-    points.emplace_back(static_cast<float>(random.uniform(-12, 12)),
-                        static_cast<float>(random.uniform(-24, -10)),
-                        static_cast<float>(height_m + 0.02 * random.normal()));
-  }
-  std::erase_if(points, [](const Eigen::Vector3f& point) {
-    return point.y() < -10 && point.y() > -12 && point.z() < 0.2F;
-  });
-  expect_those(boxes, find_plots(points, 0.02, {}, 2));
-}
-
 TEST(FindPlots, SaysThatThereAreNoPoints) { EXPECT_NE(find_plots({}, 0.02, {}, 1).why_none, ""); }
 
 TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
-  const std::vector<Eigen::Vector3f> points = points_over(Trial{}.boxes());
+  const std::vector<Eigen::Vector3f> points = cloud_over(Trial{}.boxes());
   const PlotField one = find_plots(points, 0.02, {}, 1), two = find_plots(points, 0.02, {}, 2);
   ASSERT_EQ(one.plots.size(), two.plots.size());
   for (std::size_t i = 0; i < one.plots.size(); ++i) {

@@ -62,6 +62,30 @@ TEST(FindAxes, BeginWithTheOneNearTheHint) {
   }
 }
 
+// A dense windrow 20 m long, 25 degrees off thin plots.
+TEST(FindAxes, AreThosePlotsToo) {
+  const double heading_rad = 40 * kDegrees;
+  const CanopyRaster plots = turned_field(heading_rad);
+  const CanopyRaster raster = raster_of(
+      24, 24,
+      [&](double x, double y) {
+        const int a = static_cast<int>(x / 0.1), b = static_cast<int>(y / 0.1);
+        const double across =
+            std::cos(15 * kDegrees) * (y - 22) - std::sin(15 * kDegrees) * (x - 12);
+        return std::abs(across) < 0.8 ? 1 : 0.2 * plots.cover(a, a + 1, b, b + 1);
+      },
+      0.1);
+  const auto axes = find_axes(raster, std::nullopt, 2);
+  ASSERT_GE(axes.size(), 2U);
+  const auto off = [](const FieldAxes& of, double rad) {
+    return std::abs(std::remainder(of.first_rad - rad, std::numbers::pi / 2));
+  };
+  EXPECT_LT(off(axes.front(), 15 * kDegrees), 0.5 * kDegrees);
+  EXPECT_LT(off(axes.back(), heading_rad), 0.5 * kDegrees);
+  for (const FieldAxes& told : find_axes(raster, 15 * kDegrees, 2))
+    EXPECT_LT(off(told, 15 * kDegrees), 5 * kDegrees);
+}
+
 TEST(FindAxes, AreNoneWithoutCanopy) {
   EXPECT_TRUE(find_axes(raster_of(5, 5, [](double, double) { return 0.0; }), {}, 2).empty());
 }

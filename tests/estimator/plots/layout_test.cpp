@@ -100,6 +100,22 @@ TEST(InColumns, HasThePlotsOfMostRows) {
   EXPECT_FALSE(in_columns(layout)) << "columns that overlap";
 }
 
+// Three drill rows a plot, one or two of them from row to row: they form columns through the field.
+TEST(BestLayout, IsThePlotsWhoseDrillRowsFormColumns) {
+  constexpr double kSpacing_m = 0.475;  // four of which are a pitch
+  const TrialLayout trial = known_trial({0, kSpacing_m, 2 * kSpacing_m});
+  for (const double leaves_m : {0.06, 0.08}) {
+    const CanopyRaster raster = canopy_in_plots(trial, [&](const Eigen::Vector2d& off) {
+      if (std::abs(off.x()) > 2 || std::abs(off.y()) > 1.2) return 0.0;
+      double depth = 0;
+      for (const double row_m : {-kSpacing_m, 0.0, kSpacing_m})
+        depth += blurred_box(off.y() - row_m, 2 * leaves_m, 0.04);
+      return depth * blurred_box(off.x(), trial.length_m, 0.08);
+    });
+    expect_layout(best_layout(raster), trial);
+  }
+}
+
 TEST(BestLayout, LeavesOutThePlotThatIsMissing) {
   TrialLayout trial = known_trial({0, 0, 0});
   trial.places.erase(trial.places.begin() + 7);
