@@ -35,6 +35,8 @@ constexpr double kLeastLowShare = 0.25;
 
 constexpr std::size_t kClosed_blocks = 4;  // side of a square that is covered all over: no plot's
 constexpr double kClosedMean = 0.9, kClosedLeast = 0.7;  // of the well covered blocks' cover
+// Of another crop, that hang together. Fewer are a plot or two whose gaps leaves close: 20.
+constexpr std::size_t kLeastClosed_blocks = 64;
 
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 
@@ -216,23 +218,43 @@ std::vector<std::vector<bool>> FieldBlocks::closed() const {
   for (const BlockFacts& block : facts_)
     if (block.stands_out) covers.push_back(block.cover);
   const double well_covered = quantile(std::move(covers), 0.75);
-  const std::vector<bool> squares = in_closed_squares(well_covered);
+  const std::vector<bool> squares = large_patches(in_closed_squares(well_covered));
   if (std::ranges::count(squares, true) == 0) return {};
   return {with_beside(squares), with_beside(followed_on(squares, kClosedLeast * well_covered))};
 }
 
-// Adds the blocks with so much cover that lie beside these, beside those, and so on.
+// Adds to the blocks found those that may be and lie beside them, beside these, and so on, and
+// marks them.
+template <typename MayBe>
+void FieldBlocks::spread(std::vector<std::size_t>& found, std::vector<bool>& marked,
+                         const MayBe& may_be) const {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for_each_about(found[i], [&](std::size_t near) {
+      if (marked[near] || !may_be(near)) return;
+      marked[near] = true;
+      found.push_back(near);
+    });
+  }
+}
+
+std::vector<bool> FieldBlocks::large_patches(const std::vector<bool>& closed) const {
+  std::vector<bool> marked(closed.size()), large(closed.size());
+  for (std::size_t number = 0; number < closed.size(); ++number) {
+    if (!closed[number] || marked[number]) continue;
+    std::vector<std::size_t> patch = {number};
+    marked[number] = true;
+    spread(patch, marked, [&](std::size_t near) { return closed[near]; });
+    if (patch.size() < kLeastClosed_blocks) continue;
+    for (const std::size_t of_patch : patch) large[of_patch] = true;
+  }
+  return large;
+}
+
 std::vector<bool> FieldBlocks::followed_on(std::vector<bool> closed, double least_cover) const {
   std::vector<std::size_t> found;
   for (std::size_t number = 0; number < closed.size(); ++number)
     if (closed[number]) found.push_back(number);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for_each_about(found[i], [&](std::size_t near) {
-      if (closed[near] || facts_[near].cover < least_cover) return;
-      closed[near] = true;
-      found.push_back(near);
-    });
-  }
+  spread(found, closed, [&](std::size_t near) { return facts_[near].cover >= least_cover; });
   return closed;
 }
 

@@ -45,8 +45,8 @@ class FieldBlocks {
   // there, and the same is taken of what is lower. Empty where nothing stands out.
   std::vector<double> crop_tops_m() const;
   // Which blocks are covered all over, or lie beside such: a crop that is sown without gaps, as
-  // around many trials, or plots whose gaps leaves close. Squares of 4 m first, then these and what
-  // follows on from them. Empty where there are no such squares.
+  // around many trials, or plots whose gaps leaves close. Squares of 4 m first, 64 m2 of them
+  // together, then these and what follows on from them. Empty where there are no such squares.
   std::vector<std::vector<bool>> closed() const;
   // Calls use(number) for a block and those beside it.
   template <typename Use>
@@ -65,6 +65,10 @@ class FieldBlocks {
   std::vector<Block> filled(std::span<const Eigen::Vector3f> points, std::size_t count,
                             double canopy_m) const;
   std::vector<bool> in_closed_squares(double well_covered) const;
+  template <typename MayBe>
+  void spread(std::vector<std::size_t>& found, std::vector<bool>& marked,
+              const MayBe& may_be) const;
+  std::vector<bool> large_patches(const std::vector<bool>& closed) const;
   std::vector<bool> followed_on(std::vector<bool> closed, double least_cover) const;
   std::vector<bool> with_beside(const std::vector<bool>& closed) const;
 

@@ -70,6 +70,19 @@ TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
   }
 }
 
+// Two plots of 6 m: each is a closed square, none is another crop.
+TEST(FieldBlocks, ClosedIsNoPlot) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 80000; ++i) {
+    RandomStream random(9, random_purpose("test/blocks"), i);
+    const double x = random.uniform(0, 26), y = random.uniform(0, 6);
+    const bool sown = x < 6 || x > 20;
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
+  }
+  EXPECT_TRUE(FieldBlocks(points, kSigma_m, 2).closed().empty());
+}
+
 // A strip 3 m wide runs from a closed crop: no square, but the crop goes on in it.
 TEST(FieldBlocks, ClosedFollowsOn) {
   std::vector<Eigen::Vector3f> points;
