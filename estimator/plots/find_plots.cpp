@@ -228,6 +228,7 @@ PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, co
   const auto try_crop = [&](const Crop& crop, Ends ends) {
     const FieldCanopy field(points, blocks, crop, threads, ground_error);
     Look look = look_for(field, noise_m, hints, ends, threads);
+    look.field.others_m2 = blocks.covered_m2(crop.others);
     if (!best || (is_field(look) && shows_more(look, *best))) best = std::move(look);
   };
   for (const double top_m : tops_m) try_crop({.top_m = top_m}, Ends::free);

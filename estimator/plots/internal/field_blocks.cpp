@@ -265,6 +265,13 @@ std::vector<bool> FieldBlocks::with_beside(const std::vector<bool>& closed) cons
   return with;
 }
 
+double FieldBlocks::covered_m2(const std::vector<bool>& blocks) const {
+  std::size_t covered = 0;
+  for (std::size_t number = 0; number < blocks.size(); ++number)
+    covered += blocks[number] && facts_[number].stands_out ? 1 : 0;
+  return static_cast<double>(covered) * block_m_ * block_m_;
+}
+
 // Which blocks lie in squares that are covered all over.
 std::vector<bool> FieldBlocks::in_closed_squares(double well_covered) const {
   const std::size_t along_x = facts_.size() / std::max<std::size_t>(1, along_y_);

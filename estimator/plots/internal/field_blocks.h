@@ -48,6 +48,8 @@ class FieldBlocks {
   // around many trials, or plots whose gaps leaves close. Squares of 4 m first, 64 m2 of them
   // together, then these and what follows on from them. Empty where there are no such squares.
   std::vector<std::vector<bool>> closed() const;
+  // On how many square metres of these blocks, something stands.
+  double covered_m2(const std::vector<bool>& blocks) const;
   // Calls use(number) for a block and those beside it.
   template <typename Use>
   void for_each_about(std::size_t number, const Use& use) const {

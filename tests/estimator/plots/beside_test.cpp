@@ -95,7 +95,9 @@ TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
   std::erase_if(points, [](const Eigen::Vector3f& point) {
     return point.y() < -10 && point.y() > -12 && point.z() < 0.2F;
   });
-  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+  const PlotField field = find_plots(points, 0.02, {}, 2);
+  expect_those(boxes, field);
+  EXPECT_NEAR(field.others_m2, 24 * 14, 24);
 }
 
 // Plots with narrow gaps, 0.2 m beside the same crop without plots: on squares of a metre the crop

@@ -55,6 +55,7 @@ json signs_json(const plots::FieldSigns& signs) {
 
 json json_of(const plots::PlotField& field) {
   json report = field.fit ? fit_json(*field.fit) : json::object();
+  if (field.others_m2 > 0) report["others_m2"] = field.others_m2;
   if (field.signs) report["signs"] = signs_json(*field.signs);
   return report;
 }
@@ -69,6 +70,9 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
   if (const auto& sown = field.fit->sown_rows)
     lines.push_back(
         fmt::format("sown in    {} rows a plot, {:.2f} m apart", sown->rows, sown->spacing_m));
+  if (field.others_m2 > 0)
+    lines.push_back(
+        fmt::format("left out   {:.0f} m2 of another crop, sown without gaps", field.others_m2));
   return lines;
 }
 
