@@ -50,16 +50,24 @@ TEST(FieldBlocks, BelowTreesTheCropMayBeLower) {
 }
 
 // In the south a crop without gaps, in the north plots of 2 m with gaps of 1 m.
-TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
+// Returns over a rectangle from (0, 0); where plants are sown they scatter.
+template <class Sown>
+std::vector<Eigen::Vector3f> returns_over(double x_m, double y_m, const Sown& sown) {
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 80000; ++i) {
     RandomStream random(7, random_purpose("test/blocks"), i);
-    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
-    const bool sown = y < 8 || (y > 10 && std::fmod(x, 3) < 2);
+    const double x = random.uniform(0, x_m), y = random.uniform(0, y_m);
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
+                        static_cast<float>(sown(x, y) ? random.uniform(0.1, 0.6) : 0));
   }
-  const FieldBlocks blocks(points, kSigma_m, 2);
+  return points;
+}
+
+TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
+  const FieldBlocks blocks(
+      returns_over(20, 20,
+                   [](double x, double y) { return y < 8 || (y > 10 && std::fmod(x, 3) < 2); }),
+      kSigma_m, 2);
   const std::vector<std::vector<bool>> closed = blocks.closed();
   ASSERT_EQ(closed.size(), 2U);
   for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
@@ -68,39 +76,27 @@ TEST(FieldBlocks, ClosedIsACropWithoutGaps) {
     EXPECT_EQ(closed[0][number], y < 9) << y;
     EXPECT_EQ(closed[1][number], y < 9) << y;
   }
+  EXPECT_NEAR(blocks.covered_m2(closed[0]), 20 * 8, 20);
 }
 
 // Two plots of 6 m: each is a closed square, none is another crop.
 TEST(FieldBlocks, ClosedIsNoPlot) {
-  std::vector<Eigen::Vector3f> points;
-  for (std::uint64_t i = 0; i < 80000; ++i) {
-    RandomStream random(9, random_purpose("test/blocks"), i);
-    const double x = random.uniform(0, 26), y = random.uniform(0, 6);
-    const bool sown = x < 6 || x > 20;
-    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
-  }
+  const auto points = returns_over(26, 6, [](double x, double) { return x < 6 || x > 20; });
   EXPECT_TRUE(FieldBlocks(points, kSigma_m, 2).closed().empty());
 }
 
 // A strip 3 m wide runs from a closed crop: no square, but the crop goes on in it.
 TEST(FieldBlocks, ClosedFollowsOn) {
-  std::vector<Eigen::Vector3f> points;
-  for (std::uint64_t i = 0; i < 80000; ++i) {
-    RandomStream random(8, random_purpose("test/blocks"), i);
-    const double x = random.uniform(0, 20), y = random.uniform(0, 20);
-    const bool sown = y < 8 || (x > 6 && x < 9);
-    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(sown ? random.uniform(0.1, 0.6) : 0));
-  }
-  const FieldBlocks blocks(points, kSigma_m, 2);
+  const auto is_strip = [](double x) { return x > 6 && x < 9; };
+  const FieldBlocks blocks(
+      returns_over(20, 20, [&](double x, double y) { return y < 8 || is_strip(x); }), kSigma_m, 2);
   const std::vector<std::vector<bool>> closed = blocks.closed();
   ASSERT_EQ(closed.size(), 2U);
   for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
     const Eigen::Vector2d at = blocks.middle_of(number);
     if (at.y() < 10 || std::abs(at.x() - 6) < 1 || std::abs(at.x() - 9) < 1) continue;
     EXPECT_FALSE(closed[0][number]) << at.transpose();
-    EXPECT_EQ(closed[1][number], at.x() > 6 && at.x() < 9) << at.transpose();
+    EXPECT_EQ(closed[1][number], is_strip(at.x())) << at.transpose();
   }
 }
 
