@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/field_signs.h"
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -92,6 +94,24 @@ TEST(FieldSigns, AllowForTheErrorOfNarrowPlotsWidth) {
   };
   EXPECT_NEAR(aspect_of(0), 5.7 / 0.56, 0.3);
   EXPECT_LT(aspect_of(0.2), 9.5);
+}
+
+// Signs of wrong plots on a field whose leaves close the gaps, and of right ones on such a field.
+TEST(FieldSigns, RefuseSeveralThatAreEachJustGoodEnough) {
+  FieldSigns signs{.plots = 67,
+                   .held_share = 0.71,
+                   .filled_share = 0.86,
+                   .squareness = 0.98,
+                   .straightness = 1.52,
+                   .roughness = 0.129,
+                   .unevenness = 0.04,
+                   .aspect = 1,
+                   .least_gap_m = 0.25,
+                   .evidence = 558};
+  EXPECT_NE(no_plots_because(signs), "");
+  signs.held_share = 0.82;
+  signs.squareness = 1.03;
+  EXPECT_EQ(no_plots_because(signs), "");
 }
 
 TEST(FieldSigns, TellLongRows) {
