@@ -146,6 +146,17 @@ TEST_F(ForeignLasFile, WebMercatorIsNoted) {
   EXPECT_TRUE(notes_of(32617, 8399737.89).empty());
 }
 
+// PDAL's lone-star.copc.laz states such a system, and metres.
+TEST_F(ForeignLasFile, GeocentricCoordinatesAreNoted) {
+  for (const std::string& records :
+       {wkt_record(R"(GEOCCS["unnamed",DATUM["WGS_1984"],PRIMEM["Greenwich",0],UNIT["metre",1],)"
+                   R"(AXIS["Geocentric X",OTHER]])"),
+        key_record({{1024, 3}, {2048, 4978}})}) {
+    EXPECT_THAT(read({.records = records, .record_count = 1}, {{}}).summary.system.notes,
+                ElementsAre(HasSubstr("it states geocentric coordinates")));
+  }
+}
+
 TEST_F(ForeignLasFile, GivenUnitsAreBelieved) {
   const auto file = folder_.write(
       "a.las", bytes_of({.records = key_record({{1024, 2}}), .record_count = 1}, {{{1000, 0, 0}}}));
