@@ -75,9 +75,10 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   std::optional<FieldHull> hull;
   std::vector<TileCount> tile_counts = store.tile_counts();
   const std::string extent = extent_text(tile_counts);
-  if (!options.area && tile_counts.empty())
-    throw InputError(name, "its points lie beyond any place on Earth");
-  if (!options.area) hull = find_field(tile_counts);
+  if (!options.area) {
+    require_places(tile_counts, name);
+    hull = find_field(tile_counts);
+  }
   field.area = options.area ? *options.area : hull->bounds();
   require_area(field.area, options.area ? options.area_name : name + ": the scanned field");
   if (options.area) {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "cloud/internal/field_hull.h"
+#include "cloud/point_key.h"
 #include <fmt/core.h>
 
+#include "core/error.h"
 #include "core/packed_pair.h"
 #include "core/statistics.h"
 
@@ -80,9 +81,8 @@ int first_edge(double mean_per_m2, double area_m2) {
 }  // namespace
 
 void TileCounter::add(std::span<const Eigen::Vector3d> points) {
-  constexpr double kFarthest = std::numeric_limits<std::int32_t>::max();
   for (const Eigen::Vector3d& point : points) {
-    if (!(std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest)) continue;
+    if (!is_in_reach(point)) continue;
     ++count_by_tile_[packed_pair(static_cast<std::int32_t>(std::floor(point.x())),
                                  static_cast<std::int32_t>(std::floor(point.y())))];
   }
@@ -97,6 +97,13 @@ std::vector<TileCount> TileCounter::counts() const {
   }
   std::ranges::sort(counts, {}, &TileCount::tile);
   return counts;
+}
+
+void require_places(std::span<const TileCount> counts, const std::string& name) {
+  if (!counts.empty()) return;
+  throw InputError(name,
+                   "its points lie beyond any place on Earth; geocentric coordinates have to be "
+                   "projected first, for instance to UTM");
 }
 
 FieldDensity field_density(std::span<const TileCount> counts) {

@@ -32,6 +32,9 @@ class TileCounter {
   std::unordered_map<std::uint64_t, std::uint64_t> count_by_tile_;
 };
 
+// Throws InputError if no point of the cloud called `name` was within reach (is_in_reach).
+void require_places(std::span<const TileCount> counts, const std::string& name);
+
 // How densely a field was scanned.
 struct FieldDensity {
   Area field{};        // bounds of the densely scanned field (find_field), metres

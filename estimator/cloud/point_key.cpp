@@ -58,11 +58,13 @@ static_assert(unmixed(mixed(0x123456789u)) == 0x123456789u);
 
 }  // namespace
 
+bool is_in_reach(const Eigen::Vector3d& point) {
+  return std::abs(point.x()) < kReach_m && std::abs(point.y()) < kReach_m &&
+         std::abs(point.z()) < kReachZ_m - 1;
+}
+
 std::optional<PlacedKey> key_of(const Eigen::Vector3d& point) {
-  if (!(std::abs(point.x()) < kReach_m && std::abs(point.y()) < kReach_m &&
-        std::abs(point.z()) < kReachZ_m - 1)) {
-    return std::nullopt;
-  }
+  if (!is_in_reach(point)) return std::nullopt;
   const std::uint64_t x = steps_of(point.x());
   const std::uint64_t y = steps_of(point.y());
   const std::uint64_t z = steps_of(point.z());

@@ -35,8 +35,10 @@ inline constexpr double kStepsAMetre = 1 << kStepBits;
 inline constexpr int kCellsAMetre = 8;
 inline constexpr int kCellsATile = kCellsAMetre * kCellsAMetre;
 
-// The key of a point; nothing where a coordinate is out of range: 1,000,000 km in x and y, 2,000 km
-// in z.
+// Whether a point has a key: 1,000,000 km is as far as x and y reach, 2,000 km z.
+bool is_in_reach(const Eigen::Vector3d& point);
+
+// The key of a point; nothing where it is out of reach.
 std::optional<PlacedKey> key_of(const Eigen::Vector3d& point);
 
 // The point that a key stands for, relative to `origin`.

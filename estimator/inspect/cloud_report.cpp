@@ -8,7 +8,6 @@
 #include "cloud/coordinate_step.h"
 #include <fmt/core.h>
 
-#include "core/error.h"
 #include "core/utc_time.h"
 #include "record/positions.h"
 
@@ -58,7 +57,7 @@ void judge_classes(CloudReport& report) {
   for (const std::size_t number : kNoiseClasses) noise += classes[number];
   if (classes[kGroundClass] > 0 && classes[kGroundClass] + noise == report.facts.points)
     report.obstacles.emplace_back(
-        "every point but noise is of the class ground: the crop was taken out");
+        "every point but noise is of the class ground: there is no crop, or it was taken out");
 }
 
 json counts_json(const std::optional<scan::CountByNumber>& counts) {
@@ -95,7 +94,7 @@ CloudReport inspect_cloud(const CloudFiles& cloud) {
   };
   CloudReport report{.facts = record::read_cloud_facts(cloud, take), .density = {}};
   const std::vector<cloud::TileCount> counts = tiles.counts();
-  if (counts.empty()) throw InputError(cloud.name() + ": its points lie beyond any place on Earth");
+  cloud::require_places(counts, cloud.name());
   report.density = cloud::field_density(counts);
   judge_density(report);
   judge_extent(report);

@@ -102,7 +102,7 @@ void note_units(bool given, CloudSystem& system) {
       units.horizontal_m == units.vertical_m
           ? unit_name(units.horizontal_m)
           : unit_name(units.horizontal_m) + " (z: " + unit_name(units.vertical_m) + ")";
-  system.notes.push_back(what + " are read as metres, as " +
+  system.notes.push_back(what + " are converted to metres, as " +
                          (given ? "--units says" : "the file states them") +
                          "; boxes and ground are written in the file's units");
 }
@@ -125,6 +125,19 @@ CloudSystem given_system(const std::filesystem::path& cloud, const CloudLayout& 
   return system;
 }
 
+// Web Mercator (EPSG guidance note 7-2, "Popular Visualisation Pseudo Mercator") maps a sphere of
+// this radius: at northing y its x and y are cosh(y/R) = 1/cos(latitude) times as long as the
+// ground is.
+void note_web_mercator(const std::filesystem::path& cloud, const CloudLayout& layout,
+                       CloudSystem& system) {
+  constexpr double kRadius_m = 6378137;
+  if (system.crs != "EPSG:3857") return;
+  system.notes.push_back(fmt::format(
+      "EPSG:3857 (Web Mercator) stretches x and y, here {:.2f} times: plots come out as much "
+      "too large; project the cloud first, for instance to UTM",
+      std::cosh(first_finite(cloud, layout).y() / kRadius_m)));
+}
+
 CloudSystem stated_system(const std::filesystem::path& cloud, const CloudLayout& layout,
                           const CloudFiles& given) {
   CloudSystem system{
@@ -133,6 +146,7 @@ CloudSystem stated_system(const std::filesystem::path& cloud, const CloudLayout&
     project(cloud, layout, given, system);
   } else {
     note_units(given.units.has_value(), system);
+    note_web_mercator(cloud, layout, system);
   }
   return system;
 }

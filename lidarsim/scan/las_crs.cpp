@@ -96,8 +96,9 @@ std::string short_crs(const std::string& wkt) {
 WktUnits units_of_wkt(const std::string& wkt) {
   const std::optional<WktNode> root = parse_wkt(wkt);
   if (!root) return {};
-  return {.horizontal_m = unit_of(root->find({"PROJCS", "PROJCRS", "LOCAL_CS", "ENGCRS"})),
-          .vertical_m = unit_of(root->find({"VERT_CS", "VERTCRS", "VERTICALCRS"}))};
+  return {
+      .horizontal_m = unit_of(root->find({"PROJCS", "PROJCRS", "GEOCCS", "LOCAL_CS", "ENGCRS"})),
+      .vertical_m = unit_of(root->find({"VERT_CS", "VERTCRS", "VERTICALCRS"}))};
 }
 
 }  // namespace plotscan::scan

@@ -32,7 +32,8 @@ struct WktUnits {
   std::optional<double> vertical_m = {};
 };
 
-// The units of a projected or local system, and of its heights. Empty if the text is broken.
+// The units of a projected, geocentric or local system, and of its heights. Empty if the text is
+// broken.
 WktUnits units_of_wkt(const std::string& wkt);
 
 }  // namespace plotscan::scan

@@ -21,6 +21,7 @@ struct Kind {
 
 constexpr std::string_view kRaster = "a TIFF picture: heights of a raster are no cloud of returns";
 constexpr std::string_view kEsri = "a raster of Esri: heights of a raster are no cloud of returns";
+constexpr std::string_view kOff = "an OFF mesh: save its points as PLY or text";
 constexpr std::string_view kUtf16 = "UTF-16: save its text as UTF-8";
 
 constexpr std::array kForeign = {
@@ -36,6 +37,10 @@ constexpr std::array kForeign = {
     Kind{"<"sv, "a web page or XML: was the download refused?"sv},
     Kind{"version https://git-lfs"sv,
          "a pointer of Git LFS: fetch the file itself (git lfs pull)"sv},
+    Kind{"OFF\n"sv, kOff},
+    Kind{"OFF\r"sv, kOff},
+    Kind{"COFF\n"sv, kOff},
+    Kind{"# vtk DataFile"sv, "a VTK file: save its points as PLY or text"sv},
     Kind{"ncols"sv, kEsri},
     Kind{"NCOLS"sv, kEsri},
 };

@@ -31,6 +31,7 @@ inline constexpr std::uint16_t kGeoKeysRecord = 34735;
 // projected one's EPSG code and units.
 inline constexpr std::uint16_t kModelKey = 1024;
 inline constexpr std::uint16_t kGeographicModel = 2;  // degrees
+inline constexpr std::uint16_t kGeocentricModel = 3;
 inline constexpr std::uint16_t kProjectedKey = 3072;
 // Units of x and y of a projected system, and of z: EPSG codes.
 inline constexpr std::uint16_t kLinearUnitsKey = 3076;

@@ -216,6 +216,13 @@ std::optional<double> unit_of_heights(std::uint16_t code) {
   }
 }
 
+// Files exist that state so of coordinates that are none, so that it is a note.
+void note_geocentric(CloudLayout& layout) {
+  layout.notes.emplace_back(
+      "it states geocentric coordinates, whose z does not point up; they are taken for x east, y "
+      "north, z up: project the cloud first unless they are");
+}
+
 // GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
 void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& units) {
   std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
@@ -223,6 +230,7 @@ void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& unit
   for (const auto& [key, place, count, value] : entries) {
     if (place != 0) continue;
     if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
+    if (key == las::kModelKey && value == las::kGeocentricModel) note_geocentric(layout);
     if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
     if (key == las::kLinearUnitsKey) units.horizontal_m = unit_of_code(value, layout);
     if (key == las::kVerticalKey && !units.vertical_m) units.vertical_m = unit_of_heights(value);
@@ -292,6 +300,7 @@ void read_records(LasFile& file, const VariableRecords& records, const LasHeader
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
       layout.in_degrees = says_geographic(layout.crs_wkt);
+      if (layout.crs_wkt.starts_with("GEOCCS")) note_geocentric(layout);
       units.wkt = units_of_wkt(layout.crs_wkt);
     } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
       read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units.keys);

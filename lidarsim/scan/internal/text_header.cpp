@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <regex>
 
+#include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "scan/internal/cloud_layout.h"
@@ -47,9 +49,52 @@ std::string plain_column(std::string_view name) {
   return plain;
 }
 
-// The separator of a line: semicolon, comma, or ' ' for blanks (tabs count as blanks).
+// The words of letters in brackets behind a column's name, in lower case: "us" and "ft" of
+// "X [US ft]".
+std::vector<std::string> words_in_brackets(std::string_view name) {
+  std::vector<std::string> words = {""};
+  const std::size_t bracket = name.find_first_of("[(");
+  if (bracket == std::string_view::npos) return words;
+  for (const char c : name.substr(bracket)) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalpha(letter) != 0) {
+      words.back() += static_cast<char>(std::tolower(letter));
+    } else {
+      words.emplace_back();
+    }
+  }
+  return words;
+}
+
+// Metres in the unit in brackets behind a column's name; nothing where no known length stands
+// there.
+std::optional<double> bracketed_unit(std::string_view name) {
+  static const std::map<std::string, double> kLengths = {{"m", 1},
+                                                         {"meter", 1},
+                                                         {"meters", 1},
+                                                         {"metre", 1},
+                                                         {"metres", 1},
+                                                         {"km", 1000},
+                                                         {"cm", 0.01},
+                                                         {"mm", 0.001},
+                                                         {"ft", kFoot_m},
+                                                         {"foot", kFoot_m},
+                                                         {"feet", kFoot_m},
+                                                         {"usft", kUsSurveyFoot_m},
+                                                         {"ftus", kUsSurveyFoot_m}};
+  const std::vector<std::string> words = words_in_brackets(name);
+  const auto unit =
+      std::ranges::find_if(words, [&](const auto& word) { return kLengths.contains(word); });
+  if (unit == words.end()) return std::nullopt;
+  const double unit_m = kLengths.at(*unit);
+  const bool us =
+      std::ranges::any_of(words, [](const auto& word) { return word == "us" || word == "survey"; });
+  return us && unit_m == kFoot_m ? kUsSurveyFoot_m : unit_m;
+}
+
+// The separator of a line: semicolon, bar, comma, or ' ' for blanks (tabs count as blanks).
 char separator_of(std::string_view line) {
-  for (const char separator : {';', ','})
+  for (const char separator : {';', '|', ','})
     if (line.find(separator) != std::string_view::npos) return separator;
   return ' ';
 }
@@ -95,13 +140,16 @@ bool has_set_off_thousands(std::string_view line) {
   return false;
 }
 
+std::string_view without_quotes(std::string_view word) {
+  const bool quoted = word.size() > 2 && word.front() == '"' && word.back() == '"';
+  return quoted ? word.substr(1, word.size() - 2) : word;
+}
+
 // Whether the line is a point whose numbers are in quotes.
 bool has_quoted_numbers(std::string_view line) {
   std::vector<std::string_view> columns;
   split_columns(line, separator_of(line), columns);
-  for (std::string_view& word : columns)
-    if (word.size() > 2 && word.front() == '"' && word.back() == '"')
-      word = word.substr(1, word.size() - 2);
+  std::ranges::transform(columns, columns.begin(), without_quotes);
   return is_point(columns);
 }
 
@@ -173,11 +221,12 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
                        std::to_string(kMostHeaderLines) + " lines is a point, x y z");
 }
 
-// The names of the columns; empty if the header has none.
+// The names of the columns, without quotes around them; empty if the header has none.
 std::vector<std::string> column_names(const TextHeader& header, char separator) {
   std::vector<std::string_view> words;
   split_columns(header.names, separator, words);
   if (words.size() < 3) split_columns(header.names, separator_of(header.names), words);
+  std::ranges::transform(words, words.begin(), without_quotes);
   return {words.begin(), words.end()};
 }
 
@@ -205,7 +254,28 @@ bool fit(const TextHeader& header, std::size_t names, bool in_front,
   return names == 0 || header.names_in_comment || names >= filled;
 }
 
-bool is_longitude(const std::string& name) { return plain_column(name).starts_with("lon"); }
+bool is_longitude(const std::string& name) {
+  const std::vector<std::string> words = words_in_brackets(name);
+  return plain_column(name).starts_with("lon") ||
+         std::ranges::any_of(words, [](const auto& word) { return word.starts_with("deg"); });
+}
+
+// The units of the columns named x, y and z. What states none is in metres, z in the unit of x and
+// y.
+CoordinateUnits named_units(const std::filesystem::path& file, const TextHeader& header,
+                            const std::vector<std::string>& names,
+                            const std::array<std::size_t, 3>& xyz) {
+  const std::optional<double> x_m = bracketed_unit(names[xyz[0]]);
+  const std::optional<double> y_m = bracketed_unit(names[xyz[1]]);
+  if (x_m && y_m && *x_m != *y_m) {
+    throw InputError(file, header.names_line,
+                     "has x in " + unit_name(*x_m) + " and y in " + unit_name(*y_m) +
+                         "; both must be in one unit");
+  }
+  const double horizontal_m = x_m.value_or(y_m.value_or(1));
+  return {.horizontal_m = horizontal_m,
+          .vertical_m = bracketed_unit(names[xyz[2]]).value_or(horizontal_m)};
+}
 
 // Adds every column as a field under its name; those of x, y and z get these names.
 void add_fields(const std::vector<std::string>& names, const std::array<std::size_t, 3>& xyz,
@@ -252,7 +322,10 @@ CloudLayout read_text_header(const std::filesystem::path& file) {
                          std::to_string(columns.size()));
   }
   layout.may_lack_values = named && layout.separator != ' ';
-  layout.in_degrees = named && is_longitude(names[xyz[0]]);
+  if (named) {
+    layout.in_degrees = is_longitude(names[xyz[0]]);
+    layout.units = named_units(file, header, names, xyz);
+  }
   add_fields(names, xyz, layout);
   return layout;
 }

@@ -19,6 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::message_of;
 using testing::TemporaryFolder;
 
 // A grid of points over 40 m x 20 m, `a_side` times `a_side` a square metre.
@@ -64,6 +65,14 @@ TEST(CloudReport, OnePlaceCarriesNoPlots) {
   for (int i = 0; i < 500; ++i) text += "3 4 5\n3.05 4.05 6\n";
   EXPECT_THAT(inspect_cloud(folder.write("place.xyz", text)).obstacles,
               ElementsAre(HasSubstr("within 10 cm of one place")));
+}
+
+// Geocentric coordinates: z is thousands of kilometres. `estimator run` refuses them as well.
+TEST(CloudReport, RefusesPointsBeyondAnyHeight) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("geocentric.xyz", "-300000 -4800000 4200000\n");
+  EXPECT_THAT(message_of<InputError>([&] { inspect_cloud(file); }),
+              HasSubstr("geocentric.xyz: its points lie beyond any place on Earth"));
 }
 
 // Northings in UTM as floats of 4 bytes, 0.5 m apart; a raster with a point at each of its steps.
@@ -146,9 +155,11 @@ TEST(CloudReport, TellsReturnsClassesAndTime) {
   EXPECT_EQ(document["marked"], 1);
   EXPECT_EQ(document["time"]["first_utc"], "2019-01-01T00:00:00Z");
   EXPECT_EQ(document["time"]["last_utc"], "2019-01-01T00:01:39Z");
-  EXPECT_THAT(report.obstacles,
-              ElementsAre(HasSubstr("are too few"),
-                          "every point but noise is of the class ground: the crop was taken out"));
+  EXPECT_THAT(
+      report.obstacles,
+      ElementsAre(
+          HasSubstr("are too few"),
+          "every point but noise is of the class ground: there is no crop, or it was taken out"));
   EXPECT_THAT(report.facts.fields,
               ElementsAre("x", "y", "z", "intensity", "return_number", "number_of_returns",
                           "classification", "withheld", "gps_time"));
@@ -162,8 +173,9 @@ TEST(CloudReport, KnowsCloudsOfOthers) {
   EXPECT_EQ(iowa.facts.points, 4046u);
   EXPECT_EQ(iowa.facts.system.crs, "EPSG:26915");
   EXPECT_NEAR(iowa.density.median, 0.7, 0.15);  // 4,046 points over 80 m x 80 m, strips overlap
-  EXPECT_THAT(iowa.obstacles, ElementsAre(HasSubstr("points/m2 are too few"),
-                                          HasSubstr("class ground: the crop was taken out")));
+  EXPECT_THAT(iowa.obstacles,
+              ElementsAre(HasSubstr("points/m2 are too few"),
+                          HasSubstr("class ground: there is no crop, or it was taken out")));
   const CloudReport nebraska = inspect_cloud(real / "nebraska_us_feet.las");
   EXPECT_NEAR(nebraska.facts.bounds.min().x(), 2445180, 1e-3);
   EXPECT_NEAR(nebraska.facts.system.units.horizontal_m, 1200.0 / 3937, 1e-15);

@@ -81,7 +81,7 @@ TEST(Run, FeetBecomeMetresAndGoBack) {
       (first_corner(feet.output) * kFoot - moved.head<2>() - first_corner(metres.output)).norm(),
       0.1);
   EXPECT_THAT(found.diagnostics.notes.value(),
-              Contains(HasSubstr("US survey feet are read as metres")));
+              Contains(HasSubstr("US survey feet are converted to metres")));
   const estimate::Estimate read = estimate::read_estimate(feet.output);
   ASSERT_TRUE(read.units);
   EXPECT_LT((read.plots[3].box.center - found.plots[3].box.center).norm(), 1e-6);

@@ -54,6 +54,10 @@ TEST(BrokenCloud, ForeignFilesAreNamed) {
   EXPECT_THAT(refusal("version https://git-lfs.github.com/spec/v1\n"), HasSubstr("git lfs pull"));
   EXPECT_THAT(refusal("ncols 2\nnrows 1\n1 2\n"), HasSubstr("raster of Esri"));
   EXPECT_THAT(refusal("# made by hand\no field\nv 1 2 3\n"), HasSubstr("OBJ mesh"));
+  for (const char* start : {"OFF\n", "OFF\r\n", "COFF\n"})
+    EXPECT_THAT(refusal(std::string(start) + "1 0 0\n1 2 3\n"), HasSubstr("but an OFF mesh"));
+  EXPECT_THAT(refusal("# vtk DataFile Version 3.0\nx\nASCII\nPOINTS 1 float\n1 2 3\n"),
+              HasSubstr("but a VTK file: save its points as PLY or text"));
   EXPECT_THAT(refusal("2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n"), HasSubstr("but PTX"));
 }
 

@@ -124,12 +124,37 @@ TEST_F(ForeignLasFile, StatedUnitsBecomeMetres) {
     const Eigen::Vector3d expected(2000001 * stated.horizontal_m, 600002 * stated.horizontal_m,
                                    1003 * stated.vertical_m);
     EXPECT_LT((result.positions.at(0) - expected).norm(), 1e-6) << stated.records;
-    EXPECT_THAT(result.summary.system.notes, ElementsAre(HasSubstr("are read as metres")));
+    EXPECT_THAT(result.summary.system.notes, ElementsAre(HasSubstr("are converted to metres")));
   }
   const std::string odd = key_record({{1024, 1}, {3076, 9005}});
   const Read unknown = read({.records = odd, .record_count = 1}, {{{1000, 0, 0}}});
   EXPECT_EQ(unknown.positions.at(0).x(), 1);
   EXPECT_THAT(unknown.summary.system.notes, ElementsAre(HasSubstr("code 9005")));
+}
+
+// At latitude 60 degrees 1/cos(latitude) is 2; its northing in EPSG:3857 is R ln(tan 75 degrees).
+TEST_F(ForeignLasFile, WebMercatorIsNoted) {
+  const auto notes_of = [&](std::uint16_t code, double northing_m) {
+    return read({.offset_m = {0, northing_m, 0},
+                 .records = key_record({{1024, 1}, {3072, code}, {3076, 9001}}),
+                 .record_count = 1},
+                {{}})
+        .summary.system.notes;
+  };
+  EXPECT_THAT(notes_of(3857, 8399737.89), ElementsAre(HasSubstr("x and y, here 2.00 times")));
+  EXPECT_THAT(notes_of(3857, -8399737.89), ElementsAre(HasSubstr("x and y, here 2.00 times")));
+  EXPECT_TRUE(notes_of(32617, 8399737.89).empty());
+}
+
+// PDAL's lone-star.copc.laz states such a system, and metres.
+TEST_F(ForeignLasFile, GeocentricCoordinatesAreNoted) {
+  for (const std::string& records :
+       {wkt_record(R"(GEOCCS["unnamed",DATUM["WGS_1984"],PRIMEM["Greenwich",0],UNIT["metre",1],)"
+                   R"(AXIS["Geocentric X",OTHER]])"),
+        key_record({{1024, 3}, {2048, 4978}})}) {
+    EXPECT_THAT(read({.records = records, .record_count = 1}, {{}}).summary.system.notes,
+                ElementsAre(HasSubstr("it states geocentric coordinates")));
+  }
 }
 
 TEST_F(ForeignLasFile, GivenUnitsAreBelieved) {

@@ -42,6 +42,7 @@ const Positions kPoints = {{512345.6789, 4123456.7891, -1.5}, {1e-3, 20, 3}};
 
 TEST_F(TextCloud, EverySeparatorIsRead) {
   EXPECT_EQ(read("512345.6789 4123456.7891 -1.5\n0.001 20 3\n"), kPoints);
+  EXPECT_EQ(read("512345.6789|4123456.7891|-1.5\n0.001|20|3\n"), kPoints);  // GRASS
   EXPECT_EQ(read("  512345.6789\t4123456.7891  -1.5\r\n\r\n1e-3 +20 3"), kPoints);
   EXPECT_EQ(read("512345.6789,4123456.7891,-1.5\n0.001,20,3\n"), kPoints);
   EXPECT_EQ(read("512345.6789, 4123456.7891 , -1.5,\n0.001,20,3,\n"), kPoints);
@@ -51,7 +52,7 @@ TEST_F(TextCloud, EverySeparatorIsRead) {
 
 TEST_F(TextCloud, DecimalCommasAreNamed) {
   for (const char* text : {"x;y;z\n512345,6789;4123456,7891;-1,5\n", "1,5 2,5 3\n1,5 2,5 3,25\n",
-                           "# a b c\n0,5\t2\t3\n"}) {
+                           "1,5|2,5|3\n", "# a b c\n0,5\t2\t3\n"}) {
     EXPECT_THAT(refusal(text), HasSubstr("decimal commas")) << text;
   }
   EXPECT_THAT(refusal("x;y;z\n1,5;2,5;3\n"), HasSubstr("cloud.txt:2: "));
@@ -90,12 +91,35 @@ TEST_F(TextCloud, HeadersNameTheColumns) {
             kPoints);
 }
 
+// Foot and US survey foot as NIST defines them.
+TEST_F(TextCloud, UnitsInBracketsAreConverted) {
+  EXPECT_EQ(read("X [ft],Y [ft],Z [ft]\n10,20,5\n"), (Positions{{3.048, 6.096, 1.524}}));
+  EXPECT_THAT(summary_.system.notes, ElementsAre(HasSubstr("feet are converted to metres")));
+  for (const char* unit : {"(US ft)", "[ftUS]", "(US survey feet, NAD83)"}) {
+    const std::string names = std::string("easting ") + unit + ";northing;height\n";
+    EXPECT_LT((read(names + "3937;3937;39.37\n").at(0) - Eigen::Vector3d(1200, 1200, 12)).norm(),
+              1e-9)
+        << unit;
+  }
+  EXPECT_EQ(read("x[cm] y[cm] z[mm]\n100 200 500\n"), (Positions{{1, 2, 0.5}}));
+  EXPECT_EQ(read("X (m),Y (m),Z (feet)\n1,2,10\n"), (Positions{{1, 2, 3.048}}));
+  EXPECT_EQ(read("X (metres),Y,Z\n1,2,10\n"), (Positions{{1, 2, 10}}));
+  EXPECT_EQ(read("X (UTM 15N),Y (UTM 15N),Z (NAVD88)\n1,2,10\n"), (Positions{{1, 2, 10}}));
+  EXPECT_TRUE(summary_.system.notes.empty());
+  EXPECT_THAT(refusal("x [m],y [ft],z\n1,2,3\n"),
+              HasSubstr("cloud.txt:1: has x in metres and y in feet; both must be in one unit"));
+}
+
 TEST_F(TextCloud, DegreesAreKnownByTheirNames) {
   // The meridian of zone 32, where UTM's easting is 500 km and its northing the scaled arc.
   const Positions positions = read("lat,lon,alt\n45,9,70\n45,69,70\n");
   ASSERT_EQ(positions.size(), 1u);
   EXPECT_LT((positions[0] - Eigen::Vector3d(500000, 4982950.400, 70)).norm(), 1e-3);
   EXPECT_EQ(summary_.not_finite, 1u);  // a place far from the first
+  EXPECT_LT(
+      (read("x (deg),y (deg),z (ft)\n9,45,10\n")[0] - Eigen::Vector3d(500000, 4982950.400, 3.048))
+          .norm(),
+      1e-3);
   EXPECT_EQ(summary_.system.crs, "EPSG:32632");
   EXPECT_THAT(summary_.system.notes, ElementsAre(HasSubstr("UTM zone 32N")));
   EXPECT_THAT(refusal("lon lat z\n226 100 1\n"), HasSubstr("longitude 226, latitude 100"));
@@ -158,10 +182,12 @@ TEST_F(TextCloud, LongFilesAreReadWhole) {
   EXPECT_EQ(read(text), expected);
 }
 
+// PDAL puts names in quotes.
 TEST_F(TextCloud, NamedColumnsBecomeFieldsOfPoints) {
-  const auto file = folder_.write("cloud.csv",
-                                  "x,y,z,Intensity,return_number,number_of_returns\n"
-                                  "500000.25,4000000.5,7,12.5,1,2\n");
+  const auto file =
+      folder_.write("cloud.csv",
+                    "\"X\",\"Y\",\"Z\",\"Intensity\",return_number,number_of_returns\n"
+                    "500000.25,4000000.5,7,12.5,1,2\n");
   const CloudInfo info = read_cloud_info(file);
   EXPECT_THAT(info.fields, ElementsAre("intensity", "return_number", "return_count"));
   std::vector<LabelledPoint> points;
