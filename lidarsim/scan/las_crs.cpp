@@ -69,7 +69,7 @@ std::string utm_crs_wkt(const UtmZone& zone) {
 std::string coded_crs_wkt(int epsg, const CoordinateUnits& units) {
   const std::string name = epsg == 0 ? "unknown" : "EPSG:" + std::to_string(epsg);
   const std::optional<UtmSystem> utm = utm_system(name);
-  const std::string level =
+  std::string level =
       utm && utm->datum == "WGS 84" && units.horizontal_m == 1
           ? projected_utm_wkt(utm->zone)
           : fmt::format(R"(LOCAL_CS["{}",LOCAL_DATUM["unknown",0],{},AXIS["x",EAST],)"
