@@ -60,7 +60,7 @@ struct PlotField {
   std::string why_none = {};  // why there are no plots here; "" when there are
   // The layout that the canopy shows more clearly than the user's; "" where there is none.
   std::string rival = {};
-  double others_m2 = 0;  // of another crop beside the plots, left out of the search
+  double others_m2 = 0;  // of canopy without gaps beside the plots, such as another crop: left out
   std::optional<FieldFit> fit = std::nullopt;
   std::optional<FieldSigns> signs = std::nullopt;  // of the plots, or of what was taken for them
 };

@@ -71,8 +71,8 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
     lines.push_back(
         fmt::format("sown in    {} rows a plot, {:.2f} m apart", sown->rows, sown->spacing_m));
   if (field.others_m2 > 0)
-    lines.push_back(
-        fmt::format("left out   {:.0f} m2 of another crop, sown without gaps", field.others_m2));
+    lines.push_back(fmt::format("left out   {:.0f} m2 of canopy without gaps beside the plots",
+                                field.others_m2));
   return lines;
 }
 
