@@ -72,7 +72,7 @@ Method lattice_method(const std::string& name, bool in_true_boxes,
         methods::lattice::Options own = options;
         own.threads = field.threads;
         if (in_true_boxes) own.boxes = true_boxes(field);
-        return methods::lattice::estimate_plots(field.cloud, own);
+        return methods::lattice::measure_field(field.found.with(own), own);
       }};
 }
 

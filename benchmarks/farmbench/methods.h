@@ -11,6 +11,7 @@
 #include "terrain/terrain.h"
 
 #include "estimate/estimate.h"
+#include "farmbench/found_fields.h"
 #include "score/score.h"
 
 namespace plotscan::farmbench {
@@ -23,6 +24,7 @@ struct Field {
   const cloud::CloudMap& map;          // its points in the rectangle of the plots and a margin
   const std::vector<score::TruePlot>& plots;
   const terrain::Terrain& terrain;
+  FoundFields& found;  // of this cloud
   std::uint64_t seed = 1;
   int threads = 1;
 };

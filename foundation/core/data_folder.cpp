@@ -63,7 +63,8 @@ fs::path data_folder() {
 
 fs::path found_file(const fs::path& name, const fs::path& room) {
   std::error_code ignored;
-  if (fs::exists(name, ignored) || name.is_absolute()) return name;
+  const bool is_file = fs::exists(name, ignored) && !fs::is_directory(name, ignored);
+  if (is_file || name.is_absolute()) return name;
   const auto folder = known_folder();
   if (!folder) return name;
   for (const fs::path& place : {*folder, *folder / room}) {

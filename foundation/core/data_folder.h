@@ -12,7 +12,8 @@ namespace plotscan {
 // Throws InputError when PLOTSCAN_DATA names another kind of folder, and when there is none.
 std::filesystem::path data_folder();
 
-// The file that a user names: `name` itself if it exists, else the file of that name, with or
+// The file that a user names: `name` itself if it exists and is no folder (results are often in one
+// named as the suite), else the file of that name, with or
 // without ".yaml" added, in the data folder or its subfolder `room` ("worlds"). Returns `name`
 // unchanged if there is no such file: opening it then fails with a message. Throws InputError when
 // PLOTSCAN_DATA names another kind of folder.

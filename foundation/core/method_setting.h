@@ -22,6 +22,7 @@ struct MethodSetting {
                FlagSetting<Options>, AreaSetting<Options>>
       value;
   bool searches = false;  // has no effect when the plots' boxes are given
+  bool measures = false;  // has no effect on which plots are found
 };
 
 // Sets the option to the value that the text states. Throws InputError, beginning with `name`, when

@@ -76,11 +76,13 @@ class Command : public ::testing::Test {
                          .words = split_command(command),
                          .limits = limits,
                          .suite_folder = folder_.path()};
+    FoundFields found(cloud_);
     return run_command_method(method, {.cloud = cloud_,
                                        .poses = poses_,
                                        .map = map_,
                                        .plots = plots_,
                                        .terrain = terrain_,
+                                       .found = found,
                                        .threads = 3});
   }
 

@@ -49,6 +49,7 @@ MethodRun run_method(const Method& method, const Field& field,
   MethodRun run{.estimate = {.method = method.name},
                 .result = {.method = method.name, .failure = {}, .score = {}}};
   const auto start = std::chrono::steady_clock::now();
+  const double spared_s = field.found.spared_s();
   try {
     run.estimate = method.estimate(field);
     run.estimate.method = method.name;
@@ -56,8 +57,8 @@ MethodRun run_method(const Method& method, const Field& field,
   } catch (const InputError& error) {
     run.result.failure = error.what();
   }
-  run.result.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  run.result.seconds = took.count() + field.found.spared_s() - spared_s;
   run.result.score = score::score_field(truth, run.estimate);
   return run;
 }
@@ -153,11 +154,13 @@ FarmResult run_on_scan(const FarmRun& run, const farm::Farm& farm, const FieldSc
   const auto& [suite, suite_case, seed, folder, threads, view] = run;
   const std::vector<score::TruePlot> plots = scored(truth);
   const fs::path poses = folder / "scan" / "poses.csv";
+  FoundFields found(scan.scanned.cloud);
   const Field field{.cloud = scan.scanned.cloud,
                     .poses = poses,
                     .map = scan.map,
                     .plots = plots,
                     .terrain = farm.terrain,
+                    .found = found,
                     .seed = seed,
                     .threads = threads};
   FarmResult result = farm_result(run, scan.scanned.flown);

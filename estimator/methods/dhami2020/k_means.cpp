@@ -30,14 +30,32 @@ constexpr std::size_t kSamplePointsPerCluster = 50;
 
 // The centres by coordinate: the search for the nearest of them then runs on vector units.
 struct CenterTable {
-  std::vector<float> x, y, z;
+  Eigen::ArrayXf x, y, z;
+  // Points closer to a centre than half its way to the next one have no nearer centre (Elkan, ICML
+  // 2003, lemma 1). Slightly less than that, squared: distances are rounded.
+  std::vector<float> own_m2;
 
   explicit CenterTable(const std::vector<Eigen::Vector3f>& centers) {
-    for (const Eigen::Vector3f& center : centers) {
-      x.push_back(center.x());
-      y.push_back(center.y());
-      z.push_back(center.z());
-    }
+    const auto count = static_cast<Eigen::Index>(centers.size());
+    const Eigen::Map<const Eigen::Matrix3Xf> all(centers.front().data(), 3, count);
+    x = all.row(0);
+    y = all.row(1);
+    z = all.row(2);
+    for (const Eigen::Vector3f& center : centers) own_m2.push_back(0.2499f * next_m2(center));
+  }
+
+  Eigen::ArrayXf squared_to(const Eigen::Vector3f& point) const {
+    return (x - point.x()).square() + (y - point.y()).square() + (z - point.z()).square();
+  }
+
+ private:
+  // The squared distance to the nearest other centre; 0 where one lies in the same place.
+  float next_m2(const Eigen::Vector3f& center) const {
+    Eigen::ArrayXf squared = squared_to(center);
+    Eigen::Index own = 0;
+    squared.minCoeff(&own);
+    squared[own] = std::numeric_limits<float>::max();
+    return squared.minCoeff();
   }
 };
 
@@ -47,16 +65,22 @@ struct Nearest {
 };
 
 Nearest nearest_center(const Eigen::Vector3f& point, const CenterTable& table,
-                       std::vector<float>& squared) {
-  const std::size_t count = table.x.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float dx = point.x() - table.x[i];
-    const float dy = point.y() - table.y[i];
-    const float dz = point.z() - table.z[i];
-    squared[i] = dx * dx + dy * dy + dz * dz;
-  }
-  const auto least = std::min_element(squared.begin(), squared.end());
-  return {static_cast<std::uint32_t>(least - squared.begin()), *least};
+                       Eigen::ArrayXf& squared) {
+  squared = table.squared_to(point);
+  const float least = squared.minCoeff();
+  const auto first = std::find(squared.begin(), squared.end(), least);
+  return {static_cast<std::uint32_t>(first - squared.begin()), least};
+}
+
+// The same, without a search where the centre of the round before has to be it.
+Nearest nearest_center(const Eigen::Vector3f& point, std::uint32_t before, const CenterTable& table,
+                       Eigen::ArrayXf& squared) {
+  const Eigen::Array3f apart(table.x[before] - point.x(), table.y[before] - point.y(),
+                             table.z[before] - point.z());
+  // Added as squared_to adds, so that sums are the same to the bit.
+  const float to_it_m2 = apart.x() * apart.x() + apart.y() * apart.y() + apart.z() * apart.z();
+  if (to_it_m2 < table.own_m2[before]) return {before, to_it_m2};
+  return nearest_center(point, table, squared);
 }
 
 // What one chunk of points adds to the centres.
@@ -70,12 +94,12 @@ struct ChunkSums {
 
 ChunkSums assign_chunk(Points points, std::size_t first, std::size_t last, const CenterTable& table,
                        std::vector<std::uint32_t>& cluster_of) {
-  const std::size_t clusters = table.x.size();
+  const auto clusters = static_cast<std::size_t>(table.x.size());
   ChunkSums sums{.sum = std::vector<Eigen::Vector3d>(clusters, Eigen::Vector3d::Zero()),
                  .count = std::vector<std::size_t>(clusters, 0)};
-  std::vector<float> squared(clusters);
+  Eigen::ArrayXf squared(table.x.size());
   for (std::size_t i = first; i < last; ++i) {
-    const Nearest nearest = nearest_center(points[i], table, squared);
+    const Nearest nearest = nearest_center(points[i], cluster_of[i], table, squared);
     cluster_of[i] = nearest.center;
     sums.sum[nearest.center] += points[i].cast<double>();
     ++sums.count[nearest.center];
@@ -170,12 +194,12 @@ std::vector<Eigen::Vector3f> plus_plus_seeds(Points points, int clusters, Random
 // How much each cluster's squares would grow if its points went to their second nearest centres.
 std::vector<double> removal_costs(Points points, const Clustering& clustering) {
   const CenterTable table(clustering.centers);
-  std::vector<float> squared(clustering.centers.size());
+  Eigen::ArrayXf squared(table.x.size());
   std::vector<double> costs(clustering.centers.size(), 0);
   for (const Eigen::Vector3f& point : points) {
     const Nearest first = nearest_center(point, table, squared);
     squared[first.center] = std::numeric_limits<float>::max();
-    costs[first.center] += *std::min_element(squared.begin(), squared.end()) - first.squared_m2;
+    costs[first.center] += squared.minCoeff() - first.squared_m2;
   }
   return costs;
 }

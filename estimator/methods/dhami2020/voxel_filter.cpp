@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/dhami2020/voxel_filter.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace plotscan::methods::dhami2020 {
@@ -14,14 +16,20 @@ class VoxelGrid {
  public:
   explicit VoxelGrid(double voxel_m) : voxel_m_(voxel_m), slots_(1 << 16, kFree) {}
 
-  // A table larger than the caches: what the next points need is fetched before their turn, their
-  // slots first and then their voxels.
+  // The table is larger than the caches: what a block's points need is fetched before their turn,
+  // their slots first and then their voxels.
   void add(std::span<const Eigen::Vector3f> points) {
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (i + 2 * kAhead < points.size()) fetch_slot(points[i + 2 * kAhead]);
-      if (i + kAhead < points.size()) fetch_voxel(points[i + kAhead]);
-      add(points[i]);
+    constexpr std::size_t kBlock = 64;
+    std::array<Cell, kBlock> cells;
+    while (!points.empty()) {
+      const auto block = points.first(std::min(kBlock, points.size()));
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        cells[i] = cell_of(block[i]);
+        __builtin_prefetch(&slots_[first_slot(cells[i].key)]);
+      }
+      for (std::size_t i = 0; i < block.size(); ++i) fetch_voxel(cells[i]);
+      for (std::size_t i = 0; i < block.size(); ++i) add(block[i], cells[i]);
+      points = points.subspan(block.size());
     }
   }
 
@@ -43,31 +51,35 @@ class VoxelGrid {
   };
   static constexpr std::uint32_t kFree = 0xffffffff;
 
-  Eigen::Array3d cell_of(const Eigen::Vector3f& point) const {
-    return (point.cast<double>().array() / voxel_m_).floor().max(-kHalfAxis).min(kHalfAxis - 1);
+  struct Cell {
+    Eigen::Array3d index;
+    std::uint64_t key;
+  };
+
+  Cell cell_of(const Eigen::Vector3f& point) const {
+    const Eigen::Array3d index =
+        (point.cast<double>().array() / voxel_m_).floor().max(-kHalfAxis).min(kHalfAxis - 1);
+    return {index, key_of(index)};
   }
 
-  void fetch_slot(const Eigen::Vector3f& point) const {
-    __builtin_prefetch(&slots_[first_slot(key_of(cell_of(point)))]);
-  }
-  void fetch_voxel(const Eigen::Vector3f& point) const {
-    const std::uint32_t voxel = slots_[first_slot(key_of(cell_of(point)))];
+  void fetch_voxel(const Cell& cell) const {
+    const std::uint32_t voxel = slots_[first_slot(cell.key)];
     if (voxel != kFree) __builtin_prefetch(&voxels_[voxel]);
   }
 
-  void add(const Eigen::Vector3f& point) {
-    const Eigen::Array3d cell = cell_of(point);
-    Voxel& voxel = voxel_of(cell);
+  void add(const Eigen::Vector3f& point, const Cell& cell) {
+    Voxel& voxel = voxel_of(cell.key);
     // Offsets from the cell's corner are small: float32 sums of them stay exact enough.
-    voxel.offset_sum += (point.cast<double>().array() - cell * voxel_m_).matrix().cast<float>();
+    voxel.offset_sum +=
+        (point.cast<double>().array() - cell.index * voxel_m_).matrix().cast<float>();
     ++voxel.count;
   }
 
-  static std::uint64_t key_of(const Eigen::Array3d& cell) {
-    const Eigen::Array3d index = cell + kHalfAxis;
-    return static_cast<std::uint64_t>(index.x()) << (2 * kAxisBits) |
-           static_cast<std::uint64_t>(index.y()) << kAxisBits |
-           static_cast<std::uint64_t>(index.z());
+  static std::uint64_t key_of(const Eigen::Array3d& index) {
+    const Eigen::Array<std::int32_t, 3, 1> from_end = (index + kHalfAxis).cast<std::int32_t>();
+    return static_cast<std::uint64_t>(from_end.x()) << (2 * kAxisBits) |
+           static_cast<std::uint64_t>(from_end.y()) << kAxisBits |
+           static_cast<std::uint64_t>(from_end.z());
   }
   Eigen::Vector3d corner(std::uint64_t key) const {
     constexpr std::uint64_t kMask = (1u << kAxisBits) - 1;
@@ -82,8 +94,7 @@ class VoxelGrid {
     return mixed & (slots_.size() - 1);
   }
 
-  Voxel& voxel_of(const Eigen::Array3d& cell) {
-    const std::uint64_t key = key_of(cell);
+  Voxel& voxel_of(std::uint64_t key) {
     std::size_t slot = first_slot(key);
     while (slots_[slot] != kFree) {
       if (voxels_[slots_[slot]].key == key) return voxels_[slots_[slot]];

@@ -258,6 +258,26 @@ void require_ground_points(const cloud::FieldCloud& cloud, const Options& option
     throw InputError("the cloud has no points of the ground's classes that are given");
 }
 
+FoundField found_in(cloud::FieldCloud cloud, const Options& options,
+                    const ProgressReport& progress) {
+  require_ground_points(cloud, options);
+  require_extent(cloud.points);
+  estimate::Estimate estimate{.method = "lattice"};
+  note_steps(cloud, estimate.diagnostics);
+  estimate.diagnostics.density_per_m2 = cloud.density_m2;
+  tell_work(cloud, options);
+  ground::Surface surface = ground_of(cloud, options, progress);
+  Points heights = above_ground(std::move(cloud.points), surface, options.threads);
+  estimate.diagnostics.points = account_of(cloud, heights.size());
+  if (heights.size() < kLeastOfGround)
+    throw NothingToMeasure(no_ground_because(cloud, *estimate.diagnostics.points));
+  report(progress, kAbove);
+  estimate.diagnostics.ground = facts_of(surface);
+  estimate.plots = plots_of(cloud, heights, surface, options, estimate.diagnostics);
+  report(progress, kPlots);
+  return {std::move(heights), std::move(surface), cloud.origin, std::move(estimate)};
+}
+
 }  // namespace
 
 void require_sound(const Options& options) {
@@ -279,35 +299,31 @@ cloud::FieldOptions field_options(const Options& options) {
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
-  require_ground_points(cloud, options);
-  require_extent(cloud.points);
-  estimate::Estimate estimate{.method = "lattice"};
-  note_steps(cloud, estimate.diagnostics);
-  estimate.diagnostics.density_per_m2 = cloud.density_m2;
-  tell_work(cloud, options);
-  const ground::Surface surface = ground_of(cloud, options, progress);
-  const Points heights = above_ground(std::move(cloud.points), surface, options.threads);
-  estimate.diagnostics.points = account_of(cloud, heights.size());
-  if (heights.size() < kLeastOfGround)
-    throw NothingToMeasure(no_ground_because(cloud, *estimate.diagnostics.points));
-  report(progress, kAbove);
-  estimate.diagnostics.ground = facts_of(surface);
-  estimate.plots = plots_of(cloud, heights, surface, options, estimate.diagnostics);
-  report(progress, kPlots);
-  measure(estimate.plots, heights, surface, options, estimate.diagnostics);
-  for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += cloud.origin.head<2>();
-  estimate.ground = moved(surface, cloud.origin);
+  return measure_field(found_in(std::move(cloud), options, progress), options, progress);
+}
+
+FoundField find_field(const CloudFiles& cloud, const Options& options,
+                      const ProgressReport& progress) {
+  require_sound(options);
+  cloud::FieldCloud field = cloud::read_field(
+      cloud, field_options(options), [&](double share) { report(progress, kField * share); });
+  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
+  return found_in(std::move(field), options, progress);
+}
+
+estimate::Estimate measure_field(const FoundField& field, const Options& options,
+                                 const ProgressReport& progress) {
+  estimate::Estimate estimate = field.estimate;
+  measure(estimate.plots, field.heights, field.surface, options, estimate.diagnostics);
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += field.origin.head<2>();
+  estimate.ground = moved(field.surface, field.origin);
   report(progress, 1);
   return estimate;
 }
 
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress) {
-  require_sound(options);
-  cloud::FieldCloud field = cloud::read_field(
-      cloud, field_options(options), [&](double share) { report(progress, kField * share); });
-  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
-  return estimate_plots(std::move(field), options, progress);
+  return measure_field(find_field(cloud, options, progress), options, progress);
 }
 
 }  // namespace plotscan::methods::lattice

@@ -9,10 +9,12 @@
 #include "cloud/cloud_map.h"
 #include "cloud/field_cloud.h"
 #include "methods/lattice/work_estimate.h"
+#include <Eigen/Core>
 
 #include "core/plot_box.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"
+#include "ground/surface.h"
 
 namespace plotscan::methods::lattice {
 
@@ -46,6 +48,21 @@ void require_sound(const Options& options);
 // NothingToMeasure on a cloud without ground.
 estimate::Estimate estimate_plots(cloud::FieldCloud cloud, const Options& options,
                                   const ProgressReport& progress = {});
+
+// A field on the way: its plots are found, or given, and nothing of them is measured yet.
+struct FoundField {
+  std::vector<Eigen::Vector3f> heights;  // of all points, metres: x, y, height above the ground
+  ground::Surface surface;               // in the frame of `heights`
+  Eigen::Vector3d origin;                // of that frame, in the cloud's
+  estimate::Estimate estimate;           // without heights; in the frame of `heights`
+};
+
+// The two halves of estimate_plots. The settings that `measures` marks are of the second alone, so
+// that a field found once is measured with several of them.
+FoundField find_field(const CloudFiles& cloud, const Options& options,
+                      const ProgressReport& progress = {});
+estimate::Estimate measure_field(const FoundField& field, const Options& options,
+                                 const ProgressReport& progress = {});
 
 // How the method reads a cloud: its crop box; else the given boxes and the ground around them; else
 // the whole scanned field.

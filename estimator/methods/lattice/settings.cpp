@@ -51,7 +51,8 @@ const std::vector<MethodSetting<Options>>& settings() {
       {.key = "crop",
        .flag = "--crop",
        .help = "crop of the field (default: recognised from the canopy)",
-       .value = OptionalText{heights::crop_names(), member<&Options::crop>}},
+       .value = OptionalText{heights::crop_names(), member<&Options::crop>},
+       .measures = true},
       {.key = "noise_m",
        .flag = "--noise",
        .help = "sigma of the points' heights (metres; default: estimated from bare ground)",
@@ -64,7 +65,8 @@ const std::vector<MethodSetting<Options>>& settings() {
       {.key = "calibrated",
        .flag = "--no-calibration",
        .help = "report the canopy's own mean and percentiles as the plants'",
-       .value = Flag{member<&Options::calibrated>}},
+       .value = Flag{member<&Options::calibrated>},
+       .measures = true},
   };
   return all;
 }

@@ -85,6 +85,19 @@ TEST(KMeans, SeparatesBlobsWhenTheRestartsSeeOnlyASample) {
   }
 }
 
+TEST(KMeans, GivesEveryPointToItsNearestCenter) {
+  const Points points = blobs(5, 4000, 2, 5);  // overlapping
+  const Clustering found = k_means(points, {.clusters = 9, .restarts = 1});
+  double inertia_m2 = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto nearest = std::ranges::min_element(
+        found.centers, {}, [&](const auto& center) { return (center - points[i]).squaredNorm(); });
+    EXPECT_EQ(found.cluster_of[i], nearest - found.centers.begin());
+    inertia_m2 += (*nearest - points[i]).squaredNorm();
+  }
+  EXPECT_NEAR(found.inertia_m2, inertia_m2, 1e-6 * inertia_m2);
+}
+
 TEST(KMeans, GivesTheSameForAnyNumberOfThreads) {
   const Points points = blobs(5, 9000, 2, 3);  // overlapping, several chunks
   const Clustering one = k_means(points, {.clusters = 7, .restarts = 1, .threads = 1});

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/data_folder.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "temporary_folder.h"
+#include <gtest/gtest.h>
+
+namespace plotscan {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A data folder with one suite, and an empty folder to work in.
+class NamedFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    suite_ = folder_.write("data/benchmarks/suites/paper.yaml", "name: paper\n");
+    fs::create_directories(folder_.path() / "data/worlds");
+    fs::create_directories(folder_.path() / "data/models");
+    fs::create_directories(folder_.path() / "work");
+    setenv("PLOTSCAN_DATA", (folder_.path() / "data").c_str(), 1);
+    fs::current_path(folder_.path() / "work");
+  }
+  void TearDown() override {
+    unsetenv("PLOTSCAN_DATA");
+    fs::current_path(before_);
+  }
+  static fs::path found(const char* name) { return found_file(name, "benchmarks/suites"); }
+
+  testing::TemporaryFolder folder_;
+  fs::path before_ = fs::current_path();
+  fs::path suite_;
+};
+
+TEST_F(NamedFile, IsTheShippedOneWhereThereIsNoneOfThatName) {
+  EXPECT_EQ(found("paper"), suite_);
+  EXPECT_EQ(found("paper.yaml"), suite_);
+  EXPECT_EQ(found("wheat"), "wheat");
+}
+
+TEST_F(NamedFile, IsTheUsersOwnWhereThereIsOne) {
+  folder_.write("work/paper", "name: mine\n");
+  EXPECT_EQ(found("paper"), "paper");
+}
+
+// As after `farmbench run paper -o paper`.
+TEST_F(NamedFile, IsNoFolder) {
+  fs::create_directories("paper");
+  EXPECT_EQ(found("paper"), suite_);
+}
+
+}  // namespace
+}  // namespace plotscan
