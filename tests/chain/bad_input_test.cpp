@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "--points requires --cloud"},
         BadCommand{"estimator report estimate -o out.html --units ft", "--units requires --cloud"},
         BadCommand{"estimator report estimate -o out.html --cloud index.ply --points -1",
-                   "Value -1 not in range 1 to 5000000"},
+                   "Value -1 not in range"},
         BadCommand{"estimator score absent --truth not_a_farm", "absent"},
         BadCommand{"farmbench run broken.yaml -o out", "broken.yaml"},
         BadCommand{"measure_plots run --secret s --strata wheat", "no stratum \"wheat\""},
