@@ -14,14 +14,21 @@
 namespace plotscan {
 namespace {
 
-void say_crop(const Program& program, const std::map<std::string, double>& crops) {
+std::string crop_text(const std::map<std::string, double>& crops) {
   std::vector<std::string> likely;
   for (const auto& [crop, probability] : crops) {
     constexpr double kLeast = 0.005;
     if (probability >= kLeast)
       likely.push_back(fmt::format("{} {:.0f} %", crop, 100 * probability));
   }
-  program.say("crop       " + joined(likely, ", "));
+  return joined(likely, ", ");
+}
+
+void say_crops(const Program& program, const std::vector<std::map<std::string, double>>& trials) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::string trial = trials.size() > 1 ? fmt::format("trial {}: ", i + 1) : "";
+    program.say("crop       " + trial + crop_text(trials[i]));
+  }
 }
 
 // "EPSG:25832 (UTM 32N; ETRS89 is taken for WGS 84, within 2 m)", of a system that is UTM's.
@@ -84,7 +91,7 @@ void say_how(const Program& program, const estimate::Diagnostics& diagnostics, d
   }
   if (diagnostics.ground) say_ground(program, *diagnostics.ground);
   for (const std::string& line : diagnostics.lines) program.say(line);
-  if (!diagnostics.crops.empty()) say_crop(program, diagnostics.crops);
+  say_crops(program, diagnostics.crops);
 }
 
 void say_flags(const Program& program, const estimate::Estimate& estimate) {

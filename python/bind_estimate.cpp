@@ -45,6 +45,7 @@ void bind_plots(py::module_& module) {
       .def_readonly("high95_m", &Height::high95_m);
   py::class_<Plot>(module, "Plot")
       .def_readonly("id", &Plot::id)
+      .def_readonly("trial", &Plot::trial)
       .def_readonly("row", &Plot::row)
       .def_readonly("column", &Plot::column)
       .def_readonly("box", &Plot::box)

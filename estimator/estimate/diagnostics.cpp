@@ -71,7 +71,8 @@ json to_json(const Diagnostics& diagnostics) {
   if (diagnostics.points) add(*diagnostics.points, document);
   if (diagnostics.density_per_m2) document["density_per_m2"] = *diagnostics.density_per_m2;
   if (diagnostics.ground) document["ground"] = ground_json(*diagnostics.ground);
-  if (!diagnostics.crops.empty()) document["crops"] = diagnostics.crops;
+  if (diagnostics.crops.size() == 1) document["crops"] = diagnostics.crops.front();
+  if (diagnostics.crops.size() > 1) document["crops_of_trials"] = diagnostics.crops;
   if (!diagnostics.why_no_plots.empty()) document[kWhyNoPlots] = diagnostics.why_no_plots;
   if (diagnostics.boxes) document["boxes"] = boxes_json(*diagnostics.boxes);
   if (diagnostics.names) document["names"] = names_json(*diagnostics.names);

@@ -67,8 +67,8 @@ struct Diagnostics {
   std::optional<PointAccount> points = {};
   std::optional<double> density_per_m2 = {};  // in the median square of the field
   std::optional<GroundFacts> ground = {};
-  std::map<std::string, double> crops = {};  // how likely the field is of each
-  std::string why_no_plots = {};             // "" where there are plots
+  std::vector<std::map<std::string, double>> crops = {};  // how likely each trial is of each
+  std::string why_no_plots = {};                          // "" where there are plots
   std::optional<GivenBoxes> boxes = {};
   std::optional<GivenNames> names = {};
   // What only this method reports: as JSON for the manifest, and as lines for people.

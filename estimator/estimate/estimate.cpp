@@ -52,6 +52,7 @@ PlotFeature feature_of(const PlotEstimate& plot, const std::string& id_property)
   if (!feature.properties.contains(id_property)) feature.properties[id_property] = plot.id.json();
   feature.properties["points"] = plot.points;
   if (plot.box_error) add_numbers(kBoxErrors, numbers_of(*plot.box_error), feature.properties);
+  if (plot.trial > 0) feature.properties["trial_number"] = plot.trial;
   if (plot.row > 0) feature.properties["row_number"] = plot.row;
   if (plot.column > 0) feature.properties["col_number"] = plot.column;
   for (const auto& [name, height_m] : plot.heights_m) {
@@ -236,6 +237,7 @@ Estimate read_estimate(const fs::path& path) {
 
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
   PlotEstimate plot{.id = id_of(feature, number),
+                    .trial = integer_of(feature.properties, "trial_number", 0),
                     .row = integer_of(feature.properties, "row_number", 0),
                     .column = integer_of(feature.properties, "col_number", 0),
                     .box = feature.box,

@@ -35,8 +35,9 @@ struct PlotGround {
 // One plot as found in, or measured from, a cloud.
 struct PlotEstimate {
   PlotId id = 0;   // as given, else a number from 1
-  int row = 0;     // from 1; 0 when the method has no grid
-  int column = 0;  // from 1; 0 when the method has no grid
+  int trial = 0;   // from 1; 0 when the field is one trial, or the method has no trials
+  int row = 0;     // of the trial, from 1; 0 when the method has no grid
+  int column = 0;  // of the trial, from 1; 0 when the method has no grid
   PlotBox box;
   std::optional<PlotBoxError> box_error = std::nullopt;  // of a method that says how sure boxes are
   std::size_t points = 0;                                // cloud points the heights were taken from

@@ -58,6 +58,21 @@ void count_places(const NumberingOptions& options, std::vector<PlotEstimate>& pl
   count_from(corner, &PlotEstimate::column, &PlotEstimate::row, plots);
 }
 
+std::map<int, std::vector<PlotEstimate>> by_trial(const std::vector<PlotEstimate>& plots) {
+  std::map<int, std::vector<PlotEstimate>> trials;
+  for (const PlotEstimate& plot : plots) trials[plot.trial].push_back(plot);
+  return trials;
+}
+
+void require_one_trial(const std::vector<PlotEstimate>& plots) {
+  const std::size_t trials = by_trial(plots).size();
+  if (trials > 1)
+    throw InputError(fmt::format(
+        "plots of {} trials were found, and one trial is named; give the part of the field that is "
+        "named (--crop-box)",
+        trials));
+}
+
 void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimate>& plots) {
   int rows = 0;
   int columns = 0;
@@ -78,27 +93,31 @@ void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimat
 }  // namespace
 
 void number_plots(const NumberingOptions& options, Estimate& estimate) {
-  std::vector<PlotEstimate>& plots = estimate.plots;
-  count_places(options, plots);
-  const auto columns = static_cast<std::uint64_t>(most(plots, &PlotEstimate::column));
   const PlotNumbering numbering = options.numbering.value_or(PlotNumbering::rows);
+  std::uint64_t first = options.first_number.value_or(1);
   std::map<std::uint64_t, PlotEstimate> by_number;
-  for (PlotEstimate& plot : plots) {
-    const auto row = static_cast<std::uint64_t>(plot.row - 1);
-    const std::uint32_t place =
-        column_at(numbering, row, static_cast<std::uint32_t>(plot.column - 1),
-                  static_cast<std::uint32_t>(columns));
-    const std::uint64_t number = options.first_number.value_or(1) + row * columns + place;
-    plot.id = number;
-    by_number.emplace(number, std::move(plot));
+  for (auto& [trial, plots] : by_trial(estimate.plots)) {
+    count_places(options, plots);
+    const auto columns = static_cast<std::uint64_t>(most(plots, &PlotEstimate::column));
+    for (PlotEstimate& plot : plots) {
+      const auto row = static_cast<std::uint64_t>(plot.row - 1);
+      const std::uint32_t place =
+          column_at(numbering, row, static_cast<std::uint32_t>(plot.column - 1),
+                    static_cast<std::uint32_t>(columns));
+      const std::uint64_t number = first + row * columns + place;
+      plot.id = number;
+      by_number.emplace(number, std::move(plot));
+    }
+    first += static_cast<std::uint64_t>(most(plots, &PlotEstimate::row)) * columns;
   }
-  check(by_number.size() == plots.size(), "two plots in one row and column");
-  plots.clear();
-  for (auto& [number, plot] : by_number) plots.push_back(std::move(plot));
+  check(by_number.size() == estimate.plots.size(), "two plots in one row and column");
+  estimate.plots.clear();
+  for (auto& [number, plot] : by_number) estimate.plots.push_back(std::move(plot));
 }
 
 void name_plots(const NumberingOptions& options, const NamedPlaces& places, Estimate& estimate) {
   if (estimate.plots.empty()) return;
+  require_one_trial(estimate.plots);
   count_places(options, estimate.plots);
   require_same_shape(places, estimate.plots);
   std::map<std::pair<int, int>, NamedPlot> missing = places.plots;

@@ -28,14 +28,15 @@ struct NumberingOptions {
 
 // Counts rows (along the plots' length) and columns (along their width) from the first corner, and
 // numbers the plots along the rows. Every place of the grid has its number, a place without a plot
-// too: where a plot failed the others keep theirs. Plots come in the order of their numbers. Throws
-// InputError where the method gave no rows and columns.
+// too: where a plot failed the others keep theirs. Several trials are numbered one after the other.
+// Plots come in the order of their numbers. Throws InputError where the method gave no rows and
+// columns.
 void number_plots(const NumberingOptions& options, Estimate& estimate);
 
 // Counts rows and columns alike, and gives every plot the id and attributes of its place.
-// diagnostics.names says which of the places have no plot. Throws InputError where the named
-// field has not as many rows and columns as the one that was found, and where a plot lies in a
-// place without a name.
+// diagnostics.names says which of the places have no plot. Throws InputError where several trials
+// were found, where the named field has not as many rows and columns as the one that was found, and
+// where a plot lies in a place without a name.
 void name_plots(const NumberingOptions& options, const NamedPlaces& places, Estimate& estimate);
 
 }  // namespace plotscan::estimate

@@ -15,6 +15,7 @@ namespace {
 
 report::ShownPlot shown(const estimate::PlotEstimate& plot) {
   report::ShownPlot result{.id = plot.id.text(),
+                           .trial = plot.trial,
                            .row = plot.row,
                            .column = plot.column,
                            .box = plot.box,

@@ -2,245 +2,116 @@
 #include "plots/find_plots.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <optional>
 #include <utility>
 
-#include <fmt/core.h>
-#include <tbb/task_arena.h>
-
-#include "plots/internal/box_errors.h"
-#include "plots/internal/canopy_raster.h"
-#include "plots/internal/field_signs.h"
-#include "plots/internal/heading.h"
-#include "plots/internal/lattice.h"
-#include "plots/internal/layout.h"
-#include "plots/internal/outline.h"
-#include "plots/internal/sown_rows.h"
+#include "plots/internal/trial_area.h"
+#include "plots/internal/trial_search.h"
 
 namespace plotscan::plots {
 namespace {
 
-constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
-constexpr double kCell_m = 0.05;
-constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
-constexpr double kStep_m = 1e-3;         // from no leaves to leaves
+constexpr std::size_t kMostTrials = 6;
+constexpr std::size_t kLeastOfTrial = 4;  // of a trial beside others: fewer may be anything
+constexpr int kMostRounds = 3;
+constexpr double kNearlyAll = 0.97;  // of what stands on a field: what is left is no trial
 
-constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
-
-constexpr int kSizeRounds = 2;  // of size and centres in turn
-
-PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
-
-// Whether the ground beyond one of a plot's sides was not scanned.
-bool is_cut_off(const Lattice& lattice, const Place& place) {
-  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
-  const auto share = [&](int ra, int rb, int ca, int cb) {
-    return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
-  };
-  const double least = kLeastShare * share(r0, r1, c0, c1);
-  return share(r0 - beyond, r0, c0, c1) < least || share(r1, r1 + beyond, c0, c1) < least ||
-         share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
-}
-
-FieldFit fit_of(const Lattice& lattice, const std::optional<SownRows>& sown_rows) {
-  const bool by_c = lattice.c.size_m > lattice.r.size_m;
-  const Side &length = by_c ? lattice.c : lattice.r, &width = by_c ? lattice.r : lattice.c;
-  return {.layout = layout_of(lattice),
-          .columns_aligned = lattice.aligned,
-          .rms_along_length_m = length.rms_m,
-          .rms_along_width_m = width.rms_m,
-          .leaf_spread_m = std::max(lattice.r.blur_m, lattice.c.blur_m),
-          .sown_rows = sown_rows,
-          .side_contrast = lattice.contrast};
-}
-
-Frame frame_of(const FieldAxes& axes) {
-  return {.a_axis = {std::cos(axes.first_rad), std::sin(axes.first_rad)},
-          .b_axis = {std::cos(axes.second_rad), std::sin(axes.second_rad)}};
-}
-
-// Sizes that the user gave are the sizes; the length is the longer one.
-void take_given_sides(Lattice& lattice, const Hints& hints) {
-  const bool along_r = lattice.r.size_m >= lattice.c.size_m;
-  Side &length = along_r ? lattice.r : lattice.c, &width = along_r ? lattice.c : lattice.r;
-  length.size_m = hints.length_m.value_or(length.size_m);
-  width.size_m = hints.width_m.value_or(width.size_m);
-}
-
-// The rows that the plots are sown in. For plots of few rows leaves say little of the sown width:
-// the number of rows times their spacing is used instead.
-std::optional<SownRows> take_sown_rows(Lattice& lattice) {
-  std::optional<SownRows> rows = sown_rows_along(lattice);
-  if (rows) {
-    lattice.r.size_m = rows->extent_m();
-    return rows;
-  }
-  rows = sown_rows_along(lattice.turned());
-  if (rows) lattice.c.size_m = rows->extent_m();
-  return rows;
-}
-
-// Sizes and places in turn.
-std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
-  for (int round = 0; round < kSizeRounds; ++round) {
-    fit_edges(lattice);
-    straighten(lattice);
-  }
-  fit_edges(lattice);
-  const std::optional<SownRows> rows = take_sown_rows(lattice);
-  take_given_sides(lattice, hints);
-  return rows;
-}
-
-PlotField plots_on(const Lattice& lattice, const std::optional<SownRows>& sown_rows,
-                   double field_confidence, const Hints& hints) {
-  PlotField field{.fit = fit_of(lattice, sown_rows)};
-  const PlotBoxError error = box_error(lattice, hints);
-  const TrialLayout& layout = field.fit->layout;
-  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
-    const Place& place = lattice.places[i];
-    const double clearness = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
-    field.plots.push_back({.row = layout.places[i].row,
-                           .column = layout.places[i].column,
-                           .box = layout.box(layout.places[i]),
-                           .box_error = error,
-                           .confidence = field_confidence * clearness,
-                           .cut_off = is_cut_off(lattice, place)});
-  }
-  // Whichever axis the search took for that of the rows.
-  std::ranges::sort(field.plots, {},
-                    [](const FoundPlot& plot) { return std::pair(plot.row, plot.column); });
-  return field;
-}
-
-// "3 rows of 10 plots of 1.48 x 3.99 m".
-std::string text_of(const Layout& layout) {
-  std::size_t columns = 0;
-  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
-  std::size_t rows = layout.rows.size();
-  const double cell_m = layout.view.cell_m();
-  double length_m = layout.r_shape.size * cell_m, width_m = layout.c_shape.size * cell_m;
-  if (length_m < width_m) {
-    std::swap(length_m, width_m);
-    std::swap(rows, columns);
-  }
-  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
-}
-
-// The layout that the canopy shows more clearly than the user's; "" where there is none.
-std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
-  constexpr double kClearly = 1.1;
-  const Layout shown = best_layout(canopy);
-  const bool clearer = !shown.rows.empty() && shown.evidence > kClearly * told.evidence;
-  return clearer ? text_of(shown) : "";
-}
-
-// The result of a search along one pair of axes.
-struct Look {
-  PlotField field;
-  double evidence = 0;  // of its plots; 0 where there are none
+// A trial on the way: where it was last seen to lie.
+struct Trial {
+  std::vector<PlotBox> area;
+  Look look = {};
 };
 
-Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
-                Ends ends, int threads) {
-  const Frame frame = frame_of(axes);
-  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
-  const std::array scales = {
-      field.scale(),
-      CanopyScale{.low_m = leaves_m, .high_m = leaves_m + kStep_m, .with_tall = true}};
-  const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
-  const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
-  tbb::task_arena arena(threads);
-  Layout layout;
-  std::string rival;
-  arena.execute([&] {
-    layout = best_layout(canopy, hints, ends);
-    if (hints.tell_layout()) rival = rival_of(layout, canopy);
+std::vector<Eigen::Vector3f> without(const ScannedField& field, const std::vector<Trial>& trials,
+                                     const Trial* kept = nullptr) {
+  std::vector<PlotBox> areas;
+  for (const Trial& trial : trials)
+    if (&trial != kept) areas.insert(areas.end(), trial.area.begin(), trial.area.end());
+  return points_outside(field.points, areas);
+}
+
+Look look_outside(const ScannedField& field, const std::vector<Trial>& trials,
+                  const Trial* kept = nullptr) {
+  const std::vector<Eigen::Vector3f> points = without(field, trials, kept);
+  ScannedField part = field;
+  part.points = points;
+  return look_once(part);
+}
+
+// Adds one trial after the other, each in what the ones before leave of the canopy. It need not
+// convince yet, as those that are still to come disturb its picture.
+void propose(const ScannedField& field, Look look, std::vector<Trial>& trials) {
+  while (look.may_be >= kLeastOfTrial && trials.size() < kMostTrials) {
+    trials.push_back({.area = area_of(look.field.fit->layout)});
+    look = look_outside(field, trials);
+  }
+}
+
+// Looks at each trial with the others taken away, and drops it where it is no field of plots then.
+void confirm(const ScannedField& field, std::vector<Trial>& trials) {
+  for (std::size_t i = 0; i < trials.size();) {
+    Trial& trial = trials[i];
+    trial.look = look_outside(field, trials, &trial);
+    if (trial.look.field.plots.size() >= kLeastOfTrial) {
+      trial.area = area_of(trial.look.field.fit->layout);
+      ++i;
+    } else {
+      trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+}
+
+// The trials that are seen with the others taken away. What the first ones are shows more clearly
+// where the next may lie.
+std::vector<Trial> told_apart(const ScannedField& field, const Look& first) {
+  std::vector<Trial> trials;
+  propose(field, first, trials);
+  if (trials.size() < 2) return {};
+  confirm(field, trials);
+  propose(field, look_outside(field, trials), trials);
+  for (int round = 0; round < kMostRounds && trials.size() > 1; ++round) {
+    const std::size_t before = trials.size();
+    confirm(field, trials);
+    if (trials.size() == before) return trials;
+  }
+  return {};
+}
+
+double expected_plots(const std::vector<Trial>& trials) {
+  return std::accumulate(trials.begin(), trials.end(), 0.0, [](double sum, const Trial& trial) {
+    return sum + expected_plots(trial.look);
   });
-  if (layout.rows.empty()) {
-    const std::string shown = rival.empty() ? "" : "; the canopy shows " + rival;
-    return {no_plots((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
-                                          : "no plots of one size lie in rows here") +
-                     shown)};
-  }
-
-  layout.view.raster = &cover;
-  Lattice lattice = fit_lattice(layout, hints);
-  if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
-  const std::optional<SownRows> rows = refine(lattice, hints);
-  lattice.view.raster = &canopy;
-  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
-  lattice.view.raster = &cover;
-  const std::string because = hints.tell_layout() ? "" : no_plots_because(signs);
-  Look look{because.empty() ? plots_on(lattice, rows, field_confidence(signs), hints)
-                            : no_plots(because)};
-  if (because.empty()) look.evidence = layout.evidence;
-  look.field.signs = signs;
-  look.field.rival = rival;
-  return look;
 }
 
-Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
-              int threads) {
-  const CanopyRaster coarse =
-      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
-  std::optional<Look> best;
-  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
-    Look look = look_along(axes, field, noise_m, hints, ends, threads);
-    if (!best || look.evidence > best->evidence) best = std::move(look);
-  }
-  return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
-}
-
-// Whether plots were found that hold nearly all of the canopy.
-bool holds_most(const Look& look) {
-  constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost;
-}
-
-// Where a part of what stands on a field is taken for something else, what is left may be few
-// pieces of anything: they must be so many.
-bool is_field(const Look& look) {
-  constexpr std::size_t kLeastPlots = 4;
-  return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
-}
-
-// Whether a look shows more plots than the one before, as far as they are plots. The evidence of
-// the two is not that of the same canopy.
-bool shows_more(const Look& look, const Look& before) {
-  const auto expected = [](const Look& of) {
-    return static_cast<double>(of.field.plots.size()) * field_confidence(*of.field.signs);
-  };
-  return before.evidence == 0 || expected(look) > expected(before);
+double from_south_west_m(const Trial& trial) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const PlotBox& box : trial.area) sum += box.center;
+  return sum.sum() / static_cast<double>(trial.area.size());
 }
 
 }  // namespace
 
+std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, double noise_m,
+                                   const Hints& hints, int threads,
+                                   const GroundError& ground_error) {
+  const ScannedField field{points, noise_m, hints, threads, ground_error};
+  const auto [first, one] = look_in_all_ways(field);
+  const bool found = one.evidence > 0;
+  const bool is_all = found && one.explained > kNearlyAll && one.field.others_m2 == 0;
+  if (is_all || hints.tell_layout()) return {one.field};
+  std::vector<Trial> trials = told_apart(field, found ? one : first);
+  if (trials.size() < 2 || expected_plots(trials) <= expected_plots(one)) return {one.field};
+  std::ranges::sort(trials, {}, from_south_west_m);
+  std::vector<PlotField> fields;
+  for (Trial& trial : trials) fields.push_back(std::move(trial.look.field));
+  return fields;
+}
+
 PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
                      int threads, const GroundError& ground_error) {
-  const FieldBlocks blocks(points, noise_m, threads);
-  const std::vector<double> tops_m = blocks.crop_tops_m();
-  std::optional<Look> best;
-  const auto try_crop = [&](const Crop& crop, Ends ends) {
-    const FieldCanopy field(points, blocks, crop, threads, ground_error);
-    Look look = look_for(field, noise_m, hints, ends, threads);
-    look.field.others_m2 = blocks.covered_m2(crop.others);
-    if (!best || (is_field(look) && shows_more(look, *best))) best = std::move(look);
-  };
-  for (const double top_m : tops_m) try_crop({.top_m = top_m}, Ends::free);
-  if (!best) return no_plots(kNoCanopy);
-  if (holds_most(*best)) return std::move(best->field);
-  for (const std::vector<bool>& others : blocks.closed()) {
-    for (const double top_m : tops_m) try_crop({.top_m = top_m, .others = others}, Ends::free);
-    if (holds_most(*best)) break;
-  }
-  if (best->evidence > 0) return std::move(best->field);
-  for (const double top_m : tops_m) try_crop({.top_m = top_m}, Ends::even);
-  return std::move(best->field);
+  return look_in_all_ways({points, noise_m, hints, threads, ground_error}).best.field;
 }
 
 }  // namespace plotscan::plots

@@ -61,8 +61,9 @@ struct PlotField {
   // The layout that the canopy shows more clearly than the user's; "" where there is none.
   std::string rival = {};
   double others_m2 = 0;  // of canopy without gaps beside the plots, such as another crop: left out
+  // Of the plots, or of what was taken for them and refused.
   std::optional<FieldFit> fit = std::nullopt;
-  std::optional<FieldSigns> signs = std::nullopt;  // of the plots, or of what was taken for them
+  std::optional<FieldSigns> signs = std::nullopt;
 };
 
 }  // namespace plotscan::plots

@@ -43,6 +43,7 @@ json packed(const ShownPlot& plot) {
                    {"column", plot.column}, {"box", packed(plot.box)},
                    {"heights", heights},    {"flags", plot.flags},
                    {"truths", truths},      {"state", name_of(plot.state)}};
+  if (plot.trial > 0) document["trial"] = plot.trial;
   if (plot.points) document["points"] = *plot.points;
   if (plot.confidence) document["confidence"] = number(*plot.confidence);
   return document;

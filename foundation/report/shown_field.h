@@ -30,6 +30,7 @@ enum class PlotState : std::uint8_t { unscored, found, extra };
 // A plot of an estimate or, in a scan's page, of a map.
 struct ShownPlot {
   std::string id;
+  int trial = 0;   // from 1; 0: the only one
   int row = 0;     // from 1; 0: unknown
   int column = 0;  // from 1; 0: unknown
   PlotBox box;     // in the frame of the field's cloud, metres

@@ -12,6 +12,7 @@ namespace {
 
 Plot outer_plot(const estimate::PlotEstimate& plot) {
   Plot made{.id = plot.id.text(),
+            .trial = plot.trial,
             .row = plot.row,
             .column = plot.column,
             .box = outer(plot.box),
@@ -32,6 +33,7 @@ Plot outer_plot(const estimate::PlotEstimate& plot) {
 
 estimate::PlotEstimate inner_plot(const Plot& plot) {
   estimate::PlotEstimate made{.id = PlotId(plot.id),
+                              .trial = plot.trial,
                               .row = plot.row,
                               .column = plot.column,
                               .box = inner(plot.box),

@@ -39,8 +39,9 @@ struct Height {
 // One plot as found in, or measured from, a cloud.
 struct Plot {
   std::string id;
-  int row = 0;     // from 1; 0 where the method has no grid
-  int column = 0;  // from 1; 0 where the method has no grid
+  int trial = 0;   // from 1; 0 where the field is one trial
+  int row = 0;     // of the trial, from 1; 0 where the method has no grid
+  int column = 0;  // of the trial, from 1; 0 where the method has no grid
   Box box = {};
   std::optional<BoxError> box_error = {};  // absent where the method does not say, or was given it
   std::size_t points = 0;                  // that the heights were taken from

@@ -50,6 +50,7 @@ export type Height = [number, number | null, number | null, number | null];
 
 export interface Plot {
   id: string;
+  trial?: number;
   row: number;
   column: number;
   box: Box;

@@ -280,7 +280,8 @@ export class FieldView {
   private showDetails(): void {
     const plot = this.selected;
     if (!plot) return;
-    const place = plot.row > 0 ? `, row ${plot.row}, column ${plot.column}` : "";
+    const trial = plot.trial ? `, trial ${plot.trial}` : "";
+    const place = plot.row > 0 ? `${trial}, row ${plot.row}, column ${plot.column}` : trial;
     const [, , width, length, heading] = plot.box;
     const lines: (Node | null)[] = [
       h("h4", {}, `Plot ${plot.id}${place}`),
@@ -315,6 +316,7 @@ export class FieldView {
   private plotTable(): Table<Plot> {
     const { field } = this;
     const columns: Column<Plot>[] = [{ title: "plot", value: (plot) => (/^\d+$/.test(plot.id) ? Number(plot.id) : plot.id), shown: (plot) => plot.id }];
+    if (field.plots.some((plot) => plot.trial)) columns.push({ title: "trial", value: (plot) => plot.trial });
     if (field.plots.some((plot) => plot.row > 0))
       columns.push({ title: "row", value: (plot) => plot.row }, { title: "column", value: (plot) => plot.column });
     for (const name of heightNames(field)) {

@@ -175,8 +175,9 @@ export function drawMap({ field, measure, height, selected, pick }: MapOptions, 
 }
 
 export function mapCsv(field: Field, measure: Measure, height: string): string {
+  const trials = field.plots.some((plot) => plot.trial);
   return csv([
-    ["plot", "row", "column", "center_x_m", "center_y_m", "width_m", "length_m", "heading_deg", measure === "confidence" ? measure : `${height}_${measure}_m`, "flags"],
-    ...field.plots.map((plot) => [plot.id, plot.row || "", plot.column || "", ...plot.box, measured(plot, measure, height), plot.flags.join("; ")]),
+    ["plot", ...(trials ? ["trial"] : []), "row", "column", "center_x_m", "center_y_m", "width_m", "length_m", "heading_deg", measure === "confidence" ? measure : `${height}_${measure}_m`, "flags"],
+    ...field.plots.map((plot) => [plot.id, ...(trials ? [plot.trial ?? ""] : []), plot.row || "", plot.column || "", ...plot.box, measured(plot, measure, height), plot.flags.join("; ")]),
   ]);
 }

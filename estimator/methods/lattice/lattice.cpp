@@ -110,6 +110,22 @@ std::string why_none(const std::string& by_plots, double density_m2, double nois
   return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
 }
 
+void add_plots(const plots::PlotField& trial, int number,
+               std::vector<estimate::PlotEstimate>& found) {
+  for (const plots::FoundPlot& plot : trial.plots) {
+    found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
+                     .trial = number,
+                     .row = plot.row,
+                     .column = plot.column,
+                     .box = plot.box,
+                     .box_error = plot.box_error});
+    found.back().confidence = plot.confidence;
+    if (!trial.rival.empty())
+      found.back().flags.push_back("the canopy shows " + trial.rival + " more clearly");
+    if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
+  }
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              const ground::Surface& surface, const Options& options,
@@ -127,26 +143,16 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
     return {};
   }
   Stage stage("plots");
-  const plots::PlotField field = plots::find_plots(
+  const std::vector<plots::PlotField> trials = plots::find_trials(
       heights, surface.noise_m, hints_of(options), options.threads,
       [&](const Eigen::Vector2d& place) { return surface.standard_error(place); });
-  stage.found(std::to_string(field.plots.size()) + " plots");
-  diagnostics.of_method["field"] = json_of(field);
-  diagnostics.lines = lines_of(field);
-  if (!field.why_none.empty())
-    diagnostics.why_no_plots = why_none(field.why_none, cloud.density_m2, surface.noise_m);
+  report_trials(trials, diagnostics);
+  if (!trials.front().why_none.empty())
+    diagnostics.why_no_plots = why_none(trials.front().why_none, cloud.density_m2, surface.noise_m);
   std::vector<estimate::PlotEstimate> found;
-  for (const plots::FoundPlot& plot : field.plots) {
-    found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
-                     .row = plot.row,
-                     .column = plot.column,
-                     .box = plot.box,
-                     .box_error = plot.box_error});
-    found.back().confidence = plot.confidence;
-    if (!field.rival.empty())
-      found.back().flags.push_back("the canopy shows " + field.rival + " more clearly");
-    if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
-  }
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    add_plots(trials[i], trials.size() > 1 ? static_cast<int>(i + 1) : 0, found);
+  stage.found(std::to_string(found.size()) + " plots");
   return found;
 }
 
@@ -159,6 +165,7 @@ void take(const heights::PlotHeights& measured, estimate::PlotEstimate& plot) {
   plot.flags.insert(plot.flags.end(), measured.flags.begin(), measured.flags.end());
 }
 
+// Trials are measured one by one, as each has a crop of its own. Plots come trial by trial.
 void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
              const ground::Surface& surface, const Options& options,
              estimate::Diagnostics& diagnostics) {
@@ -167,13 +174,16 @@ void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
   boxes.reserve(plots.size());
   for (const estimate::PlotEstimate& plot : plots) boxes.push_back(plot.box);
   const std::vector<Points> inside = cloud::points_in_boxes(heights, boxes);
-  std::vector<heights::PlotPoints> clouds;
-  for (std::size_t i = 0; i < plots.size(); ++i) clouds.push_back({boxes[i], inside[i]});
-  const heights::FieldHeights measured = heights::measure_heights(
-      clouds, surface,
-      {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
-  for (std::size_t i = 0; i < plots.size(); ++i) take(measured.plots[i], plots[i]);
-  diagnostics.crops = measured.crops;
+  for (std::size_t first = 0; first < plots.size();) {
+    std::vector<heights::PlotPoints> clouds;
+    for (std::size_t i = first; i < plots.size() && plots[i].trial == plots[first].trial; ++i)
+      clouds.push_back({boxes[i], inside[i]});
+    const heights::FieldHeights measured = heights::measure_heights(
+        clouds, surface,
+        {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
+    for (const heights::PlotHeights& plot : measured.plots) take(plot, plots[first++]);
+    if (!measured.crops.empty()) diagnostics.crops.push_back(measured.crops);
+  }
 }
 
 estimate::PointAccount account_of(const cloud::FieldCloud& cloud, std::size_t with_ground) {

@@ -135,27 +135,30 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
 
 }  // namespace
 
+double held_share(const Lattice& lattice) {
+  const RowView& view = lattice.view;
+  double held = 0;
+  for (const Place& place : lattice.places) held += canopy_in(view, cells_about(lattice, place, 0));
+  return held / std::max(1e-9, canopy_in(view, {0, view.r_cells(), 0, view.c_cells()}));
+}
+
 FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
                     double evidence) {
-  const RowView& view = lattice.view;
   const Pieces pieces(lattice);
   const Squareness squareness = squareness_of(lattice);
   const double sides = std::hypot(lattice.r.size_m, lattice.c.size_m);
-  FieldSigns signs{.plots = lattice.places.size(),
-                   .filled_share = filled_share(lattice),
-                   .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
-                   .squareness = squareness.of_outline,
-                   .straightness = squareness.of_canopy,
-                   .roughness = roughness(lattice, field.points(), noise_m),
-                   .unevenness = unevenness_of(lattice, pieces),
-                   .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
-                   .aspect = least_aspect(lattice),
-                   .least_gap_m = least_gap_m(lattice),
-                   .evidence = evidence / static_cast<double>(lattice.places.size())};
-  for (const Place& place : lattice.places)
-    signs.held_share += canopy_in(view, cells_about(lattice, place, 0));
-  signs.held_share /= std::max(1e-9, canopy_in(view, {0, view.r_cells(), 0, view.c_cells()}));
-  return signs;
+  return {.plots = lattice.places.size(),
+          .held_share = held_share(lattice),
+          .filled_share = filled_share(lattice),
+          .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
+          .squareness = squareness.of_outline,
+          .straightness = squareness.of_canopy,
+          .roughness = roughness(lattice, field.points(), noise_m),
+          .unevenness = unevenness_of(lattice, pieces),
+          .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
+          .aspect = least_aspect(lattice),
+          .least_gap_m = least_gap_m(lattice),
+          .evidence = evidence / static_cast<double>(lattice.places.size())};
 }
 
 std::string no_plots_because(const FieldSigns& signs) {
@@ -173,6 +176,12 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.filled_share < kLeastFilled || field_confidence(signs) < kLeastConfidence)
     return "canopy lies here, but not in plots of one size at equal steps";
   return "";
+}
+
+bool may_be_beside_others(FieldSigns signs) {
+  signs.held_share = 1;
+  signs.evidence = std::numeric_limits<double>::max();
+  return no_plots_because(signs).empty();
 }
 
 double field_confidence(const FieldSigns& signs) {

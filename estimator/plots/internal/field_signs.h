@@ -10,12 +10,19 @@
 
 namespace plotscan::plots {
 
+// Share of the raster's canopy that lies in the plots.
+double held_share(const Lattice& lattice);
+
 // `lattice` is on a raster of the field's canopy.
 FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
                     double evidence);
 
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);
+
+// Whether these may be plots of a trial beside others, whose canopy is not held and takes from the
+// evidence: whether nothing else speaks against them.
+bool may_be_beside_others(FieldSigns signs);
 
 // 0 to 1: how clearly the field is one of plots.
 double field_confidence(const FieldSigns& signs);

@@ -40,7 +40,7 @@ TEST(Diagnostics, AreWrittenByTheKeysOfTheFormat) {
                           .points = kAll,
                           .density_per_m2 = 12.5,
                           .ground = GroundFacts{0.2, 7, 0.5, 0.25, 0.01},
-                          .crops = {{"wheat", 0.75}},
+                          .crops = {{{"wheat", 0.75}}},
                           .why_no_plots = "a reason",
                           .boxes = GivenBoxes{3, "plot_id", true},
                           .names = GivenNames{2, "name", {PlotId("A"), PlotId(7)}}};

@@ -186,6 +186,21 @@ TEST(Estimate, TabulatesErrorsBesideTheirHeights) {
       "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,,,,,,1,\n");
 }
 
+TEST(Estimate, NumbersTrialsWhereThereAreSeveral) {
+  const TemporaryFolder folder;
+  Estimate estimate = two_plots();
+  estimate.plots[0].trial = 1;
+  estimate.plots[1].trial = 2;
+  write_estimate(folder.path(), estimate);
+  const std::string table = read_text(folder.path() / "heights.csv");
+  EXPECT_THAT(table, ::testing::StartsWith("plot_number,trial_number,row_number,col_number,"));
+  EXPECT_THAT(table, ::testing::HasSubstr("\n1,1,1,2,"));
+  EXPECT_THAT(table, ::testing::HasSubstr("\n2,2,0,0,"));
+  const Estimate read = read_estimate(folder.path());
+  EXPECT_EQ(read.plots[0].trial, 1);
+  EXPECT_EQ(read.plots[1].trial, 2);
+}
+
 // Of given boxes: nothing was searched, so there is no confidence.
 TEST(Estimate, TabulatesFlagsOfGivenPlots) {
   const TemporaryFolder folder;

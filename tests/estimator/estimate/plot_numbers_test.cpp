@@ -54,6 +54,33 @@ std::string numbered(const NumberingOptions& options, Estimate estimate = found(
   return map_of(estimate);
 }
 
+// The same plots twice, the second time as a trial 100 m farther north.
+Estimate two_trials() {
+  Estimate estimate = found();
+  for (PlotEstimate plot : found().plots) {
+    plot.box.center.y() += 100;
+    plot.trial = 2;
+    estimate.plots.push_back(plot);
+  }
+  for (std::size_t i = 0; i < 6; ++i) estimate.plots[i].trial = 1;
+  return estimate;
+}
+
+TEST(PlotNumbers, CountEachTrialFromItsOwnCorner) {
+  EXPECT_EQ(numbered({.first_number = 101}, two_trials()),
+            "109 112\n108 111\n107 110\n" + numbered({.first_number = 101}));
+  EXPECT_EQ(numbered({.first_corner = Corner::nw}, two_trials()),
+            "7 10\n8 11\n9 12\n" + numbered({.first_corner = Corner::nw}));
+}
+
+TEST(PlotNumbers, AreGivenByNameToOneTrialOnly) {
+  Estimate estimate = two_trials();
+  const std::string message =
+      message_of<InputError>([&] { name_plots({}, NamedPlaces{}, estimate); });
+  EXPECT_THAT(message, HasSubstr("2 trials"));
+  EXPECT_THAT(message, HasSubstr("--crop-box"));
+}
+
 TEST(PlotNumbers, StartInTheCornerThatIsNamed) {
   EXPECT_EQ(numbered({.first_number = 101}), "103 106\n102 105\n101 104\n");
   EXPECT_EQ(numbered({.first_corner = Corner::se}), "6 3\n5 2\n4 1\n");

@@ -51,6 +51,17 @@ json signs_json(const plots::FieldSigns& signs) {
           {"evidence_per_plot", signs.evidence}};
 }
 
+std::string trial_line(const plots::PlotField& trial, std::size_t number) {
+  const TrialLayout& layout = trial.fit->layout;
+  std::string line = fmt::format(
+      "trial {}    {} plots of {:.2f} x {:.2f} m, heading {:.2f} deg, {} rows, {} columns", number,
+      trial.plots.size(), layout.width_m, layout.length_m, degrees(layout.heading_rad()),
+      layout.rows(), layout.columns());
+  if (const auto& sown = trial.fit->sown_rows)
+    line += fmt::format(", sown in {} rows, {:.2f} m apart", sown->rows, sown->spacing_m);
+  return line;
+}
+
 }  // namespace
 
 json json_of(const plots::PlotField& field) {
@@ -74,6 +85,18 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
     lines.push_back(fmt::format("left out   {:.0f} m2 of canopy without gaps beside the plots",
                                 field.others_m2));
   return lines;
+}
+
+void report_trials(std::span<const plots::PlotField> trials, estimate::Diagnostics& diagnostics) {
+  if (trials.size() == 1) {
+    diagnostics.of_method["field"] = json_of(trials.front());
+    diagnostics.lines = lines_of(trials.front());
+    return;
+  }
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    diagnostics.of_method["trials"].push_back(json_of(trials[i]));
+    diagnostics.lines.push_back(trial_line(trials[i], i + 1));
+  }
 }
 
 }  // namespace plotscan::methods::lattice

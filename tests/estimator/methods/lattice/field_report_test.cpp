@@ -22,5 +22,24 @@ TEST(FieldReport, TellsWhatWasLeftOut) {
   EXPECT_THAT(lines_of(field), Not(Contains(HasSubstr("left out"))));
 }
 
+TEST(FieldReport, TellsEachTrialWhereThereAreSeveral) {
+  plots::PlotField small{.plots = std::vector<plots::FoundPlot>(48), .fit = plots::FieldFit{}};
+  small.fit->layout = {.width_m = 1.2, .length_m = 2.5};
+  small.fit->sown_rows = plots::SownRows{.rows = 6, .spacing_m = 0.2};
+  estimate::Diagnostics of_one;
+  report_trials({&small, 1}, of_one);
+  EXPECT_EQ(of_one.lines, lines_of(small));
+  EXPECT_EQ(of_one.of_method["field"], json_of(small));
+  const std::vector<plots::PlotField> both = {small, small};
+  estimate::Diagnostics of_two;
+  report_trials(both, of_two);
+  EXPECT_FALSE(of_two.of_method.contains("field"));
+  EXPECT_EQ(of_two.of_method["trials"].size(), 2u);
+  EXPECT_THAT(of_two.lines,
+              ::testing::ElementsAre(HasSubstr("trial 1    48 plots of 1.20 x 2.50 m"),
+                                     HasSubstr("trial 2    48 plots of 1.20 x 2.50 m")));
+  EXPECT_THAT(of_two.lines.front(), HasSubstr("sown in 6 rows, 0.20 m apart"));
+}
+
 }  // namespace
 }  // namespace plotscan::methods::lattice

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/internal/trial_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+#include <tbb/task_arena.h>
+
+#include "plots/internal/box_errors.h"
+#include "plots/internal/canopy_raster.h"
+#include "plots/internal/field_signs.h"
+#include "plots/internal/heading.h"
+#include "plots/internal/lattice.h"
+#include "plots/internal/layout.h"
+#include "plots/internal/outline.h"
+#include "plots/internal/sown_rows.h"
+#include "plots/internal/trial_area.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
+constexpr double kCell_m = 0.05;
+constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
+constexpr double kStep_m = 1e-3;         // from no leaves to leaves
+
+constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
+
+constexpr int kSizeRounds = 2;  // of size and centres in turn
+
+PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
+
+// Whether the ground beyond one of a plot's sides was not scanned.
+bool is_cut_off(const Lattice& lattice, const Place& place) {
+  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
+  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
+  const auto share = [&](int ra, int rb, int ca, int cb) {
+    return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
+  };
+  const double least = kLeastShare * share(r0, r1, c0, c1);
+  return share(r0 - beyond, r0, c0, c1) < least || share(r1, r1 + beyond, c0, c1) < least ||
+         share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
+}
+
+// The same plots, each with half of the gaps beside it.
+Lattice with_gaps(Lattice lattice) {
+  for (Side* side : {&lattice.r, &lattice.c})
+    side->size_m += gap_of_trial_m(side->pitch_m, side->size_m);
+  return lattice;
+}
+
+FieldFit fit_of(const Lattice& lattice, const std::optional<SownRows>& sown_rows) {
+  const bool by_c = lattice.c.size_m > lattice.r.size_m;
+  const Side &length = by_c ? lattice.c : lattice.r, &width = by_c ? lattice.r : lattice.c;
+  return {.layout = layout_of(lattice),
+          .columns_aligned = lattice.aligned,
+          .rms_along_length_m = length.rms_m,
+          .rms_along_width_m = width.rms_m,
+          .leaf_spread_m = std::max(lattice.r.blur_m, lattice.c.blur_m),
+          .sown_rows = sown_rows,
+          .side_contrast = lattice.contrast};
+}
+
+Frame frame_of(const FieldAxes& axes) {
+  return {.a_axis = {std::cos(axes.first_rad), std::sin(axes.first_rad)},
+          .b_axis = {std::cos(axes.second_rad), std::sin(axes.second_rad)}};
+}
+
+// Sizes that the user gave are the sizes; the length is the longer one.
+void take_given_sides(Lattice& lattice, const Hints& hints) {
+  const bool along_r = lattice.r.size_m >= lattice.c.size_m;
+  Side &length = along_r ? lattice.r : lattice.c, &width = along_r ? lattice.c : lattice.r;
+  length.size_m = hints.length_m.value_or(length.size_m);
+  width.size_m = hints.width_m.value_or(width.size_m);
+}
+
+// The rows that the plots are sown in. For plots of few rows leaves say little of the sown width:
+// the number of rows times their spacing is used instead.
+std::optional<SownRows> take_sown_rows(Lattice& lattice) {
+  std::optional<SownRows> rows = sown_rows_along(lattice);
+  if (rows) {
+    lattice.r.size_m = rows->extent_m();
+    return rows;
+  }
+  rows = sown_rows_along(lattice.turned());
+  if (rows) lattice.c.size_m = rows->extent_m();
+  return rows;
+}
+
+// Sizes and places in turn.
+std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
+  for (int round = 0; round < kSizeRounds; ++round) {
+    fit_edges(lattice);
+    straighten(lattice);
+  }
+  fit_edges(lattice);
+  const std::optional<SownRows> rows = take_sown_rows(lattice);
+  take_given_sides(lattice, hints);
+  return rows;
+}
+
+std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layout,
+                                double field_confidence, const Hints& hints) {
+  std::vector<FoundPlot> plots;
+  const PlotBoxError error = box_error(lattice, hints);
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& place = lattice.places[i];
+    const double clearness = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
+    plots.push_back({.row = layout.places[i].row,
+                     .column = layout.places[i].column,
+                     .box = layout.box(layout.places[i]),
+                     .box_error = error,
+                     .confidence = field_confidence * clearness,
+                     .cut_off = is_cut_off(lattice, place)});
+  }
+  // Whichever axis the search took for that of the rows.
+  std::ranges::sort(plots, {},
+                    [](const FoundPlot& plot) { return std::pair(plot.row, plot.column); });
+  return plots;
+}
+
+// "3 rows of 10 plots of 1.48 x 3.99 m".
+std::string text_of(const Layout& layout) {
+  std::size_t columns = 0;
+  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
+  std::size_t rows = layout.rows.size();
+  const double cell_m = layout.view.cell_m();
+  double length_m = layout.r_shape.size * cell_m, width_m = layout.c_shape.size * cell_m;
+  if (length_m < width_m) {
+    std::swap(length_m, width_m);
+    std::swap(rows, columns);
+  }
+  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
+}
+
+// The layout that the canopy shows more clearly than the user's; "" where there is none.
+std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
+  constexpr double kMoreClearly = 1.1;
+  const Layout shown = best_layout(canopy);
+  const bool clearer = !shown.rows.empty() && shown.evidence > kMoreClearly * told.evidence;
+  return clearer ? text_of(shown) : "";
+}
+
+Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
+                Ends ends, int threads) {
+  const Frame frame = frame_of(axes);
+  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
+  const std::array scales = {
+      field.scale(),
+      CanopyScale{.low_m = leaves_m, .high_m = leaves_m + kStep_m, .with_tall = true}};
+  const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
+  const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
+  tbb::task_arena arena(threads);
+  Layout layout;
+  std::string rival;
+  arena.execute([&] {
+    layout = best_layout(canopy, hints, ends);
+    if (hints.tell_layout()) rival = rival_of(layout, canopy);
+  });
+  if (layout.rows.empty()) {
+    const std::string shown = rival.empty() ? "" : "; the canopy shows " + rival;
+    return {no_plots((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
+                                          : "no plots of one size lie in rows here") +
+                     shown)};
+  }
+
+  layout.view.raster = &cover;
+  Lattice lattice = fit_lattice(layout, hints);
+  if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
+  const std::optional<SownRows> rows = refine(lattice, hints);
+  lattice.view.raster = &canopy;
+  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
+  lattice.view.raster = &cover;
+  Look look{no_plots(hints.tell_layout() ? "" : no_plots_because(signs))};
+  look.field.fit = fit_of(lattice, rows);
+  look.field.signs = signs;
+  look.field.rival = rival;
+  look.explained = held_share(with_gaps(lattice));
+  constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
+  if (look.explained > kLeastOfAll && may_be_beside_others(signs)) look.may_be = signs.plots;
+  if (!look.field.why_none.empty()) return look;
+  look.field.plots = plots_on(lattice, look.field.fit->layout, field_confidence(signs), hints);
+  look.evidence = layout.evidence;
+  return look;
+}
+
+Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
+              int threads) {
+  const CanopyRaster coarse =
+      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+  std::optional<Look> best;
+  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
+    Look look = look_along(axes, field, noise_m, hints, ends, threads);
+    if (!best || std::pair(look.evidence, look.may_be) > std::pair(best->evidence, best->may_be))
+      best = std::move(look);
+  }
+  return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
+}
+
+// Where a part of what stands on a field is taken for something else, what is left may be few
+// pieces of anything: they must be so many.
+bool is_field(const Look& look) {
+  constexpr std::size_t kLeastPlots = 4;
+  return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
+}
+
+// Whether a look shows more plots than the one before, as far as they are plots. The evidence of
+// the two is not that of the same canopy.
+bool shows_more(const Look& look, const Look& before) {
+  if (look.evidence == 0 && before.evidence == 0) return look.may_be > before.may_be;
+  return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
+}
+
+// Looks at a field in several ways, and keeps the best.
+class TrialSearch {
+ public:
+  explicit TrialSearch(const ScannedField& scanned)
+      : scanned_(scanned),
+        blocks_(scanned.points, scanned.noise_m, scanned.threads),
+        tops_m_(blocks_.crop_tops_m()) {}
+
+  void look_in_every_canopy(Ends ends, const std::vector<bool>& others = {}) {
+    for (const double top_m : tops_m_) look({.top_m = top_m, .others = others}, ends);
+  }
+
+  // Another crop may stand beside the plots.
+  void look_beside_closed_canopy() {
+    for (const std::vector<bool>& others : blocks_.closed()) {
+      look_in_every_canopy(Ends::free, others);
+      if (holds_most(best())) return;
+    }
+  }
+
+  bool found_canopy() const { return best_.has_value(); }
+  Look best() const { return best_.value_or(Look{no_plots(kNoCanopy)}); }
+
+ private:
+  void look(const Crop& crop, Ends ends) {
+    const auto& [points, noise_m, hints, threads, ground_error] = scanned_;
+    const FieldCanopy field(points, blocks_, crop, threads, ground_error);
+    Look look = look_for(field, noise_m, hints, ends, threads);
+    look.field.others_m2 = blocks_.covered_m2(crop.others);
+    if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
+  }
+
+  const ScannedField& scanned_;
+  FieldBlocks blocks_;
+  std::vector<double> tops_m_;
+  std::optional<Look> best_;
+};
+
+}  // namespace
+
+bool holds_most(const Look& look) {
+  constexpr double kMost = 0.9;
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
+}
+
+double expected_plots(const Look& look) {
+  if (look.evidence == 0) return 0;
+  return static_cast<double>(look.field.plots.size()) * field_confidence(*look.field.signs);
+}
+
+Look look_once(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(Ends::free);
+  return search.best();
+}
+
+Looks look_in_all_ways(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(Ends::free);
+  const Look first = search.best();
+  if (!search.found_canopy() || holds_most(first)) return {first, first};
+  search.look_beside_closed_canopy();
+  if (search.best().evidence == 0) search.look_in_every_canopy(Ends::even);
+  return {first, search.best()};
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: the search of a field for plots of one size at equal steps.
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "plots/ground_error.h"
+#include "plots/hints.h"
+#include "plots/plot_field.h"
+
+namespace plotscan::plots {
+
+// A field as it was scanned, and what is known of it. Keeps references.
+struct ScannedField {
+  std::span<const Eigen::Vector3f> points;  // x, y, height above the ground, metres
+  double noise_m = 0;                       // sigma of the heights
+  const Hints& hints;
+  int threads = 1;
+  const GroundError& ground_error;
+};
+
+// What a look at a field shows: plots, or a layout that is refused, or nothing.
+struct Look {
+  PlotField field;
+  double evidence = 0;     // of its plots; 0 where there are none
+  std::size_t may_be = 0;  // plots, refused ones too, if those may be a trial beside others
+  double explained = 0;    // share of all that stands on the field, in the plots and their gaps
+};
+
+// Whether the plots hold nearly all of the canopy that was looked at.
+bool holds_most(const Look& look);
+
+// The number of plots times the field's confidence; 0 without plots.
+double expected_plots(const Look& look);
+
+// Looks at all canopy together, with each of the heights that the crop may have.
+Look look_once(const ScannedField& scanned);
+
+// The look at all canopy and, where that does not explain nearly all of it, the best of this and of
+// other explanations (docs/plot-finding.md, step 11).
+struct Looks {
+  Look first, best;
+};
+Looks look_in_all_ways(const ScannedField& scanned);
+
+}  // namespace plotscan::plots

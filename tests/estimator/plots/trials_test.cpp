@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <vector>
+
+#include "trial_cloud.h"
+#include <gtest/gtest.h>
+
+#include "core/angle.h"
+#include "core/random.h"
+#include "plots/find_plots.h"
+#include "plots/internal/trial_area.h"
+
+// Several trials on one field.
+namespace plotscan::plots {
+namespace {
+
+constexpr double kHeading_rad = 20 * kDegrees;
+
+// A grid of plots about a centre, both in the frame of the heading.
+std::vector<PlotBox> grid(int rows, int columns, const PlotBox& plot, const Eigen::Vector2d& gaps,
+                          const Eigen::Vector2d& center) {
+  std::vector<PlotBox> boxes;
+  const PlotBox axes{.heading_rad = kHeading_rad};
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double along = (row - 0.5 * (rows - 1)) * (plot.length_m + gaps.x()) + center.x();
+      const double across = (column - 0.5 * (columns - 1)) * (plot.width_m + gaps.y()) + center.y();
+      boxes.push_back(plot);
+      boxes.back().center = along * axes.length_axis() + across * axes.width_axis();
+      boxes.back().heading_rad = kHeading_rad;
+    }
+  }
+  return boxes;
+}
+
+// 14 plots, and 2 m beside them 30 smaller ones at other steps.
+std::vector<PlotBox> large_plots() {
+  return grid(2, 7, {.width_m = 1.5, .length_m = 4}, {0.8, 0.5}, {-4.7, 0});
+}
+std::vector<PlotBox> small_plots() {
+  return grid(3, 10, {.width_m = 0.9, .length_m = 2}, {0.7, 0.4}, {5.4, 0});
+}
+
+std::vector<PlotBox> both() {
+  std::vector<PlotBox> boxes = large_plots();
+  const std::vector<PlotBox> more = small_plots();
+  boxes.insert(boxes.end(), more.begin(), more.end());
+  return boxes;
+}
+
+// Each trial with its own plots, from the south-west on.
+void expect_both(const std::vector<PlotField>& trials) {
+  ASSERT_EQ(trials.size(), 2u);
+  expect_those(large_plots(), trials[0], 0.85);
+  expect_those(small_plots(), trials[1], 0.85);
+  EXPECT_NEAR(trials[0].fit->layout.length_m, 4, 0.1);
+  EXPECT_NEAR(trials[1].fit->layout.length_m, 2, 0.1);
+  EXPECT_EQ(trials[0].fit->layout.columns(), 7);
+  EXPECT_EQ(trials[1].fit->layout.columns(), 10);
+}
+
+TEST(FindTrials, FindsTwoTrialsOfPlotsOfTwoSizes) {
+  const std::vector<Eigen::Vector3f> points = cloud_over(both());
+  expect_both(find_trials(points, 0.02, {}, 2));
+  EXPECT_LT(find_plots(points, 0.02, {}, 2).plots.size(), both().size());
+}
+
+TEST(FindTrials, FindsATrialThatIsThreeTimesAsTallAsTheOther) {
+  std::vector<Eigen::Vector3f> points = cloud_over(both());
+  const std::vector<PlotBox> tall = small_plots();
+  for (Eigen::Vector3f& point : points) {
+    const Eigen::Vector2d place = point.head<2>().cast<double>();
+    if (std::ranges::any_of(tall, [&](const PlotBox& box) { return box.contains(place); }))
+      point.z() *= 3;
+  }
+  expect_both(find_trials(points, 0.02, {}, 2));
+}
+
+TEST(FindTrials, GivesTheSameForAnyNumberOfThreads) {
+  const std::vector<Eigen::Vector3f> points = cloud_over(both());
+  const std::vector<PlotField> one = find_trials(points, 0.02, {}, 1);
+  const std::vector<PlotField> seven = find_trials(points, 0.02, {}, 7);
+  ASSERT_EQ(one.size(), seven.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one[i].plots.size(), seven[i].plots.size());
+    for (std::size_t j = 0; j < one[i].plots.size(); ++j)
+      EXPECT_EQ(one[i].plots[j].box.center, seven[i].plots[j].box.center);
+  }
+}
+
+TEST(FindTrials, GivesOneTrialAsFindPlotsDoes) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  const std::vector<PlotField> trials = find_trials(points, 0.02, {}, 2);
+  ASSERT_EQ(trials.size(), 1u);
+  expect_those(boxes, trials.front());
+}
+
+TEST(FindTrials, SaysOnceWhyThereAreNone) {
+  const std::vector<PlotField> trials = find_trials(cloud_over({}), 0.02, {}, 2);
+  ASSERT_EQ(trials.size(), 1u);
+  EXPECT_NE(trials.front().why_none, "");
+}
+
+// What the user tells of plots is told of all of them.
+TEST(FindTrials, TakesToldPlotsAsOneTrial) {
+  const Hints hints{.rows = 2, .columns = 7};
+  EXPECT_EQ(find_trials(cloud_over(both()), 0.02, hints, 2).size(), 1u);
+}
+
+TEST(TrialArea, LeavesOutWhatLiesInTheBoxes) {
+  const std::vector<PlotBox> boxes = large_plots();
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    RandomStream random(3, random_purpose("test/area"), i);
+    points.emplace_back(static_cast<float>(random.uniform(-12, 12)),
+                        static_cast<float>(random.uniform(-12, 12)), 0.5F);
+  }
+  points.emplace_back(NAN, 0.0F, 0.0F);
+  const std::vector<Eigen::Vector3f> outside = points_outside(points, boxes);
+  const auto lies_in = [&](const Eigen::Vector3f& point, double wider_m) {
+    return std::ranges::any_of(boxes, [&](PlotBox box) {
+      box.width_m += wider_m;
+      box.length_m += wider_m;
+      return box.contains(point.head<2>().cast<double>());
+    });
+  };
+  const auto clearly_outside = [&](const auto& point) { return !lies_in(point, 0.2); };
+  const auto clearly_inside = [&](const auto& point) { return lies_in(point, -0.2); };
+  EXPECT_TRUE(std::ranges::none_of(outside, clearly_inside));
+  points.pop_back();
+  EXPECT_EQ(std::ranges::count_if(outside, clearly_outside),
+            std::ranges::count_if(points, clearly_outside));
+}
+
+TEST(TrialArea, TakesTheGapsBetweenThePlots) {
+  TrialLayout layout{.width_m = 1.5, .length_m = 4, .column_pitch_m = 2, .row_pitch_m = 4.8};
+  layout.places = {{.row = 1, .column = 1, .position_m = {0, 0}}};
+  EXPECT_NEAR(area_of(layout).front().width_m, 2, 1e-12);
+  EXPECT_NEAR(area_of(layout).front().length_m, 4.8, 1e-12);
+  layout.row_pitch_m = 0;  // one row only
+  EXPECT_NEAR(area_of(layout).front().length_m, 4.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace plotscan::plots
