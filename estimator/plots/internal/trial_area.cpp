@@ -67,6 +67,19 @@ std::vector<PlotBox> area_of(const TrialLayout& layout) {
   return boxes;
 }
 
+PlotBox outline_of(const TrialLayout& layout) {
+  PlotBox outline{.heading_rad = layout.heading_rad()};
+  Eigen::AlignedBox2d around;  // along the length, along the width
+  for (const TrialPlace& place : layout.places)
+    for (const Eigen::Vector2d& corner : layout.box(place).corners())
+      around.extend(outline.box_from_world(corner));
+  outline.center =
+      around.center().x() * outline.length_axis() + around.center().y() * outline.width_axis();
+  outline.length_m = around.sizes().x();
+  outline.width_m = around.sizes().y();
+  return outline;
+}
+
 std::vector<Eigen::Vector3f> points_outside(std::span<const Eigen::Vector3f> points,
                                             std::span<const PlotBox> boxes) {
   Eigen::AlignedBox2d extent;

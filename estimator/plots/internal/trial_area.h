@@ -20,6 +20,9 @@ double gap_of_trial_m(double pitch_m, double size_m);
 // layout.
 std::vector<PlotBox> area_of(const TrialLayout& layout);
 
+// The rectangle about all of a trial's plots, along its plots' sides.
+PlotBox outline_of(const TrialLayout& layout);
+
 // The finite points that lie in none of the boxes, to within 0.1 m.
 std::vector<Eigen::Vector3f> points_outside(std::span<const Eigen::Vector3f> points,
                                             std::span<const PlotBox> boxes);

@@ -9,7 +9,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "plots/find_plots.h"
+#include "plots/find_trials.h"
 
 // What stands beside the plots of a field.
 namespace plotscan::plots {

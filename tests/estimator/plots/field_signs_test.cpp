@@ -5,11 +5,12 @@
 #include <functional>
 #include <string>
 
+#include "trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "plots/find_plots.h"
+#include "plots/find_trials.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/find_plots.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,6 +10,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "plots/find_trials.h"
 #include "plots/internal/field_signs.h"
 
 namespace plotscan::plots {

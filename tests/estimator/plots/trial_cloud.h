@@ -13,7 +13,7 @@
 #include "core/angle.h"
 #include "core/plot_box.h"
 #include "core/random.h"
-#include "plots/find_plots.h"
+#include "plots/find_trials.h"
 
 namespace plotscan::plots {
 
@@ -69,6 +69,14 @@ inline std::vector<Eigen::Vector3f> cloud_over(const std::vector<PlotBox>& boxes
                         static_cast<float>(height));
   }
   return points;
+}
+
+// The plots of a field that is one trial.
+inline PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m,
+                            const Hints& hints, int threads, const GroundError& ground_error = {}) {
+  std::vector<PlotField> trials = find_trials(points, noise_m, hints, threads, ground_error);
+  EXPECT_EQ(trials.size(), 1u);
+  return trials.front();
 }
 
 // Those plots were found, and no others.

@@ -7,7 +7,7 @@
 
 #include "core/angle.h"
 #include "core/random.h"
-#include "plots/find_plots.h"
+#include "plots/find_trials.h"
 #include "plots/internal/trial_area.h"
 
 // Several trials on one field.
@@ -60,9 +60,7 @@ void expect_both(const std::vector<PlotField>& trials) {
 }
 
 TEST(FindTrials, FindsTwoTrialsOfPlotsOfTwoSizes) {
-  const std::vector<Eigen::Vector3f> points = cloud_over(both());
-  expect_both(find_trials(points, 0.02, {}, 2));
-  EXPECT_LT(find_plots(points, 0.02, {}, 2).plots.size(), both().size());
+  expect_both(find_trials(cloud_over(both()), 0.02, {}, 2));
 }
 
 TEST(FindTrials, FindsATrialThatIsThreeTimesAsTallAsTheOther) {
@@ -86,14 +84,6 @@ TEST(FindTrials, GivesTheSameForAnyNumberOfThreads) {
     for (std::size_t j = 0; j < one[i].plots.size(); ++j)
       EXPECT_EQ(one[i].plots[j].box.center, seven[i].plots[j].box.center);
   }
-}
-
-TEST(FindTrials, GivesOneTrialAsFindPlotsDoes) {
-  const std::vector<PlotBox> boxes = Trial{}.boxes();
-  const std::vector<Eigen::Vector3f> points = cloud_over(boxes);
-  const std::vector<PlotField> trials = find_trials(points, 0.02, {}, 2);
-  ASSERT_EQ(trials.size(), 1u);
-  expect_those(boxes, trials.front());
 }
 
 TEST(FindTrials, SaysOnceWhyThereAreNone) {
@@ -131,6 +121,33 @@ TEST(TrialArea, LeavesOutWhatLiesInTheBoxes) {
   points.pop_back();
   EXPECT_EQ(std::ranges::count_if(outside, clearly_outside),
             std::ranges::count_if(points, clearly_outside));
+}
+
+// Outer rows of shorter plots are no trial that lies about another.
+TEST(FindTrials, TakesRowsAboutATrialAsItsOwn) {
+  std::vector<PlotBox> boxes = Trial{.rows = 4, .offsets_m = {0, 0, 0, 0}}.boxes();
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i].center -= 2.4 * boxes[i].length_axis();
+    if (i >= 6 && i < 18) continue;
+    boxes[i].length_m -= 1;
+    boxes[i].center += (i < 6 ? 0.5 : -0.5) * boxes[i].length_axis();
+  }
+  EXPECT_EQ(find_trials(cloud_over(boxes), 0.02, {}, 2).size(), 1u);
+}
+
+TEST(TrialArea, HasAnOutlineAboutAllPlots) {
+  const std::vector<PlotBox> boxes = large_plots();
+  TrialLayout layout{.width_m = 1.5, .length_m = 4};
+  const PlotBox axes{.heading_rad = kHeading_rad};
+  layout.row_axis = -axes.width_axis();
+  layout.column_axis = axes.length_axis();
+  for (const PlotBox& box : boxes)
+    layout.places.push_back(
+        {.position_m = {-box.center.dot(axes.width_axis()), box.center.dot(axes.length_axis())}});
+  const PlotBox outline = outline_of(layout);
+  EXPECT_NEAR(outline.length_m, 2 * 4 + 0.8, 1e-9);
+  EXPECT_NEAR(outline.width_m, 7 * 1.5 + 6 * 0.5, 1e-9);
+  EXPECT_TRUE(outline.center.isApprox(-4.7 * axes.length_axis(), 1e-9));
 }
 
 TEST(TrialArea, TakesTheGapsBetweenThePlots) {

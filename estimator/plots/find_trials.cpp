@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/find_plots.h"
+#include "plots/find_trials.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +18,7 @@ constexpr std::size_t kLeastOfTrial = 4;  // of a trial beside others: fewer may
 constexpr int kMostRounds = 3;
 constexpr double kNearlyAll = 0.97;  // of what stands on a field: what is left is no trial
 
-// A trial on the way: where it was last seen to lie.
+// A trial on the way, and where it was last seen to lie.
 struct Trial {
   std::vector<PlotBox> area;
   Look look = {};
@@ -49,31 +49,42 @@ void propose(const ScannedField& field, Look look, std::vector<Trial>& trials) {
   }
 }
 
-// Looks at each trial with the others taken away, and drops it where it is no field of plots then.
-void confirm(const ScannedField& field, std::vector<Trial>& trials) {
+// Looks at a trial with the others taken away. Whether it is a field of plots then, and none of the
+// others' plots lie among its own.
+bool stands_alone(const ScannedField& field, const std::vector<Trial>& trials, Trial& trial) {
+  trial.look = look_outside(field, trials, &trial);
+  if (trial.look.field.plots.size() < kLeastOfTrial) return false;
+  const TrialLayout& layout = trial.look.field.fit->layout;
+  trial.area = area_of(layout);
+  const PlotBox outline = outline_of(layout);
+  return std::ranges::none_of(trials, [&](const Trial& other) {
+    return &other != &trial && std::ranges::any_of(other.area, [&](const PlotBox& box) {
+      return outline.contains(box.center);
+    });
+  });
+}
+
+void drop_unconfirmed(const ScannedField& field, std::vector<Trial>& trials) {
   for (std::size_t i = 0; i < trials.size();) {
-    Trial& trial = trials[i];
-    trial.look = look_outside(field, trials, &trial);
-    if (trial.look.field.plots.size() >= kLeastOfTrial) {
-      trial.area = area_of(trial.look.field.fit->layout);
+    if (stands_alone(field, trials, trials[i]))
       ++i;
-    } else {
+    else
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
-    }
   }
 }
 
-// The trials that are seen with the others taken away. What the first ones are shows more clearly
-// where the next may lie.
+// The trials that are fields of plots with all others taken away. Once the first ones are
+// confirmed, it shows more clearly where further ones lie.
 std::vector<Trial> told_apart(const ScannedField& field, const Look& first) {
   std::vector<Trial> trials;
   propose(field, first, trials);
   if (trials.size() < 2) return {};
-  confirm(field, trials);
+  drop_unconfirmed(field, trials);
+  if (trials.empty()) return {};
   propose(field, look_outside(field, trials), trials);
   for (int round = 0; round < kMostRounds && trials.size() > 1; ++round) {
     const std::size_t before = trials.size();
-    confirm(field, trials);
+    drop_unconfirmed(field, trials);
     if (trials.size() == before) return trials;
   }
   return {};
@@ -107,11 +118,6 @@ std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, doub
   std::vector<PlotField> fields;
   for (Trial& trial : trials) fields.push_back(std::move(trial.look.field));
   return fields;
-}
-
-PlotField find_plots(std::span<const Eigen::Vector3f> points, double noise_m, const Hints& hints,
-                     int threads, const GroundError& ground_error) {
-  return look_in_all_ways({points, noise_m, hints, threads, ground_error}).best.field;
 }
 
 }  // namespace plotscan::plots
