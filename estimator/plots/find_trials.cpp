@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -49,24 +48,17 @@ void propose(const ScannedField& field, Look look, std::vector<Trial>& trials) {
   }
 }
 
-// Looks at a trial with the others taken away. Whether it is a field of plots then, and none of the
-// others' plots lie among its own.
-bool stands_alone(const ScannedField& field, const std::vector<Trial>& trials, Trial& trial) {
+// Looks at a trial with the others taken away. Whether it is a field of plots then.
+bool is_confirmed(const ScannedField& field, const std::vector<Trial>& trials, Trial& trial) {
   trial.look = look_outside(field, trials, &trial);
   if (trial.look.field.plots.size() < kLeastOfTrial) return false;
-  const TrialLayout& layout = trial.look.field.fit->layout;
-  trial.area = area_of(layout);
-  const PlotBox outline = outline_of(layout);
-  return std::ranges::none_of(trials, [&](const Trial& other) {
-    return &other != &trial && std::ranges::any_of(other.area, [&](const PlotBox& box) {
-      return outline.contains(box.center);
-    });
-  });
+  trial.area = area_of(trial.look.field.fit->layout);
+  return true;
 }
 
 void drop_unconfirmed(const ScannedField& field, std::vector<Trial>& trials) {
   for (std::size_t i = 0; i < trials.size();) {
-    if (stands_alone(field, trials, trials[i]))
+    if (is_confirmed(field, trials, trials[i]))
       ++i;
     else
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
@@ -90,10 +82,29 @@ std::vector<Trial> told_apart(const ScannedField& field, const Look& first) {
   return {};
 }
 
-double expected_plots(const std::vector<Trial>& trials) {
-  return std::accumulate(trials.begin(), trials.end(), 0.0, [](double sum, const Trial& trial) {
-    return sum + expected_plots(trial.look);
+// Whether none of the trials has plots among those of another.
+bool lie_apart(const std::vector<Trial>& trials) {
+  return std::ranges::all_of(trials, [&](const Trial& trial) {
+    const PlotBox outline = outline_of(trial.look.field.fit->layout);
+    return std::ranges::none_of(trials, [&](const Trial& other) {
+      return &other != &trial && std::ranges::any_of(other.area, [&](const PlotBox& box) {
+        return outline.contains(box.center);
+      });
+    });
   });
+}
+
+// Whether these explain the field better than one trial does. Parts of one trial, such as its outer
+// rows, are as many plots and lie among each other.
+bool explain_more(const std::vector<Trial>& trials, const Look& one) {
+  double expected = 0;
+  std::size_t plots = 0;
+  for (const Trial& trial : trials) {
+    expected += expected_plots(trial.look);
+    plots += trial.look.field.plots.size();
+  }
+  return trials.size() > 1 && expected > expected_plots(one) &&
+         (lie_apart(trials) || plots >= one.field.plots.size() + kLeastOfTrial);
 }
 
 double from_south_west_m(const Trial& trial) {
@@ -113,7 +124,7 @@ std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, doub
   const bool is_all = found && one.explained > kNearlyAll && one.field.others_m2 == 0;
   if (is_all || hints.tell_layout()) return {one.field};
   std::vector<Trial> trials = told_apart(field, found ? one : first);
-  if (trials.size() < 2 || expected_plots(trials) <= expected_plots(one)) return {one.field};
+  if (!explain_more(trials, one)) return {one.field};
   std::ranges::sort(trials, {}, from_south_west_m);
   std::vector<PlotField> fields;
   for (Trial& trial : trials) fields.push_back(std::move(trial.look.field));

@@ -308,13 +308,13 @@ def score_estimate(estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou
 def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:
     """The plots as columns, arrays (plots,), from which pandas and polars make a table.
 
-    id, row, column, center_x_m, center_y_m, width_m, length_m, heading_deg, points, and for each height by
-    its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known; then
+    id, trial (0 where the field is one), row, column, center_x_m, center_y_m, width_m, length_m, heading_deg, points,
+    and for each height by its name <name>_m, <name>_standard_error_m, <name>_low95_m, <name>_high95_m; NaN where it is not known; then
     confidence (NaN where it is not known) and flags ("; " between them, "" without any). The box's standard errors
     are in each plot's box_error.
     """
     box_columns = ("center_x_m", "center_y_m", "width_m", "length_m", "heading_deg")
-    table = {name: numpy.array([getattr(plot, name) for plot in plots]) for name in ("id", "row", "column")}
+    table = {name: numpy.array([getattr(plot, name) for plot in plots]) for name in ("id", "trial", "row", "column")}
     for name in box_columns:
         table[name] = numpy.array([getattr(plot.box, name) for plot in plots])
     table["points"] = numpy.array([plot.points for plot in plots])

@@ -19,7 +19,9 @@ namespace {
 using Standing = std::function<double(double x, double y, RandomStream& random)>;
 
 // The same thing on every place of a lattice of 5 x 5 m steps, turned by 20 degrees, on 30 x 30 m.
-PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
+// What stands farther than half_m along the lattice's second axis is cut off.
+PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5,
+                   double half_m = 11) {
   constexpr double kTurn_rad = 0.35, kHalf_m = 15, kScatter_m = 0.02;
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 300000; ++i) {
@@ -27,7 +29,7 @@ PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_
     const double x = random.uniform(-kHalf_m, kHalf_m), y = random.uniform(-kHalf_m, kHalf_m);
     const double a = std::cos(kTurn_rad) * x + std::sin(kTurn_rad) * y;
     const double b = -std::sin(kTurn_rad) * x + std::cos(kTurn_rad) * y;
-    const bool in_field = std::abs(a) < 11 && std::abs(b) < 11;
+    const bool in_field = std::abs(a) < 11 && std::abs(b) < half_m;
     const double height =
         in_field ? standing(std::remainder(a, step_x_m), std::remainder(b, step_y_m), random) : 0;
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
@@ -44,12 +46,15 @@ bool in_box(double x, double y, double width_m, double length_m) {
   return std::abs(x) < width_m / 2 && std::abs(y) < length_m / 2;
 }
 
+const Standing kPlots = [](double x, double y, RandomStream& random) {
+  return in_box(x, y, 2, 4) ? random.uniform(0, 1) : 0;
+};
+
 // What the others are held against: the same lattice, with canopy in boxes.
 TEST(FieldSigns, LetPlotsBePlots) {
-  EXPECT_EQ(why_none_of([](double x, double y, RandomStream& random) {
-              return in_box(x, y, 2, 4) ? random.uniform(0, 1) : 0;
-            }),
-            "");
+  const PlotField field = field_of(kPlots, 5, 5, 12);
+  EXPECT_EQ(field.why_none, "");
+  EXPECT_EQ(field.plots.size(), 25u);
 }
 
 TEST(FieldSigns, TellCrowns) {
@@ -75,9 +80,7 @@ TEST(FieldSigns, TellTables) {
 // Heights drawn evenly from 0 to 1 m: the upper half of 0 to 0.95 m, the 95th percentile, is even
 // from 0.475 to 1 m.
 TEST(FieldSigns, MeasureRoughness) {
-  const PlotField field = field_of([](double x, double y, RandomStream& random) {
-    return in_box(x, y, 2, 4) ? random.uniform(0, 1) : 0;
-  });
+  const PlotField field = field_of(kPlots, 5, 5, 12);
   ASSERT_TRUE(field.signs);
   EXPECT_NEAR(field.signs->roughness, (1 - 0.475) / std::sqrt(12) / 0.95, 0.005);
 }
