@@ -127,6 +127,7 @@ std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, doub
   if (!explain_more(trials, one)) return {one.field};
   std::ranges::sort(trials, {}, from_south_west_m);
   std::vector<PlotField> fields;
+  fields.reserve(trials.size());
   for (Trial& trial : trials) fields.push_back(std::move(trial.look.field));
   return fields;
 }

@@ -146,6 +146,12 @@ std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
   return clearer ? text_of(shown) : "";
 }
 
+// How many plots of a trial beside others these may be.
+std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
+  constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
+  return explained > kLeastOfAll && may_be_beside_others(signs) ? signs.plots : 0;
+}
+
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
                 Ends ends, int threads) {
   const Frame frame = frame_of(axes);
@@ -181,8 +187,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   look.field.signs = signs;
   look.field.rival = rival;
   look.explained = held_share(with_gaps(lattice));
-  constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
-  if (look.explained > kLeastOfAll && may_be_beside_others(signs)) look.may_be = signs.plots;
+  look.may_be = plots_beside_others(signs, look.explained);
   if (!look.field.why_none.empty()) return look;
   look.field.plots = plots_on(lattice, look.field.fit->layout, field_confidence(signs), hints);
   look.evidence = layout.evidence;
@@ -214,6 +219,12 @@ bool is_field(const Look& look) {
 bool shows_more(const Look& look, const Look& before) {
   if (look.evidence == 0 && before.evidence == 0) return look.may_be > before.may_be;
   return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
+}
+
+// Whether the plots hold nearly all of the canopy that was looked at.
+bool holds_most(const Look& look) {
+  constexpr double kMost = 0.9;
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
 }
 
 // Looks at a field in several ways, and keeps the best.
@@ -255,11 +266,6 @@ class TrialSearch {
 };
 
 }  // namespace
-
-bool holds_most(const Look& look) {
-  constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost;
-}
 
 double expected_plots(const Look& look) {
   if (look.evidence == 0) return 0;

@@ -31,9 +31,6 @@ struct Look {
   double explained = 0;    // share of all that stands on the field, in the plots and their gaps
 };
 
-// Whether the plots hold nearly all of the canopy that was looked at.
-bool holds_most(const Look& look);
-
 // The number of plots times the field's confidence; 0 without plots.
 double expected_plots(const Look& look);
 
