@@ -41,16 +41,14 @@ nlohmann::json json_of(const farm::Spread& spread) {
 nlohmann::json json_of(const std::vector<farm::CultivarSummary>& cultivars) {
   nlohmann::json list = nlohmann::json::array();
   for (const farm::CultivarSummary& cultivar : cultivars) {
-    list.push_back({{"accession_name", cultivar.name},
-                    {"plots", cultivar.plots},
-                    {"plots_lodged", cultivar.lodged_plots},
-                    {"plants", cultivar.plants},
-                    {"plants_missing", cultivar.missing_plants},
-                    {"weeds", cultivar.weeds},
-                    {"height_mean_m", cultivar.height_mean_m},
-                    {"height_max_m", cultivar.height_max_m},
-                    {"plants_per_m2", cultivar.plants_per_m2},
-                    {"leaf_area_index", cultivar.leaf_area_index}});
+    nlohmann::json entry = {
+        {"accession_name", cultivar.name},           {"plots", cultivar.plots},
+        {"plots_lodged", cultivar.lodged_plots},     {"plants", cultivar.plants},
+        {"plants_missing", cultivar.missing_plants}, {"weeds", cultivar.weeds},
+        {"height_mean_m", cultivar.height_mean_m},   {"height_max_m", cultivar.height_max_m},
+        {"plants_per_m2", cultivar.plants_per_m2},   {"leaf_area_index", cultivar.leaf_area_index}};
+    if (cultivar.trial > 0) entry["trial_number"] = cultivar.trial;
+    list.push_back(std::move(entry));
   }
   return list;
 }
@@ -64,6 +62,7 @@ nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary)
                                {"triangles", summary.terrain_triangles}}},
                              {"models", summary.models},
                              {"plots", summary.plots},
+                             {"trials", summary.trials},
                              {"field_size_m", {summary.field_size_m.x(), summary.field_size_m.y()}},
                              {"plants", summary.plants},
                              {"plant_triangles", summary.plant_triangles},
@@ -77,6 +76,10 @@ nlohmann::json json_of(const farm::Farm& made, const farm::FarmSummary& summary)
 }
 
 void say_cultivars(const Program& program, const std::vector<farm::CultivarSummary>& cultivars) {
+  const bool several_trials = cultivars.back().trial > 0;
+  const auto trial = [&](const std::string& text) {
+    return several_trials ? fmt::format("{:>5}  ", text) : "";
+  };
   std::size_t width = std::char_traits<char>::length("cultivar");
   for (const farm::CultivarSummary& cultivar : cultivars) {
     width = std::max(width, cultivar.name.size());
@@ -84,10 +87,10 @@ void say_cultivars(const Program& program, const std::vector<farm::CultivarSumma
   const auto padded = [&](const std::string& name) {
     return name + std::string(width - name.size(), ' ');
   };
-  program.say(padded("cultivar") +
+  program.say(trial("trial") + padded("cultivar") +
               "  plots  lodged   plants  missing  weeds  mean m   max m  per m2   LAI");
   for (const farm::CultivarSummary& cultivar : cultivars) {
-    program.say(padded(cultivar.name) +
+    program.say(trial(std::to_string(cultivar.trial)) + padded(cultivar.name) +
                 fmt::format("  {:5}  {:6}  {:7}  {:7}  {:5}  {:6.3f}  {:6.3f}  {:6.1f}  {:4.2f}",
                             cultivar.plots, cultivar.lodged_plots, cultivar.plants,
                             cultivar.missing_plants, cultivar.weeds, cultivar.height_mean_m,
@@ -111,8 +114,10 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
                           summary.terrain_size_m.x(), summary.terrain_size_m.y(),
                           summary.terrain_z_m.x(), summary.terrain_z_m.y(),
                           summary.terrain_triangles));
-  program.say(fmt::format("plots           {} in a field of {:.1f} x {:.1f} m", summary.plots,
-                          summary.field_size_m.x(), summary.field_size_m.y()));
+  program.say(
+      fmt::format("plots           {}{} in a field of {:.1f} x {:.1f} m", summary.plots,
+                  summary.trials > 1 ? fmt::format(" of {} trials", summary.trials) : std::string(),
+                  summary.field_size_m.x(), summary.field_size_m.y()));
   program.say(fmt::format("plants          {} of {} models, {} triangles when placed",
                           summary.plants, summary.models, summary.plant_triangles));
   say_spread("plant heights", summary.plant_height_m);

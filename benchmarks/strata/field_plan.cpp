@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "lidar/fly_settings.h"
+#include "strata/side_by_side.h"
 
 namespace plotscan::strata {
 namespace {
@@ -169,6 +170,22 @@ void border(const Field& field) {
   field.plan.beside = Beside::border;
 }
 
+// Each trial has a crop, plots and gaps of its own.
+void several(const Field& field) {
+  std::vector<Overrides> trials;
+  for (int count = chance(field.random, 0.75) ? 2 : 3; count > 0; --count) {
+    FieldPlan alone;
+    draw_any({alone, field.sources, field.random});
+    trials.push_back(alone.overrides);
+  }
+  field.set(side_by_side(trials, field.plan.farm, field.random));
+  field.plan.farm = field.sources.strata / "trials.yaml";
+  draw_terrain(field);
+  draw_flight(field);
+  field.plan.flight.altitude_m += 2;  // as over maize
+  *field.plan.most_points *= trials.size();
+}
+
 void others(const Field& field) {
   draw_layout(field,
               {.width_m = field.random.uniform(1.2, 2), .length_m = field.random.uniform(3, 6)});
@@ -228,10 +245,10 @@ struct Stratum {
 
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
-      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},     {"touching", touching},
-      {"maize", maize},       {"objects", objects}, {"border", border},     {"others", others},
-      {"realism", realism},   {"sensors", sensors}, {"kentland", kentland}, {"paper", paper},
-      {"steep", steep}};
+      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},   {"touching", touching},
+      {"maize", maize},       {"objects", objects}, {"border", border},   {"several", several},
+      {"others", others},     {"realism", realism}, {"sensors", sensors}, {"kentland", kentland},
+      {"paper", paper},       {"steep", steep}};
   return all;
 }
 

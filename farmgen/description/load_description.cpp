@@ -32,17 +32,12 @@ planting::LayoutDescription read_layout(const YamlSection& section) {
   return layout;
 }
 
-void read_random_plants(const YamlSection& root, planting::FarmDescription& description) {
-  if (!description.plots) root.fail("plots", "is missing");
-  description.plants = read_plants(root.section("plants"), *description.plots, description.models);
-}
-
 void read_explicit_plants(const YamlSection& root, planting::FarmDescription& description) {
   if (root.has("plants")) root.fail("layout", "takes the place of plants; give one of the two");
   const YamlSection section = root.section("layout");
   description.layout = read_layout(section);
   read_models(section, description.models);
-  if (description.plots && description.layout->plots) {
+  if (!description.trials.empty() && description.layout->plots) {
     section.fail("plots", "takes the place of the plot grid; give one of the two");
   }
 }
@@ -58,12 +53,9 @@ planting::FarmDescription load_description(const std::filesystem::path& file,
   if (root.has("seed")) description.seed = root.unsigned_integer("seed");
   if (root.has("anchor")) description.anchor = read_anchor(root.section("anchor"));
   description.terrain = read_terrain(root.section("terrain"));
-  if (root.has("plots")) description.plots = read_plot_grid(root.section("plots"));
-  if (root.has("layout")) {
-    read_explicit_plants(root, description);
-  } else {
-    read_random_plants(root, description);
-  }
+  const bool sown = !root.has("layout");
+  description.trials = read_trials(root, sown, description.models);
+  if (!sown) read_explicit_plants(root, description);
   if (root.has("weeds")) description.weeds = read_weeds(root.section("weeds"), description.models);
   root.refuse_unread();
   return description;

@@ -70,7 +70,8 @@ struct CanopyHeights {
 // A plot, with the facts that a breeder's field book has.
 struct Plot {
   std::uint32_t id = 0;                               // the plot number; no two alike
-  int row = 0;                                        // from 1
+  int trial = 0;                                      // from 1; 0 where the farm is one trial
+  int row = 0;                                        // of the trial, from 1
   int column = 0;                                     // from 1, along the row
   PlotBox box;                                        // bounds the sown area
   std::uint32_t plant_count = 0;                      // of the crop: weeds are not counted

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "terrain/extent.h"
@@ -35,11 +37,14 @@ double summarise_plots(const std::vector<Plot>& plots, FarmSummary& summary) {
   const Eigen::AlignedBox2d field = extent_of(plots, &Plot::box);
   double area_m2 = 0;
   std::vector<double> heights;
+  std::set<int> trials;
   for (const Plot& plot : plots) {
+    trials.insert(plot.trial);
     area_m2 += plot.box.area_m2();
     if (plot.plant_count > 0) heights.push_back(plot.heights.max);
   }
   summary.plots = plots.size();
+  summary.trials = trials.size();
   if (!field.isEmpty()) summary.field_size_m = field.sizes();
   summary.plot_height_max_m = spread_of(heights);
   return area_m2;
@@ -68,10 +73,11 @@ using PlotLeaves = std::unordered_map<std::uint32_t, double>;
 
 std::vector<CultivarSummary> summarise_cultivars(const std::vector<Plot>& plots,
                                                  const PlotLeaves& leaves_m2) {
-  std::map<std::string, CultivarSums> cultivars;
+  std::map<std::pair<int, std::string>, CultivarSums> cultivars;
   for (const Plot& plot : plots) {
-    CultivarSums& sums = cultivars[plot.accession];
+    CultivarSums& sums = cultivars[{plot.trial, plot.accession}];
     CultivarSummary& own = sums.summary;
+    own.trial = plot.trial;
     own.name = plot.accession;
     ++own.plots;
     own.lodged_plots += plot.lodging_rad > kLodged_rad ? 1 : 0;
@@ -86,7 +92,7 @@ std::vector<CultivarSummary> summarise_cultivars(const std::vector<Plot>& plots,
   }
   std::vector<CultivarSummary> summaries;
   summaries.reserve(cultivars.size());
-  for (const auto& [name, sums] : cultivars) summaries.push_back(summary_of(sums));
+  for (const auto& [place, sums] : cultivars) summaries.push_back(summary_of(sums));
   return summaries;
 }
 

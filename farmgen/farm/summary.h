@@ -21,8 +21,9 @@ struct Spread {
   double max = 0;
 };
 
-// The plots of one cultivar.
+// The plots of one cultivar in a trial.
 struct CultivarSummary {
+  int trial = 0;  // as Plot::trial
   std::string name;
   std::size_t plots = 0;
   std::size_t lodged_plots = 0;  // whose plants lean more than kLodged_rad on average
@@ -42,6 +43,7 @@ struct FarmSummary {
   std::size_t terrain_triangles = 0;
   std::size_t models = 0;
   std::size_t plots = 0;
+  std::size_t trials = 0;                                  // that the plots are of
   std::size_t plants = 0;                                  // of the crop
   std::uint64_t plant_triangles = 0;                       // of all placed plants and weeds
   Eigen::Vector2d field_size_m = Eigen::Vector2d::Zero();  // bounding rectangle of the plots
@@ -50,7 +52,7 @@ struct FarmSummary {
   Spread plot_height_max_m;
   // Area of the crop's leaves (mesh::ScaledArea::of_leaves) over the area of the plots.
   double leaf_area_index = 0;
-  std::vector<CultivarSummary> cultivars;  // in the order of their names
+  std::vector<CultivarSummary> cultivars;  // by trial, then by name
 };
 
 FarmSummary summarise(const Farm& farm);

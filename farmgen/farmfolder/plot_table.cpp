@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmfolder/plot_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -67,6 +68,11 @@ class Attributes {
     return static_cast<std::uint32_t>(value);
   }
 
+  // The number, from 1; the fallback where there is none.
+  std::uint32_t whole_or(const char* name, std::uint32_t fallback) const {
+    return has(name) ? whole(name, 1) : fallback;
+  }
+
  private:
   static constexpr double kMost = std::numeric_limits<std::int32_t>::max();
 
@@ -96,6 +102,7 @@ nlohmann::json plot_attributes(const farm::Plot& plot) {
       {"block_number", plot.block}, {"accession_name", plot.accession},
       {"plants", plot.plant_count}, {"plants_missing", plot.missing_plants},
       {"weeds", plot.weed_count},   {"lodging_deg", plot.lodging_rad / kDegrees}};
+  if (plot.trial > 0) attributes["trial_number"] = plot.trial;
   for (const auto& [name, value] : kHeights) attributes[name] = plot.heights.*value;
   if (plot.canopy) {
     for (const auto& [name, value] : kCanopies) attributes[name] = *plot.canopy.*value;
@@ -139,6 +146,7 @@ std::vector<farm::Plot> read_plots(const std::filesystem::path& path) {
   for (const PlotFeature& feature : read_plot_features(path)) {
     const Attributes attributes(path, plots.size() + 1, feature.properties);
     farm::Plot plot{.id = attributes.whole("plot_number", 1),
+                    .trial = static_cast<int>(attributes.whole_or("trial_number", 0)),
                     .row = static_cast<int>(attributes.whole("row_number", 1)),
                     .column = static_cast<int>(attributes.whole("col_number", 1)),
                     .box = feature.box,
@@ -163,17 +171,15 @@ std::vector<farm::Plot> read_plot_boxes(const std::filesystem::path& path) {
   for (const PlotFeature& feature : read_plot_features(path)) {
     const auto place = static_cast<std::uint32_t>(plots.size() + 1);
     const Attributes attributes(path, place, feature.properties);
-    const auto whole_or = [&](const char* name, std::uint32_t fallback) {
-      return feature.properties.contains(name) ? attributes.whole(name, 1) : fallback;
-    };
-    farm::Plot plot{.id = whole_or("plot_number", place),
-                    .row = static_cast<int>(whole_or("row_number", 1)),
-                    .column = static_cast<int>(whole_or("col_number", place)),
+    farm::Plot plot{.id = attributes.whole_or("plot_number", place),
+                    .trial = static_cast<int>(attributes.whole_or("trial_number", 0)),
+                    .row = static_cast<int>(attributes.whole_or("row_number", 1)),
+                    .column = static_cast<int>(attributes.whole_or("col_number", place)),
                     .box = feature.box,
                     .plant_count = 0,
                     .heights = {},
-                    .rep = static_cast<int>(whole_or("rep_number", 1)),
-                    .block = static_cast<int>(whole_or("block_number", 1))};
+                    .rep = static_cast<int>(attributes.whole_or("rep_number", 1)),
+                    .block = static_cast<int>(attributes.whole_or("block_number", 1))};
     if (feature.properties.contains("accession_name")) {
       plot.accession = attributes.text("accession_name");
     }
@@ -185,12 +191,16 @@ std::vector<farm::Plot> read_plot_boxes(const std::filesystem::path& path) {
 
 void write_trial_layout(const std::filesystem::path& path, const std::string& trial,
                         const std::vector<farm::Plot>& plots) {
+  const bool several_trials =
+      std::ranges::any_of(plots, [](const farm::Plot& plot) { return plot.trial > 0; });
   TextFile out(path);
-  out << "plot_name,accession_name,plot_number,block_number,rep_number,row_number,col_number,"
+  out << "plot_name,accession_name,plot_number," << (several_trials ? "trial_number," : "")
+      << "block_number,rep_number,row_number,col_number,"
          "center_x_m,center_y_m,width_m,length_m,heading_deg\n";
   for (const farm::Plot& plot : plots) {
-    out << trial << "_" << plot.id << "," << csv_field(plot.accession) << "," << plot.id << ","
-        << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
+    out << trial << "_" << plot.id << "," << csv_field(plot.accession) << "," << plot.id << ",";
+    if (several_trials) out << plot.trial << ",";
+    out << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
     for (const double value : {plot.box.center.x(), plot.box.center.y(), plot.box.width_m,
                                plot.box.length_m, plot.box.heading_rad / kDegrees}) {
       out << "," << value;

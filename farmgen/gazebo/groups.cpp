@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -69,15 +70,15 @@ std::vector<PlantGroups> by_plot(const farm::Farm& farm, const PlantsByPlace& so
 }
 
 std::vector<PlantGroups> by_row(const farm::Farm& farm, const PlantsByPlace& sorted) {
-  std::map<std::pair<int, SurfaceClass>, PlantGroups> rows;
+  std::map<std::tuple<int, int, SurfaceClass>, PlantGroups> rows;
   for (const auto& [place, plants] : sorted.by_plot) {
     const farm::Plot& plot = farm.plots[place.first];
     PlantGroup group = plot_group(farm, plot, plants);
     group.link = classed(sdfxml::plot_element_name(plot.id), place.second);
     group.mesh_prefix = group.link + "_";
-    PlantGroups& row = rows[{plot.row, place.second}];
+    PlantGroups& row = rows[{plot.trial, plot.row, place.second}];
     if (row.links.empty()) {
-      row.name = classed(row_model_name(plot.row), place.second);
+      row.name = classed(row_model_name(plot.trial, plot.row), place.second);
       row.label = place.second;
       row.origin = group.origin;
     }

@@ -28,17 +28,21 @@ struct LayoutDescription {
   std::optional<std::filesystem::path> plots;  // GeoJSON, in place of a plot grid
 };
 
+// Plots that lie on one grid, and what is sown into them.
+struct TrialDescription {
+  PlotGridDescription plots;
+  std::optional<PlantsDescription> plants = {};  // absent where a layout places the plants
+};
+
 struct FarmDescription {
   std::filesystem::path source;  // the YAML file
   std::string name;
   std::optional<std::uint64_t> seed;
   std::optional<Anchor> anchor;
   terrain::TerrainDescription terrain;
-  std::optional<PlotGridDescription> plots;
+  std::vector<TrialDescription> trials;  // no two of their plots have one number
   std::vector<ModelDescription> models;
-  // One of the two.
-  std::optional<PlantsDescription> plants;
-  std::optional<LayoutDescription> layout;
+  std::optional<LayoutDescription> layout;  // in place of the trials' plants
   std::optional<WeedsDescription> weeds;
 };
 

@@ -15,6 +15,7 @@
 #include "planting/internal/weeds.h"
 #include "planting/plot_layout.h"
 #include "terrain/make_terrain.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/stage.h"
@@ -44,17 +45,50 @@ std::vector<farm::PlantModel> made_models(const FarmDescription& description) {
   return models;
 }
 
+// The trials, each with its heading.
+std::vector<TrialDescription> turned(std::vector<TrialDescription> trials, std::uint64_t seed) {
+  for (std::size_t place = 0; place < trials.size(); ++place)
+    trials[place].plots = turned(std::move(trials[place].plots), seed, place);
+  return trials;
+}
+
 // The plots of a farm whose plants a table places.
-std::vector<farm::Plot> laid_out_plots(const FarmDescription& description,
-                                       const std::optional<PlotGridDescription>& grid,
+std::vector<farm::Plot> laid_out_plots(const LayoutDescription& layout,
+                                       const std::vector<TrialDescription>& trials,
                                        std::uint64_t seed) {
-  if (!grid) {
-    return description.layout->plots ? farmfolder::read_plot_boxes(*description.layout->plots)
-                                     : std::vector<farm::Plot>();
+  std::vector<farm::Plot> plots;
+  if (layout.plots) plots = farmfolder::read_plot_boxes(*layout.plots);
+  for (std::size_t place = 0; place < trials.size(); ++place) {
+    const PlotGridDescription& grid = trials[place].plots;
+    for (const farm::Plot& plot : grid_plots(grid, trial_number(place, trials.size())))
+      if (!is_missing(grid, plot.id, seed)) plots.push_back(plot);
   }
-  std::vector<farm::Plot> plots = grid_plots(*grid);
-  std::erase_if(plots, [&](const farm::Plot& plot) { return is_missing(*grid, plot.id, seed); });
   return plots;
+}
+
+// Throws InputError when a trial has none.
+void require_plots_left(const FarmDescription& description, const std::vector<farm::Plot>& plots) {
+  const std::size_t trials = description.trials.size();
+  for (std::size_t place = 0; place < trials; ++place) {
+    if (std::ranges::count(plots, trial_number(place, trials), &farm::Plot::trial) > 0) continue;
+    const std::string section = trials > 1 ? "trials." + std::to_string(place) + ".plots" : "plots";
+    throw InputError(description.source,
+                     section + ": all " +
+                         std::to_string(plots_of(description.trials[place].plots)) +
+                         " are missing; a lower missing_rate leaves some");
+  }
+}
+
+// Throws InputError when a plot of one trial lies over one of another. (Those of one trial do not.)
+void require_trials_apart(const FarmDescription& description,
+                          const std::vector<farm::Plot>& plots) {
+  if (description.trials.size() < 2) return;
+  const auto pair = overlapping_plots(plots);
+  if (!pair) return;
+  throw InputError(description.source,
+                   fmt::format("trials: plots {} and {} overlap; another position_m, or another "
+                               "heading_deg, keeps the trials apart",
+                               pair->first, pair->second));
 }
 
 std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {
@@ -79,9 +113,9 @@ void add_weeds(const FarmDescription& description, farm::Farm& farm) {
 void add_plants(const FarmDescription& description, const std::vector<SownPlot>& sown,
                 farm::Farm& farm) {
   Stage stage("plants");
-  farm.plants = description.plants
-                    ? grow_plants(sown, farm.models, farm.terrain, description.source, farm.seed)
-                    : table_plants(*description.layout, farm.plots, farm.models, farm.terrain);
+  farm.plants = description.layout
+                    ? table_plants(*description.layout, farm.plots, farm.models, farm.terrain)
+                    : grow_plants(sown, farm.models, farm.terrain, description.source, farm.seed);
   if (description.weeds) add_weeds(description, farm);
   stage.found(std::to_string(farm.plants.size()) + " plants");
 }
@@ -117,12 +151,13 @@ void measure_plots(farm::Farm& farm) {
 }  // namespace
 
 farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
-  std::optional<PlotGridDescription> grid = description.plots;
-  if (grid) grid = turned(*grid, seed);
+  const std::vector<TrialDescription> trials = turned(description.trials, seed);
   std::vector<SownPlot> sown;
-  if (description.plants) sown = sow(*grid, *description.plants, seed);
+  if (!description.layout) sown = sow(trials, seed);
   std::vector<farm::Plot> plots =
-      description.plants ? planted_plots(sown) : laid_out_plots(description, grid, seed);
+      description.layout ? laid_out_plots(*description.layout, trials, seed) : planted_plots(sown);
+  require_plots_left(description, plots);
+  require_trials_apart(description, plots);
   terrain::MadeTerrain ground = made_terrain(description, plots, seed);
   farm::Farm farm{.name = description.name,
                   .seed = seed,
@@ -134,11 +169,6 @@ farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
                   .terrain_origin_m = ground.origin_m,
                   .soil_reflectance = description.terrain.reflectance};
   require_on_terrain(farm.plots, farm.terrain, description.source);
-  if (description.plots && farm.plots.empty()) {
-    throw InputError(description.source, "plots: all " +
-                                             std::to_string(plots_of(*description.plots)) +
-                                             " are missing; a lower missing_rate leaves some");
-  }
   add_plants(description, sown, farm);
   measure_plots(farm);
   return farm;

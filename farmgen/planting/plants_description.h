@@ -61,7 +61,11 @@ struct CultivarDescription {
 // The `plants` section of farm.yaml (docs/farm-format.md): plants drawn at random into every plot.
 struct PlantsDescription {
   std::vector<CultivarDescription> cultivars;  // one, farm::kNoAccession, where the file names none
-  TrialDescription trial = {};
+  DesignDescription design = {};
 };
+
+// Not more seeds than this are sown into the grid: every plot counts as one of the cultivar with
+// most.
+std::uint64_t most_seeds(const PlotGridDescription& grid, const PlantsDescription& plants);
 
 }  // namespace plotscan::planting

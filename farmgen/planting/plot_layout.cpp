@@ -109,11 +109,16 @@ TrialLayout layout_of(const PlotGridDescription& grid) {
   return layout;
 }
 
-std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid) {
+int trial_number(std::size_t place, std::size_t trials) {
+  return trials > 1 ? static_cast<int>(place) + 1 : 0;
+}
+
+std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid, int trial) {
   const TrialLayout layout = layout_of(grid);
   std::vector<farm::Plot> plots;
   for (const TrialPlace& place : layout.places) {
     plots.push_back({.id = grid.first_number + static_cast<std::uint32_t>(plots.size()),
+                     .trial = trial,
                      .row = place.row,
                      .column = place.column,
                      .box = layout.box(place),
@@ -123,9 +128,9 @@ std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid) {
   return plots;
 }
 
-PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed) {
+PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::size_t place) {
   if (!grid.random_heading) return grid;
-  grid.heading_rad = RandomStream(seed, random_purpose("plots/heading"), 0).uniform(0, 2 * kPi);
+  grid.heading_rad = RandomStream(seed, random_purpose("plots/heading"), place).uniform(0, 2 * kPi);
   return grid;
 }
 

@@ -18,12 +18,15 @@ namespace plotscan::planting {
 TrialLayout layout_of(const PlotGridDescription& grid);
 
 // All plots of a grid in the order of their numbers, without plants; missing plots are included.
-// Each box's length axis is the axis from row to row.
-std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid);
+// Each box's length axis is the axis from row to row. `trial`: farm::Plot::trial.
+std::vector<farm::Plot> grid_plots(const PlotGridDescription& grid, int trial = 0);
 
-// The grid; where its heading is to be random, with a heading that the seed draws, uniform in [0,
-// 360) degrees.
-PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed);
+// farm::Plot::trial of the plots of the trial at `place` (from 0) among `trials`.
+int trial_number(std::size_t place, std::size_t trials);
+
+// The grid of the trial at `place` (from 0). Where its heading is to be random, it gets one that
+// the seed draws, uniform in [0, 360) degrees.
+PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::size_t place = 0);
 
 // The numbers of two plots that overlap, the lower number first; nothing where no plots overlap.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(

@@ -11,6 +11,10 @@ std::uint64_t plots_of(const PlotGridDescription& grid) {
   return plots;
 }
 
+std::uint32_t last_number(const PlotGridDescription& grid) {
+  return grid.first_number + static_cast<std::uint32_t>(plots_of(grid)) - 1;
+}
+
 std::uint32_t columns_of(const PlotGridDescription& grid) {
   std::uint32_t columns = 0;
   for (const PlotRowDescription& row : grid.rows) columns = std::max(columns, row.plots);

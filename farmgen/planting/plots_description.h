@@ -46,6 +46,8 @@ struct PlotGridDescription {
 };
 
 std::uint64_t plots_of(const PlotGridDescription& grid);
+// The number of the last one.
+std::uint32_t last_number(const PlotGridDescription& grid);
 // Columns of the longest row.
 std::uint32_t columns_of(const PlotGridDescription& grid);
 

@@ -10,6 +10,9 @@
 namespace plotscan::planting {
 namespace {
 
+// Of a trial's random numbers: no two trials share one.
+std::uint64_t first_index(std::uint32_t trial) { return std::uint64_t{trial} << 32; }
+
 // Every order as likely as another (Fisher and Yates).
 void shuffle(std::vector<std::size_t>& values, RandomStream random) {
   for (std::size_t left = values.size(); left > 1; --left) {
@@ -56,12 +59,13 @@ void make_blocks(BlockBy by, std::size_t cultivars, std::vector<farm::Plot>& plo
 
 // The cultivars of each block in an order of the block's own.
 std::vector<std::size_t> randomised_blocks(const std::vector<farm::Plot>& plots,
-                                           std::size_t cultivars, std::uint64_t seed) {
+                                           std::size_t cultivars, std::uint64_t seed,
+                                           std::uint32_t trial) {
   std::vector<std::vector<std::size_t>> orders(plots.size() / cultivars);
   for (std::size_t block = 0; block < orders.size(); ++block) {
     orders[block].resize(cultivars);
     std::iota(orders[block].begin(), orders[block].end(), 0);
-    shuffle(orders[block], {seed, random_purpose("trial/block"), block + 1});
+    shuffle(orders[block], {seed, random_purpose("trial/block"), first_index(trial) + block + 1});
   }
   std::vector<std::size_t> assigned;
   for (const farm::Plot& plot : plots) {
@@ -72,38 +76,40 @@ std::vector<std::size_t> randomised_blocks(const std::vector<farm::Plot>& plots,
   return assigned;
 }
 
-std::vector<std::size_t> listed(const TrialDescription& trial, std::size_t plots) {
-  if (trial.list.size() == plots) return trial.list;
-  throw InputError("list names the cultivars of " + std::to_string(trial.list.size()) +
+std::vector<std::size_t> listed(const DesignDescription& design, std::size_t plots) {
+  if (design.list.size() == plots) return design.list;
+  throw InputError("list names the cultivars of " + std::to_string(design.list.size()) +
                    " plots; the grid has " + std::to_string(plots));
 }
 
-std::vector<std::size_t> drawn(const TrialDescription& trial, std::size_t cultivars,
-                               std::uint64_t seed, std::vector<farm::Plot>& plots) {
-  if (trial.design == TrialDesign::list) return listed(trial, plots.size());
-  if (trial.design == TrialDesign::rcbd) {
-    make_blocks(trial.block_by, cultivars, plots);
-    return randomised_blocks(plots, cultivars, seed);
+std::vector<std::size_t> drawn(const DesignDescription& design, std::size_t cultivars,
+                               std::uint64_t seed, std::vector<farm::Plot>& plots,
+                               std::uint32_t trial) {
+  if (design.design == TrialDesign::list) return listed(design, plots.size());
+  if (design.design == TrialDesign::rcbd) {
+    make_blocks(design.block_by, cultivars, plots);
+    return randomised_blocks(plots, cultivars, seed, trial);
   }
   std::vector<std::size_t> assigned(plots.size());
   for (std::size_t i = 0; i < assigned.size(); ++i) assigned[i] = i % cultivars;
-  if (trial.design == TrialDesign::random) {
-    shuffle(assigned, {seed, random_purpose("trial/random"), 0});
+  if (design.design == TrialDesign::random) {
+    shuffle(assigned, {seed, random_purpose("trial/random"), first_index(trial)});
   }
   return assigned;
 }
 
 }  // namespace
 
-std::vector<std::size_t> assign_cultivars(const TrialDescription& trial,
+std::vector<std::size_t> assign_cultivars(const DesignDescription& design,
                                           const std::vector<std::string>& accessions,
-                                          std::uint64_t seed, std::vector<farm::Plot>& plots) {
-  std::vector<std::size_t> assigned = drawn(trial, accessions.size(), seed, plots);
+                                          std::uint64_t seed, std::vector<farm::Plot>& plots,
+                                          std::uint32_t trial) {
+  std::vector<std::size_t> assigned = drawn(design, accessions.size(), seed, plots, trial);
   std::vector<int> replicates(accessions.size(), 0);
   for (std::size_t i = 0; i < plots.size(); ++i) {
     plots[i].accession = accessions[assigned[i]];
     const int replicate = ++replicates[assigned[i]];
-    plots[i].rep = trial.design == TrialDesign::rcbd ? plots[i].block : replicate;
+    plots[i].rep = design.design == TrialDesign::rcbd ? plots[i].block : replicate;
   }
   return assigned;
 }

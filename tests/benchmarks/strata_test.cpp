@@ -55,9 +55,10 @@ TEST_P(EveryStratum, HasFarmsThatCanBeMade) {
         description::load_description(plan.farm, plan.overrides);
     EXPECT_NO_THROW(lidar::require_valid(plan.flight)) << index;
     std::size_t places = 0;
-    for (const planting::PlotRowDescription& row : description.plots->rows) places += row.plots;
+    for (const planting::TrialDescription& trial : description.trials)
+      places += planting::plots_of(trial.plots);
     EXPECT_GE(places, 12U) << index;
-    EXPECT_LE(places, GetParam() == "kentland" ? 112U : 45U) << index;
+    EXPECT_LE(places, GetParam() == "kentland" ? 112U : 45U * description.trials.size()) << index;
   }
   const FieldPlan plan = plan_field("test", GetParam(), 0, kSources);
   const farm::Farm farm =
@@ -70,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryStratum, ::testing::ValuesIn(farm_strata()),
 
 planting::PlotGridDescription grid_of(const std::string& stratum, int index) {
   const FieldPlan plan = plan_field("test", stratum, index, kSources);
-  return *description::load_description(plan.farm, plan.overrides).plots;
+  return description::load_description(plan.farm, plan.overrides).trials.front().plots;
 }
 
 TEST(PlanField, StrataAreWhatTheirNamesSay) {

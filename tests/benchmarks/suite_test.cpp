@@ -71,10 +71,11 @@ TEST(LoadSuite, ThePapersProtocol) {
     EXPECT_EQ(farm.terrain.side_m, 80);
     EXPECT_EQ(farm.terrain.vertices, 150U);
     EXPECT_EQ(farm.terrain.relief_m, relief_m[i]);
-    ASSERT_EQ(farm.plants->cultivars.size(), 1U);
-    EXPECT_EQ(farm.plants->cultivars[0].count, 90U);
-    ASSERT_EQ(farm.plots->rows.size(), 3U);
-    for (const planting::PlotRowDescription& row : farm.plots->rows) EXPECT_EQ(row.plots, 10U);
+    ASSERT_EQ(farm.trials[0].plants->cultivars.size(), 1U);
+    EXPECT_EQ(farm.trials[0].plants->cultivars[0].count, 90U);
+    ASSERT_EQ(farm.trials[0].plots.rows.size(), 3U);
+    for (const planting::PlotRowDescription& row : farm.trials[0].plots.rows)
+      EXPECT_EQ(row.plots, 10U);
     EXPECT_EQ(suite.cases[i].published_rmse_cm, published_cm[i]);
     EXPECT_EQ(suite.cases[i].flight.spin_jitter, "none") << "Gazebo's rays turn steadily";
   }

@@ -25,7 +25,6 @@ constexpr Range kGapLength = {0, 1000};
 constexpr Range kLean = {0, 90};
 constexpr Range kDirection = {-360, 360};
 constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
-constexpr std::uint64_t kMostPlants = 10'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
 
 // A cultivar's section; keys that it lacks are taken from `plants`.
@@ -164,7 +163,7 @@ void read_list(const YamlSection& section, planting::PlantsDescription& plants) 
     std::vector<std::string> names;
     for (const planting::CultivarDescription& cultivar : plants.cultivars)
       names.push_back(cultivar.name);
-    plants.trial.list.push_back(entry.choice("cultivar", names));
+    plants.design.list.push_back(entry.choice("cultivar", names));
   }
 }
 
@@ -178,26 +177,26 @@ void require_replicates(const YamlSection& section, const planting::PlotGridDesc
                            " plots; the grid has " + std::to_string(planting::plots_of(grid)));
 }
 
-void read_trial(const YamlSection& section, const planting::PlotGridDescription& grid,
-                planting::PlantsDescription& plants) {
-  planting::TrialDescription& trial = plants.trial;
-  trial.design = static_cast<planting::TrialDesign>(
+void read_design(const YamlSection& section, const planting::PlotGridDescription& grid,
+                 planting::PlantsDescription& plants) {
+  planting::DesignDescription& design = plants.design;
+  design.design = static_cast<planting::TrialDesign>(
       section.choice("design", {"rcbd", "random", "cycle", "list"}, 0));
-  trial.block_by =
+  design.block_by =
       static_cast<planting::BlockBy>(section.choice("block_by", {"plots", "rows", "columns"}, 0));
-  if (section.has("block_by") && trial.design != planting::TrialDesign::rcbd) {
+  if (section.has("block_by") && design.design != planting::TrialDesign::rcbd) {
     section.fail("block_by", "belongs to design: rcbd");
   }
-  if (section.has("list") != (trial.design == planting::TrialDesign::list)) {
+  if (section.has("list") != (design.design == planting::TrialDesign::list)) {
     section.fail("list", "and design: list belong together");
   }
-  if (trial.design == planting::TrialDesign::list) read_list(section, plants);
+  if (design.design == planting::TrialDesign::list) read_list(section, plants);
   if (section.has("reps")) require_replicates(section, grid, plants.cultivars.size());
   std::vector<std::string> names(plants.cultivars.size());
   std::vector<farm::Plot> plots = planting::grid_plots(grid);
   std::vector<std::size_t> assigned;
   try {
-    assigned = planting::assign_cultivars(trial, names, 0, plots);
+    assigned = planting::assign_cultivars(design, names, 0, plots);
   } catch (const InputError& error) {
     section.fail("design", error.what());
   }
@@ -211,18 +210,14 @@ void read_trial(const YamlSection& section, const planting::PlotGridDescription&
 
 void require_countable(const YamlSection& section, const planting::PlotGridDescription& grid,
                        const planting::PlantsDescription& plants) {
-  std::uint64_t most = 0;
-  for (const planting::CultivarDescription& cultivar : plants.cultivars) {
-    most = std::max<std::uint64_t>(most, cultivar.count);
-  }
-  const std::uint64_t total = planting::plots_of(grid) * most;
-  if (total <= kMostPlants) return;
+  const std::uint64_t total = planting::most_seeds(grid, plants);
+  if (total <= kMostSeeds) return;
   section.fail(section.has("cultivars")    ? "cultivars"
                : section.has("density_m2") ? "density_m2"
                                            : "count",
                "makes " + std::to_string(total) + " plants in " +
                    std::to_string(planting::plots_of(grid)) + " plots; at most " +
-                   std::to_string(kMostPlants) + " are allowed");
+                   std::to_string(kMostSeeds) + " are allowed");
 }
 
 }  // namespace
@@ -233,10 +228,10 @@ planting::PlantsDescription read_plants(const YamlSection& section,
   planting::PlantsDescription plants;
   if (section.has("cultivars")) {
     read_cultivars(section, grid, plants, models);
-    read_trial(section, grid, plants);
+    read_design(section, grid, plants);
   } else {
     plants.cultivars.push_back(read_cultivar({section, section}, grid, models));
-    plants.trial.design = planting::TrialDesign::cycle;
+    plants.design.design = planting::TrialDesign::cycle;
   }
   require_countable(section, grid, plants);
   return plants;

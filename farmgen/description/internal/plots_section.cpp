@@ -120,7 +120,8 @@ void require_plots_apart(const YamlSection& section, const planting::PlotGridDes
 
 }  // namespace
 
-planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
+planting::PlotGridDescription read_plot_grid(const YamlSection& section,
+                                             std::uint32_t first_number) {
   planting::PlotGridDescription grid;
   grid.width_m = section.number("width_m", kPlotSize);
   grid.length_m = section.number("length_m", kPlotSize);
@@ -138,8 +139,8 @@ planting::PlotGridDescription read_plot_grid(const YamlSection& section) {
   if (section.choice("numbering", {"rows", "serpentine"}, 0) == 1) {
     grid.numbering = PlotNumbering::serpentine;
   }
-  grid.first_number =
-      static_cast<std::uint32_t>(section.integer("first_number", 1, kLargestFirstNumber, 1));
+  grid.first_number = static_cast<std::uint32_t>(
+      section.integer("first_number", 1, kLargestFirstNumber, first_number));
   require_plots_apart(section, grid);
   read_missing(section, grid);
   return grid;

@@ -23,7 +23,10 @@ std::optional<std::uint32_t> number_at(std::string_view text, std::size_t begin,
 
 }  // namespace
 
-std::string row_model_name(int row) { return "row_" + std::to_string(row); }
+std::string row_model_name(int trial, int row) {
+  const std::string name = "row_" + std::to_string(row);
+  return trial > 0 ? "trial_" + std::to_string(trial) + "_" + name : name;
+}
 
 std::string plant_model_name(std::uint32_t plot, std::uint32_t plant) {
   const std::string name = sdfxml::plant_element_name(plant);

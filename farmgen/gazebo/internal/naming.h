@@ -11,8 +11,8 @@
 //
 //   merge  model                   link             visual
 //   plot   plot_12                 link             leaf, stem, ...
-//   row    row_3                   plot_12          leaf, stem, ...
-//   none   plot_12_plant_345       link             visual
+//   row    row_3                   plot_12          leaf, stem, ...   (of several trials:
+//   trial_2_row_3) none   plot_12_plant_345       link             visual
 //
 // Weeds stand in models of their own, since Gazebo labels whole models: plot_12_weeds, row_3_weeds
 // (with links plot_12_weeds). Plants of no plot are in plants_outside_plots, _weeds, and with a
@@ -21,7 +21,8 @@
 // laser_retro (farm/surface_class.h).
 namespace plotscan::gazebo {
 
-std::string row_model_name(int row);
+// row_3; trial_2_row_3 where the farm has several trials (farm::Plot::trial above 0).
+std::string row_model_name(int trial, int row);
 std::string plant_model_name(std::uint32_t plot, std::uint32_t plant);
 // `name` + "_weeds".
 std::string weeds_name(const std::string& name);

@@ -204,18 +204,22 @@ class PlotPlants {
 
 }  // namespace
 
-std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescription& plants,
-                          std::uint64_t seed) {
-  std::vector<farm::Plot> plots = grid_plots(grid);
-  std::vector<std::string> accessions;
-  for (const CultivarDescription& cultivar : plants.cultivars) accessions.push_back(cultivar.name);
-  const std::vector<std::size_t> assigned = assign_cultivars(plants.trial, accessions, seed, plots);
+std::vector<SownPlot> sow(const std::vector<TrialDescription>& trials, std::uint64_t seed) {
   std::vector<SownPlot> sown;
-  std::uint64_t first_seed = 1;
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const CultivarDescription& cultivar = plants.cultivars[assigned[i]];
-    if (!is_missing(grid, plots[i].id, seed)) sown.push_back({plots[i], &cultivar, first_seed});
-    first_seed += cultivar.count;
+  std::uint64_t next_seed = 1;
+  for (std::size_t place = 0; place < trials.size(); ++place) {
+    const std::vector<CultivarDescription>& cultivars = trials[place].plants.value().cultivars;
+    std::vector<std::string> accessions;
+    for (const CultivarDescription& cultivar : cultivars) accessions.push_back(cultivar.name);
+    const PlotGridDescription& grid = trials[place].plots;
+    std::vector<farm::Plot> plots = grid_plots(grid, trial_number(place, trials.size()));
+    const std::vector<std::size_t> assigned = assign_cultivars(
+        trials[place].plants->design, accessions, seed, plots, static_cast<std::uint32_t>(place));
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+      const CultivarDescription& cultivar = cultivars[assigned[i]];
+      if (!is_missing(grid, plots[i].id, seed)) sown.push_back({plots[i], &cultivar, next_seed});
+      next_seed += cultivar.count;
+    }
   }
   return sown;
 }

@@ -5,23 +5,23 @@
 #include <filesystem>
 #include <vector>
 
-#include "planting/plants_description.h"
+#include "planting/farm_description.h"
 
 #include "farm/farm.h"
 
 namespace plotscan::planting {
 
-// A plot, what is sown into it, and its first seed's number among all seeds of the grid.
+// A plot, what is sown into it, and its first seed's number among all seeds of the farm.
 struct SownPlot {
   farm::Plot plot;
   const CultivarDescription* cultivar = nullptr;
   std::uint64_t first_seed = 1;
 };
 
-// The plots of the grid that are not missing, with the cultivar and the seeds of each. The seeds of
-// missing plots count, so that nothing else changes when a plot is missing.
-std::vector<SownPlot> sow(const PlotGridDescription& grid, const PlantsDescription& plants,
-                          std::uint64_t seed);
+// The plots of the trials that are not missing, with the cultivar and the seeds of each. The seeds
+// of missing plots count, so that nothing else changes when a plot is missing. Refers to `trials`,
+// all of which have plants.
+std::vector<SownPlot> sow(const std::vector<TrialDescription>& trials, std::uint64_t seed);
 
 // The plants that come up: position uniform in the plot or drilled in rows, yaw uniform in
 // [0, 2 pi) or along the row, each axis' scale uniform in [min, max] or, along z, from a drawn

@@ -67,21 +67,21 @@ TEST(Description, ReadsEveryKey) {
   EXPECT_EQ(farm.terrain.side_m, 30);
   EXPECT_EQ(farm.terrain.vertices, 12u);
   EXPECT_EQ(farm.terrain.relief_m, 0.25);
-  EXPECT_EQ(farm.plots->width_m, 1.5);
-  EXPECT_EQ(farm.plots->length_m, 4);
-  EXPECT_EQ(farm.plots->gap_width_m, 0.5);
-  EXPECT_EQ(farm.plots->gap_length_m, 0);
-  EXPECT_DOUBLE_EQ(farm.plots->heading_rad, std::numbers::pi / 2);
-  EXPECT_EQ(farm.plots->position_m, Eigen::Vector2d(1, -2));
-  ASSERT_EQ(farm.plots->rows.size(), 2u);
-  EXPECT_EQ(farm.plots->rows[0].plots, 10u);
-  EXPECT_EQ(farm.plots->rows[0].offset_m, 0.5);
-  EXPECT_EQ(farm.plots->rows[1].plots, 3u);
-  EXPECT_EQ(farm.plants->cultivars[0].count, 90u);
-  EXPECT_EQ(farm.plants->cultivars[0].pattern, planting::PlantPattern::drilled);
-  EXPECT_EQ(farm.plants->cultivars[0].drill_rows, 3u);
-  EXPECT_EQ(farm.plants->cultivars[0].min_scale, 0.8);
-  EXPECT_EQ(farm.plants->cultivars[0].max_scale, 1.2);
+  EXPECT_EQ(farm.trials[0].plots.width_m, 1.5);
+  EXPECT_EQ(farm.trials[0].plots.length_m, 4);
+  EXPECT_EQ(farm.trials[0].plots.gap_width_m, 0.5);
+  EXPECT_EQ(farm.trials[0].plots.gap_length_m, 0);
+  EXPECT_DOUBLE_EQ(farm.trials[0].plots.heading_rad, std::numbers::pi / 2);
+  EXPECT_EQ(farm.trials[0].plots.position_m, Eigen::Vector2d(1, -2));
+  ASSERT_EQ(farm.trials[0].plots.rows.size(), 2u);
+  EXPECT_EQ(farm.trials[0].plots.rows[0].plots, 10u);
+  EXPECT_EQ(farm.trials[0].plots.rows[0].offset_m, 0.5);
+  EXPECT_EQ(farm.trials[0].plots.rows[1].plots, 3u);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].count, 90u);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].pattern, planting::PlantPattern::drilled);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].drill_rows, 3u);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].min_scale, 0.8);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].max_scale, 1.2);
   ASSERT_EQ(farm.models.size(), 2u);
   EXPECT_EQ(farm.models[0].name, "one");
   EXPECT_EQ(farm.models[0].mesh, farm.source.parent_path() / "a/one.obj");
@@ -98,10 +98,10 @@ TEST(Description, OverridesReplaceAndAdd) {
       load(kBase, {"terrain.relief_m=1", "plots.rows.1.plots=5", "plots.gap_length_m=2",
                    "plants.scale=[0.5, 0.6]", "name=other", "name=last"});
   EXPECT_EQ(farm.terrain.relief_m, 1);
-  EXPECT_EQ(farm.plots->rows[0].plots, 10u);
-  EXPECT_EQ(farm.plots->rows[1].plots, 5u);
-  EXPECT_EQ(farm.plots->gap_length_m, 2);
-  EXPECT_EQ(farm.plants->cultivars[0].min_scale, 0.5);
+  EXPECT_EQ(farm.trials[0].plots.rows[0].plots, 10u);
+  EXPECT_EQ(farm.trials[0].plots.rows[1].plots, 5u);
+  EXPECT_EQ(farm.trials[0].plots.gap_length_m, 2);
+  EXPECT_EQ(farm.trials[0].plants->cultivars[0].min_scale, 0.5);
   EXPECT_EQ(farm.name, "last");
   EXPECT_EQ(farm.models.size(), 2u);
 }
@@ -136,8 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "side_m, vertices, relief_m, slope, rolling, furrows, clods, step_m, detail_m, "
                 "reflectance"},
         Mistake{"UnknownSection", "plots:", "ground: 3\nplots:",
-                "7: ground is not a known key; known here are name, seed, anchor, terrain, plots, "
-                "layout, plants, weeds"},
+                "7: ground is not a known key; known here are name, seed, anchor, terrain, layout, "
+                "trials, plots, plants, weeds"},
         Mistake{"MisspeltSection",
                 "terrain:", "terain:", "3: terain is not a known key, and terrain is missing"},
         Mistake{"MissingSection", "terrain:", "ground:", "1: terrain is missing"},

@@ -25,10 +25,11 @@ planting::FarmDescription loaded(const std::vector<std::string>& overrides) {
 
 TEST(FieldDescription, ReadsEveryKeyOfPlots) {
   const planting::PlotGridDescription grid =
-      *loaded({"plots.numbering=serpentine", "plots.first_number=101", "plots.skew_deg=-5",
-               "plots.gap_width_m=1", "plots.missing=[105, 101]", "plots.missing_rate=0.25",
-               "plots.alleys=[{after_column: 2, width_m: 2}, {after_row: 1, width_m: 3}]"})
-           .plots;
+      loaded({"plots.numbering=serpentine", "plots.first_number=101", "plots.skew_deg=-5",
+              "plots.gap_width_m=1", "plots.missing=[105, 101]", "plots.missing_rate=0.25",
+              "plots.alleys=[{after_column: 2, width_m: 2}, {after_row: 1, width_m: 3}]"})
+          .trials[0]
+          .plots;
   EXPECT_EQ(grid.numbering, PlotNumbering::serpentine);
   EXPECT_EQ(grid.first_number, 101u);
   EXPECT_DOUBLE_EQ(grid.skew_rad, -5 * kDegrees);
@@ -48,9 +49,9 @@ TEST(FieldDescription, ReadsEveryKeyOfPlantsAndWeeds) {
        "{plots_rate: 1, angle_deg: [30, 40], spread_deg: 3, direction_deg: 90}}]",
        "weeds={per_m2: 3, where: alleys, margin_m: 2, scale: [0.5, 1], models: [{crop: "
        "soybean}]}"});
-  const std::vector<planting::CultivarDescription>& cultivars = farm.plants->cultivars;
+  const std::vector<planting::CultivarDescription>& cultivars = farm.trials[0].plants->cultivars;
   ASSERT_EQ(cultivars.size(), 2u);
-  EXPECT_EQ(farm.plants->trial.design, planting::TrialDesign::cycle);
+  EXPECT_EQ(farm.trials[0].plants->design.design, planting::TrialDesign::cycle);
   EXPECT_EQ(cultivars[0].name, "A");
   EXPECT_EQ(cultivars[0].count, 20u);
   EXPECT_EQ(cultivars[1].count, 5u);

@@ -19,6 +19,7 @@ TEST(Summary, CountsWhatTheFarmHolds) {
   const FarmSummary summary = summarise(farm);
   EXPECT_EQ(summary.terrain_size_m, Eigen::Vector2d(20, 20));
   EXPECT_EQ(summary.plots, 5u);
+  EXPECT_EQ(summary.trials, 1u);
   EXPECT_EQ(summary.plants, 100u);
   EXPECT_EQ(summary.models, 2u);
   double least = 1e9;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "farmgen/gazebo/export_example.h"
+#include "gazebo/groups.h"
 #include "sdfxml/elements.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -110,7 +111,7 @@ TEST(Export, MergedMeshesAreTheUnionOfThePlacedPlantsByMaterial) {
             const bool weed = kind == farm::PlantKind::weed;
             const std::string part = sdfxml::plot_element_name(plot.id);
             const std::string link = weed ? weeds_name(part) : part;
-            const std::string row = row_model_name(plot.row);
+            const std::string row = row_model_name(plot.trial, plot.row);
             const std::string model = merge == Merge::plot ? link : (weed ? weeds_name(row) : row);
             const std::string stem = merge == Merge::plot ? look.file : link + "_" + look.file;
             const fs::path file =
@@ -127,6 +128,21 @@ TEST(Export, MergedMeshesAreTheUnionOfThePlacedPlantsByMaterial) {
       EXPECT_GT(corners, 200u) << "the comparison compared something";
     }
   }
+}
+
+TEST(Export, RowsOfDifferentTrialsAreDifferentModels) {
+  const ExportExample example;
+  farm::Farm farm = example.farm();
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const PlantGroups& model : plant_groups(farm, Merge::row))
+      if (model.label == SurfaceClass::crop && !model.name.starts_with("plants"))
+        all.push_back(model.name);
+    return all;
+  };
+  EXPECT_EQ(names(), (std::vector<std::string>{"row_1", "row_2"}));
+  for (farm::Plot& plot : farm.plots) plot.trial = plot.column;  // row 1 has two columns
+  EXPECT_EQ(names(), (std::vector<std::string>{"trial_1_row_1", "trial_1_row_2", "trial_2_row_1"}));
 }
 
 TEST(Export, PlantsOutsidePlotsStandInTilesWhereTheyAreMany) {

@@ -135,7 +135,7 @@ TEST(ExportLoading, MergedModelsStandAtTheirPlotsWithTheirClass) {
         const std::string plot_name = sdfxml::plot_element_name(plot.id);
         for (const std::string& part : {plot_name, weeds_name(plot_name)}) {
           const bool weed = part != plot_name;
-          const std::string row = row_model_name(plot.row);
+          const std::string row = row_model_name(plot.trial, plot.row);
           const sdf::Model* model =
               world.ModelByName(merge == Merge::plot ? part : (weed ? weeds_name(row) : row));
           ASSERT_NE(model, nullptr) << part;

@@ -24,9 +24,9 @@ TEST(Naming, OtherNamesNameNothing) {
   }
   for (const std::string& name :
        {std::string("plant_"), std::string("plant_3_"), std::string("soyplant_3"),
-        std::string("plant_0"), plant_model_name(3, 7) + "x", row_model_name(3),
-        sdfxml::plot_element_name(12), std::string(sdfxml::kPlantsOutsidePlots),
-        outside_model_name(3)}) {
+        std::string("plant_0"), plant_model_name(3, 7) + "x", row_model_name(0, 3),
+        row_model_name(2, 3), sdfxml::plot_element_name(12),
+        std::string(sdfxml::kPlantsOutsidePlots), outside_model_name(3)}) {
     EXPECT_FALSE(plant_in_name(name)) << name;
   }
   EXPECT_FALSE(plot_in_name(plant_model_name(0, 345)));

@@ -107,8 +107,8 @@ TEST(TrialDesign, CyclesAndListsFollowTheNumbers) {
 
 TEST(TrialDesign, RefusesBlocksThatAreNotWhole) {
   std::vector<farm::Plot> plots = grid(2, 6);
-  const auto message = [&](const TrialDescription& trial, std::size_t cultivars) {
-    return message_of<InputError>([&] { assign_cultivars(trial, names(cultivars), 1, plots); });
+  const auto message = [&](const DesignDescription& design, std::size_t cultivars) {
+    return message_of<InputError>([&] { assign_cultivars(design, names(cultivars), 1, plots); });
   };
   EXPECT_THAT(message({}, 5), HasSubstr("12 plots are not a multiple of 5 cultivars"));
   EXPECT_THAT(message({.block_by = BlockBy::rows}, 4), HasSubstr("4 cultivars end within row 1"));
