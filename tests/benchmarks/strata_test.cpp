@@ -84,11 +84,11 @@ TEST(PlanField, StrataAreWhatTheirNamesSay) {
     const FieldPlan drilled = plan_field("test", "drilled", index, kSources);
     const planting::FarmDescription sown =
         description::load_description(drilled.farm, drilled.overrides);
-    const auto rows = sown.plants->cultivars.front().drill_rows;
+    const auto rows = sown.trials[0].plants->cultivars.front().drill_rows;
     EXPECT_GE(rows, 2U);
     EXPECT_LE(rows, 5U);
-    EXPECT_LE(sown.plots->width_m / rows, 0.76 + 1e-9);
-    EXPECT_GE(sown.plots->width_m / rows, 0.19 - 1e-9);
+    EXPECT_LE(sown.trials[0].plots.width_m / rows, 0.76 + 1e-9);
+    EXPECT_GE(sown.trials[0].plots.width_m / rows, 0.19 - 1e-9);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/text_file.h"
 
 namespace plotscan {
 namespace {
@@ -45,6 +46,33 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
         "estimate/plots.geojson", "estimate/heights.csv", "estimate/manifest.json"}) {
     EXPECT_TRUE(exists(file)) << file;
   }
+}
+
+// Two trials, each with plots and a crop of its own; one is four times as tall as the other.
+TEST_F(Chain, TellsTrialsBesideEachOtherApart) {
+  folder_.write(
+      "station.yaml",
+      "terrain: {side_m: 60, vertices: 100, relief_m: 0.2}\n"
+      "trials:\n"
+      "  - plots: {width_m: 1.5, length_m: 4, gap_width_m: 0.5, gap_length_m: 1, "
+      "position_m: [-8, 0], rows: [{plots: 6}, {plots: 6}, {plots: 6}]}\n"
+      "    plants: {density_m2: 20, pattern: drilled, drill_rows: 3, models: [{crop: soybean, "
+      "stage: R2, variants: 3}]}\n"
+      "  - plots: {width_m: 2, length_m: 6, gap_width_m: 0.6, gap_length_m: 1.5, "
+      "position_m: [9, 0], rows: [{plots: 4}, {plots: 4}]}\n"
+      "    plants: {density_m2: 8, pattern: drilled, drill_rows: 3, models: [{crop: maize, "
+      "variants: 3}]}\n");
+  succeed("farmgen generate station.yaml -o farm");
+  succeed("lidarsim fly farm -o scan");
+  succeed("estimator run scan -o estimate");
+  const Finished scored = succeed("estimator score estimate --truth farm --json");
+  const auto scores = nlohmann::json::parse(scored.output);
+  EXPECT_EQ(scores["boxes"]["found"], 26);
+  EXPECT_EQ(scores["boxes"]["extra"], 0);
+  const auto map = nlohmann::json::parse(read_text(folder_.path() / "estimate" / "plots.geojson"));
+  std::map<int, int> plots_of_trial;
+  for (const auto& plot : map["features"]) ++plots_of_trial[plot["properties"]["trial_number"]];
+  EXPECT_EQ(plots_of_trial, (std::map<int, int>{{1, 18}, {2, 8}}));
 }
 
 // LAS has steps of 0.1 mm: the plots are the same within them. Heights count from ground planes by

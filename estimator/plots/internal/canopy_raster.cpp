@@ -15,9 +15,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover in the table
-constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
-constexpr int kCoverBits = 32;  // above which a cell's sum of covers lies, below its count
+constexpr std::uint32_t kUnseen = 255;  // in place of the cover of a cell without returns
+constexpr int kCoverBits = 32;          // above which a cell's sum of covers lies, below its count
 constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
 constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
 
@@ -97,18 +96,20 @@ void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
   }
 }
 
-std::uint64_t CanopyRaster::sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0,
-                                int b1) const {
-  a0 = std::clamp(a0, 0, a_cells_);
-  a1 = std::clamp(a1, a0, a_cells_);
-  b0 = std::clamp(b0, 0, b_cells_);
-  b1 = std::clamp(b1, b0, b_cells_);
-  const auto at = [&](int a, int b) {
-    return table[static_cast<std::size_t>(a) * (static_cast<std::size_t>(b_cells_) + 1) +
-                 static_cast<std::size_t>(b)];
-  };
-  // Unsigned arithmetic: right even where the table wrapped around.
-  return at(a1, b1) - at(a0, b1) - at(a1, b0) + at(a0, b0);
+std::vector<std::uint64_t> CanopyRaster::squares() const {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  std::vector<std::uint64_t> squares(covered_.size(), 0);
+  for (int a = 0; a < a_cells_; ++a) {
+    std::uint64_t along = 0;
+    for (int b = 0; b < b_cells_; ++b) {
+      const std::uint64_t cell = sum(covered_, a, a + 1, b, b + 1);
+      along += cell * cell;
+      const std::size_t at =
+          (static_cast<std::size_t>(a) + 1) * stride + static_cast<std::size_t>(b) + 1;
+      squares[at] = squares[at - stride] + along;
+    }
+  }
+  return squares;
 }
 
 double CanopyRaster::seen_cells(int a0, int a1, int b0, int b1) const {

@@ -3,6 +3,7 @@
 
 // Private to the library: where a field is covered by canopy, on a grid along two axes.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,8 @@ struct Frame {
   Eigen::Vector2d to_world(const Eigen::Vector2d& ab) const;
 };
 
+inline constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover
+
 // Mean share of full canopy over the returns of square cells along a frame's axes. Cell (i, j)
 // spans [i, i + 1) x [j, j + 1) times cell_m along a and b. Sums over rectangles take constant
 // time (summed-area table: Crow, SIGGRAPH 1984).
@@ -37,6 +40,22 @@ class CanopyRaster {
   int a_cells() const { return a_cells_; }
   int b_cells() const { return b_cells_; }
 
+  // A summed-area table of the squares of the cells' covers, in units of the squares of kFullCover.
+  std::vector<std::uint64_t> squares() const;
+  // Sum over the cells of [a0, a1) x [b0, b1), clipped to the grid, from a table of this raster.
+  template <typename Number>
+  Number sum(const std::vector<Number>& table, int a0, int a1, int b0, int b1) const {
+    a0 = std::clamp(a0, 0, a_cells_);
+    a1 = std::clamp(a1, a0, a_cells_);
+    b0 = std::clamp(b0, 0, b_cells_);
+    b1 = std::clamp(b1, b0, b_cells_);
+    const auto at = [&](int a, int b) {
+      return table[static_cast<std::size_t>(a) * (static_cast<std::size_t>(b_cells_) + 1) +
+                   static_cast<std::size_t>(b)];
+    };
+    // Unsigned arithmetic: right even where the table wrapped around.
+    return at(a1, b1) - at(a0, b1) - at(a1, b0) + at(a0, b0);
+  }
   // Number of cells with returns in [a0, a1) x [b0, b1), clipped to the grid.
   double seen_cells(int a0, int a1, int b0, int b1) const;
   // Mean cover, 0 to 1, of these cells; 0 where there are none.
@@ -44,7 +63,6 @@ class CanopyRaster {
 
  private:
   void sum_up(std::span<const std::uint32_t> cover);  // 0 to 200 by cell, 255 where unseen
-  std::uint64_t sum(const std::vector<std::uint32_t>& table, int a0, int a1, int b0, int b1) const;
 
   Frame frame_;
   double cell_m_;

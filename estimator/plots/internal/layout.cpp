@@ -148,7 +148,8 @@ std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, Ends end
 
 // Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
 // along both axes, where all plots' edges add up, and cell by cell.
-void leave_best_aligned(const RowView& view, Ends ends, std::vector<Layout>& layouts) {
+void leave_best_aligned(const RowView& view, Ends ends, const LayoutCriterion& criterion,
+                        std::vector<Layout>& layouts) {
   const Line a = line_of(view, {whole(view.c_cells())}, {.ends = ends});
   const Line b = line_of(view.turned(), {whole(view.r_cells())}, {.ends = ends});
   const auto cost = [&](const Layout& layout) {
@@ -262,7 +263,8 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, Ends ends) {
   if (hints.rows || hints.columns || hints.plots) ends = Ends::even;
   std::vector<Layout> layouts = layouts_in(view, hints, ends);
   leave_out_drill_rows(layouts);
-  leave_best_aligned(view, ends, layouts);
+  const LayoutCriterion criterion(raster);
+  leave_best_aligned(view, ends, criterion, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});

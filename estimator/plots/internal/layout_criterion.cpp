@@ -10,40 +10,13 @@ namespace {
 constexpr double kMostGap_m = 1.5;  // that leaves may close
 constexpr double kPiece_m = 1;      // in which a canopy is even
 
-struct Sums {
-  double cells = 0, canopy = 0, squares = 0;
-
-  Sums& operator-=(const Sums& other) {
-    cells -= other.cells;
-    canopy -= other.canopy;
-    squares -= other.squares;
-    return *this;
-  }
-  // Squares about the mean.
-  double left() const { return squares - canopy * canopy / std::max(1.0, cells); }
-};
-
-Sums sums_over(const RowView& view, const Band& r, const Band& c) {
-  Sums sums;
-  for (int i = std::max(0, r.begin); i < std::min(r.end, view.r_cells()); ++i) {
-    for (int k = std::max(0, c.begin); k < std::min(c.end, view.c_cells()); ++k) {
-      if (view.seen_cells(i, i + 1, k, k + 1) == 0) continue;
-      const double canopy = view.cover(i, i + 1, k, k + 1);
-      ++sums.cells;
-      sums.canopy += canopy;
-      sums.squares += canopy * canopy;
-    }
-  }
-  return sums;
-}
-
 // Squares of leaves that anything is seen of.
-double seen_clumps(const RowView& view) {
-  const int side = std::max(1, static_cast<int>(std::lround(kLeaf_m / view.cell_m())));
+double seen_clumps(const CanopyRaster& raster) {
+  const int side = std::max(1, static_cast<int>(std::lround(kLeaf_m / raster.cell_m())));
   double seen = 0;
-  for (int r = 0; r < view.r_cells(); r += side)
-    for (int c = 0; c < view.c_cells(); c += side)
-      seen += view.seen_cells(r, r + side, c, c + side) > 0 ? 1 : 0;
+  for (int a = 0; a < raster.a_cells(); a += side)
+    for (int b = 0; b < raster.b_cells(); b += side)
+      seen += raster.seen_cells(a, a + side, b, b + side) > 0 ? 1 : 0;
   return seen;
 }
 
@@ -68,9 +41,38 @@ Band gap_between(const Band& one, const Band& next, double cell_m) {
   return {one.end, std::max(one.end, next.begin)};
 }
 
+}  // namespace
+
+// Of cells that anything is seen of.
+struct LayoutCriterion::Sums {
+  double cells = 0, canopy = 0, squares = 0;
+
+  Sums& operator-=(const Sums& other) {
+    cells -= other.cells;
+    canopy -= other.canopy;
+    squares -= other.squares;
+    return *this;
+  }
+  // Squares about the mean.
+  double left() const { return squares - canopy * canopy / std::max(1.0, cells); }
+};
+
+LayoutCriterion::LayoutCriterion(const CanopyRaster& raster)
+    : raster_(raster), independent_(seen_clumps(raster)), squared_(raster.squares()) {}
+
+LayoutCriterion::Sums LayoutCriterion::sums_over(const RowView& view, const Band& r,
+                                                 const Band& c) const {
+  const Band &a = view.swapped ? c : r, &b = view.swapped ? r : c;
+  const double cells = raster_.seen_cells(a.begin, a.end, b.begin, b.end);
+  const auto squares = static_cast<double>(raster_.sum(squared_, a.begin, a.end, b.begin, b.end));
+  return {.cells = cells,
+          .canopy = cells * raster_.cover(a.begin, a.end, b.begin, b.end),
+          .squares = squares / (1.0 * kFullCover * kFullCover)};
+}
+
 // The canopy's residual variation when each piece of the plots and of the gaps between them has its
 // own level, and all the rest one common level.
-double variation_left(const Layout& layout) {
+double LayoutCriterion::variation_left(const Layout& layout) const {
   const RowView& view = layout.view;
   Sums beyond = sums_over(view, {0, view.r_cells()}, {0, view.c_cells()});
   double left = 0;
@@ -98,12 +100,9 @@ double variation_left(const Layout& layout) {
   return left + beyond.left();
 }
 
-}  // namespace
-
-double criterion(const Layout& layout) {
-  const double independent = seen_clumps(layout.view);
-  return independent * std::log(std::max(1e-12, variation_left(layout))) +
-         std::log(std::max(2.0, independent)) * number_of_lines(layout);
+double LayoutCriterion::operator()(const Layout& layout) const {
+  return independent_ * std::log(std::max(1e-12, variation_left(layout))) +
+         std::log(std::max(2.0, independent_)) * number_of_lines(layout);
 }
 
 }  // namespace plotscan::plots

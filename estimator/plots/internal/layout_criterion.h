@@ -3,13 +3,32 @@
 
 // Private to the library: how well a layout explains a field, cell by cell.
 
+#include <cstdint>
+#include <vector>
+
 #include "plots/internal/layout.h"
 
 namespace plotscan::plots {
 
-// Schwarz's criterion of the layout: its likelihood, with the lines on which plots begin as
-// parameters. Canopy levels do not count as parameters: in every layout each piece of canopy has
+// Schwarz's criterion of layouts on a raster: their likelihood, with the lines on which plots begin
+// as parameters. Canopy levels do not count as parameters: in every layout each piece of canopy has
 // its own, so a layout with more plots does not fit an uneven canopy better.
-double criterion(const Layout& layout);
+class LayoutCriterion {
+ public:
+  // Refers to the raster.
+  explicit LayoutCriterion(const CanopyRaster& raster);
+  // The less, the better. A layout without rows: nothing but one level.
+  double operator()(const Layout& layout) const;
+
+ private:
+  struct Sums;
+
+  Sums sums_over(const RowView& view, const Band& r, const Band& c) const;
+  double variation_left(const Layout& layout) const;
+
+  const CanopyRaster& raster_;
+  double independent_;                  // observations
+  std::vector<std::uint64_t> squared_;  // summed-area table of the cells' canopy, squared
+};
 
 }  // namespace plotscan::plots

@@ -187,24 +187,32 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   look.field.signs = signs;
   look.field.rival = rival;
   look.explained = held_share(with_gaps(lattice));
-  look.may_be = plots_beside_others(signs, look.explained);
-  if (!look.field.why_none.empty()) return look;
+  if (!look.field.why_none.empty()) {
+    look.may_be = plots_beside_others(signs, look.explained);
+    return look;
+  }
   look.field.plots = plots_on(lattice, look.field.fit->layout, field_confidence(signs), hints);
+  look.may_be = look.field.plots.size();
   look.evidence = layout.evidence;
   return look;
 }
 
-Look look_for(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
-              int threads) {
+// One look along each pair of axes.
+std::vector<Look> looks_at(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
+                           int threads) {
   const CanopyRaster coarse =
       rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
-  std::optional<Look> best;
-  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads)) {
-    Look look = look_along(axes, field, noise_m, hints, ends, threads);
-    if (!best || std::pair(look.evidence, look.may_be) > std::pair(best->evidence, best->may_be))
-      best = std::move(look);
-  }
-  return best ? std::move(*best) : Look{no_plots(kNoCanopy)};
+  std::vector<Look> looks;
+  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads))
+    looks.push_back(look_along(axes, field, noise_m, hints, ends, threads));
+  return looks;
+}
+
+// Of looks at the same canopy.
+Look clearest(const std::vector<Look>& looks) {
+  if (looks.empty()) return {no_plots(kNoCanopy)};
+  return *std::ranges::max_element(
+      looks, {}, [](const Look& look) { return std::pair(look.evidence, look.may_be); });
 }
 
 // Where a part of what stands on a field is taken for something else, what is left may be few
@@ -248,13 +256,16 @@ class TrialSearch {
   }
 
   bool found_canopy() const { return best_.has_value(); }
+  const std::vector<Look>& looks() const { return looks_; }
   Look best() const { return best_.value_or(Look{no_plots(kNoCanopy)}); }
 
  private:
   void look(const Crop& crop, Ends ends) {
     const auto& [points, noise_m, hints, threads, ground_error] = scanned_;
     const FieldCanopy field(points, blocks_, crop, threads, ground_error);
-    Look look = look_for(field, noise_m, hints, ends, threads);
+    const std::vector<Look> looks = looks_at(field, noise_m, hints, ends, threads);
+    looks_.insert(looks_.end(), looks.begin(), looks.end());
+    Look look = clearest(looks);
     look.field.others_m2 = blocks_.covered_m2(crop.others);
     if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
   }
@@ -262,10 +273,17 @@ class TrialSearch {
   const ScannedField& scanned_;
   FieldBlocks blocks_;
   std::vector<double> tops_m_;
+  std::vector<Look> looks_;
   std::optional<Look> best_;
 };
 
 }  // namespace
+
+bool is_clear(const Look& look) {
+  constexpr double kClear = 0.85;  // confidence of a field
+  return look.evidence > 0 && look.explained > kNearlyAll &&
+         field_confidence(*look.field.signs) > kClear;
+}
 
 double expected_plots(const Look& look) {
   if (look.evidence == 0) return 0;
@@ -278,14 +296,24 @@ Look look_once(const ScannedField& scanned) {
   return search.best();
 }
 
-Looks look_in_all_ways(const ScannedField& scanned) {
+Look look_twice(const ScannedField& scanned) {
   TrialSearch search(scanned);
   search.look_in_every_canopy(Ends::free);
   const Look first = search.best();
-  if (!search.found_canopy() || holds_most(first)) return {first, first};
+  if (first.explained > kNearlyAll) return first;
+  search.look_in_every_canopy(Ends::even);
+  const Look best = search.best();
+  return first.evidence == 0 || best.explained > kNearlyAll ? best : first;
+}
+
+Looks look_in_all_ways(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(Ends::free);
+  const std::vector<Look> at_all = search.looks();
+  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
   search.look_beside_closed_canopy();
   if (search.best().evidence == 0) search.look_in_every_canopy(Ends::even);
-  return {first, search.best()};
+  return {at_all, search.best()};
 }
 
 }  // namespace plotscan::plots

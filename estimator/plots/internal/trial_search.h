@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,16 +32,27 @@ struct Look {
   double explained = 0;    // share of all that stands on the field, in the plots and their gaps
 };
 
+// Whether these are clearly plots, and nearly all that stands on the field.
+bool is_clear(const Look& look);
+
 // The number of plots times the field's confidence; 0 without plots.
 double expected_plots(const Look& look);
 
+// Of what stands on a field: what is left is no trial.
+inline constexpr double kNearlyAll = 0.97;
+
 // Looks at all canopy together, with each of the heights that the crop may have.
 Look look_once(const ScannedField& scanned);
+// The same, and also as if nothing but plots stood here: where only that shows plots, or shows that
+// they are nearly all.
+Look look_twice(const ScannedField& scanned);
 
-// The look at all canopy and, where that does not explain nearly all of it, the best of this and of
-// other explanations (docs/plot-finding.md, step 11).
+// What shows of all canopy along each pair of axes and, where the best of it does not explain
+// nearly all of the canopy, the best of this and of other explanations (docs/plot-finding.md, step
+// 11).
 struct Looks {
-  Look first, best;
+  std::vector<Look> at_all;
+  Look best;
 };
 Looks look_in_all_ways(const ScannedField& scanned);
 

@@ -35,6 +35,7 @@ TEST(BestLayout, IsTheTrialThatStandsThere) {
   const Layout found = best_layout(raster);
   expect_layout(found, trial);
   EXPECT_TRUE(found.aligned);
+  const LayoutCriterion criterion(raster);
   EXPECT_NEAR(found.evidence, 0.5 * (criterion({.view = found.view}) - criterion(found)), 1e-9);
 }
 
@@ -178,6 +179,7 @@ TEST(Criterion, IsWhatAddingCellByCellGives) {
         left += squares([&](int a, int b) { return is_in(a, rows[r]) && is_in(b, columns[c]); });
   const double clumps = 14 * 17;  // squares of three cells
   const double lines = 2 + 2;     // two rows, two columns
+  const LayoutCriterion criterion(raster);
   EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * lines, 1e-6);
   layout.aligned = false;  // each row's plots have lines of their own
   EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * 6, 1e-6);

@@ -74,6 +74,44 @@ TEST(FindTrials, FindsATrialThatIsThreeTimesAsTallAsTheOther) {
   expect_both(find_trials(points, 0.02, {}, 2));
 }
 
+// Of what stands on the field, weighed by its height, the low trial is next to nothing.
+TEST(FindTrials, FindsALowTrialBesideATallOne) {
+  std::vector<Eigen::Vector3f> points = cloud_over(both());
+  const std::vector<PlotBox> tall = small_plots();
+  for (Eigen::Vector3f& point : points) {
+    const Eigen::Vector2d place = point.head<2>().cast<double>();
+    const bool is_tall =
+        std::ranges::any_of(tall, [&](const PlotBox& box) { return box.contains(place); });
+    if (is_tall || point.z() > 0.1F) point.z() *= is_tall ? 3.5F : 0.5F;
+  }
+  expect_both(find_trials(points, 0.02, {}, 2));
+}
+
+// One lattice may explain both.
+TEST(FindTrials, TellsTrialsOfNearlyEqualStepsApart) {
+  const std::vector<PlotBox> wide =
+      grid(2, 5, {.width_m = 1.8, .length_m = 4}, {0.9, 1.4}, {-4.9, 0});
+  const std::vector<PlotBox> narrow =
+      grid(2, 6, {.width_m = 1.5, .length_m = 3.6}, {0.9, 1.4}, {5.6, 0.8});
+  std::vector<PlotBox> boxes = wide;
+  boxes.insert(boxes.end(), narrow.begin(), narrow.end());
+  const std::vector<PlotField> trials = find_trials(cloud_over(boxes), 0.02, {}, 2);
+  ASSERT_EQ(trials.size(), 2u);
+  expect_those(wide, trials[0], 0.85);
+  expect_those(narrow, trials[1], 0.85);
+}
+
+TEST(FindTrials, GivesTheSameForAnyOrderOfThePoints) {
+  std::vector<Eigen::Vector3f> points = cloud_over(both());
+  const std::vector<PlotField> before = find_trials(points, 0.02, {}, 2);
+  std::ranges::reverse(points);
+  const std::vector<PlotField> after = find_trials(points, 0.02, {}, 2);
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (std::size_t j = 0; j < before[i].plots.size(); ++j)
+      EXPECT_LT((before[i].plots[j].box.center - after[i].plots[j].box.center).norm(), 1e-9);
+}
+
 TEST(FindTrials, GivesTheSameForAnyNumberOfThreads) {
   const std::vector<Eigen::Vector3f> points = cloud_over(both());
   const std::vector<PlotField> one = find_trials(points, 0.02, {}, 1);
