@@ -45,6 +45,7 @@ std::vector<TruePlot> read_truth(const std::filesystem::path& farm) {
     std::vector<TruePlot> plots;
     for (const score::TruePlot& plot : score::read_truth(farm)) {
       plots.push_back({.id = plot.id.text(),
+                       .trial = plot.trial,
                        .row = plot.row,
                        .column = plot.column,
                        .box = boundary::outer(plot.box),

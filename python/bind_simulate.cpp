@@ -25,6 +25,7 @@ void bind_farm(py::module_& module) {
       .def_readonly("leaf_area_index", &FarmSummary::leaf_area_index);
   py::class_<TruePlot>(module, "TruePlot")
       .def_readonly("id", &TruePlot::id)
+      .def_readonly("trial", &TruePlot::trial)
       .def_readonly("row", &TruePlot::row)
       .def_readonly("column", &TruePlot::column)
       .def_readonly("box", &TruePlot::box)

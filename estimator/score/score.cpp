@@ -80,6 +80,7 @@ std::vector<TruePlot> read_truth(const fs::path& farm) {
   std::vector<TruePlot> plots;
   for (const estimate::PlotEstimate& plot : estimate::plots_of(features, file)) {
     plots.push_back({.id = plot.id,
+                     .trial = plot.trial,
                      .row = plot.row,
                      .column = plot.column,
                      .box = plot.box,

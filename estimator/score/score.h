@@ -18,7 +18,8 @@ namespace plotscan::score {
 // One true plot.
 struct TruePlot {
   PlotId id = 0;   // as in the truth, else from 1
-  int row = 0;     // from 1; 0 when unknown
+  int trial = 0;   // from 1; 0 where the field is one trial
+  int row = 0;     // of the trial, from 1; 0 when unknown
   int column = 0;  // from 1; 0 when unknown
   PlotBox box;
   std::map<std::string, double> heights_m = {};  // by attribute, "height_max_m", "canopy_p95_m"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score_files.h"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -46,6 +47,7 @@ json plot_json(const PlotScore& plot) {
   json document = {{"plot_number", plot.truth.id.json()}, {"row_number", plot.truth.row},
                    {"col_number", plot.truth.column},     {"box", box_json(plot.truth.box)},
                    {"truths_m", plot.truth.heights_m},    {"found", nullptr}};
+  if (plot.truth.trial > 0) document["trial_number"] = plot.truth.trial;
   if (plot.found) {
     document["found"] = {{"estimate", plot.found->estimate.json()},
                          {"iou", plot.found->iou},
@@ -65,6 +67,7 @@ PlotId id_from_json(const json& value) {
 
 PlotScore plot_from_json(const json& document) {
   PlotScore plot{.truth = {.id = id_from_json(document.at("plot_number")),
+                           .trial = document.value("trial_number", 0),
                            .row = document.at("row_number"),
                            .column = document.at("col_number"),
                            .box = box_from(document.at("box")),
@@ -163,8 +166,10 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   const std::set<std::string> heights = estimated_heights(field);
   const std::set<std::string> truths = true_heights(field);
   const std::set<std::string> intervals = heights_with_intervals(field);
+  const bool several_trials = std::ranges::any_of(
+      field.plots, [](const PlotScore& plot) { return plot.truth.trial > 0; });
   std::ofstream out(path);
-  out << "plot_number,row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
+  out << "plot_number," << (several_trials ? "trial_number," : "") << "row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
   for (const std::string& truth : truths) out << ',' << csv_field("true_" + truth);
   for (const std::string& height : heights)
     out << ',' << csv_field("estimated_height_" + height + "_m");
@@ -174,8 +179,9 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   if (!intervals.empty()) out << ",confidence,flags";
   out << '\n';
   for (const PlotScore& plot : field.plots) {
-    out << csv_field(plot.truth.id.text()) << ',' << plot.truth.row << ',' << plot.truth.column
-        << ',';
+    out << csv_field(plot.truth.id.text()) << ',';
+    if (several_trials) out << plot.truth.trial << ',';
+    out << plot.truth.row << ',' << plot.truth.column << ',';
     if (plot.found) {
       out << "1," << csv_field(plot.found->estimate.text()) << ',' << format_number(plot.found->iou)
           << ',' << format_number(plot.found->center_error_m) << ','

@@ -53,8 +53,9 @@ struct Plot {
 // One true plot.
 struct TruePlot {
   std::string id;
-  int row = 0;     // from 1; 0 where unknown
-  int column = 0;  // from 1; 0 where unknown
+  int trial = 0;   // from 1; 0 where the farm is one trial
+  int row = 0;     // of the trial, from 1; 0 where unknown
+  int column = 0;  // of the trial, from 1; 0 where unknown
   Box box = {};
   std::map<std::string, double> heights_m;  // by attribute, "height_max_m", "canopy_p95_m"
 };

@@ -287,6 +287,18 @@ TEST(ScoreFiles, OneRowAPlot) {
   EXPECT_THAT(heights, ElementsAre("0.5", "0.75", ""));
 }
 
+TEST(ScoreFiles, TellTheTrialsOfAFieldThatHasSeveral) {
+  FieldScore field = three_plots();
+  EXPECT_FALSE(to_json(field)["plots"][0].contains("trial_number"));
+  for (PlotScore& plot : field.plots) plot.truth.trial = 2;
+  EXPECT_EQ(field_from_json(to_json(field)).plots[1].truth.trial, 2);
+  const TemporaryFolder folder;
+  write_plot_table(folder.path() / "plots.csv", field);
+  const CsvTable table = read_csv_table(folder.path() / "plots.csv");
+  EXPECT_EQ(table.columns[1], "trial_number");
+  EXPECT_EQ(table.lines[0].fields[1], "2");
+}
+
 class ScoreRun : public ::testing::Test {
  protected:
   void SetUp() override {
