@@ -24,7 +24,7 @@ bool lies_outside(const Look& look, const std::vector<PlotBox>& area) {
 // that.
 bool is_all(const Looks& looks) {
   const Look& one = looks.best;
-  if (!is_clear(one) || one.field.others_m2 > 0) return false;
+  if (one.evidence == 0 || one.explained <= kNearlyAll || one.field.others_m2 > 0) return false;
   const std::vector<PlotBox> area = area_of(one.field.fit->layout);
   return std::ranges::none_of(looks.at_all, [&](const Look& look) {
     return look.field.plots.size() >= kLeastOfTrial && lies_outside(look, area);
@@ -44,12 +44,14 @@ bool lie_apart(const std::vector<SeenTrial>& trials) {
 }
 
 // Whether these explain the field better than one trial does. Parts of one trial, such as its outer
-// rows, are as many plots and lie among each other.
+// rows, are as many plots: where one explains all, or they lie among each other, there must be
+// more.
 bool explain_more(const std::vector<SeenTrial>& trials, const Look& one) {
   std::size_t plots = 0;
   for (const SeenTrial& trial : trials) plots += trial.look.field.plots.size();
+  const bool many_more = plots >= one.field.plots.size() + kLeastOfTrial;
   return trials.size() > 1 && expected_plots(trials) > expected_plots(one) &&
-         (lie_apart(trials) || plots >= one.field.plots.size() + kLeastOfTrial);
+         (many_more || (one.explained <= kNearlyAll && lie_apart(trials)));
 }
 
 double from_south_west_m(const SeenTrial& trial) {

@@ -166,10 +166,11 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   const std::set<std::string> heights = estimated_heights(field);
   const std::set<std::string> truths = true_heights(field);
   const std::set<std::string> intervals = heights_with_intervals(field);
-  const bool several_trials = std::ranges::any_of(
-      field.plots, [](const PlotScore& plot) { return plot.truth.trial > 0; });
+  const bool several_trials =
+      std::ranges::any_of(field.plots, [](const PlotScore& plot) { return plot.truth.trial > 0; });
   std::ofstream out(path);
-  out << "plot_number," << (several_trials ? "trial_number," : "") << "row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
+  out << "plot_number," << (several_trials ? "trial_number," : "")
+      << "row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
   for (const std::string& truth : truths) out << ',' << csv_field("true_" + truth);
   for (const std::string& height : heights)
     out << ',' << csv_field("estimated_height_" + height + "_m");

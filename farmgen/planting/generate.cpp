@@ -46,7 +46,8 @@ std::vector<farm::PlantModel> made_models(const FarmDescription& description) {
 }
 
 // The trials, each with its heading.
-std::vector<TrialDescription> turned(std::vector<TrialDescription> trials, std::uint64_t seed) {
+std::vector<TrialDescription> with_headings(std::vector<TrialDescription> trials,
+                                            std::uint64_t seed) {
   for (std::size_t place = 0; place < trials.size(); ++place)
     trials[place].plots = turned(std::move(trials[place].plots), seed, place);
   return trials;
@@ -151,7 +152,7 @@ void measure_plots(farm::Farm& farm) {
 }  // namespace
 
 farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
-  const std::vector<TrialDescription> trials = turned(description.trials, seed);
+  const std::vector<TrialDescription> trials = with_headings(description.trials, seed);
   std::vector<SownPlot> sown;
   if (!description.layout) sown = sow(trials, seed);
   std::vector<farm::Plot> plots =

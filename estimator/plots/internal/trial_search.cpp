@@ -279,12 +279,6 @@ class TrialSearch {
 
 }  // namespace
 
-bool is_clear(const Look& look) {
-  constexpr double kClear = 0.85;  // confidence of a field
-  return look.evidence > 0 && look.explained > kNearlyAll &&
-         field_confidence(*look.field.signs) > kClear;
-}
-
 double expected_plots(const Look& look) {
   if (look.evidence == 0) return 0;
   return static_cast<double>(look.field.plots.size()) * field_confidence(*look.field.signs);

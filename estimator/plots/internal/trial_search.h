@@ -32,9 +32,6 @@ struct Look {
   double explained = 0;    // share of all that stands on the field, in the plots and their gaps
 };
 
-// Whether these are clearly plots, and nearly all that stands on the field.
-bool is_clear(const Look& look);
-
 // The number of plots times the field's confidence; 0 without plots.
 double expected_plots(const Look& look);
 

@@ -16,6 +16,7 @@
 #include "core/angle.h"
 #include "core/plot_box.h"
 #include "core/random.h"
+#include "plots/internal/field_signs.h"
 #include "plots/internal/trial_area.h"
 
 namespace plotscan::plots {
@@ -147,7 +148,7 @@ bool shows_those(const Look& look, const Look& other) {
 }
 
 // Trials without those that are parts of one: of such a one, parts were taken for trials.
-Trials joined(const ScannedField& field, Trials trials) {
+Trials as_one(const ScannedField& field, Trials trials) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t k = i + 1; k < trials.size(); ++k) {
       std::optional<SeenTrial> both = one_of_both(field, trials, trials[i], trials[k]);
@@ -193,8 +194,11 @@ Trials looked_at_closely(const ScannedField& field, Trials trials) {
 
 // Whether no other trials can explain the field much better.
 bool are_clear(const Trials& trials) {
-  return trials.size() > 1 &&
-         std::ranges::all_of(trials, [](const SeenTrial& trial) { return is_clear(trial.look); });
+  constexpr double kClear = 0.85;  // confidence of a field
+  return trials.size() > 1 && std::ranges::all_of(trials, [](const SeenTrial& trial) {
+           return trial.look.explained > kNearlyAll &&
+                  field_confidence(*trial.look.field.signs) > kClear;
+         });
 }
 
 }  // namespace
@@ -210,7 +214,7 @@ std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& loo
   const ScannedField thin = with_points(field, points);
   Trials best;
   for (const Look& start : starts_of(looks)) {
-    Trials trials = joined(thin, told_apart(thin, start));
+    Trials trials = as_one(thin, told_apart(thin, start));
     if (expected_plots(trials) > expected_plots(best)) best = std::move(trials);
     if (are_clear(best)) break;
   }

@@ -211,13 +211,13 @@ void read_design(const YamlSection& section, const planting::PlotGridDescription
 void require_countable(const YamlSection& section, const planting::PlotGridDescription& grid,
                        const planting::PlantsDescription& plants) {
   const std::uint64_t total = planting::most_seeds(grid, plants);
-  if (total <= kMostSeeds) return;
+  if (total <= kMostSeedsOfFarm) return;
   section.fail(section.has("cultivars")    ? "cultivars"
                : section.has("density_m2") ? "density_m2"
                                            : "count",
                "makes " + std::to_string(total) + " plants in " +
                    std::to_string(planting::plots_of(grid)) + " plots; at most " +
-                   std::to_string(kMostSeeds) + " are allowed");
+                   std::to_string(kMostSeedsOfFarm) + " are allowed");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<planting::TrialDescription> read_trials(
     const YamlSection& farm, bool sown, std::vector<planting::ModelDescription>& models);
 
 // The most seeds that all trials of a farm may have.
-inline constexpr std::uint64_t kMostSeeds = 10'000'000;
+inline constexpr std::uint64_t kMostSeedsOfFarm = 10'000'000;
 
 // Reads the list at the section's key "models", appends the entries that `models` does not hold
 // yet, and returns the indices of all in `models`. Throws also when two entries of the list, or two

@@ -43,9 +43,9 @@ void require_few_enough(const YamlSection& farm,
     farm.fail("trials", "hold " + std::to_string(plots) + " plots; at most " +
                             std::to_string(kMostPlots) + " are allowed");
   }
-  if (seeds > kMostSeeds) {
+  if (seeds > kMostSeedsOfFarm) {
     farm.fail("trials", "make " + std::to_string(seeds) + " plants; at most " +
-                            std::to_string(kMostSeeds) + " are allowed");
+                            std::to_string(kMostSeedsOfFarm) + " are allowed");
   }
 }
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "farmgen/gazebo/export_example.h"
-#include "gazebo/groups.h"
 #include "sdfxml/elements.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "gazebo/groups.h"
 #include "gazebo/internal/naming.h"
 
 namespace plotscan::gazebo {
