@@ -138,7 +138,8 @@ std::optional<SeenTrial> one_of_both(const ScannedField& field, const Trials& tr
   if (!are_alike(a.look.field.fit->layout, b.look.field.fit->layout)) return {};
   Look look = look_at(field, trials, {&a, &b});
   if (expected_plots(look) < expected_plots(a.look) + expected_plots(b.look)) return {};
-  return SeenTrial{.area = area_of(look.field.fit->layout), .look = std::move(look)};
+  std::vector<PlotBox> area = area_of(look.field.fit->layout);
+  return SeenTrial{.area = std::move(area), .look = std::move(look)};
 }
 
 // Whether the plots are as many as the other look's, and of the same size.
@@ -147,7 +148,7 @@ bool shows_those(const Look& look, const Look& other) {
          are_alike(look.field.fit->layout, other.field.fit->layout);
 }
 
-// Trials without those that are parts of one: of such a one, parts were taken for trials.
+// The trials, with those that are parts of one put together.
 Trials as_one(const ScannedField& field, Trials trials) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t k = i + 1; k < trials.size(); ++k) {
@@ -187,7 +188,8 @@ Trials looked_at_closely(const ScannedField& field, Trials trials) {
   for (SeenTrial& trial : trials) {
     Look look = look_at(field, trials, {&trial});
     if (!shows_those(look, trial.look)) continue;
-    trial = {.area = area_of(look.field.fit->layout), .look = std::move(look)};
+    trial.area = area_of(look.field.fit->layout);
+    trial.look = std::move(look);
   }
   return trials;
 }
