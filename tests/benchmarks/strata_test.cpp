@@ -57,6 +57,7 @@ TEST_P(EveryStratum, HasFarmsThatCanBeMade) {
     std::size_t places = 0;
     for (const planting::TrialDescription& trial : description.trials)
       places += planting::plots_of(trial.plots);
+    EXPECT_EQ(description.trials.size() > 1, GetParam() == "several") << index;
     EXPECT_GE(places, 12U) << index;
     EXPECT_LE(places, GetParam() == "kentland" ? 112U : 45U * description.trials.size()) << index;
   }

@@ -220,6 +220,7 @@ std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& loo
     if (expected_plots(trials) > expected_plots(best)) best = std::move(trials);
     if (are_clear(best)) break;
   }
+  if (best.size() < 2) return {};
   return looked_at_closely(field, std::move(best));
 }
 

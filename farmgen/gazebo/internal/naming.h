@@ -11,8 +11,10 @@
 //
 //   merge  model                   link             visual
 //   plot   plot_12                 link             leaf, stem, ...
-//   row    row_3                   plot_12          leaf, stem, ...   (of several trials:
-//   trial_2_row_3) none   plot_12_plant_345       link             visual
+//   row    row_3 (1)               plot_12          leaf, stem, ...
+//   none   plot_12_plant_345       link             visual
+//
+// (1) trial_2_row_3 where the farm has several trials.
 //
 // Weeds stand in models of their own, since Gazebo labels whole models: plot_12_weeds, row_3_weeds
 // (with links plot_12_weeds). Plants of no plot are in plants_outside_plots, _weeds, and with a
