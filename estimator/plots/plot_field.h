@@ -33,7 +33,8 @@ struct FieldSigns {
   double mean_unevenness = 0;  // the same of the plots' mean
   double aspect = 0;           // length of a plot over its width and that width's standard error
   double least_gap_m = 0;      // between plots, along their length or their width
-  double evidence = 0;  // for a plot, over one canopy without them: Schwarz's criterion, nats
+  // For a plot, over a canopy of one level in the plots' outline: Schwarz's criterion, nats.
+  double evidence = 0;
 };
 
 // The rows of plants that every plot is sown in, along its length or across it.

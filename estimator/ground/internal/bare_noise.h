@@ -24,9 +24,9 @@ struct BlockSpread {
 // middle column's: trees beside a field, and canopies after a voxel filter, are denser than ground.
 std::vector<BlockSpread> block_spreads(const Columns& columns);
 
-// Sigma of the returns' heights about bare ground, metres: the 20th percentile of the blocks'.
-// Assumes that a fifth of them is bare. Without enough blocks it is 3 cm. No less than
-// kLeastNoise_m.
+// Sigma of the returns' heights about bare ground, metres: the 20th percentile of the blocks', or
+// of those that may be bare where fewer are. Assumes that a hundredth is. Without enough blocks it
+// is 3 cm. No less than kLeastNoise_m.
 double bare_noise_m(const std::vector<BlockSpread>& blocks);
 
 // How much more, in quadrature, the returns about bare ground scatter near a node than noise_m,

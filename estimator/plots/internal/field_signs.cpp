@@ -37,9 +37,11 @@ constexpr double kLeastSquarenessOfFew = 1.05;
 // the mean too. Bushes: 0.5 and more, and they hold up to 0.7 of the canopy.
 constexpr double kMostUneven = 0.45;
 constexpr double kLeastHeldOfUneven = 0.85;
-constexpr double kLeastHeld = 0.6;     // of the canopy; the rest may be weeds, or another trial
-constexpr double kLeastFilled = 0.6;   // of the places
-constexpr double kLeastEvidence = 30;  // nats a plot: a scanned room's furniture reaches 27
+constexpr double kLeastHeld = 0.6;    // of the canopy; the rest may be weeds, or another trial
+constexpr double kLeastFilled = 0.6;  // of the places
+// Nats a plot, in the layout's outline. One canopy cut into cells, mounds: up to 4; plots, also
+// those of clouds cut to the field: 7 and more (57 fields of two words).
+constexpr double kLeastEvidence = 3;
 // Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01, wrong
 // plots on fields of plots 0.08, right ones 0.18 and more (234 fields of eight words).
 constexpr double kLeastConfidence = 0.1;
@@ -192,7 +194,8 @@ double field_confidence(const FieldSigns& signs) {
       std::max(share(signs.squareness, kLeastSquareness, 1.3),
                share(std::log(signs.straightness), std::log(kStraight), std::log(2 * kStraight)));
   return share(signs.held_share, kLeastHeld, 1) * squareness *
-         share(std::log(signs.evidence), std::log(kLeastEvidence), std::log(4 * kLeastEvidence));
+         share(std::log(std::max(kLeastEvidence, signs.evidence)), std::log(kLeastEvidence),
+               std::log(4 * kLeastEvidence));
 }
 
 }  // namespace plotscan::plots

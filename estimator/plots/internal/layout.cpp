@@ -273,6 +273,7 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, Ends ends) {
     layout.evidence = 0.5 * (without - criterion(layout));
     if (layout.evidence > best.evidence) best = std::move(layout);
   }
+  if (!best.rows.empty()) best.evidence_in_outline = criterion.evidence_in_outline(best);
   return best;
 }
 

@@ -24,7 +24,8 @@ struct Layout {
   double row_spacing = 0;  // in cells, of drill rows put together along c; 0 for none
   std::vector<Row> rows = {};
   bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
-  double evidence = 0;  // by how much it explains the profiles better than one closed canopy
+  double evidence = 0;  // by how much it explains the raster better than one level does, nats
+  double evidence_in_outline = 0;  // the same of the layout's outline alone (layout_criterion.h)
 };
 
 // Whether plots that were searched row by row form columns through the rows nevertheless.

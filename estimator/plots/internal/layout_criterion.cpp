@@ -9,15 +9,16 @@ namespace {
 
 constexpr double kMostGap_m = 1.5;  // that leaves may close
 constexpr double kPiece_m = 1;      // in which a canopy is even
+constexpr double kRim_m = 0.5;      // of ground around a field that must differ from it
 
-// Squares of leaves that anything is seen of.
-double seen_clumps(const CanopyRaster& raster) {
+// Squares of leaves that anything is seen of, over the cells that anything is seen of.
+double clumps_per_cell(const CanopyRaster& raster) {
   const int side = std::max(1, static_cast<int>(std::lround(kLeaf_m / raster.cell_m())));
   double seen = 0;
   for (int a = 0; a < raster.a_cells(); a += side)
     for (int b = 0; b < raster.b_cells(); b += side)
       seen += raster.seen_cells(a, a + side, b, b + side) > 0 ? 1 : 0;
-  return seen;
+  return seen / std::max(1.0, raster.seen_cells(0, raster.a_cells(), 0, raster.b_cells()));
 }
 
 // Equal parts of a band, about as long as a piece.
@@ -57,8 +58,26 @@ struct LayoutCriterion::Sums {
   double left() const { return squares - canopy * canopy / std::max(1.0, cells); }
 };
 
+// Cells of a view.
+struct LayoutCriterion::Area {
+  Band r, c;
+
+  static Area all_of(const RowView& view) { return {{0, view.r_cells()}, {0, view.c_cells()}}; }
+  // A layout's outline, and the rim around it.
+  static Area around(const Layout& layout) {
+    Area area{layout.rows.front().band, layout.rows.front().plots.front()};
+    for (const Row& row : layout.rows) {
+      area.r = {std::min(area.r.begin, row.band.begin), std::max(area.r.end, row.band.end)};
+      area.c = {std::min(area.c.begin, row.plots.front().begin),
+                std::max(area.c.end, row.plots.back().end)};
+    }
+    const int rim = static_cast<int>(std::lround(kRim_m / layout.view.cell_m()));
+    return {{area.r.begin - rim, area.r.end + rim}, {area.c.begin - rim, area.c.end + rim}};
+  }
+};
+
 LayoutCriterion::LayoutCriterion(const CanopyRaster& raster)
-    : raster_(raster), independent_(seen_clumps(raster)), squared_(raster.squares()) {}
+    : raster_(raster), per_cell_(clumps_per_cell(raster)), squared_(raster.squares()) {}
 
 LayoutCriterion::Sums LayoutCriterion::sums_over(const RowView& view, const Band& r,
                                                  const Band& c) const {
@@ -71,10 +90,10 @@ LayoutCriterion::Sums LayoutCriterion::sums_over(const RowView& view, const Band
 }
 
 // The canopy's residual variation when each piece of the plots and of the gaps between them has its
-// own level, and all the rest one common level.
-double LayoutCriterion::variation_left(const Layout& layout) const {
+// own level, and all the rest of the area one common level.
+double LayoutCriterion::variation_left(const Layout& layout, const Area& area) const {
   const RowView& view = layout.view;
-  Sums beyond = sums_over(view, {0, view.r_cells()}, {0, view.c_cells()});
+  Sums beyond = sums_over(view, area.r, area.c);
   double left = 0;
   const auto take = [&](const Band& r_band, const Band& c_band) {
     if (r_band.size() <= 0 || c_band.size() <= 0) return;
@@ -100,9 +119,19 @@ double LayoutCriterion::variation_left(const Layout& layout) const {
   return left + beyond.left();
 }
 
+double LayoutCriterion::cost(const Layout& layout, const Area& area) const {
+  const double observations = per_cell_ * sums_over(layout.view, area.r, area.c).cells;
+  return observations * std::log(std::max(1e-12, variation_left(layout, area))) +
+         std::log(std::max(2.0, observations)) * number_of_lines(layout);
+}
+
 double LayoutCriterion::operator()(const Layout& layout) const {
-  return independent_ * std::log(std::max(1e-12, variation_left(layout))) +
-         std::log(std::max(2.0, independent_)) * number_of_lines(layout);
+  return cost(layout, Area::all_of(layout.view));
+}
+
+double LayoutCriterion::evidence_in_outline(const Layout& layout) const {
+  const Area area = Area::around(layout);
+  return 0.5 * (cost({.view = layout.view}, area) - cost(layout, area));
 }
 
 }  // namespace plotscan::plots

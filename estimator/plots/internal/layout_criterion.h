@@ -19,15 +19,20 @@ class LayoutCriterion {
   explicit LayoutCriterion(const CanopyRaster& raster);
   // The less, the better. A layout without rows: nothing but one level.
   double operator()(const Layout& layout) const;
+  // By how much a layout with rows explains the canopy better than one level does, nats: in its
+  // outline and half a metre around. How much bare ground was scanned beyond makes no difference.
+  double evidence_in_outline(const Layout& layout) const;
 
  private:
   struct Sums;
+  struct Area;
 
   Sums sums_over(const RowView& view, const Band& r, const Band& c) const;
-  double variation_left(const Layout& layout) const;
+  double variation_left(const Layout& layout, const Area& area) const;
+  double cost(const Layout& layout, const Area& area) const;
 
   const CanopyRaster& raster_;
-  double independent_;                  // observations
+  double per_cell_;                     // independent observations
   std::vector<std::uint64_t> squared_;  // summed-area table of the cells' canopy, squared
 };
 

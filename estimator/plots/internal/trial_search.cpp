@@ -180,7 +180,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
   const std::optional<SownRows> rows = refine(lattice, hints);
   lattice.view.raster = &canopy;
-  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence);
+  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence_in_outline);
   lattice.view.raster = &cover;
   Look look{no_plots(hints.tell_layout() ? "" : no_plots_because(signs))};
   look.field.fit = fit_of(lattice, rows);

@@ -66,6 +66,20 @@ TEST(FitSurface, FindsTheNoiseOfASparseCloud) {
   EXPECT_NEAR(fit_surface(points, SurfaceOptions()).noise_m, 0.02, 0.007);
 }
 
+// Cut to its plots, whose gaps of 0.2 m are a fourteenth of it, with a return from the ground in
+// twenty between the leaves.
+TEST(FitSurface, FindsTheNoiseOfACloudThatIsCutToThePlots) {
+  std::vector<PlotBox> plots;
+  for (int i = -2; i <= 2; ++i)
+    plots.push_back(
+        {.center = {2.4 * i, 0}, .width_m = 2.2, .length_m = 12, .heading_rad = M_PI_2});
+  const SyntheticField field = {
+      .terrain = kWaves, .returns_m2 = 1500, .noise_m = 0.02, .plots = plots, .gaps = 0.05};
+  const Surface surface = fit_surface(returns_of(field), SurfaceOptions());
+  EXPECT_NEAR(surface.noise_m, 0.02, 0.003);
+  for (const PlotBox& plot : plots) EXPECT_NEAR(mean_error(surface, kWaves, plot), 0, 0.02);
+}
+
 // One point is left in each voxel of 0.1 m: the canopy's columns hold several times those of bare
 // ground.
 TEST(FitSurface, FindsTheNoiseBelowACanopyThatIsDenserThanTheGround) {

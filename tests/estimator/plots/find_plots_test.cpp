@@ -96,6 +96,22 @@ TEST(FindPlots, KeepsAPlaceThatNoRowFills) {
 }
 
 // The box reaches half a row's spacing beyond the outer rows, where there are no leaves.
+// As clouds often are, along the plots' sides. The plots are thin, as young ones.
+TEST(FindPlots, FindsPlotsInACloudThatIsCutToThem) {
+  const Trial trial;
+  const PlotBox field{.width_m = 11.4, .length_m = 14, .heading_rad = trial.heading_rad};
+  for (const double margin_m : {0.0, 0.3, 1.0}) {
+    std::vector<Eigen::Vector3f> points = cloud_over(trial.boxes(), in_one_of_three_clumps);
+    PlotBox kept = field;
+    kept.width_m += 2 * margin_m;
+    kept.length_m += 2 * margin_m;
+    std::erase_if(points, [&](const Eigen::Vector3f& point) {
+      return !kept.contains(point.head<2>().cast<double>());
+    });
+    expect_those(trial.boxes(), find_plots(points, 0.02, {}, 2), 0.8);
+  }
+}
+
 TEST(FindPlots, PutsDrillRowsTogether) { expect_found({.gap_m = 0.3}, in_two_drill_rows); }
 TEST(FindPlots, PutsTheWidestDrillRowsTogether) {
   expect_found({.columns = 4, .gap_m = 0.9, .width_m = 2}, in_two_wide_rows);

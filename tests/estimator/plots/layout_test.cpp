@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/internal/layout.h"
 
+#include <cmath>
+#include <utility>
+
 #include "known_trial.h"
 #include <gtest/gtest.h>
 
@@ -183,6 +186,30 @@ TEST(Criterion, IsWhatAddingCellByCellGives) {
   EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * lines, 1e-6);
   layout.aligned = false;  // each row's plots have lines of their own
   EXPECT_NEAR(criterion(layout), clumps * std::log(left) + std::log(clumps) * 6, 1e-6);
+}
+
+// Bare ground beyond half a metre around the plots says nothing of them.
+TEST(Criterion, HasTheSameEvidenceHoweverMuchBareGroundWasScanned) {
+  const TrialLayout trial = known_trial({0, 0.1, 0});
+  const auto evidence_with = [&](double beyond_m) {
+    const CanopyRaster canopy = canopy_of(trial);
+    const int around = static_cast<int>(std::lround(beyond_m / canopy.cell_m()));
+    const CanopyRaster raster =
+        raster_of(canopy.a_cells() * 0.05 + 2 * beyond_m, canopy.b_cells() * 0.05 + 2 * beyond_m,
+                  [&](double a, double b) {
+                    const int i = static_cast<int>(a / 0.05) - around,
+                              k = static_cast<int>(b / 0.05) - around;
+                    return canopy.cover(i, i + 1, k, k + 1);
+                  });
+    const Layout found = best_layout(raster);
+    EXPECT_EQ(found.rows.size(), 3u);
+    return std::pair(found.evidence, found.evidence_in_outline);
+  };
+  const auto [near_all, near] = evidence_with(0);
+  const auto [far_all, far] = evidence_with(10);
+  EXPECT_GT(near, 0);
+  EXPECT_NEAR(far / near, 1, 0.05);
+  EXPECT_GT(far_all, 2 * near_all);  // as the whole raster has it
 }
 
 }  // namespace
