@@ -16,21 +16,6 @@ namespace {
 
 using Things = std::vector<Thing>;
 
-// The rectangle about all plots, along the first one's heading.
-PlotBox rectangle_about(std::span<const farm::Plot> plots) {
-  const PlotBox& first = plots.front().box;
-  Eigen::AlignedBox2d bounds;
-  for (const farm::Plot& plot : plots)
-    for (const Eigen::Vector2d& corner : plot.box.corners())
-      bounds.extend(first.box_from_world(corner));
-  const Eigen::Vector2d middle = bounds.center();
-  return {
-      .center = first.center + middle.x() * first.length_axis() + middle.y() * first.width_axis(),
-      .width_m = bounds.sizes().y(),
-      .length_m = bounds.sizes().x(),
-      .heading_rad = first.heading_rad};
-}
-
 // A side of the field, and the way out of it.
 struct FieldSide {
   Eigen::Vector2d middle, outwards;
@@ -131,6 +116,20 @@ Thing draw_border(std::span<const farm::Plot> plots, const PlotBox& field, Rando
 }
 
 }  // namespace
+
+PlotBox rectangle_about(std::span<const farm::Plot> plots) {
+  const PlotBox& first = plots.front().box;
+  Eigen::AlignedBox2d bounds;
+  for (const farm::Plot& plot : plots)
+    for (const Eigen::Vector2d& corner : plot.box.corners())
+      bounds.extend(first.box_from_world(corner));
+  const Eigen::Vector2d middle = bounds.center();
+  return {
+      .center = first.center + middle.x() * first.length_axis() + middle.y() * first.width_axis(),
+      .width_m = bounds.sizes().y(),
+      .length_m = bounds.sizes().x(),
+      .heading_rad = first.heading_rad};
+}
 
 std::vector<Thing> draw_beside(Beside beside, std::span<const farm::Plot> plots,
                                RandomStream& random) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/plot_box.h"
 #include "core/random.h"
 #include "farm/farm.h"
 #include "strata/scenery.h"
@@ -17,6 +18,9 @@ enum class Beside {
   objects,  // one to three trees, hedges, windrows, cars, sheds, people or patches of weeds
   border,   // another crop without plots, along one side and as far as the cloud goes
 };
+
+// The rectangle about all plots, along the first one's heading. World frame, metres.
+PlotBox rectangle_about(std::span<const farm::Plot> plots);
 
 // What stands beside plots, 1 to 4 m (objects) or 0.5 to 3 m (border) from the rectangle about
 // them. World frame, metres.

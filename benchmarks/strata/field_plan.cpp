@@ -170,6 +170,12 @@ void border(const Field& field) {
   field.plan.beside = Beside::border;
 }
 
+// As users cut their clouds before they measure.
+void clipped(const Field& field) {
+  draw_any(field);
+  field.plan.margin_m = field.random.uniform(0, 2);
+}
+
 // Each trial has a crop, plots and gaps of its own.
 void several(const Field& field) {
   std::vector<Overrides> trials;
@@ -246,9 +252,9 @@ struct Stratum {
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
       {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},   {"touching", touching},
-      {"maize", maize},       {"objects", objects}, {"border", border},   {"several", several},
-      {"others", others},     {"realism", realism}, {"sensors", sensors}, {"kentland", kentland},
-      {"paper", paper},       {"steep", steep}};
+      {"maize", maize},       {"objects", objects}, {"border", border},   {"clipped", clipped},
+      {"several", several},   {"others", others},   {"realism", realism}, {"sensors", sensors},
+      {"kentland", kentland}, {"paper", paper},     {"steep", steep}};
   return all;
 }
 

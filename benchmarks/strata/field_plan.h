@@ -33,6 +33,8 @@ struct FieldPlan {
   // A larger cloud is thinned to this many random points, as from a lidar that fires less often.
   std::optional<std::size_t> most_points = std::nullopt;
   Beside beside = Beside::nothing;  // drawn by the seed
+  // The cloud is cut to the rectangle about the plots, so far from them.
+  std::optional<double> margin_m = std::nullopt;
 };
 
 // What makes the field: two plans with equal documents make the same one.

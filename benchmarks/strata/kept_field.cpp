@@ -37,6 +37,15 @@ void write_plan(const fs::path& folder, const json& plan) {
   file.close();
 }
 
+// Cuts a cloud to a rectangle, and so far around it.
+void cut(std::vector<Eigen::Vector3f>& points, PlotBox rectangle, double margin_m) {
+  rectangle.width_m += 2 * margin_m;
+  rectangle.length_m += 2 * margin_m;
+  std::erase_if(points, [&](const Eigen::Vector3f& point) {
+    return !rectangle.contains(point.head<2>().cast<double>());
+  });
+}
+
 void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   const farm::Farm farm = lidar::make_farm(plan.farm, field.farm,
                                            {.overrides = plan.overrides,
@@ -52,6 +61,7 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   if (plan.most_points) thin(points, *plan.most_points, plan.seed);
   RandomStream random(plan.seed, random_purpose("strata/beside"), 0);
   lift(points, draw_beside(plan.beside, farm.plots, random), random);
+  if (plan.margin_m) cut(points, rectangle_about(farm.plots), *plan.margin_m);
   write_positions(field.cloud, points);
 }
 

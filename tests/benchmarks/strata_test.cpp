@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "lidar/fly_settings.h"
 #include "scan/cloud_reader.h"
@@ -177,6 +178,31 @@ TEST(KeepEmptyField, IsMadeOnce) {
   EXPECT_THAT(message_of<InputError>(
                   [&] { keep_empty_field("other", "bare", 0, folder.path() / "bare-0"); }),
               HasSubstr("holds a field of another word"));
+}
+
+// Four plots in two rows: the cloud ends a margin from them on all sides.
+TEST(KeepFarm, CutsTheCloudToTheMarginAboutThePlots) {
+  const TemporaryFolder folder;
+  FieldPlan plan = plan_field("test", "clipped", 0, kSources);
+  ASSERT_GE(plan.margin_m.value(), 0);
+  EXPECT_LE(*plan.margin_m, 2);
+  plan.margin_m = 0.7;
+  for (const char* override :
+       {"plots.rows=[{plots: 2}, {plots: 2}]", "plots.missing_rate=0",
+        "plots.alleys=[{after_row: 1, width_m: 1}]", "plots.width_m=2", "plots.length_m=3",
+        "plots.gap_width_m=1", "plots.gap_length_m=1", "plots.heading_deg=30"})
+    plan.overrides.emplace_back(override);
+  plan.flight.speed_m_s = 6;
+  const KeptField field = keep_farm(plan, folder.path() / "clipped-0", 2);
+  // The plots' length lies along y before they are turned.
+  const PlotBox plots{.width_m = 5, .length_m = 7, .heading_rad = 120 * kDegrees};
+  Eigen::AlignedBox2d seen;
+  for (const Eigen::Vector3f& point : read_positions(field.cloud))
+    seen.extend(plots.box_from_world(point.head<2>().cast<double>()));
+  EXPECT_NEAR(seen.max().x(), 3.5 + 0.7, 0.02);
+  EXPECT_NEAR(seen.min().x(), -3.5 - 0.7, 0.02);
+  EXPECT_NEAR(seen.max().y(), 2.5 + 0.7, 0.02);
+  EXPECT_NEAR(seen.min().y(), -2.5 - 0.7, 0.02);
 }
 
 // A farm of one kind of plots: as many found as there are errors, in centimetres.
