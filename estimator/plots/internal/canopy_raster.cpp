@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint32_t kUnseen = 255;  // in place of the cover of a cell without returns
 constexpr int kCoverBits = 32;          // above which a cell's sum of covers lies, below its count
 constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
+constexpr int kUnseenAround = 24;         // cells on every side: more than leaves hang over an edge
 constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
 
 struct Bounds {
@@ -127,13 +128,14 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
   const std::span<const Eigen::Vector3f> points = field.points();
   tbb::task_arena arena(threads);
-  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
+  Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
   if (!(bounds.low.x() <= bounds.high.x()))
     return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
   const Eigen::Vector2d extent = bounds.high - bounds.low;
   while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
-  const int a_cells = static_cast<int>(extent.x() / cell_m) + 1;
-  const int b_cells = static_cast<int>(extent.y() / cell_m) + 1;
+  bounds.low.array() -= kUnseenAround * cell_m;
+  const int a_cells = static_cast<int>(extent.x() / cell_m) + 1 + 2 * kUnseenAround;
+  const int b_cells = static_cast<int>(extent.y() / cell_m) + 1 + 2 * kUnseenAround;
   const auto cells = static_cast<std::size_t>(a_cells) * static_cast<std::size_t>(b_cells);
   std::vector<std::vector<std::uint64_t>> returns(scales.size(), std::vector<std::uint64_t>(cells));
   arena.execute([&] {

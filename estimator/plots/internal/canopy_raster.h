@@ -70,8 +70,8 @@ class CanopyRaster {
   std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
 };
 
-// The field's canopy along `axes`, whose origin is moved to the lowest a and b; one raster for each
-// scale.
+// The field's canopy along `axes`, with cells without returns all around, so that a plot may end
+// where the cloud does. The origin is moved to the lowest a and b; one raster for each scale.
 std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
                                     std::span<const CanopyScale> scales, int threads);
 

@@ -13,41 +13,16 @@
 #include <Eigen/LU>
 
 #include "core/statistics.h"
+#include "plots/internal/field_border.h"
+#include "plots/internal/place_canopy.h"
 #include "plots/internal/steps.h"
 
 namespace plotscan::plots {
 namespace {
 
-constexpr double kReach_m = 0.2;
 constexpr double kLeastPlaceShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
-// Lodged plots at a field's border: 0.3 and more. What else stands there at the plots' steps has
-// the edges of plots by chance only.
-constexpr double kLeastBorderContrast = 0.25;
-constexpr double kFewOfLine = 0.5;           // a border line with no more of the usual one's plots
-constexpr double kLeastContrastOfFew = 0.5;  // must show them clearly
-
-double inner_cover(const Lattice& lattice, const Place& place) {
-  const double margin_m = 0.1 * std::min(lattice.r.size_m, lattice.c.size_m);
-  const CellBox box = cells_about(lattice, place, -margin_m);
-  return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
-}
-
-// Mean over the four sides of the cover inside minus the cover outside, along the side's middle
-// three quarters.
-double outline_contrast(const Lattice& lattice, const Place& place) {
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
-  const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
-  const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
-  const RowView& view = lattice.view;
-  return (view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb) +
-          view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb) +
-          view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0) +
-          view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)) /
-         4;
-}
 
 struct Column {
   double c_m = 0;
@@ -174,7 +149,7 @@ void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
     place.share = inner_cover(lattice, place);
-    place.contrast = outline_contrast(lattice, place);
+    place.contrast = contrast_of(lattice, place).mean();
     if (!place.full) continue;
     covers.push_back(place.share);
     contrasts.push_back(place.contrast);
@@ -211,68 +186,6 @@ void leave_out_strays(Lattice& lattice) {
   };
   if (std::ranges::count_if(lattice.places, &Place::full) < kLeastPlots) return;
   for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
-}
-
-// The plots on a row or on a column.
-struct PlotsOnLine {
-  int first = 0, last = 0;  // numbers along the line
-  double plots = 0;
-};
-
-class LinesOfPlots {
- public:
-  LinesOfPlots(const std::vector<Place>& places, int Place::*line, int Place::*along)
-      : line_(line), along_(along) {
-    for (const Place& place : places) {
-      if (!place.full) continue;
-      const PlotsOnLine alone{.first = place.*along, .last = place.*along};
-      PlotsOnLine& of = lines_.try_emplace(place.*line, alone).first->second;
-      of.first = std::min(of.first, place.*along);
-      of.last = std::max(of.last, place.*along);
-      ++of.plots;
-    }
-    std::vector<double> counts;
-    for (const auto& [number, of] : lines_) counts.push_back(of.plots);
-    usual_ = quantile(std::move(counts), 0.5);
-  }
-
-  // Whether a plot is the first or the last of its line.
-  bool ends_with(const Place& place) const {
-    const PlotsOnLine& of = lines_.at(place.*line_);
-    return place.*along_ == of.first || place.*along_ == of.last;
-  }
-  // Whether its line is the first or the last, and has few plots.
-  bool few_at_border(const Place& place) const {
-    const bool border =
-        place.*line_ == lines_.begin()->first || place.*line_ == lines_.rbegin()->first;
-    return border && lines_.at(place.*line_).plots <= kFewOfLine * usual_;
-  }
-
- private:
-  int Place::*line_;
-  int Place::*along_;
-  std::map<int, PlotsOnLine> lines_;
-  double usual_ = 0;
-};
-
-// Removes places at the field's border that hedges, vehicles or weeds fill.
-void leave_out_beside(Lattice& lattice) {
-  std::vector<Place*> beside;
-  do {
-    const LinesOfPlots rows(lattice.places, &Place::row, &Place::column);
-    const LinesOfPlots columns(lattice.places, &Place::column, &Place::row);
-    const auto least_contrast = [&](const Place& place) {
-      const bool few =
-          rows.few_at_border(place) || (lattice.aligned && columns.few_at_border(place));
-      const bool border = rows.ends_with(place) || (lattice.aligned && columns.ends_with(place));
-      return few ? kLeastContrastOfFew : border ? kLeastBorderContrast : 0.0;
-    };
-    beside.clear();
-    for (Place& place : lattice.places)
-      if (place.full && least_contrast(place) > std::max(0.0, place.contrast))
-        beside.push_back(&place);
-    for (Place* place : beside) place->full = false;
-  } while (!beside.empty());
 }
 
 // Renumbers from 0 without gaps. Returns the count.
@@ -349,6 +262,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   } else {
     leave_out_strays(lattice);
     leave_out_beside(lattice);
+    if (!hints.rows && !hints.columns) go_on_beyond(lattice);
   }
   renumber(lattice);
   straighten(lattice);

@@ -110,10 +110,17 @@ TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
   const std::array scales = {CanopyScale{.low_m = 0.1, .high_m = 0.4},
                              CanopyScale{.low_m = 0.1, .high_m = 0.4, .with_tall = true}};
   const std::vector<CanopyRaster> rasters = rasterise(field, {}, 0.25, scales, 2);
-  EXPECT_EQ(rasters[0].seen_cells(80, 84, 0, 4), 0);
-  EXPECT_EQ(rasters[1].seen_cells(80, 84, 0, 4), 16);
-  EXPECT_GT(rasters[1].cover(80, 84, 0, 4), 0.85);
-  EXPECT_EQ(rasters[0].cover(0, 40, 0, 4), rasters[1].cover(0, 40, 0, 4));
+  const auto cell_at = [&](const Eigen::Vector2d& place) -> Eigen::Vector2i {
+    return ((place - rasters[0].frame().origin) / 0.25).array().round().cast<int>();
+  };
+  const Eigen::Vector2i low = cell_at({0, 0}), tall = cell_at({20, 0});
+  const int b0 = low.y(), b1 = b0 + 4;
+  EXPECT_EQ(rasters[0].seen_cells(tall.x(), tall.x() + 4, b0, b1), 0);
+  EXPECT_EQ(rasters[1].seen_cells(tall.x(), tall.x() + 4, b0, b1), 16);
+  EXPECT_GT(rasters[1].cover(tall.x(), tall.x() + 4, b0, b1), 0.85);
+  EXPECT_GT(rasters[0].cover(low.x(), low.x() + 40, b0, b1), 0.1);
+  EXPECT_EQ(rasters[0].cover(low.x(), low.x() + 40, b0, b1),
+            rasters[1].cover(low.x(), low.x() + 40, b0, b1));
 }
 
 TEST(Rasterise, OfNoPointsHasNoCells) {
