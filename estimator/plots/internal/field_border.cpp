@@ -99,10 +99,9 @@ bool shows_a_plot(const Lattice& lattice, const UsualPlot& usual, Place& place) 
 
 // The plots of the row before the first one or after the last one.
 std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bool after) {
-  int outer = 0;
-  for (const Place& place : lattice.places)
-    if (place.full) outer = after ? std::max(outer, place.row) : std::min(outer, place.row);
   const int step = after ? 1 : -1;
+  const auto outwards = [&](const Place& place) { return std::pair(place.full, step * place.row); };
+  const int outer = std::ranges::max(lattice.places, {}, outwards).row;
   std::vector<Place> row;
   for (const Place& place : lattice.places) {
     if (place.row != outer) continue;
@@ -118,7 +117,7 @@ std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bo
 }
 
 void add_rows_beyond(Lattice& lattice) {
-  if (lattice.r.pitch_m <= 0) return;
+  if (lattice.r.pitch_m < lattice.r.size_m) return;  // one row, or rows that overlap
   const UsualPlot usual = usual_plot(lattice);
   for (const bool after : {false, true}) {
     for (std::vector<Place> row = row_beyond(lattice, usual, after); !row.empty();
@@ -149,7 +148,7 @@ void leave_out_beside(Lattice& lattice) {
 }
 
 void go_on_beyond(Lattice& lattice) {
-  if (!lattice.aligned) return;
+  if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
   add_rows_beyond(lattice);
   lattice = lattice.turned();
   add_rows_beyond(lattice);
