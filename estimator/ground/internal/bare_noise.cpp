@@ -21,6 +21,7 @@ constexpr double kPercentile = 0.2;
 // scatter up to kBareTimes as much as the lowest hundredth: on 20 fields the 20th percentile is 1.2
 // to 1.5 times that where a fifth is bare, and 3 times or more where less is.
 constexpr double kSurelyBare = 0.01, kBareTimes = 2;
+constexpr double kWidestBare_m = 0.8;  // of a block: bare alleys are about as wide
 // In a large sparse field only chance fills some blocks, with canopy as likely as with ground.
 constexpr std::size_t kLeastBlocks = 30;
 
@@ -92,8 +93,7 @@ double middle_count(const Columns& columns) {
 
 // How many columns a block is wide, so that usual ones have enough returns.
 int block_width(double usual_returns, double cell_m) {
-  constexpr double kWidest_m = 0.8;  // bare alleys are about as wide
-  const int most = std::max(1, static_cast<int>(kWidest_m / cell_m));
+  const int most = std::max(1, static_cast<int>(kWidestBare_m / cell_m));
   int width = 1;
   while (width < most && usual_returns * width * width < kLeastReturns) ++width;
   return width;
@@ -192,7 +192,7 @@ double bare_noise_m(const std::vector<BlockSpread>& blocks) {
   for (const BlockSpread& block : blocks) spreads.push_back(block.sigma_m);
   const double most_m = kBareTimes * lowest_of(spreads, kSurelyBare);
   double noise_m = lowest_of(spreads, kPercentile);
-  if (noise_m > most_m) {  // fewer are bare
+  if (noise_m > most_m && blocks.front().width_m <= kWidestBare_m) {  // fewer are bare
     std::erase_if(spreads, [&](double sigma_m) { return sigma_m > most_m; });
     noise_m = lowest_of(spreads, kPercentile);
   }

@@ -182,7 +182,6 @@ std::string no_plots_because(const FieldSigns& signs) {
 
 bool may_be_beside_others(FieldSigns signs) {
   signs.held_share = 1;
-  signs.evidence = std::numeric_limits<double>::max();
   return no_plots_because(signs).empty();
 }
 

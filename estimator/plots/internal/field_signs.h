@@ -20,8 +20,8 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);
 
-// Whether these may be plots of a trial beside others, whose canopy is not held and takes from the
-// evidence: whether nothing else speaks against them.
+// Whether these may be plots of a trial beside others, whose canopy they do not hold: whether
+// nothing else speaks against them.
 bool may_be_beside_others(FieldSigns signs);
 
 // 0 to 1: how clearly the field is one of plots.
