@@ -6,8 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include <tbb/task_arena.h>
-
 #include "core/error.h"
 #include "lidar/embree.h"
 #include "lidar/internal/mesh_trees.h"
@@ -45,53 +43,45 @@ Geometry instance_of(const MeshTrees& meshes, const PlacedMesh& placed) {
   return instance;
 }
 
-// One thread builds the trees: where two triangles are hit at the same distance the answer depends
-// on the tree, and the tree must not depend on the number of threads.
-template <class Build>
-void on_one_thread(const Build& build) {
-  tbb::task_arena one_thread(1);
-  one_thread.execute(build);
-}
-
 }  // namespace
 
 Scene::Scene(const SceneContent& content, const Sway* sway) : trees_(std::make_unique<Trees>()) {
   if (sway != nullptr) trees_->swaying.emplace(*sway);
-  on_one_thread([&] {
-    trees_->own.emplace(content.meshes, instanced_meshes(content, sway != nullptr));
-    meshes_ = &*trees_->own;
-    build_world(content.placed, [&](const PlacedMesh& placed) {
-      const mesh::Mesh& mesh = content.meshes[placed.mesh];
-      if (sway != nullptr && placed.rooted)
-        return trees_->swaying->add(meshes_->device(), meshes_->tree(placed.mesh), mesh, placed);
-      return is_instance(placed) ? instance_of(*meshes_, placed)
-                                 : trees_->own->triangles(placed.mesh, mesh);
-    });
+  trees_->own.emplace(content.meshes, instanced_meshes(content, sway != nullptr));
+  meshes_ = &*trees_->own;
+  build_world(content.placed, [&](const PlacedMesh& placed) {
+    const mesh::Mesh& mesh = content.meshes[placed.mesh];
+    if (sway != nullptr && placed.rooted)
+      return trees_->swaying->add(meshes_->device(), meshes_->tree(placed.mesh), mesh, placed);
+    return is_instance(placed) ? instance_of(*meshes_, placed)
+                               : trees_->own->triangles(placed.mesh, mesh);
   });
 }
 
 Scene::Scene(const MeshTrees& meshes, std::span<const PlacedMesh> placed)
     : trees_(std::make_unique<Trees>()), meshes_(&meshes) {
-  on_one_thread(
-      [&] { build_world(placed, [&](const PlacedMesh& each) { return instance_of(meshes, each); }); });
+  build_world(placed, [&](const PlacedMesh& each) { return instance_of(meshes, each); });
 }
 
-// `geometry_of` makes a placed mesh's geometry.
 template <class GeometryOf>
 void Scene::build_world(std::span<const PlacedMesh> all, const GeometryOf& geometry_of) {
-  RTCDevice device = meshes_->device();
-  trees_->world = new_scene(device);
-  RTCScene world = trees_->world.get();
+  surfaces_.reserve(all.size());
+  mesh_of_surface_.reserve(all.size());
+  normal_from_mesh_.reserve(all.size());
   for (const PlacedMesh& placed : all) {
-    rtcAttachGeometryByID(world, geometry_of(placed).get(),
-                          static_cast<unsigned>(surfaces_.size()));
     surfaces_.push_back(placed.surface);
     mesh_of_surface_.push_back(placed.mesh);
     normal_from_mesh_.emplace_back(
         placed.world_from_mesh.linear().inverse().transpose().cast<float>());
   }
-  rtcCommitScene(world);
-  require_success(device, "the scene");
+  trees_->world = new_scene(meshes_->device());
+  RTCScene world = trees_->world.get();
+  on_one_thread([&] {
+    for (unsigned id = 0; id < all.size(); ++id)
+      rtcAttachGeometryByID(world, geometry_of(all[id]).get(), id);
+    rtcCommitScene(world);
+    require_success(meshes_->device(), "the scene");
+  });
   RTCBounds bounds;
   rtcGetSceneBounds(world, &bounds);
   top_m_ = bounds.upper_z;
@@ -110,8 +100,8 @@ Hit Scene::hit_of(const Eigen::Vector3f& direction, const Meeting& met) const {
   const Eigen::Vector3f normal = normal_from_mesh_[met.surface] * met.normal;
   return {.range_m = met.range_m,
           .cos_incidence = std::min(1.0f, std::abs(normal.dot(direction)) / normal.norm()),
-          .reflectance = meshes_->optics(mesh_of_surface_[met.surface]).reflectance(
-              met.triangle, surfaces_[met.surface].reflectance),
+          .reflectance = meshes_->optics(mesh_of_surface_[met.surface])
+                             .reflectance(met.triangle, surfaces_[met.surface].reflectance),
           .surface = met.surface};
 }
 

@@ -63,6 +63,7 @@ class Scene {
   };
 
   Scene(const SceneContent& content, const Sway* sway);
+  // `geometry_of` makes the geometry of a placed mesh.
   template <class GeometryOf>
   void build_world(std::span<const PlacedMesh> all, const GeometryOf& geometry_of);
   bool goes_to_the_sky(const Ray& ray) const;

@@ -146,13 +146,14 @@ void CanopyCeiling::raise(const Standing& plant, const RayGrid& grid,
     const Eigen::Vector2d start =
         plant.map->cell_of(plant.map_from_world * (grid.place(line, first_ray) - plant.foot_m));
     const CeilingMap::Steps over = plant.map->steps_over(start, step);
+    const double first = std::max(0.0, std::ceil(over.first));
     const double last = std::min(rays, over.last);
+    if (first > last) continue;
     float* const ceilings = ceiling_m.data() + line * grid.rays_a_line + first_ray;
-    for (double ray = std::max(0.0, std::ceil(over.first)); ray <= last; ++ray) {
-      const double height = plant.map->at_cell(start + ray * step);
+    for (auto ray = static_cast<std::size_t>(first); ray <= static_cast<std::size_t>(last); ++ray) {
+      const double height = plant.map->at_cell(start + static_cast<double>(ray) * step);
       const auto z_m = static_cast<float>(plant.foot_z_m + plant.z_scale * height);
-      float& ceiling = ceilings[static_cast<std::ptrdiff_t>(ray)];
-      ceiling = std::max(ceiling, z_m);
+      ceilings[ray] = std::max(ceilings[ray], z_m);
     }
   }
 }

@@ -36,21 +36,22 @@ double step_of(const farm::Farm& farm) {
   return std::max(kCanopyStep_m, std::sqrt(area_m2 / kMostCanopyRays));
 }
 
-// The height of a hit above the terrain at `place`; NaN beside the terrain.
-double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit& hit, double top_m,
-                 const Eigen::Vector2d& place) {
+// The height above the terrain of what a ray from start_m over `place` hits; NaN beside the
+// terrain.
+double height_of(const Scene& scene, const terrain::Terrain& terrain, const Hit& hit,
+                 double start_m, const Eigen::Vector2d& place) {
   if (!std::isfinite(hit.range_m)) return kNaN;
   if (scene.surface(hit).label == scan::PointClass::ground) return 0;
   const std::optional<double> ground_m = terrain.height(place.x(), place.y());
-  return ground_m ? std::max(0.0, top_m - static_cast<double>(hit.range_m) - *ground_m) : kNaN;
+  return ground_m ? std::max(0.0, start_m - static_cast<double>(hit.range_m) - *ground_m) : kNaN;
 }
 
 // Casts rays of a grid straight down, in bundles of one task each.
 class Caster {
  public:
-  // Rays start at top_m, which is above everything.
-  Caster(const Scene& scene, float top_m, const terrain::Terrain& terrain, const RayGrid& grid)
-      : scene_(scene), top_m_(top_m), terrain_(terrain), grid_(grid) {}
+  // Rays start at the height start_m.
+  Caster(const Scene& scene, float start_m, const terrain::Terrain& terrain, const RayGrid& grid)
+      : scene_(scene), start_m_(start_m), terrain_(terrain), grid_(grid) {}
 
   // Sets the heights of what the rays hit, each at the ray's own place.
   void measure(std::span<const std::uint32_t> rays, std::vector<double>& heights_m) const {
@@ -69,17 +70,17 @@ class Caster {
     RayArrays rays(which.size());
     for (std::size_t i = 0; i < which.size(); ++i) {
       const Eigen::Vector2f place = grid_.place(which[i]).cast<float>();
-      rays.set(i, {.origin_m = {place.x(), place.y(), top_m_}, .direction = {0, 0, -1}});
+      rays.set(i, {.origin_m = {place.x(), place.y(), start_m_}, .direction = {0, 0, -1}});
     }
     std::vector<Hit> hits(rays.size());
-    scene_.cast_bundles(rays, rays.size(), top_m_ - scene_.bottom_m() + kAbove_m, hits);
+    scene_.cast_bundles(rays, rays.size(), start_m_ - scene_.bottom_m() + kAbove_m, hits);
     for (std::size_t i = 0; i < rays.size(); ++i)
-      heights_m[which[i]] =
-          height_of(scene_, terrain_, hits[i], static_cast<double>(top_m_), grid_.place(which[i]));
+      heights_m[which[i]] = height_of(scene_, terrain_, hits[i], static_cast<double>(start_m_),
+                                      grid_.place(which[i]));
   }
 
   const Scene& scene_;
-  float top_m_;
+  float start_m_;
   const terrain::Terrain& terrain_;
   const RayGrid& grid_;
 };
@@ -95,9 +96,8 @@ void take_highest(std::vector<WaitingRay>& waiting, std::size_t count,
                   std::vector<std::uint32_t>& cast) {
   const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(std::min(count, waiting.size()));
   if (end != waiting.end())
-    std::nth_element(waiting.begin(), end, waiting.end(), [](const auto& a, const auto& b) {
-      return a.ceiling_m > b.ceiling_m;
-    });
+    std::nth_element(waiting.begin(), end, waiting.end(),
+                     [](const auto& a, const auto& b) { return a.ceiling_m > b.ceiling_m; });
   const std::size_t known = cast.size();
   for (auto each = waiting.begin(); each != end; ++each) cast.push_back(each->ray);
   std::sort(cast.begin() + static_cast<std::ptrdiff_t>(known), cast.end());  // neighbours together
@@ -144,44 +144,59 @@ std::vector<double> all_heights(const Caster& caster, const RayGrid& grid) {
   return heights_m;
 }
 
-// Where rays start: above everything on the farm. The same for all plots, since heights are
-// rounded with it.
-float start_of(const farm::Farm& farm, const MeshTrees& meshes, double margin_m) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const farm::PlantModel& model : farm.models) {
-    Eigen::AlignedBox3d& box = boxes.emplace_back();
-    for (const Eigen::Vector3f& vertex : model.mesh.vertices) box.extend(vertex.cast<double>());
-  }
-  std::vector<double> tops_m;
-  for (const farm::Plant& plant : farm.plants)
-    tops_m.push_back(boxes[plant.model].transformed(farm::world_from_plant(plant)).max().z());
-  double top_m = -std::numeric_limits<double>::infinity();
-  for (const double each : tops_m) top_m = std::max(top_m, each);
-  std::vector<PlacedMesh> highest = {placed_terrain(farm)};
-  for (std::size_t i = 0; i < tops_m.size(); ++i)
-    if (tops_m[i] > top_m - margin_m) highest.push_back(placed_plant(farm, farm.plants[i]));
-  return Scene(meshes, highest).top_m() + kAbove_m;
+Eigen::AlignedBox3d box_of(const mesh::Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t vertex : triangle) box.extend(mesh.vertices[vertex].cast<double>());
+  return box;
 }
 
-// What measures the canopies over a farm's plots.
+// The top of each plant's box, world frame.
+std::vector<double> tops_of_plants(const farm::Farm& farm) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const farm::PlantModel& model : farm.models) boxes.push_back(box_of(model.mesh));
+  std::vector<double> tops_m;
+  tops_m.reserve(farm.plants.size());
+  for (const farm::Plant& plant : farm.plants)
+    tops_m.push_back(boxes[plant.model].transformed(farm::world_from_plant(plant)).max().z());
+  return tops_m;
+}
+
+// The top of a scene of the whole farm. A scene of the highest plants has the same, to the last
+// bit.
+float top_of(const farm::Farm& farm, const MeshTrees& meshes, double margin_m) {
+  const std::vector<double> tops_m = tops_of_plants(farm);
+  std::vector<PlacedMesh> highest = {placed_terrain(farm)};
+  if (!tops_m.empty()) {
+    const double least_m = *std::ranges::max_element(tops_m) - margin_m;
+    for (std::size_t i = 0; i < tops_m.size(); ++i)
+      if (tops_m[i] >= least_m) highest.push_back(placed_plant(farm.plants[i]));
+  }
+  return Scene(meshes, highest).top_m();
+}
+
+// What is needed to measure the canopy over any plot of a farm.
 struct Canopies {
   const farm::Farm& farm;
   const MeshTrees& meshes;
   const CanopyCeiling& ceiling;
+  // Where rays start, above everything. One height for all plots: heights are rounded with it.
   float start_m;
 };
 
-Scene scene_over(const Canopies& canopies, const std::vector<CanopyCeiling::Standing>& plants) {
-  const farm::Farm& farm = canopies.farm;
-  std::vector<PlacedMesh> placed = {placed_terrain(farm)};
+// A scene of the terrain and these plants. That of a plot is built and cast into faster than one of
+// the whole farm, and holds little memory.
+Scene scene_of(const Canopies& canopies, const std::vector<CanopyCeiling::Standing>& plants) {
+  std::vector<PlacedMesh> placed = {placed_terrain(canopies.farm)};
+  placed.reserve(plants.size() + 1);
   for (const CanopyCeiling::Standing& each : plants)
-    placed.push_back(placed_plant(farm, farm.plants[each.plant]));
+    placed.push_back(placed_plant(canopies.farm.plants[each.plant]));
   return {canopies.meshes, placed};
 }
 
 farm::CanopyHeights canopy_over(const Canopies& canopies, const RayGrid& grid) {
   const std::vector<CanopyCeiling::Standing> plants = canopies.ceiling.plants_near(grid);
-  const Scene scene = scene_over(canopies, plants);
+  const Scene scene = scene_of(canopies, plants);
   const Caster caster(scene, canopies.start_m, canopies.farm.terrain, grid);
   const std::optional<std::vector<float>> ceiling_m = canopies.ceiling.over(grid, plants);
   std::vector<double> heights_m =
@@ -200,7 +215,9 @@ void measure_canopies(farm::Farm& farm, int threads) {
   const std::vector<mesh::Mesh> meshes = scene_meshes(farm);
   const MeshTrees trees(meshes, std::vector<bool>(meshes.size(), true));
   const CanopyCeiling ceiling(farm);
-  const Canopies canopies{farm, trees, ceiling, start_of(farm, trees, ceiling.margin_m())};
+  const float top_m = top_of(farm, trees, ceiling.margin_m());
+  const Canopies canopies{
+      .farm = farm, .meshes = trees, .ceiling = ceiling, .start_m = top_m + kAbove_m};
   const double step_m = step_of(farm);
   const int most = std::min(threads, tbb::info::default_concurrency());
   for_each_index(farm.plots.size(), most, [&](std::size_t i) {

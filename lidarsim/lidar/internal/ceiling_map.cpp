@@ -35,7 +35,7 @@ CeilingMap::CeilingMap(const Eigen::AlignedBox2d& box, double cells, double marg
       cells_per_metre_(cells / box.sizes().maxCoeff()),
       columns_(std::ceil(cells_per_metre_ * box.sizes().x())),
       rows_(std::ceil(cells_per_metre_ * box.sizes().y())),
-      whole_columns_(static_cast<int>(columns_)),
+      whole_columns_(static_cast<std::ptrdiff_t>(columns_)),
       ceilings_(static_cast<std::size_t>(columns_ * rows_), kNothing) {}
 
 CeilingMap::CeilingMap(const mesh::Mesh& mesh, double margin)

@@ -38,8 +38,9 @@ class CeilingMap {
   Steps steps_over(const Eigen::Vector2d& start, const Eigen::Vector2d& step) const;
   // The ceiling at a place on the grid, in units of cells; kNothing if the mesh has nothing there.
   float at_cell(const Eigen::Vector2d& cell) const {
-    return ceilings_[static_cast<std::size_t>(static_cast<int>(cell.y()) * whole_columns_ +
-                                              static_cast<int>(cell.x()))];
+    const auto row = static_cast<std::ptrdiff_t>(cell.y());
+    const auto column = static_cast<std::ptrdiff_t>(cell.x());
+    return ceilings_[static_cast<std::size_t>(row * whole_columns_ + column)];
   }
   // Nothing of the mesh, widened by `margin`, is farther than this from the origin along the
   // ground.
@@ -54,7 +55,7 @@ class CeilingMap {
   Eigen::Vector2d low_;
   double cells_per_metre_;
   double columns_, rows_;  // whole numbers
-  int whole_columns_;
+  std::ptrdiff_t whole_columns_;
   double reach_ = 0;
   std::vector<float> ceilings_;  // row by row
 };

@@ -42,12 +42,14 @@ MeshTrees::MeshTrees(const std::vector<mesh::Mesh>& meshes, const std::vector<bo
     : device_(rtcNewDevice(nullptr)), optics_(meshes.begin(), meshes.end()) {
   check(device_ != nullptr, "Embree has a device");
   trees_.resize(meshes.size());
-  for (std::uint32_t i = 0; i < meshes.size(); ++i) {
-    if (!instanced[i]) continue;
-    trees_[i] = new_scene(device());
-    rtcAttachGeometry(tree(i), triangles(i, meshes[i]).get());
-    rtcCommitScene(tree(i));
-  }
+  on_one_thread([&] {
+    for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+      if (!instanced[i]) continue;
+      trees_[i] = new_scene(device());
+      rtcAttachGeometry(tree(i), triangles(i, meshes[i]).get());
+      rtcCommitScene(tree(i));
+    }
+  });
 }
 
 Geometry MeshTrees::triangles(std::uint32_t number, const mesh::Mesh& mesh) {

@@ -7,11 +7,21 @@
 #include <string>
 #include <vector>
 
+#include <tbb/task_arena.h>
+
 #include "lidar/embree.h"
-#include "lidar/optics.h"
+#include "lidar/internal/optics.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::lidar {
+
+// One thread builds trees: where two triangles are hit at the same distance the answer depends on
+// the tree, and the tree must not depend on the number of threads.
+template <class Build>
+void on_one_thread(const Build& build) {
+  tbb::task_arena one_thread(1);
+  one_thread.execute(build);
+}
 
 // Throws when the last calls of Embree on this thread failed.
 void require_success(RTCDevice device, const std::string& what);
@@ -31,7 +41,7 @@ class MeshTrees {
   RTCDevice device() const { return device_.get(); }
   RTCScene tree(std::uint32_t mesh) const { return trees_[mesh].get(); }
   const MeshOptics& optics(std::uint32_t mesh) const { return optics_[mesh]; }
-  // The mesh's triangles, to be placed in a scene directly. The mesh is the one of that number.
+  // The triangles of the mesh of that number, to be placed in a scene directly.
   Geometry triangles(std::uint32_t number, const mesh::Mesh& mesh);
 
  private:
