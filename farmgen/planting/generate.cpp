@@ -126,26 +126,31 @@ double lean_of(const farm::Plant& plant) {
   return 2 * std::asin(std::min(1.0, std::hypot(plant.rotation.x(), plant.rotation.y())));
 }
 
+// What grows in a plot: its crop, plant by plant, and how many weeds.
+struct Stand {
+  std::vector<double> heights_m, leans_rad;
+  std::uint32_t weeds = 0;
+};
+
 // Counts, heights and leans of each plot's plants; of the weeds, the count.
 void measure_plots(farm::Farm& farm) {
-  std::unordered_map<std::uint32_t, std::vector<double>> heights;
-  std::unordered_map<std::uint32_t, std::vector<double>> leans;
-  std::unordered_map<std::uint32_t, std::uint32_t> weeds;
+  std::unordered_map<std::uint32_t, Stand> stands;
   for (const farm::Plant& plant : farm.plants) {
+    Stand& stand = stands[plant.plot];
     if (plant.kind == farm::PlantKind::weed) {
-      ++weeds[plant.plot];
+      ++stand.weeds;
     } else {
-      heights[plant.plot].push_back(plant.height_m);
-      leans[plant.plot].push_back(lean_of(plant));
+      stand.heights_m.push_back(plant.height_m);
+      stand.leans_rad.push_back(lean_of(plant));
     }
   }
   for (farm::Plot& plot : farm.plots) {
-    const std::vector<double>& own = heights[plot.id];
-    plot.plant_count = static_cast<std::uint32_t>(own.size());
-    plot.heights = farm::plot_heights(own, farm.seed, plot.id);
+    const Stand& stand = stands[plot.id];
+    plot.plant_count = static_cast<std::uint32_t>(stand.heights_m.size());
+    plot.heights = farm::plot_heights(stand.heights_m, farm.seed, plot.id);
     plot.missing_plants -= std::min(plot.missing_plants, plot.plant_count);
-    plot.weed_count = weeds[plot.id];
-    if (!own.empty()) plot.lodging_rad = mean(leans[plot.id]);
+    plot.weed_count = stand.weeds;
+    if (plot.plant_count > 0) plot.lodging_rad = mean(stand.leans_rad);
   }
 }
 

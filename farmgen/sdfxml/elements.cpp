@@ -13,12 +13,17 @@ std::string plot_element_name(std::uint32_t plot) { return "plot_" + std::to_str
 
 std::string plant_element_name(std::uint32_t plant) { return "plant_" + std::to_string(plant); }
 
+void append_sdf_numbers(std::string& text, std::initializer_list<double> values) {
+  const char* between = "";
+  for (const double value : values) {
+    text.append(between).append(NumberText(value + 0.0));  // adding zero turns -0 into 0
+    between = " ";
+  }
+}
+
 std::string sdf_numbers(std::initializer_list<double> values) {
   std::string text;
-  for (const double value : values) {
-    if (!text.empty()) text += ' ';
-    text += NumberText(value + 0.0);  // adding zero turns -0 into 0
-  }
+  append_sdf_numbers(text, values);
   return text;
 }
 
@@ -35,9 +40,16 @@ Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
           std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
 }
 
-std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
+void append_sdf_pose(std::string& text, const Eigen::Vector3d& position,
+                     const Eigen::Quaterniond& rotation) {
   const Eigen::Vector3d rpy = roll_pitch_yaw(rotation);
-  return sdf_numbers({position.x(), position.y(), position.z(), rpy.x(), rpy.y(), rpy.z()});
+  append_sdf_numbers(text, {position.x(), position.y(), position.z(), rpy.x(), rpy.y(), rpy.z()});
+}
+
+std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
+  std::string text;
+  append_sdf_pose(text, position, rotation);
+  return text;
 }
 
 void write_mesh_geometry(XmlWriter& xml, const std::string& uri, const Eigen::Vector3d& scale) {

@@ -24,12 +24,15 @@ std::string plant_element_name(std::uint32_t plant);
 
 // The numbers with blanks between them, each the shortest text that reads back as the same number.
 std::string sdf_numbers(std::initializer_list<double> values);
+void append_sdf_numbers(std::string& text, std::initializer_list<double> values);
 
 // Roll, pitch, yaw as SDF has them: rotation = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& rotation);
 
 // "x y z roll pitch yaw", metres and radians.
 std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation);
+void append_sdf_pose(std::string& text, const Eigen::Vector3d& position,
+                     const Eigen::Quaterniond& rotation);
 
 // <geometry><mesh>, with the scale where it is not 1.
 void write_mesh_geometry(XmlWriter& xml, const std::string& uri,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -46,7 +47,7 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
       {"type", "Feature"},
       {"geometry",
        {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
-      {"properties", properties}};
+      {"properties", std::move(properties)}};
   if (plot.id) feature["id"] = plot.id->json();
   return feature;
 }
@@ -66,7 +67,7 @@ json collection(const std::vector<PlotFeature>& plots, const std::string& coordi
   return {{"type", "FeatureCollection"},
           {"format", kFormat},
           {"coordinate_system", coordinate_system},
-          {"features", features}};
+          {"features", std::move(features)}};
 }
 
 void write_document(const std::filesystem::path& path, const json& document) {

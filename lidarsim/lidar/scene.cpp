@@ -6,78 +6,38 @@
 #include <limits>
 #include <optional>
 
-#include <tbb/task_arena.h>
-
 #include "core/error.h"
 #include "lidar/embree.h"
+#include "lidar/internal/mesh_trees.h"
 #include "lidar/internal/swaying_plants.h"
 
 namespace plotscan::lidar {
 
 struct Scene::Trees {
-  Device device;
+  std::optional<MeshTrees> own;  // of a scene that shares none
   std::optional<SwayingPlants> swaying;
-  std::vector<SceneHandle> meshes;  // null if no instance needs it
   SceneHandle world;
 };
 
 namespace {
 
-void require_success(RTCDevice device, const std::string& what) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  check(error == RTC_ERROR_NONE, what + " fails in Embree with error " + std::to_string(error));
-}
-
-// Rejects hits where the material's mask has a hole (an Embree filter function).
-void pass_holes(const RTCFilterFunctionNArguments* hits) {
-  const auto& optics = *static_cast<const MeshOptics*>(hits->geometryUserPtr);
-  for (unsigned i = 0; i < hits->N; ++i) {
-    if (hits->valid[i] == 0) continue;
-    const bool opaque =
-        optics.is_opaque(RTCHitN_primID(hits->hit, hits->N, i), RTCHitN_u(hits->hit, hits->N, i),
-                         RTCHitN_v(hits->hit, hits->N, i));
-    if (!opaque) hits->valid[i] = 0;
-  }
-}
-
-// Keeps a pointer to `optics`, which must not move.
-Geometry triangle_geometry(RTCDevice device, const mesh::Mesh& mesh, MeshOptics& optics) {
-  Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertex = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), mesh.vertices.size()));
-  auto* index = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  require_success(device, "a mesh's memory");
-  for (const Eigen::Vector3f& v : mesh.vertices) vertex = std::copy(v.begin(), v.end(), vertex);
-  for (const auto& t : mesh.triangles) index = std::copy(t.begin(), t.end(), index);
-  if (optics.has_masks()) {
-    rtcSetGeometryUserData(geometry.get(), &optics);
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), pass_holes);
-  }
-  rtcCommitGeometry(geometry.get());
-  return geometry;
-}
-
-// Robust: a ray through the common edge of two triangles never slips between them. It costs about
-// a tenth of the casting time.
-SceneHandle new_scene(RTCDevice device) {
-  SceneHandle scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
-  return scene;
-}
-
 bool is_instance(const PlacedMesh& placed) {
   return placed.world_from_mesh.matrix() != Eigen::Matrix4d::Identity();
 }
 
-Geometry instance_of(RTCDevice device, RTCScene mesh, const Eigen::Affine3d& world_from_mesh) {
-  Geometry instance(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
-  rtcSetGeometryInstancedScene(instance.get(), mesh);
-  const Eigen::Affine3f pose = world_from_mesh.cast<float>();
+std::vector<bool> instanced_meshes(const SceneContent& content, bool sway) {
+  std::vector<bool> instanced(content.meshes.size(), false);
+  for (const PlacedMesh& placed : content.placed) {
+    check(placed.mesh < content.meshes.size(), "every placed mesh is there");
+    if (is_instance(placed) || (sway && placed.rooted)) instanced[placed.mesh] = true;
+  }
+  return instanced;
+}
+
+Geometry instance_of(const MeshTrees& meshes, const PlacedMesh& placed) {
+  Geometry instance(rtcNewGeometry(meshes.device(), RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(instance.get(), meshes.tree(placed.mesh));
+  const Eigen::Affine3f pose = placed.world_from_mesh.cast<float>();
   rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, pose.data());
   rtcCommitGeometry(instance.get());
   return instance;
@@ -87,52 +47,45 @@ Geometry instance_of(RTCDevice device, RTCScene mesh, const Eigen::Affine3d& wor
 
 Scene::Scene(const SceneContent& content, const Sway* sway) : trees_(std::make_unique<Trees>()) {
   if (sway != nullptr) trees_->swaying.emplace(*sway);
-  for (const PlacedMesh& placed : content.placed) {
-    check(placed.mesh < content.meshes.size(), "every placed mesh is there");
+  trees_->own.emplace(content.meshes, instanced_meshes(content, sway != nullptr));
+  meshes_ = &*trees_->own;
+  build_world(content.placed, [&](const PlacedMesh& placed) {
+    const mesh::Mesh& mesh = content.meshes[placed.mesh];
+    if (sway != nullptr && placed.rooted)
+      return trees_->swaying->add(meshes_->device(), meshes_->tree(placed.mesh), mesh, placed);
+    return is_instance(placed) ? instance_of(*meshes_, placed)
+                               : trees_->own->triangles(placed.mesh, mesh);
+  });
+}
+
+Scene::Scene(const MeshTrees& meshes, std::span<const PlacedMesh> placed)
+    : trees_(std::make_unique<Trees>()), meshes_(&meshes) {
+  build_world(placed, [&](const PlacedMesh& each) { return instance_of(meshes, each); });
+}
+
+template <class GeometryOf>
+void Scene::build_world(std::span<const PlacedMesh> all, const GeometryOf& geometry_of) {
+  surfaces_.reserve(all.size());
+  mesh_of_surface_.reserve(all.size());
+  normal_from_mesh_.reserve(all.size());
+  for (const PlacedMesh& placed : all) {
     surfaces_.push_back(placed.surface);
     mesh_of_surface_.push_back(placed.mesh);
     normal_from_mesh_.emplace_back(
         placed.world_from_mesh.linear().inverse().transpose().cast<float>());
   }
-  optics_.reserve(content.meshes.size());  // no reallocation: the trees keep pointers to them
-  for (const mesh::Mesh& mesh : content.meshes) optics_.emplace_back(mesh);
-  // One thread builds the trees: where two triangles are hit at the same distance the answer
-  // depends on the tree, and the tree must not depend on the number of threads.
-  tbb::task_arena one_thread(1);
-  one_thread.execute([&] { build_trees(content); });
+  trees_->world = new_scene(meshes_->device());
+  RTCScene world = trees_->world.get();
+  on_one_thread([&] {
+    for (unsigned id = 0; id < all.size(); ++id)
+      rtcAttachGeometryByID(world, geometry_of(all[id]).get(), id);
+    rtcCommitScene(world);
+    require_success(meshes_->device(), "the scene");
+  });
   RTCBounds bounds;
-  rtcGetSceneBounds(trees_->world.get(), &bounds);
+  rtcGetSceneBounds(world, &bounds);
   top_m_ = bounds.upper_z;
   bottom_m_ = bounds.lower_z;
-}
-
-void Scene::build_trees(const SceneContent& content) {
-  trees_->device.reset(rtcNewDevice(nullptr));
-  RTCDevice device = trees_->device.get();
-  check(device != nullptr, "Embree has a device");
-  trees_->meshes.resize(content.meshes.size());
-  trees_->world = new_scene(device);
-  RTCScene world = trees_->world.get();
-  for (unsigned id = 0; id < content.placed.size(); ++id) {
-    const PlacedMesh& placed = content.placed[id];
-    const mesh::Mesh& mesh = content.meshes[placed.mesh];
-    SceneHandle& tree = trees_->meshes[placed.mesh];
-    const bool sways = trees_->swaying && placed.rooted;
-    if (!sways && !is_instance(placed)) {
-      rtcAttachGeometryByID(world, triangle_geometry(device, mesh, optics_[placed.mesh]).get(), id);
-      continue;
-    }
-    if (tree == nullptr) {
-      tree = new_scene(device);
-      rtcAttachGeometry(tree.get(), triangle_geometry(device, mesh, optics_[placed.mesh]).get());
-      rtcCommitScene(tree.get());
-    }
-    const Geometry geometry = sways ? trees_->swaying->add(device, tree.get(), mesh, placed)
-                                    : instance_of(device, tree.get(), placed.world_from_mesh);
-    rtcAttachGeometryByID(world, geometry.get(), id);
-  }
-  rtcCommitScene(world);
-  require_success(device, "the scene");
 }
 
 Scene::~Scene() = default;
@@ -147,8 +100,8 @@ Hit Scene::hit_of(const Eigen::Vector3f& direction, const Meeting& met) const {
   const Eigen::Vector3f normal = normal_from_mesh_[met.surface] * met.normal;
   return {.range_m = met.range_m,
           .cos_incidence = std::min(1.0f, std::abs(normal.dot(direction)) / normal.norm()),
-          .reflectance = optics_[mesh_of_surface_[met.surface]].reflectance(
-              met.triangle, surfaces_[met.surface].reflectance),
+          .reflectance = meshes_->optics(mesh_of_surface_[met.surface])
+                             .reflectance(met.triangle, surfaces_[met.surface].reflectance),
           .surface = met.surface};
 }
 

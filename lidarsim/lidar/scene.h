@@ -7,12 +7,12 @@
 
 #include <Eigen/Core>
 
-#include "lidar/optics.h"
 #include "lidar/rays.h"
 #include "lidar/scene_content.h"
 
 namespace plotscan::lidar {
 
+class MeshTrees;
 class Sway;
 
 // Where a ray first hits a surface.
@@ -31,6 +31,8 @@ class Scene {
   explicit Scene(const SceneContent& content) : Scene(content, nullptr) {}
   // A scene whose rooted meshes sway.
   Scene(const SceneContent& content, const Sway& sway) : Scene(content, &sway) {}
+  // A scene of meshes that it shares with others, each of them instanced.
+  Scene(const MeshTrees& meshes, std::span<const PlacedMesh> placed);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -61,7 +63,9 @@ class Scene {
   };
 
   Scene(const SceneContent& content, const Sway* sway);
-  void build_trees(const SceneContent& content);
+  // `geometry_of` makes the geometry of a placed mesh.
+  template <class GeometryOf>
+  void build_world(std::span<const PlacedMesh> all, const GeometryOf& geometry_of);
   bool goes_to_the_sky(const Ray& ray) const;
   Hit hit_of(const Eigen::Vector3f& direction, const Meeting& met) const;
   // Casts rays [begin, begin + count), which are at most kPacket.
@@ -69,10 +73,10 @@ class Scene {
                    std::span<Hit> hits) const;
 
   std::unique_ptr<Trees> trees_;
-  std::vector<Surface> surfaces_;                  // in the order of SceneContent::placed
-  std::vector<std::uint32_t> mesh_of_surface_;     // index for optics_
+  const MeshTrees* meshes_ = nullptr;
+  std::vector<Surface> surfaces_;                  // in the order of the placed meshes
+  std::vector<std::uint32_t> mesh_of_surface_;     // in MeshTrees
   std::vector<Eigen::Matrix3f> normal_from_mesh_;  // turns normals into the world
-  std::vector<MeshOptics> optics_;                 // in the order of SceneContent::meshes
   float top_m_ = 0;
   float bottom_m_ = 0;
 };

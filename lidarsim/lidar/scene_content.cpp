@@ -45,24 +45,33 @@ Surface surface_of(const farm::Plant& plant) {
 
 }  // namespace
 
+std::vector<mesh::Mesh> scene_meshes(const farm::Farm& farm) {
+  for (const farm::Plant& plant : farm.plants) require_model(farm, plant);
+  std::vector<mesh::Mesh> meshes;
+  for (const farm::PlantModel& model : farm.models) meshes.push_back(unseen_left_out(model.mesh));
+  meshes.push_back(terrain::mesh_of(farm.terrain));
+  return meshes;
+}
+
+PlacedMesh placed_plant(const farm::Plant& plant) {
+  return {.mesh = plant.model,
+          .world_from_mesh = farm::world_from_plant(plant),
+          .surface = surface_of(plant),
+          .rooted = true};
+}
+
+PlacedMesh placed_terrain(const farm::Farm& farm) {
+  return {.mesh = static_cast<std::uint32_t>(farm.models.size()),
+          .surface = {.label = scan::PointClass::ground,
+                      .reflectance = static_cast<float>(
+                          farm.soil_reflectance.value_or(mesh::kSoilReflectance))}};
+}
+
 SceneContent scene_content(const farm::Farm& farm) {
-  SceneContent content;
-  for (const farm::PlantModel& model : farm.models)
-    content.meshes.push_back(unseen_left_out(model.mesh));
+  SceneContent content{.meshes = scene_meshes(farm), .placed = {}};
   content.placed.reserve(farm.plants.size() + 1);
-  for (const farm::Plant& plant : farm.plants) {
-    require_model(farm, plant);
-    content.placed.push_back({.mesh = plant.model,
-                              .world_from_mesh = farm::world_from_plant(plant),
-                              .surface = surface_of(plant),
-                              .rooted = true});
-  }
-  content.placed.push_back(
-      {.mesh = static_cast<std::uint32_t>(content.meshes.size()),
-       .surface = {.label = scan::PointClass::ground,
-                   .reflectance = static_cast<float>(
-                       farm.soil_reflectance.value_or(mesh::kSoilReflectance))}});
-  content.meshes.push_back(terrain::mesh_of(farm.terrain));
+  for (const farm::Plant& plant : farm.plants) content.placed.push_back(placed_plant(plant));
+  content.placed.push_back(placed_terrain(farm));
   return content;
 }
 

@@ -40,6 +40,11 @@ struct SceneContent {
 // The content of a farm: its plants in their order, then its terrain. Throws InputError when a
 // plant names a missing model.
 SceneContent scene_content(const farm::Farm& farm);
+// The same in parts: the meshes of the models and of the terrain (throws likewise), a plant, and
+// the terrain.
+std::vector<mesh::Mesh> scene_meshes(const farm::Farm& farm);
+PlacedMesh placed_plant(const farm::Plant& plant);
+PlacedMesh placed_terrain(const farm::Farm& farm);
 // The content of a world: its surfaces in their order.
 SceneContent scene_content(const gazebo::StaticWorld& world);
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "farmfolder/internal/plant_visuals.h"
 #include "sdfxml/elements.h"
 
 #include "core/ordered_texts.h"
@@ -29,14 +30,6 @@ void write_one_mesh_model(sdfxml::XmlFile& xml, const std::string& name, const s
     xml.close();
   }
   sdfxml::close_static_model(xml);
-}
-
-void write_plant(sdfxml::XmlWriter& xml, const farm::Plant& plant, const std::string& uri) {
-  xml.open("visual", sdfxml::plant_element_name(plant.id));
-  xml.text("pose", sdfxml::sdf_pose(plant.position, plant.rotation));
-  sdfxml::write_mesh_geometry(xml, uri, plant.scale);
-  sdfxml::write_class(xml, farm::class_of(plant.kind));
-  xml.close();
 }
 
 using PlantList = std::vector<const farm::Plant*>;
@@ -75,11 +68,11 @@ void write_plants_by_plot(sdfxml::XmlFile& xml, const farm::Farm& farm, int thre
   std::map<std::uint32_t, PlantList> by_plot;
   for (const farm::Plant& plant : farm.plants) by_plot[plant.plot].push_back(&plant);
   const std::vector<PlantsPiece> pieces = pieces_of(by_plot);
+  const PlantVisuals visuals(uris, kOpenElements);
   const auto print = [&](std::size_t piece) {
-    sdfxml::XmlElements elements(kOpenElements);
-    for (const farm::Plant* plant : pieces[piece].plants)
-      write_plant(elements, *plant, uris[plant->model]);
-    return elements.printed();
+    std::string text;
+    for (const farm::Plant* plant : pieces[piece].plants) visuals.append(text, *plant);
+    return text;
   };
   const auto write = [&](std::size_t number, const std::string& plants) {
     const PlantsPiece& piece = pieces[number];

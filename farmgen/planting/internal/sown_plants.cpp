@@ -210,6 +210,7 @@ std::vector<SownPlot> sow(const std::vector<TrialDescription>& trials, std::uint
   for (std::size_t place = 0; place < trials.size(); ++place) {
     const std::vector<CultivarDescription>& cultivars = trials[place].plants.value().cultivars;
     std::vector<std::string> accessions;
+    accessions.reserve(cultivars.size());
     for (const CultivarDescription& cultivar : cultivars) accessions.push_back(cultivar.name);
     const PlotGridDescription& grid = trials[place].plots;
     std::vector<farm::Plot> plots = grid_plots(grid, trial_number(place, trials.size()));
@@ -228,7 +229,10 @@ std::vector<farm::Plant> grow_plants(const std::vector<SownPlot>& plots,
                                      const std::vector<farm::PlantModel>& models,
                                      const terrain::Terrain& terrain,
                                      const std::filesystem::path& source, std::uint64_t seed) {
+  std::size_t seeds = 0;
+  for (const SownPlot& plot : plots) seeds += plot.cultivar->count;
   std::vector<farm::Plant> plants;
+  plants.reserve(seeds);
   for (const SownPlot& plot : plots)
     PlotPlants(plot, models, terrain, source, seed).put_into(plants);
   return plants;

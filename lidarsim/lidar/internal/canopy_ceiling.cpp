@@ -46,18 +46,20 @@ CanopyCeiling::CanopyCeiling(const farm::Farm& farm)
     maps_.push_back({.upright = {farm.models[i].mesh, margin},
                      .of_any_turn = CeilingMap::of_any_turn(farm.models[i].mesh, margin)});
   }
-  for (const farm::Plant& plant : farm.plants) {
-    feet_.extend(Eigen::Vector2d(plant.position.head<2>()));
-    reach_m_ = std::max(reach_m_, standing(plant).reach_m);
+  for (std::uint32_t i = 0; i < farm.plants.size(); ++i) {
+    feet_.extend(Eigen::Vector2d(farm.plants[i].position.head<2>()));
+    reach_m_ = std::max(reach_m_, standing(i).reach_m);
   }
   if (!farm.plants.empty()) sort_plants();
 }
 
-CanopyCeiling::Standing CanopyCeiling::standing(const farm::Plant& plant) const {
+CanopyCeiling::Standing CanopyCeiling::standing(std::uint32_t number) const {
+  const farm::Plant& plant = farm_.plants[number];
   const bool upright = is_upright(plant);
   const CeilingMap& map = upright ? maps_[plant.model].upright : maps_[plant.model].of_any_turn;
   const double widest = plant.scale.maxCoeff();
-  Standing standing{.map = &map,
+  Standing standing{.plant = number,
+                    .map = &map,
                     .map_from_world = Eigen::Matrix2d::Identity() / widest,
                     .foot_m = plant.position.head<2>(),
                     .foot_z_m = plant.position.z(),
@@ -112,7 +114,7 @@ std::vector<CanopyCeiling::Standing> CanopyCeiling::plants_near(const RayGrid& g
     const std::uint32_t begin = first_[line + static_cast<std::size_t>(low[0])];
     const std::uint32_t end = first_[line + static_cast<std::size_t>(high[0]) + 1];
     for (std::uint32_t i = begin; i < end; ++i) {
-      const Standing plant = standing(farm_.plants[plants_[i]]);
+      const Standing plant = standing(plants_[i]);
       const Eigen::Vector2d place = grid.box.box_from_world(plant.foot_m).cwiseAbs();
       if (place.x() <= grid.box.length_m / 2 + plant.reach_m &&
           place.y() <= grid.box.width_m / 2 + plant.reach_m)
@@ -139,34 +141,39 @@ void CanopyCeiling::raise(const Standing& plant, const RayGrid& grid,
   const Eigen::Vector2d step = plant.map->cells_per_metre() * plant.map_from_world *
                                grid.width_axis *
                                (grid.box.width_m / static_cast<double>(grid.rays_a_line));
+  const auto rays = static_cast<double>(last_ray - first_ray);
   for (std::size_t line = first_line; line <= last_line; ++line) {
     const Eigen::Vector2d start =
         plant.map->cell_of(plant.map_from_world * (grid.place(line, first_ray) - plant.foot_m));
-    float* const ceilings = ceiling_m.data() + line * grid.rays_a_line;
-    for (std::size_t ray = first_ray; ray <= last_ray; ++ray) {
-      const double height = plant.map->at_cell(start + static_cast<double>(ray - first_ray) * step);
-      const double z_m = plant.foot_z_m + plant.z_scale * height;
-      ceilings[ray] = std::max(ceilings[ray], static_cast<float>(z_m));
+    const CeilingMap::Steps over = plant.map->steps_over(start, step);
+    const double first = std::max(0.0, std::ceil(over.first));
+    const double last = std::min(rays, over.last);
+    if (first > last) continue;
+    float* const ceilings = ceiling_m.data() + line * grid.rays_a_line + first_ray;
+    for (auto ray = static_cast<std::size_t>(first); ray <= static_cast<std::size_t>(last); ++ray) {
+      const double height = plant.map->at_cell(start + static_cast<double>(ray) * step);
+      const auto z_m = static_cast<float>(plant.foot_z_m + plant.z_scale * height);
+      ceilings[ray] = std::max(ceilings[ray], z_m);
     }
   }
 }
 
-std::optional<std::vector<float>> CanopyCeiling::over(const RayGrid& grid) const {
+std::optional<std::vector<float>> CanopyCeiling::over(const RayGrid& grid,
+                                                      const std::vector<Standing>& near) const {
   Eigen::AlignedBox2d around;
   for (const Eigen::Vector2d& corner : grid.box.corners()) around.extend(corner);
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m_);
   if (border_.may_meet({around.min() - margin, around.max() + margin})) return std::nullopt;
   if (!farm_.terrain.height(grid.box.center.x(), grid.box.center.y())) return std::nullopt;
-  const std::vector<Standing> plants = plants_near(grid);
   double lookups = 0;
-  for (const Standing& plant : plants) {
+  for (const Standing& plant : near) {
     const double wide_m = 2 * plant.reach_m;
     lookups += std::min(wide_m, grid.box.length_m) * std::min(wide_m, grid.box.width_m) /
                grid.box.area_m2();
   }
   if (lookups > kMostPlantsARay) return std::nullopt;
   std::vector<float> ceiling_m(grid.rays(), CeilingMap::kNothing);
-  for (const Standing& plant : plants) raise(plant, grid, ceiling_m);
+  for (const Standing& plant : near) raise(plant, grid, ceiling_m);
   std::uint32_t triangle = 0;  // of the terrain, under the ray before
   for (std::size_t i = 0; i < ceiling_m.size(); ++i) {
     if (ceiling_m[i] == CeilingMap::kNothing) {

@@ -24,14 +24,9 @@ class CanopyCeiling {
   // Every plant's model must exist.
   explicit CanopyCeiling(const farm::Farm& farm);
 
-  // For each of the grid's rays an upper bound of what it hits, metres above the ground; 0 means
-  // that it hits the ground. Nothing if a ray may miss the terrain, or if plants stand so close
-  // that casting all rays takes no longer.
-  std::optional<std::vector<float>> over(const RayGrid& grid) const;
-
- private:
   // A plant as seen by rays from above.
   struct Standing {
+    std::uint32_t plant;  // index into Farm::plants
     const CeilingMap* map;
     Eigen::Matrix2d map_from_world;  // turns and scales
     Eigen::Vector2d foot_m;
@@ -39,16 +34,29 @@ class CanopyCeiling {
     double z_scale;
     double reach_m;
   };
+
+  // The plants that a ray of the grid can hit, and perhaps a few others.
+  std::vector<Standing> plants_near(const RayGrid& grid) const;
+
+  // For each of the grid's rays an upper bound of what it hits, metres above the ground; 0 means
+  // that it hits the ground. `near` are the plants near the grid. Nothing if a ray may miss the
+  // terrain, or if plants stand so close that casting all rays takes no longer.
+  std::optional<std::vector<float>> over(const RayGrid& grid,
+                                         const std::vector<Standing>& near) const;
+
+  // By how much single precision may displace rays and triangles.
+  double margin_m() const { return margin_m_; }
+
+ private:
   struct Maps {
     CeilingMap upright;
     CeilingMap of_any_turn;
   };
 
-  Standing standing(const farm::Plant& plant) const;
+  Standing standing(std::uint32_t number) const;
   void sort_plants();
   std::size_t square_of(const Eigen::Vector2d& place) const;
   std::array<Eigen::Index, 2> column_and_row(const Eigen::Vector2d& place) const;
-  std::vector<Standing> plants_near(const RayGrid& grid) const;
   void raise(const Standing& plant, const RayGrid& grid, std::vector<float>& ceiling_m) const;
 
   const farm::Farm& farm_;

@@ -35,6 +35,7 @@ CeilingMap::CeilingMap(const Eigen::AlignedBox2d& box, double cells, double marg
       cells_per_metre_(cells / box.sizes().maxCoeff()),
       columns_(std::ceil(cells_per_metre_ * box.sizes().x())),
       rows_(std::ceil(cells_per_metre_ * box.sizes().y())),
+      whole_columns_(static_cast<std::ptrdiff_t>(columns_)),
       ceilings_(static_cast<std::size_t>(columns_ * rows_), kNothing) {}
 
 CeilingMap::CeilingMap(const mesh::Mesh& mesh, double margin)
@@ -63,6 +64,22 @@ CeilingMap CeilingMap::of_any_turn(const mesh::Mesh& mesh, double margin) {
   map.reach_ = radius;
   map.ceilings_.assign(map.ceilings_.size(), static_cast<float>(radius));
   return map;
+}
+
+CeilingMap::Steps CeilingMap::steps_over(const Eigen::Vector2d& start,
+                                         const Eigen::Vector2d& step) const {
+  // In cells: rounding cannot lead beyond the grid's edge, and so near to it there is nothing.
+  constexpr double kInside = 1e-6;
+  const Eigen::Vector2d cells(columns_, rows_);
+  Steps steps{.first = -std::numeric_limits<double>::infinity(),
+              .last = std::numeric_limits<double>::infinity()};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double at_low = (kInside - start[axis]) / step[axis];
+    const double at_high = (cells[axis] - kInside - start[axis]) / step[axis];
+    steps.first = std::max(steps.first, std::min(at_low, at_high));
+    steps.last = std::min(steps.last, std::max(at_low, at_high));
+  }
+  return steps;
 }
 
 // Within a cell a triangle is no higher than its plane there, and than its highest corner.

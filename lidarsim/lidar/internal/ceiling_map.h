@@ -23,20 +23,24 @@ class CeilingMap {
   // The map that holds however the mesh is turned about its origin.
   static CeilingMap of_any_turn(const mesh::Mesh& mesh, double margin);
 
-  // The ceiling at a place; kNothing where the mesh has nothing.
-  float at(const Eigen::Vector2d& place) const { return at_cell(cell_of(place)); }
-
   // The place in units of cells from the grid's corner.
   Eigen::Vector2d cell_of(const Eigen::Vector2d& place) const {
     return cells_per_metre_ * (place - low_);
   }
   double cells_per_metre() const { return cells_per_metre_; }
+
+  // From the first to the last k for which a place, start + k * step in units of cells, is on the
+  // grid; the first is greater than the last if there is none. Beside these places the mesh has
+  // nothing.
+  struct Steps {
+    double first, last;
+  };
+  Steps steps_over(const Eigen::Vector2d& start, const Eigen::Vector2d& step) const;
+  // The ceiling at a place on the grid, in units of cells; kNothing if the mesh has nothing there.
   float at_cell(const Eigen::Vector2d& cell) const {
-    // Written so that NaN counts as outside.
-    const bool inside = cell.x() >= 0 && cell.y() >= 0 && cell.x() < columns_ && cell.y() < rows_;
-    if (!inside) return kNothing;
-    return ceilings_[static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(columns_) +
-                     static_cast<std::size_t>(cell.x())];
+    const auto row = static_cast<std::ptrdiff_t>(cell.y());
+    const auto column = static_cast<std::ptrdiff_t>(cell.x());
+    return ceilings_[static_cast<std::size_t>(row * whole_columns_ + column)];
   }
   // Nothing of the mesh, widened by `margin`, is farther than this from the origin along the
   // ground.
@@ -51,6 +55,7 @@ class CeilingMap {
   Eigen::Vector2d low_;
   double cells_per_metre_;
   double columns_, rows_;  // whole numbers
+  std::ptrdiff_t whole_columns_;
   double reach_ = 0;
   std::vector<float> ceilings_;  // row by row
 };

@@ -17,6 +17,12 @@ RayGrid grid_over(const farm::Plot& plot) {
   return {box, 0.03};
 }
 
+std::optional<std::vector<float>> ceiling_over(const farm::Farm& farm, const farm::Plot& plot) {
+  const CanopyCeiling ceiling(farm);
+  const RayGrid grid = grid_over(plot);
+  return ceiling.over(grid, ceiling.plants_near(grid));
+}
+
 double highest_m(const std::vector<testing::WorldTriangle>& triangles,
                  const Eigen::Vector2d& place) {
   double z_m = -50;
@@ -36,13 +42,12 @@ struct Excess {
 
 // By how much the ceiling exceeds what rays hit, where they hit plants.
 Excess excess_of(const farm::Farm& farm) {
-  const CanopyCeiling ceiling(farm);
   const auto triangles = testing::world_triangles(farm);
   Excess excess;
   std::size_t hits = 0;
   for (const farm::Plot& plot : farm.plots) {
     const RayGrid grid = grid_over(plot);
-    const std::vector<float> ceiling_m = ceiling.over(grid).value();
+    const std::vector<float> ceiling_m = ceiling_over(farm, plot).value();
     for (std::size_t i = 0; i < grid.rays(); ++i) {
       const Eigen::Vector2d place = grid.place(i);
       const double ground_m = farm.terrain.height(place.x(), place.y()).value();
@@ -74,22 +79,22 @@ TEST(CanopyCeiling, NothingOfLeaningPlantsExceedsIt) {
 TEST(CanopyCeiling, BareGroundHasNone) {
   farm::Farm farm = testing::small_farm();
   farm.plants.clear();
-  const std::vector<float> ceiling_m = CanopyCeiling(farm).over(grid_over(farm.plots[0])).value();
+  const std::vector<float> ceiling_m = ceiling_over(farm, farm.plots[0]).value();
   EXPECT_TRUE(std::ranges::all_of(ceiling_m, [](float height_m) { return height_m == 0; }));
 }
 
 TEST(CanopyCeiling, IsNotKnownAtTheTerrainsEdge) {
   farm::Farm farm = testing::small_farm();
   farm.plots[0].box.center = {7.8, 0};
-  EXPECT_FALSE(CanopyCeiling(farm).over(grid_over(farm.plots[0])));
+  EXPECT_FALSE(ceiling_over(farm, farm.plots[0]));
   farm.plots[0].box.center = {20, 0};
-  EXPECT_FALSE(CanopyCeiling(farm).over(grid_over(farm.plots[0])));
+  EXPECT_FALSE(ceiling_over(farm, farm.plots[0]));
 }
 
 TEST(CanopyCeiling, IsNotSoughtWherePlantsStandInEachOther) {
   farm::Farm farm = testing::small_farm();
   farm.plants.resize(200, farm.plants[0]);
-  EXPECT_FALSE(CanopyCeiling(farm).over(grid_over(farm.plots[0])));
+  EXPECT_FALSE(ceiling_over(farm, farm.plots[0]));
 }
 
 }  // namespace

@@ -146,6 +146,26 @@ TEST(CanopyHeight, IsWhatTryingEveryTriangleGives) {
   }
 }
 
+// Each plot is measured among its own plants alone.
+TEST(CanopyHeight, OtherPlotsChangeNothing) {
+  farm::Farm farm = testing::small_farm();
+  const farm::CanopyHeights among_others = canopy_of(farm);
+  farm.plots.resize(1);
+  EXPECT_EQ(canopy_of(farm).p95, among_others.p95);
+  EXPECT_EQ(canopy_of(farm).p99, among_others.p99);
+}
+
+// A vertex that no triangle uses makes no plant higher: rays start above the highest plant.
+TEST(CanopyHeight, LooseVerticesHideNothing) {
+  farm::Farm farm = one_plot();
+  add_plate(farm, 0, 20, 5);
+  farm.models.push_back(farm.models[0]);
+  farm.models[1].mesh.vertices.push_back({0, 0, 90});
+  add_plate(farm, 0, 1, 0.2);
+  farm.plants[1].model = 1;
+  EXPECT_NEAR(canopy_of(farm).p99, 5, 1e-5);
+}
+
 TEST(CanopyHeight, ThreadsChangeNothing) {
   const farm::Farm farm = testing::small_farm();
   const farm::CanopyHeights one = canopy_of(farm, 1);

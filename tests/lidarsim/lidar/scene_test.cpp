@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "lidar/internal/mesh_trees.h"
 #include "mesh/alpha_mask.h"
 
 namespace plotscan::lidar {
@@ -89,6 +90,31 @@ TEST(Scene, HitsWhatBruteForceHits) {
   EXPECT_GT(on_plants, 1000);
   EXPECT_GT(missed, 1000);
   EXPECT_LE(at_an_edge, 2);
+}
+
+TEST(Scene, OfSharedMeshesHitsTheSame) {
+  const farm::Farm farm = testing::small_farm();
+  const SceneContent content = scene_content(farm);
+  const Scene own(content);
+  const MeshTrees meshes(content.meshes, std::vector<bool>(content.meshes.size(), true));
+  const Scene sharing(meshes, content.placed);
+  const Scene sharing_too(meshes, content.placed);
+  const std::vector<Ray> rays = random_rays(farm, 2000);
+  std::vector<Hit> expected(rays.size());
+  own.cast(rays, kFar_m, expected);
+  for (const Scene* scene : {&sharing, &sharing_too}) {
+    EXPECT_EQ(scene->top_m(), own.top_m());
+    EXPECT_EQ(scene->bottom_m(), own.bottom_m());
+    std::vector<Hit> hits(rays.size());
+    scene->cast(rays, kFar_m, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(hits[i].range_m, expected[i].range_m);
+      if (!std::isfinite(expected[i].range_m)) continue;
+      ASSERT_EQ(hits[i].surface, expected[i].surface);
+      ASSERT_EQ(hits[i].cos_incidence, expected[i].cos_incidence);
+      ASSERT_EQ(hits[i].reflectance, expected[i].reflectance);
+    }
+  }
 }
 
 // Rays aimed at the common edges of the terrain's triangles all hit.

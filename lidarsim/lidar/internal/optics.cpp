@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/optics.h"
+#include "lidar/internal/optics.h"
 
 #include <algorithm>
 
