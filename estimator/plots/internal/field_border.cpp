@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,30 @@ namespace {
 // Lodged plots at a field's border: 0.3 and more. What else stands there at the plots' steps has
 // the edges of plots by chance only.
 constexpr double kLeastBorderContrast = 0.25;
+constexpr double kLeastBorderCover = 0.5;    // of the usual plot, where a lodged one stands
 constexpr double kFewOfLine = 0.5;           // a border line with no more of the usual one's plots
 constexpr double kLeastContrastOfFew = 0.5;  // must show them clearly
+
+// The plots that show their edges.
+class ClearPlots {
+ public:
+  explicit ClearPlots(const std::vector<Place>& places) {
+    for (const Place& place : places)
+      if (place.full && place.contrast >= kLeastBorderContrast)
+        at_.emplace(place.row, place.column);
+  }
+  bool stand_beside_in_row(const Place& place) const {
+    return at_.contains({place.row, place.column - 1}) &&
+           at_.contains({place.row, place.column + 1});
+  }
+  bool stand_beside_in_column(const Place& place) const {
+    return at_.contains({place.row - 1, place.column}) &&
+           at_.contains({place.row + 1, place.column});
+  }
+
+ private:
+  std::set<std::pair<int, int>> at_;
+};
 
 // The plots on a row or on a column.
 struct PlotsOnLine {
@@ -89,12 +112,21 @@ UsualPlot usual_plot(const Lattice& lattice) {
 // Whether a place beyond the border is covered as plots are, and has their edges on all sides: a
 // hedge has them on two, another crop on one.
 bool shows_a_plot(const Lattice& lattice, const UsualPlot& usual, Place& place) {
-  constexpr double kLeastCover = 0.5;  // of the usual plot's
   const SideContrast contrast = contrast_of(lattice, place);
   place.share = inner_cover(lattice, place) / std::max(1e-6, usual.cover);
   place.contrast = contrast.mean() / std::max(1e-6, usual.contrast.mean());
-  return place.share >= kLeastCover && contrast.r >= kLeastBorderContrast * usual.contrast.r &&
+  return place.share >= kLeastBorderCover &&
+         contrast.r >= kLeastBorderContrast * usual.contrast.r &&
          contrast.c >= kLeastBorderContrast * usual.contrast.c;
+}
+
+// Takes covered places with a clear plot on either side for plots: lodged ones lean over their
+// edges.
+void fill_between(std::vector<Place>& row) {
+  const ClearPlots clear(row);
+  for (Place& place : row)
+    place.full =
+        place.full || (place.share >= kLeastBorderCover && clear.stand_beside_in_row(place));
 }
 
 // The plots of the row before the first one or after the last one.
@@ -112,6 +144,7 @@ std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bo
     beyond.full = shows_a_plot(lattice, usual, beyond);
     row.push_back(beyond);
   }
+  fill_between(row);
   if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual.of_line) row.clear();
   return row;
 }
@@ -133,11 +166,18 @@ void leave_out_beside(Lattice& lattice) {
   do {
     const LinesOfPlots rows(lattice.places, &Place::row, &Place::column);
     const LinesOfPlots columns(lattice.places, &Place::column, &Place::row);
+    const ClearPlots clear(lattice.places);
+    const auto is_between = [&](const Place& place) {
+      return place.share >= kLeastBorderCover &&
+             (clear.stand_beside_in_row(place) ||
+              (lattice.aligned && clear.stand_beside_in_column(place)));
+    };
     const auto least_contrast = [&](const Place& place) {
       const bool few =
           rows.few_at_border(place) || (lattice.aligned && columns.few_at_border(place));
       const bool border = rows.ends_with(place) || (lattice.aligned && columns.ends_with(place));
-      return few ? kLeastContrastOfFew : border ? kLeastBorderContrast : 0.0;
+      if (few) return kLeastContrastOfFew;
+      return border && !is_between(place) ? kLeastBorderContrast : 0.0;
     };
     beside.clear();
     for (Place& place : lattice.places)

@@ -65,6 +65,23 @@ TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
   }
 }
 
+// Of three rows, the middle plot of the last one and the last plot of the first one are as covered
+// as the others and show no edges, as lodged plots. Weeds may be that at a corner.
+TEST(LeaveOutBeside, KeepsLodgedPlotsThatStandBetweenOthers) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  for (Place& place : lattice.places) {
+    place.share = 1;
+    place.contrast = 1;
+    if ((place.row == 2 && place.column == 2) || (place.row == 0 && place.column == 4))
+      place.contrast = 0.1;
+  }
+  leave_out_beside(lattice);
+  for (const Place& place : lattice.places)
+    EXPECT_EQ(place.full, place.row != 0 || place.column != 4) << place.row << ' ' << place.column;
+}
+
 // As a closed crop is sometimes seen: steps from row to row that are less than a plot.
 TEST(GoOnBeyond, LeavesLatticesAloneThatOverlapOrHoldNothing) {
   const TrialLayout trial = known_trial({0, 0, 0});
