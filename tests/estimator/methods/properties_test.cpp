@@ -2,7 +2,9 @@
 // What an estimate may not depend on, and what it must: on random fields, moved, turned, mirrored,
 // in another order, with outliers, with half of the points.
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "cloud/tile_store.h"
@@ -156,8 +158,9 @@ TEST(Properties, OutliersMoveHeightsByMillimetres) {
 }
 
 // One return in a hundred stray in the air within 10 m. Those at the canopy's own spacing from it
-// stay, and move the tallest plant of one plot in 36 by 0.13 m.
+// stay, and move the tallest plant of two plots in 36 by 0.06 and 0.13 m.
 TEST(Properties, AHazeMovesHeightsByMillimetresInMostPlots) {
+  std::map<std::string, std::vector<double>> moved_m;
   for (const std::uint64_t seed : {7, 8}) {
     Points points = RandomField(seed).points();
     const Estimate estimate = estimate_of(points);
@@ -168,14 +171,14 @@ TEST(Properties, AHazeMovesHeightsByMillimetresInMostPlots) {
     }
     const Estimate of_hazy = estimate_of(points);
     ASSERT_EQ(of_hazy.plots.size(), estimate.plots.size());
-    for (const char* name : {"mean", "p90", "max"}) {
-      std::vector<double> moved_m;
+    for (const char* name : {"mean", "p90", "max"})
       for (const PlotEstimate& plot : estimate.plots)
-        moved_m.push_back(std::abs(plot_at(of_hazy, plot.box.center).heights_m.at(name) -
-                                   plot.heights_m.at(name)));
-      EXPECT_LT(quantile(moved_m, 0.5), 0.005) << name;
-      EXPECT_LT(quantile(moved_m, 0.9), 0.02) << name;
-    }
+        moved_m[name].push_back(std::abs(plot_at(of_hazy, plot.box.center).heights_m.at(name) -
+                                         plot.heights_m.at(name)));
+  }
+  for (const auto& [name, of_plots_m] : moved_m) {
+    EXPECT_LT(quantile(of_plots_m, 0.5), 0.005) << name;
+    EXPECT_LT(quantile(of_plots_m, 0.9), 0.02) << name;
   }
 }
 
