@@ -128,14 +128,14 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
   const std::span<const Eigen::Vector3f> points = field.points();
   tbb::task_arena arena(threads);
-  Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
+  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
   if (!(bounds.low.x() <= bounds.high.x()))
     return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
   const Eigen::Vector2d extent = bounds.high - bounds.low;
   while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
-  bounds.low.array() -= kUnseenAround * cell_m;
-  const int a_cells = static_cast<int>(extent.x() / cell_m) + 1 + 2 * kUnseenAround;
-  const int b_cells = static_cast<int>(extent.y() / cell_m) + 1 + 2 * kUnseenAround;
+  const int a_seen = static_cast<int>(extent.x() / cell_m) + 1;
+  const int b_seen = static_cast<int>(extent.y() / cell_m) + 1;
+  const int a_cells = a_seen + 2 * kUnseenAround, b_cells = b_seen + 2 * kUnseenAround;
   const auto cells = static_cast<std::size_t>(a_cells) * static_cast<std::size_t>(b_cells);
   std::vector<std::vector<std::uint64_t>> returns(scales.size(), std::vector<std::uint64_t>(cells));
   arena.execute([&] {
@@ -144,10 +144,10 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
           for (std::size_t i = some.begin(); i != some.end(); ++i) {
             const Eigen::Vector2d ab =
                 (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
-            const auto a =
-                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.x()), 0, a_cells - 1));
-            const auto b =
-                static_cast<std::size_t>(std::clamp(static_cast<int>(ab.y()), 0, b_cells - 1));
+            const auto a = static_cast<std::size_t>(
+                kUnseenAround + std::clamp(static_cast<int>(ab.x()), 0, a_seen - 1));
+            const auto b = static_cast<std::size_t>(
+                kUnseenAround + std::clamp(static_cast<int>(ab.y()), 0, b_seen - 1));
             const std::size_t cell = a * static_cast<std::size_t>(b_cells) + b;
             for (std::size_t k = 0; k < scales.size(); ++k) {
               if (i >= field.crop_points() && !scales[k].with_tall) continue;
@@ -159,7 +159,8 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
         });
   });
   Frame frame = axes;
-  frame.origin = bounds.low.x() * axes.a_axis + bounds.low.y() * axes.b_axis;
+  const Eigen::Vector2d low = bounds.low.array() - kUnseenAround * cell_m;
+  frame.origin = low.x() * axes.a_axis + low.y() * axes.b_axis;
   std::vector<CanopyRaster> rasters;
   rasters.reserve(returns.size());
   for (const std::vector<std::uint64_t>& sums : returns)
