@@ -50,6 +50,41 @@ Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world)
       });
 }
 
+// The cells that the points between bounds lie in, and unseen ones around them.
+class RasterGrid {
+ public:
+  RasterGrid(const Eigen::Matrix2d& ab_from_world, const Bounds& bounds, double cell_m)
+      : ab_from_world_(ab_from_world), low_(bounds.low), cell_m_(cell_m) {
+    const Eigen::Vector2d extent = bounds.high - bounds.low;
+    while ((extent / cell_m_).prod() > kMostCells) cell_m_ *= 2;
+    seen_ = (extent / cell_m_).cast<int>().array() + 1;
+  }
+
+  double cell_m() const { return cell_m_; }
+  int a_cells() const { return seen_.x() + 2 * kUnseenAround; }
+  int b_cells() const { return seen_.y() + 2 * kUnseenAround; }
+  std::size_t cells() const {
+    return static_cast<std::size_t>(a_cells()) * static_cast<std::size_t>(b_cells());
+  }
+  std::size_t cell_of(const Eigen::Vector3f& point) const {
+    const Eigen::Vector2d ab = (ab_from_world_ * point.head<2>().cast<double>() - low_) / cell_m_;
+    const Eigen::Array2i cell = ab.cast<int>().array().max(0).min(seen_ - 1) + kUnseenAround;
+    return static_cast<std::size_t>(cell.x()) * static_cast<std::size_t>(b_cells()) +
+           static_cast<std::size_t>(cell.y());
+  }
+  Frame frame_along(Frame axes) const {
+    const Eigen::Vector2d corner = low_.array() - kUnseenAround * cell_m_;
+    axes.origin = corner.x() * axes.a_axis + corner.y() * axes.b_axis;
+    return axes;
+  }
+
+ private:
+  Eigen::Matrix2d ab_from_world_;
+  Eigen::Vector2d low_;
+  double cell_m_;
+  Eigen::Array2i seen_;
+};
+
 std::uint64_t share_of(double z_m, const CanopyScale& scale) {
   const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
   // NOLINTNEXTLINE(bugprone-incorrect-roundings): at least 0, and lround is a call for each return.
@@ -131,40 +166,28 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
   if (!(bounds.low.x() <= bounds.high.x()))
     return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
-  const Eigen::Vector2d extent = bounds.high - bounds.low;
-  while ((extent / cell_m).prod() > kMostCells) cell_m *= 2;
-  const int a_seen = static_cast<int>(extent.x() / cell_m) + 1;
-  const int b_seen = static_cast<int>(extent.y() / cell_m) + 1;
-  const int a_cells = a_seen + 2 * kUnseenAround, b_cells = b_seen + 2 * kUnseenAround;
-  const auto cells = static_cast<std::size_t>(a_cells) * static_cast<std::size_t>(b_cells);
-  std::vector<std::vector<std::uint64_t>> returns(scales.size(), std::vector<std::uint64_t>(cells));
+  const RasterGrid grid(ab_from_world, bounds, cell_m);
+  std::vector<std::vector<std::uint64_t>> returns(scales.size(),
+                                                  std::vector<std::uint64_t>(grid.cells()));
   arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
-          for (std::size_t i = some.begin(); i != some.end(); ++i) {
-            const Eigen::Vector2d ab =
-                (ab_from_world * points[i].head<2>().cast<double>() - bounds.low) / cell_m;
-            const auto a = static_cast<std::size_t>(
-                kUnseenAround + std::clamp(static_cast<int>(ab.x()), 0, a_seen - 1));
-            const auto b = static_cast<std::size_t>(
-                kUnseenAround + std::clamp(static_cast<int>(ab.y()), 0, b_seen - 1));
-            const std::size_t cell = a * static_cast<std::size_t>(b_cells) + b;
-            for (std::size_t k = 0; k < scales.size(); ++k) {
-              if (i >= field.crop_points() && !scales[k].with_tall) continue;
-              std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
-              sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
-                             std::memory_order_relaxed);
-            }
-          }
-        });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce),
+                      [&](const auto& some) {
+                        for (std::size_t i = some.begin(); i != some.end(); ++i) {
+                          const std::size_t cell = grid.cell_of(points[i]);
+                          for (std::size_t k = 0; k < scales.size(); ++k) {
+                            if (i >= field.crop_points() && !scales[k].with_tall) continue;
+                            std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
+                            sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
+                                           std::memory_order_relaxed);
+                          }
+                        }
+                      });
   });
-  Frame frame = axes;
-  const Eigen::Vector2d low = bounds.low.array() - kUnseenAround * cell_m;
-  frame.origin = low.x() * axes.a_axis + low.y() * axes.b_axis;
   std::vector<CanopyRaster> rasters;
   rasters.reserve(returns.size());
   for (const std::vector<std::uint64_t>& sums : returns)
-    rasters.emplace_back(frame, cell_m, a_cells, b_cells, sums);
+    rasters.emplace_back(grid.frame_along(axes), grid.cell_m(), grid.a_cells(), grid.b_cells(),
+                         sums);
   return rasters;
 }
 

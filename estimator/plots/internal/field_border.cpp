@@ -102,6 +102,7 @@ UsualPlot usual_plot(const Lattice& lattice) {
     ++of_row[place.row];
   }
   std::vector<double> counts;
+  counts.reserve(of_row.size());
   for (const auto& [row, count] : of_row) counts.push_back(count);
   return {.cover = quantile(std::move(covers), 0.5),
           .contrast = {.r = quantile(std::move(r_contrasts), 0.5),
