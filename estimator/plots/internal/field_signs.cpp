@@ -40,7 +40,7 @@ constexpr double kLeastHeldOfUneven = 0.85;
 constexpr double kLeastHeld = 0.6;    // of the canopy; the rest may be weeds, or another trial
 constexpr double kLeastFilled = 0.6;  // of the places
 // Nats a plot, in the layout's outline. One canopy cut into cells, mounds: up to 4; plots, also
-// those of clouds cut to the field: 7 and more (57 fields of two words).
+// those of clouds cut to the field: 6.5 and more (57 fields of two words).
 constexpr double kLeastEvidence = 3;
 // Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01, wrong
 // plots on fields of plots 0.08, right ones 0.18 and more (234 fields of eight words).
