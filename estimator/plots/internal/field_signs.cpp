@@ -34,8 +34,9 @@ constexpr std::size_t kFewPlots = 4;
 constexpr double kLeastSquarenessOfFew = 1.05;
 // Closed plots reach 0.3. Plots of few single plants reach 0.5, as these stand at random; but the
 // mean of all plots does not, and little canopy stands beside the plots. Trees two by two: 0.7, in
-// the mean too. Bushes: 0.5 and more, and they hold up to 0.7 of the canopy.
+// the mean too. Bushes: 0.5 to 1.5, and they hold up to 0.7 of the canopy, or by chance more.
 constexpr double kMostUneven = 0.45;
+constexpr double kMostUnevenAtRandom = 0.9;
 constexpr double kLeastHeldOfUneven = 0.85;
 constexpr double kLeastHeld = 0.6;    // of the canopy; the rest may be weeds, or another trial
 constexpr double kLeastFilled = 0.6;  // of the places
@@ -172,7 +173,7 @@ std::string no_plots_because(const FieldSigns& signs) {
   const bool square = signs.squareness >= (few ? kLeastSquarenessOfFew : kLeastSquareness);
   if (!square && (few || signs.straightness < kStraight))
     return "the canopy lies here in round crowns or bushes, not in plots with straight sides";
-  if (signs.mean_unevenness > kMostUneven ||
+  if (signs.mean_unevenness > kMostUneven || signs.unevenness > kMostUnevenAtRandom ||
       (signs.unevenness > kMostUneven && signs.held_share < kLeastHeldOfUneven))
     return "single bushes or trees stand here, not plots that are covered by a crop";
   if (signs.filled_share < kLeastFilled || field_confidence(signs) < kLeastConfidence)

@@ -118,6 +118,24 @@ TEST(FieldSigns, RefuseSeveralThatAreEachJustGoodEnough) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// Signs of bushes of which boxes of 4 x 7 m hold most by chance, and of plots of few plants.
+TEST(FieldSigns, TellBushesThatBoxesHoldByChance) {
+  FieldSigns signs{.plots = 17,
+                   .held_share = 0.86,
+                   .filled_share = 1,
+                   .squareness = 0.97,
+                   .straightness = 1.26,
+                   .roughness = 0.186,
+                   .unevenness = 1.45,
+                   .mean_unevenness = 0.3,
+                   .aspect = 1.8,
+                   .least_gap_m = 0.1,
+                   .evidence = 155};
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("single bushes"));
+  signs.unevenness = 0.5;
+  EXPECT_EQ(no_plots_because(signs), "");
+}
+
 TEST(FieldSigns, TellLongRows) {
   EXPECT_NE(why_none_of(
                 [](double x, double, RandomStream& random) {
