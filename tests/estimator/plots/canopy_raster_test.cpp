@@ -123,6 +123,26 @@ TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
             rasters[1].cover(low.x(), low.x() + 40, b0, b1));
 }
 
+// A return in each cell of 0.25 m of 10 x 6 m. A band of the raster may end where they do.
+TEST(Rasterise, HasUnseenCellsAllAround) {
+  constexpr int kAround = 20, kAlong = 40, kAcross = 24;
+  std::vector<Eigen::Vector3f> points;
+  for (int a = 0; a < kAlong; ++a)
+    for (int b = 0; b < kAcross; ++b)
+      points.emplace_back(0.25F * static_cast<float>(a), 0.25F * static_cast<float>(b), 0.0F);
+  const FieldBlocks blocks(points, 0.02, 2);
+  const CanopyScale scale{.low_m = 0.1, .high_m = 0.4, .with_tall = true};
+  const FieldCanopy field(points, blocks, {.top_m = 0.45}, 2);
+  const CanopyRaster raster = rasterise(field, {}, 0.25, {&scale, 1}, 2).front();
+  ASSERT_GE(raster.a_cells(), kAlong + 2 * kAround);
+  ASSERT_GE(raster.b_cells(), kAcross + 2 * kAround);
+  const double all = raster.seen_cells(0, raster.a_cells(), 0, raster.b_cells());
+  EXPECT_EQ(all, static_cast<double>(field.points().size()));
+  EXPECT_EQ(
+      raster.seen_cells(kAround, raster.a_cells() - kAround, kAround, raster.b_cells() - kAround),
+      all);
+}
+
 TEST(Rasterise, OfNoPointsHasNoCells) {
   const CanopyScale scale{0.2, 0.7};
   const FieldBlocks none({}, 0.02, 1);
