@@ -170,6 +170,14 @@ void border(const Field& field) {
   field.plan.beside = Beside::border;
 }
 
+// Nothing shows where one plot ends and the next begins: breeding trials whose rows run on at one
+// spacing. The estimator is told the width, and in half of the fields the length too.
+void gapless(const Field& field) {
+  draw_any(field);
+  field.set("plots.gap_width_m", 0.0);
+  field.plan.told = chance(field.random, 0.5) ? Told::width : Told::sides;
+}
+
 // As users cut their clouds before they measure.
 void clipped(const Field& field) {
   draw_any(field);
@@ -251,10 +259,10 @@ struct Stratum {
 
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
-      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},   {"touching", touching},
-      {"maize", maize},       {"objects", objects}, {"border", border},   {"clipped", clipped},
-      {"several", several},   {"others", others},   {"realism", realism}, {"sensors", sensors},
-      {"kentland", kentland}, {"paper", paper},     {"steep", steep}};
+      {"ordinary", ordinary}, {"drilled", drilled},   {"offset", offset},   {"touching", touching},
+      {"gapless", gapless},   {"maize", maize},       {"objects", objects}, {"border", border},
+      {"clipped", clipped},   {"several", several},   {"others", others},   {"realism", realism},
+      {"sensors", sensors},   {"kentland", kentland}, {"paper", paper},     {"steep", steep}};
   return all;
 }
 

@@ -22,6 +22,9 @@ struct Sources {
   std::filesystem::path meshes;  // plants that others modelled: bean/, maize/; may be absent
 };
 
+// What the estimator is told of the plots, besides the cloud.
+enum class Told { nothing, width, sides };
+
 // One farm and its flight.
 struct FieldPlan {
   std::string stratum;
@@ -35,6 +38,7 @@ struct FieldPlan {
   Beside beside = Beside::nothing;  // drawn by the seed
   // The cloud is cut to the rectangle about the plots, so far from them.
   std::optional<double> margin_m = std::nullopt;
+  Told told = Told::nothing;
 };
 
 // What makes the field: two plans with equal documents make the same one.

@@ -81,14 +81,19 @@ std::vector<Task> plan(const Program& program, const Arguments& arguments) {
 
 strata::MeasuredField measure(const Task& task, const Arguments& arguments, const fs::path& folder,
                               int threads) {
-  strata::KeptField field =
-      task.empty ? strata::keep_empty_field(arguments.secret, task.stratum, task.index, folder)
-                 : strata::keep_farm(strata::plan_field(arguments.secret, task.stratum, task.index,
-                                                        sources_of(arguments)),
-                                     folder, threads);
+  strata::KeptField field;
+  strata::Told told = strata::Told::nothing;
+  if (task.empty) {
+    field = strata::keep_empty_field(arguments.secret, task.stratum, task.index, folder);
+  } else {
+    const strata::FieldPlan plan =
+        strata::plan_field(arguments.secret, task.stratum, task.index, sources_of(arguments));
+    field = strata::keep_farm(plan, folder, threads);
+    told = plan.told;
+  }
   if (arguments.density_per_m2)
     field.cloud = strata::thinned_cloud(field.cloud, *arguments.density_per_m2, threads);
-  return strata::measure_field(task.stratum, task.index, field, threads);
+  return strata::measure_field(task.stratum, task.index, field, told, threads);
 }
 
 strata::MeasuredField measure_kept_or_not(const Task& task, const Arguments& arguments,

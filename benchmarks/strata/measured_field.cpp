@@ -33,23 +33,36 @@ void count_box_figures(const PlotBox& truth, const estimate::PlotEstimate& plot,
   }
 }
 
+methods::lattice::Options options_of(Told told, const std::vector<score::TruePlot>& truth,
+                                     int threads) {
+  methods::lattice::Options options{.threads = threads};
+  if (told == Told::nothing) return options;
+  const PlotBox& plot = truth.front().box;
+  const auto [width_m, length_m] = std::minmax(plot.width_m, plot.length_m);
+  options.plot_width_m = width_m;
+  // Of plots that are wider than long it is the length that nothing shows.
+  if (told == Told::sides || plot.width_m > plot.length_m) options.plot_length_m = length_m;
+  return options;
+}
+
 }  // namespace
 
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
-                            int threads) {
+                            Told told, int threads) {
   MeasuredField measured{.stratum = stratum, .index = index, .score = {}, .failure = {}};
+  const std::vector<score::TruePlot> truth =
+      field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
+  const methods::lattice::Options options = options_of(told, truth, threads);
   estimate::Estimate estimate{.method = "lattice"};
   const auto start = std::chrono::steady_clock::now();
   try {
-    estimate = methods::lattice::estimate_plots(field.cloud, {.threads = threads});
+    estimate = methods::lattice::estimate_plots(field.cloud, options);
     measured.points = estimate.diagnostics.points.value().read;
   } catch (const InputError& error) {
     measured.failure = error.what();
   }
   measured.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::vector<score::TruePlot> truth =
-      field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
   measured.score = score::score_field(truth, estimate);
   const std::set<PlotId> extra(measured.score.extra.begin(), measured.score.extra.end());
   for (const estimate::PlotEstimate& plot : estimate.plots) {

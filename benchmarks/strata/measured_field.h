@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "score/score.h"
+#include "strata/field_plan.h"
 #include "strata/kept_field.h"
 
 namespace plotscan::strata {
@@ -27,8 +28,8 @@ struct MeasuredField {
   std::string failure;     // why the estimator gave up; "" when it did not
 };
 
-// Runs the default method on the cloud alone, and scores its estimate.
+// Runs the default method on the cloud and on what is told of the plots, and scores its estimate.
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
-                            int threads);
+                            Told told, int threads);
 
 }  // namespace plotscan::strata

@@ -220,7 +220,8 @@ std::string next_step(const estimate::Estimate& estimate) {
   const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
   std::vector<std::string> steps;
   if (density_m2 >= cloud::kLeastSearched_m2) {
-    steps = {"say where plots are with --boxes", "cut the cloud to them with --crop-box"};
+    steps = {"give --plot-width where plots have no gap between them",
+             "say where plots are with --boxes", "cut the cloud to them with --crop-box"};
   }
   if (density_m2 < cloud::kPlotsFound_m2) steps.emplace_back("fly lower or slower for more points");
   if (!estimate.units && estimate.crs.empty())

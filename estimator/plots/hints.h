@@ -16,6 +16,8 @@ struct Hints {
   std::optional<int> plots = std::nullopt;  // in all
 
   bool tell_layout() const { return width_m || length_m || rows || columns || plots; }
+  // A plot's, or of how many plots the field's are made.
+  bool tell_sides() const { return width_m || length_m || (rows && columns); }
 };
 
 }  // namespace plotscan::plots

@@ -294,6 +294,12 @@ void require_sound(const Options& options) {
   if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
   require_settings(settings(), options);
   require_in_range("threads", options.threads, {1, kMostThreads});
+  if (options.plot_width_m && options.plot_length_m &&
+      *options.plot_width_m > *options.plot_length_m) {
+    throw InputError("plot_width_m " + format_number(*options.plot_width_m) +
+                     " is larger than plot_length_m " + format_number(*options.plot_length_m) +
+                     "; a plot's length is its longer side");
+  }
 }
 
 cloud::FieldOptions field_options(const Options& options) {

@@ -25,7 +25,8 @@ const std::vector<MethodSetting<Options>>& settings() {
        .searches = true},
       {.key = "plot_width_m",
        .flag = "--plot-width",
-       .help = "width of every plot, metres (default: found)",
+       .help = "width of every plot, metres, no more than its length; plots may lie side by side "
+               "without a gap then (default: found)",
        .value = Optional{{0.1, 100}, member<&Options::plot_width_m>},
        .searches = true},
       {.key = "plot_length_m",

@@ -11,6 +11,7 @@
 #include "plots/internal/drill_rows.h"
 #include "plots/internal/plot_parts.h"
 #include "plots/internal/steps.h"
+#include "plots/internal/touching_plots.h"
 
 namespace plotscan::plots {
 namespace {
@@ -188,7 +189,7 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
   }
   line.price = std::log(std::max(2.0, line.independent));
   constexpr double kOfPiece = 2;  // parameters: its place and its level
-  if (hint.ends == Ends::free)
+  if (hint.model == LineModel::free_ends)
     for (ProfileSums& profile : line.profiles) profile.free_ends(kOfPiece * line.price);
   return line;
 }
@@ -227,6 +228,16 @@ AxisFit fit_axis(const Line& line, bool shared) {
   for (AxisFit& fit : fit_shapes(line, shapes, shared)) fits.push_back(std::move(fit));
   leave_out_texture(line, fits);
   return best_of(line, std::move(fits));
+}
+
+std::optional<AxisFit> fit_touching(const Line& line) {
+  const auto plots = touching_plots(line.profiles, line.cell_m, line.hint.side_m, line.hint.count);
+  if (!plots) return std::nullopt;
+  AxisFit fit{.shape = {.size = static_cast<int>(plots->side), .blur = 0}, .touching = true};
+  fit.begins = rounded(plots->begins);
+  fit.seen_shape = fit.shape;
+  fit.seen = fit.begins;
+  return fit;
 }
 
 std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile) {

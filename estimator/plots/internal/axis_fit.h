@@ -11,17 +11,18 @@
 
 namespace plotscan::plots {
 
-// What may stand before the first and after the last plot of a line.
-enum class Ends {
-  free,  // anything
-  even,  // ground, or a canopy of one level
+// What is assumed of a line of plots.
+enum class LineModel {
+  free_ends,  // anything may stand before the first and after the last plot
+  even_ends,  // ground stands there, or a canopy of one level
+  touching,   // the same, and plots may touch where the user gave their side or their number
 };
 
 // What is known of the plots along an axis.
 struct AxisHint {
   std::optional<double> side_m = std::nullopt;  // of a plot
   std::optional<int> count = std::nullopt;      // of plots that follow each other
-  Ends ends = Ends::free;
+  LineModel model = LineModel::free_ends;
 };
 
 // How well bands of one shape explain what is seen along an axis.
@@ -30,6 +31,7 @@ struct AxisFit {
   std::vector<std::vector<int>> begins = {};  // by profile; one list where they share it
   double misfit = std::numeric_limits<double>::infinity();
   double parameters = 0;
+  bool touching = false;      // plots without gaps between them
   double row_spacing = 0;     // in cells, of drill rows that were put together; 0 for none
   BandShape seen_shape = {};  // the bands before that,
   std::vector<std::vector<int>> seen = {};
@@ -57,6 +59,9 @@ AxisFit fit_axis(const Line& line, bool shared);
 
 // The fit with bands that are whole plots, where they were drill rows or other parts of plots.
 AxisFit put_together(const Line& line, AxisFit fit);
+
+// Plots that touch (touching_plots.h). Their misfit is not that of bands, and is not given.
+std::optional<AxisFit> fit_touching(const Line& line);
 
 std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile);
 

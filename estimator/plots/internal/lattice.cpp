@@ -111,7 +111,10 @@ void number(const Layout& layout, Lattice& lattice) {
   std::vector<double> positions;
   for (const Place& place : lattice.places) positions.push_back(place.c_m);
   std::vector<Column> columns;
-  if (layout.aligned) columns = columns_of(std::move(positions), pitch_m, lattice.c.size_m);
+  if (layout.aligned) {
+    const double touching_m = lattice.c.size_m - 0.5 * lattice.view.cell_m();  // to whole cells
+    columns = columns_of(std::move(positions), pitch_m, touching_m);
+  }
   lattice.aligned = !columns.empty() && number_columns(columns, lattice);
   if (!lattice.aligned) number_each_row(pitch_m, lattice);
 }

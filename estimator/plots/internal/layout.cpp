@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "core/statistics.h"
@@ -14,8 +15,10 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kSameColumn_m = 0.15;  // off which leaves do not move what is seen of a plot
-constexpr double kLeastOfUsual = 0.3;   // of the usual plot's canopy: less is a missing one
+constexpr double kSameColumn_m = 0.15;   // off which leaves do not move what is seen of a plot
+constexpr double kNearlyAsClear = 0.9;   // of the evidence, where gaps show along more axes
+constexpr double kLeastAspectOfRow = 6;  // of a drill row; chosen
+constexpr double kLeastOfUsual = 0.3;    // of the usual plot's canopy: less is a missing one
 
 std::vector<Band> whole(int cells) { return {{0, cells}}; }
 
@@ -46,6 +49,7 @@ Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_f
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
   layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
   layout.row_spacing = c_fit.row_spacing;
+  layout.touching_axes = (r_fit.touching ? 1 : 0) + (c_fit.touching ? 1 : 0);
   const std::vector<Band> rows = bands_of(r_fit, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     layout.rows.push_back({rows[i], bands_of(c_fit, i)});
@@ -58,21 +62,27 @@ struct ViewHints {
   AxisHint r, c;
 };
 
+// Plots along a line: those between gaps, and those that touch.
+std::vector<AxisFit> fits_on(const Line& line, bool shared) {
+  std::vector<AxisFit> fits;
+  AxisFit apart = fit_axis(line, shared);
+  if (std::isfinite(apart.misfit)) fits.push_back(put_together(line, std::move(apart)));
+  if (line.hint.model != LineModel::touching) return fits;
+  if (std::optional<AxisFit> touching = fit_touching(line)) fits.push_back(std::move(*touching));
+  return fits;
+}
+
 // Rows over the whole field, then what lies along them: the same columns in all, or each row's own.
 std::vector<Layout> layouts_with_rows(const RowView& view, const ViewHints& hints) {
   const RowView along = view.turned();
-  const Line r_line = line_of(view, {whole(view.c_cells())}, hints.r);
-  AxisFit r_fit = fit_axis(r_line, true);
-  if (!std::isfinite(r_fit.misfit)) return {};
-  r_fit = put_together(r_line, std::move(r_fit));
-  const std::vector<Band> rows = bands_of(r_fit, 0);
-  const Line each = line_of(along, each_alone(rows), hints.c);
-  const Line all = line_of(along, {rows}, hints.c);
   std::vector<Layout> layouts;
-  for (const auto& [line, shared] : {std::pair{&each, false}, std::pair{&all, true}}) {
-    AxisFit c_fit = fit_axis(*line, shared);
-    if (std::isfinite(c_fit.misfit))
-      layouts.push_back(layout_from(view, r_fit, put_together(*line, std::move(c_fit))));
+  for (const AxisFit& r_fit : fits_on(line_of(view, {whole(view.c_cells())}, hints.r), true)) {
+    const std::vector<Band> rows = bands_of(r_fit, 0);
+    const Line each = line_of(along, each_alone(rows), hints.c);
+    const Line all = line_of(along, {rows}, hints.c);
+    for (const auto& [line, shared] : {std::pair{&each, false}, std::pair{&all, true}})
+      for (const AxisFit& c_fit : fits_on(*line, shared))
+        layouts.push_back(layout_from(view, r_fit, c_fit));
   }
   return layouts;
 }
@@ -94,12 +104,23 @@ bool is_longer_along(bool a_axis, const Layout& layout) {
   return along >= across;
 }
 
-// The plots' length may lie along either axis of the raster.
-std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints, Ends ends) {
-  const AxisHint length{hints.length_m, hints.rows, ends};
-  const AxisHint width{hints.width_m, hints.columns, ends};
+// Whether the plots' length may lie along the raster's a axis, or along its b axis, as the user
+// says.
+bool may_lie_along(bool a_axis, const CanopyRaster& raster, const Hints& hints) {
+  if (!hints.heading_rad) return true;
+  const Eigen::Vector2d heading(std::cos(*hints.heading_rad), std::sin(*hints.heading_rad));
+  const double along_a = std::abs(heading.dot(raster.frame().a_axis));
+  const double along_b = std::abs(heading.dot(raster.frame().b_axis));
+  return a_axis == (along_a >= along_b);
+}
+
+// The plots' length may lie along either axis of the raster, unless the user says along which.
+std::vector<Layout> layouts_as_told(const RowView& view, const Hints& hints, LineModel model) {
+  const AxisHint length{hints.length_m, hints.rows, model};
+  const AxisHint width{hints.width_m, hints.columns, model};
   std::vector<Layout> layouts;
   for (const bool along_a : {true, false}) {
+    if (!may_lie_along(along_a, *view.raster, hints)) continue;
     for (Layout& layout :
          layouts_on(view, along_a ? ViewHints{length, width} : ViewHints{width, length})) {
       if (is_longer_along(along_a, layout)) layouts.push_back(std::move(layout));
@@ -119,8 +140,8 @@ bool may_hold(const Layout& layout, int plots) {
 
 // Layouts with the user's number of plots: those that the canopy suggests, else full grids of that
 // many.
-std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
-  std::vector<Layout> layouts = layouts_as_told(view, hints, Ends::even);
+std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints, LineModel model) {
+  std::vector<Layout> layouts = layouts_as_told(view, hints, model);
   const auto keep_told = [&] {
     std::erase_if(layouts, [&](const Layout& layout) { return !may_hold(layout, *hints.plots); });
   };
@@ -133,25 +154,25 @@ std::vector<Layout> layouts_of_plots(const RowView& view, const Hints& hints) {
     whole_rows.columns = *hints.plots / rows;
     if (hints.rows.value_or(rows) != rows) continue;
     if (hints.columns.value_or(*whole_rows.columns) != *whole_rows.columns) continue;
-    for (Layout& layout : layouts_as_told(view, whole_rows, Ends::even))
+    for (Layout& layout : layouts_as_told(view, whole_rows, LineModel::even_ends))
       layouts.push_back(std::move(layout));
   }
   keep_told();
   return layouts;
 }
 
-std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, Ends ends) {
-  if (hints.plots) return layouts_of_plots(view, hints);
-  if (hints.tell_layout()) return layouts_as_told(view, hints, ends);
-  return layouts_on(view, {{.ends = ends}, {.ends = ends}});
+std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, LineModel model) {
+  if (hints.plots) return layouts_of_plots(view, hints, model);
+  if (hints.tell_layout()) return layouts_as_told(view, hints, model);
+  return layouts_on(view, {{.model = model}, {.model = model}});
 }
 
 // Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
 // along both axes, where all plots' edges add up, and cell by cell.
-void leave_best_aligned(const RowView& view, Ends ends, const LayoutCriterion& criterion,
+void leave_best_aligned(const RowView& view, LineModel model, const LayoutCriterion& criterion,
                         std::vector<Layout>& layouts) {
-  const Line a = line_of(view, {whole(view.c_cells())}, {.ends = ends});
-  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {.ends = ends});
+  const Line a = line_of(view, {whole(view.c_cells())}, {.model = model});
+  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {.model = model});
   const auto cost = [&](const Layout& layout) {
     const bool turned = layout.view.swapped;
     return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
@@ -170,10 +191,9 @@ void leave_best_aligned(const RowView& view, Ends ends, const LayoutCriterion& c
 // Whether the layout's plots are one by one the drill rows that another's consist of: too narrow
 // for two of them.
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
-  constexpr double kLeastAspect = 6;  // of a drill row; chosen
   double width = layout.r_shape.size, length = layout.c_shape.size;
   if (layout.view.swapped == drilled.view.swapped) std::swap(width, length);
-  return length > kLeastAspect * width && width < drilled.row_spacing;
+  return length > kLeastAspectOfRow * width && width < drilled.row_spacing;
 }
 
 // Where rows of plots have different offsets, their drill rows may by chance form columns through
@@ -234,6 +254,29 @@ void add_in_columns(std::vector<Layout>& layouts) {
   }
 }
 
+// The layout with the most evidence, if any has some.
+std::optional<Layout> clearest(std::span<const Layout> layouts) {
+  const auto best = std::ranges::max_element(layouts, {}, &Layout::evidence);
+  if (best == layouts.end() || best->evidence <= 0) return std::nullopt;
+  return *best;
+}
+
+// The clearest of layouts of which some touch. These must explain the canopy at least as well as
+// those between gaps. Where nothing shows between plots, others may explain the canopy as well:
+// those that touch along one axis are taken before those that touch along both.
+std::optional<Layout> clearest_of_touching(std::vector<Layout> layouts) {
+  std::ranges::stable_sort(layouts, {}, &Layout::touching_axes);
+  const auto touching_along = [&](int axes) {
+    return clearest(std::ranges::equal_range(layouts, axes, {}, &Layout::touching_axes));
+  };
+  const auto evidence = [](const std::optional<Layout>& layout) {
+    return layout ? layout->evidence : 0;
+  };
+  std::optional<Layout> none = touching_along(0), one = touching_along(1), two = touching_along(2);
+  std::optional<Layout>& touching = evidence(one) >= kNearlyAsClear * evidence(two) ? one : two;
+  return evidence(touching) >= evidence(none) ? touching : none;
+}
+
 }  // namespace
 
 bool is_in_columns(const Layout& layout) {
@@ -257,24 +300,32 @@ std::optional<Layout> in_columns(Layout layout) {
   return layout;
 }
 
-Layout best_layout(const CanopyRaster& raster, const Hints& hints, Ends ends) {
+std::optional<double> heading_of_rows(const Layout& layout) {
+  const auto [width, length] = std::minmax(layout.r_shape.size, layout.c_shape.size);
+  if (layout.rows.empty() || length <= kLeastAspectOfRow * width) return std::nullopt;
+  const bool along_r = layout.r_shape.size == length;
+  const Eigen::Vector2d axis = along_r ? layout.view.r_axis() : layout.view.c_axis();
+  return std::atan2(axis.y(), axis.x());
+}
+
+Layout best_layout(const CanopyRaster& raster, const Hints& hints, LineModel model) {
   const RowView view{.raster = &raster};
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
-  if (hints.rows || hints.columns || hints.plots) ends = Ends::even;
-  std::vector<Layout> layouts = layouts_in(view, hints, ends);
+  const bool counted = hints.rows || hints.columns || hints.plots;
+  if (counted && model == LineModel::free_ends) model = LineModel::even_ends;
+  std::vector<Layout> layouts = layouts_in(view, hints, model);
   leave_out_drill_rows(layouts);
   const LayoutCriterion criterion(raster);
-  leave_best_aligned(view, ends, criterion, layouts);
+  if (model != LineModel::touching) leave_best_aligned(view, model, criterion, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});
-  Layout best{.view = view};
-  for (Layout& layout : layouts) {
-    layout.evidence = 0.5 * (without - criterion(layout));
-    if (layout.evidence > best.evidence) best = std::move(layout);
-  }
-  if (!best.rows.empty()) best.evidence_in_outline = criterion.evidence_in_outline(best);
-  return best;
+  for (Layout& layout : layouts) layout.evidence = 0.5 * (without - criterion(layout));
+  std::optional<Layout> best =
+      model == LineModel::touching ? clearest_of_touching(std::move(layouts)) : clearest(layouts);
+  if (!best) return {.view = view};
+  best->evidence_in_outline = criterion.evidence_in_outline(*best);
+  return *std::move(best);
 }
 
 }  // namespace plotscan::plots

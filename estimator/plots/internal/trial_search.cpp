@@ -138,12 +138,36 @@ std::string text_of(const Layout& layout) {
   return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
 }
 
-// The layout that the canopy shows more clearly than the user's; "" where there is none.
-std::string rival_of(const Layout& told, const CanopyRaster& canopy) {
+// A layout, and another that the canopy shows more clearly than the user's, if there is one.
+struct Choice {
+  Layout layout;
+  std::optional<Layout> rival = std::nullopt;
+};
+
+Choice choose_layout(const CanopyRaster& canopy, Hints hints, LineModel model) {
   constexpr double kMoreClearly = 1.1;
-  const Layout shown = best_layout(canopy);
-  const bool clearer = !shown.rows.empty() && shown.evidence > kMoreClearly * told.evidence;
-  return clearer ? text_of(shown) : "";
+  if (!hints.tell_layout()) return {best_layout(canopy, hints, model)};
+  Layout shown = best_layout(canopy);
+  // Where plots touch, their length lies along the rows of the crop.
+  if (model == LineModel::touching && !hints.heading_rad)
+    hints.heading_rad = heading_of_rows(shown);
+  Choice choice{best_layout(canopy, hints, model)};
+  const bool clearer = shown.evidence > kMoreClearly * choice.layout.evidence;
+  if (!shown.rows.empty() && clearer) choice.rival = std::move(shown);
+  return choice;
+}
+
+// Why there is no layout.
+std::string no_layout(const Hints& hints, const std::optional<Layout>& rival) {
+  if (!hints.tell_layout()) return "no plots of one size lie in rows here";
+  return "no plots of the size and number told lie in rows here" +
+         (rival ? "; the canopy shows " + text_of(*rival) : "");
+}
+
+// Whether the layout's plots are single rows that others are sown in.
+bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
+  const int width = std::min(layout.r_shape.size, layout.c_shape.size);
+  return rows && width * layout.view.cell_m() < rows->spacing_m;
 }
 
 // How many plots of a trial beside others these may be.
@@ -153,7 +177,7 @@ std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
 }
 
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
-                Ends ends, int threads) {
+                LineModel model, int threads) {
   const Frame frame = frame_of(axes);
   const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
   const std::array scales = {
@@ -162,18 +186,10 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
   const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
   tbb::task_arena arena(threads);
-  Layout layout;
-  std::string rival;
-  arena.execute([&] {
-    layout = best_layout(canopy, hints, ends);
-    if (hints.tell_layout()) rival = rival_of(layout, canopy);
-  });
-  if (layout.rows.empty()) {
-    const std::string shown = rival.empty() ? "" : "; the canopy shows " + rival;
-    return {no_plots((hints.tell_layout() ? "no plots of the size and number told lie in rows here"
-                                          : "no plots of one size lie in rows here") +
-                     shown)};
-  }
+  Choice choice;
+  arena.execute([&] { choice = choose_layout(canopy, hints, model); });
+  auto& [layout, rival] = choice;
+  if (layout.rows.empty()) return {no_plots(no_layout(hints, rival))};
 
   layout.view.raster = &cover;
   Lattice lattice = fit_lattice(layout, hints);
@@ -185,7 +201,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   Look look{no_plots(hints.tell_layout() ? "" : no_plots_because(signs))};
   look.field.fit = fit_of(lattice, rows);
   look.field.signs = signs;
-  look.field.rival = rival;
+  if (rival && !are_rows(*rival, rows)) look.field.rival = text_of(*rival);
   look.explained = held_share(with_gaps(lattice));
   if (!look.field.why_none.empty()) {
     look.may_be = plots_beside_others(signs, look.explained);
@@ -198,13 +214,13 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
 }
 
 // One look along each pair of axes.
-std::vector<Look> looks_at(const FieldCanopy& field, double noise_m, const Hints& hints, Ends ends,
-                           int threads) {
+std::vector<Look> looks_at(const FieldCanopy& field, double noise_m, const Hints& hints,
+                           LineModel model, int threads) {
   const CanopyRaster coarse =
       rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
   std::vector<Look> looks;
   for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads))
-    looks.push_back(look_along(axes, field, noise_m, hints, ends, threads));
+    looks.push_back(look_along(axes, field, noise_m, hints, model, threads));
   return looks;
 }
 
@@ -229,11 +245,18 @@ bool shows_more(const Look& look, const Look& before) {
   return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
 }
 
-// Whether the plots hold nearly all of the canopy that was looked at.
-bool holds_most(const Look& look) {
-  constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost;
+// Whether the plots hold that share of the canopy that was looked at.
+bool holds(const Look& look, double share) {
+  return look.evidence > 0 && look.field.signs->held_share > share;
 }
+
+bool holds_most(const Look& look) { return holds(look, 0.9); }
+
+// Whether the plots and their gaps are what stands there.
+bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
+
+// Plots that touch leave no more beside them than the leaves that hang over: a ninth in tall maize.
+bool may_touch(const Look& look) { return holds(look, 0.85); }
 
 // Looks at a field in several ways, and keeps the best.
 class TrialSearch {
@@ -243,14 +266,14 @@ class TrialSearch {
         blocks_(scanned.points, scanned.noise_m, scanned.threads),
         tops_m_(blocks_.crop_tops_m()) {}
 
-  void look_in_every_canopy(Ends ends, const std::vector<bool>& others = {}) {
-    for (const double top_m : tops_m_) look({.top_m = top_m, .others = others}, ends);
+  void look_in_every_canopy(LineModel model, const std::vector<bool>& others = {}) {
+    for (const double top_m : tops_m_) look({.top_m = top_m, .others = others}, model);
   }
 
   // Another crop may stand beside the plots.
   void look_beside_closed_canopy() {
     for (const std::vector<bool>& others : blocks_.closed()) {
-      look_in_every_canopy(Ends::free, others);
+      look_in_every_canopy(LineModel::free_ends, others);
       if (holds_most(best())) return;
     }
   }
@@ -260,13 +283,14 @@ class TrialSearch {
   Look best() const { return best_.value_or(Look{no_plots(kNoCanopy)}); }
 
  private:
-  void look(const Crop& crop, Ends ends) {
+  void look(const Crop& crop, LineModel model) {
     const auto& [points, noise_m, hints, threads, ground_error] = scanned_;
     const FieldCanopy field(points, blocks_, crop, threads, ground_error);
-    const std::vector<Look> looks = looks_at(field, noise_m, hints, ends, threads);
+    const std::vector<Look> looks = looks_at(field, noise_m, hints, model, threads);
     looks_.insert(looks_.end(), looks.begin(), looks.end());
     Look look = clearest(looks);
     look.field.others_m2 = blocks_.covered_m2(crop.others);
+    if (model == LineModel::touching && !may_touch(look)) return;
     if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
   }
 
@@ -286,27 +310,29 @@ double expected_plots(const Look& look) {
 
 Look look_once(const ScannedField& scanned) {
   TrialSearch search(scanned);
-  search.look_in_every_canopy(Ends::free);
+  search.look_in_every_canopy(LineModel::free_ends);
   return search.best();
 }
 
 Look look_twice(const ScannedField& scanned) {
   TrialSearch search(scanned);
-  search.look_in_every_canopy(Ends::free);
+  search.look_in_every_canopy(LineModel::free_ends);
   const Look first = search.best();
   if (first.explained > kNearlyAll) return first;
-  search.look_in_every_canopy(Ends::even);
+  search.look_in_every_canopy(LineModel::even_ends);
   const Look best = search.best();
   return first.evidence == 0 || best.explained > kNearlyAll ? best : first;
 }
 
 Looks look_in_all_ways(const ScannedField& scanned) {
   TrialSearch search(scanned);
-  search.look_in_every_canopy(Ends::free);
+  search.look_in_every_canopy(LineModel::free_ends);
   const std::vector<Look> at_all = search.looks();
   if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
   search.look_beside_closed_canopy();
-  if (search.best().evidence == 0) search.look_in_every_canopy(Ends::even);
+  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
+  if (scanned.hints.tell_sides() && !explains_all(search.best()))
+    search.look_in_every_canopy(LineModel::touching);
   return {at_all, search.best()};
 }
 

@@ -141,6 +141,17 @@ TEST(Run, KnowsWhenNothingWasMeasured) {
   EXPECT_NO_THROW(require_measured(estimate));
 }
 
+TEST(Run, RefusesPlotsThatAreWiderThanLong) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.method = "lattice";
+  options.lattice.plot_width_m = 4;
+  options.lattice.plot_length_m = 1.5;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+              HasSubstr("plot_width_m 4 is larger than plot_length_m 1.5"));
+  EXPECT_FALSE(std::filesystem::exists(options.output));
+}
+
 TEST(Run, LeavesNothingBehindOnBadInput) {
   const TemporaryFolder folder;
   RunOptions options = small_run(folder, kFarm);

@@ -185,6 +185,26 @@ TEST(FindPlots, SaysWhatTheCanopyShowsMoreClearlyThanWhatWasTold) {
   EXPECT_EQ(find_plots(points, 0.02, {.width_m = 1.5, .length_m = 4}, 2).rival, "");
 }
 
+// As in breeding trials whose rows run on at one spacing.
+TEST(FindPlots, FindsPlotsWithoutAGapWhoseWidthIsKnown) {
+  const Trial trial{.gap_m = 0, .missing = 8};
+  const std::vector<Eigen::Vector3f> points = cloud_over(trial.boxes(), in_two_drill_rows);
+  expect_those(trial.boxes(), find_plots(points, 0.02, {.width_m = 1.5}, 2));
+  expect_those(trial.boxes(), find_plots(points, 0.02, {.width_m = 1.5, .length_m = 4}, 2), 0.97);
+  expect_those(trial.boxes(), find_plots(points, 0.02, {.rows = 3, .columns = 6}, 2));
+  // Rows of a crop are no plots, and are no reason to doubt what was told.
+  EXPECT_NE(find_plots(points, 0.02, {}, 2).why_none, "");
+  EXPECT_EQ(find_plots(points, 0.02, {.width_m = 1.5}, 2).rival, "");
+}
+
+// 9 x 12 m of crop are 6 x 3 plots of 1.5 x 4 m, or 4 x 4.5 of them: which way they lie must be
+// told.
+TEST(FindPlots, FindsPlotsWithoutAnyGapWhoseSidesAndHeadingAreKnown) {
+  const Trial trial{.gap_m = 0, .row_gap_m = 0};
+  const Hints hints{.heading_rad = trial.heading_rad, .width_m = 1.5, .length_m = 4};
+  expect_those(trial.boxes(), find_plots(cloud_over(trial.boxes()), 0.02, hints, 2));
+}
+
 TEST(FindPlots, LeavesOutTheMissingOneOfTheNumberThatIsKnown) {
   const std::vector<PlotBox> boxes = Trial{.missing = 8}.boxes();
   const auto plots = static_cast<int>(boxes.size());
