@@ -233,7 +233,7 @@ AxisFit fit_axis(const Line& line, bool shared) {
 std::optional<AxisFit> fit_touching(const Line& line) {
   const auto plots = touching_plots(line.profiles, line.cell_m, line.hint.side_m, line.hint.count);
   if (!plots) return std::nullopt;
-  AxisFit fit{.shape = {.size = static_cast<int>(plots->side), .blur = 0}, .touching = true};
+  AxisFit fit{.shape = {.size = static_cast<int>(plots->side), .blur = 0}, .touching = plots->side};
   fit.begins = rounded(plots->begins);
   fit.seen_shape = fit.shape;
   fit.seen = fit.begins;

@@ -31,7 +31,7 @@ struct AxisFit {
   std::vector<std::vector<int>> begins = {};  // by profile; one list where they share it
   double misfit = std::numeric_limits<double>::infinity();
   double parameters = 0;
-  bool touching = false;      // plots without gaps between them
+  std::optional<double> touching = std::nullopt;  // side of plots without gaps between them, cells
   double row_spacing = 0;     // in cells, of drill rows that were put together; 0 for none
   BandShape seen_shape = {};  // the bands before that,
   std::vector<std::vector<int>> seen = {};

@@ -253,9 +253,12 @@ CellBox cells_about(const Lattice& lattice, const Place& place, double around_m)
 Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   const double r_m = layout.r_shape.size * layout.view.cell_m();
   const double c_m = layout.c_shape.size * layout.view.cell_m();
+  const auto metres = [&](std::optional<double> cells) {
+    return cells ? std::optional(*cells * layout.view.cell_m()) : std::nullopt;
+  };
   Lattice lattice{.view = layout.view,
-                  .r = {.size_m = r_m, .band_m = r_m},
-                  .c = {.size_m = c_m, .band_m = c_m}};
+                  .r = {.size_m = r_m, .band_m = r_m, .touching_m = metres(layout.r_touching)},
+                  .c = {.size_m = c_m, .band_m = c_m, .touching_m = metres(layout.c_touching)}};
   number(layout, lattice);
   straighten(lattice);
   add_crossings(lattice);

@@ -4,6 +4,7 @@
 // Private to the library: the lattice on which a field's plots lie, and which of its places hold
 // one.
 
+#include <optional>
 #include <vector>
 
 #include "core/trial_layout.h"
@@ -22,10 +23,12 @@ struct Place {
 
 // What the plots have in common along one of the view's axes, metres.
 struct Side {
-  double size_m = 0;      // of a plot
-  double band_m = 0;      // of the layout's bands
-  double blur_m = 0.1;    // sigma of the leaves' spread over the edges
-  double pitch_m = 0;     // 0 where there is one row or one column only
+  double size_m = 0;    // of a plot
+  double band_m = 0;    // of the layout's bands
+  double blur_m = 0.1;  // sigma of the leaves' spread over the edges
+  double pitch_m = 0;   // 0 where there is one row or one column only
+  // Of plots that touch, their side: the step from one to the next is known.
+  std::optional<double> touching_m = std::nullopt;
   double rms_m = 0;       // plots' centres about the lattice
   double parameters = 0;  // of the lattice, that the centres were fitted by
 };

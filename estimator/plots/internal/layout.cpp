@@ -49,7 +49,8 @@ Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_f
   layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
   layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
   layout.row_spacing = c_fit.row_spacing;
-  layout.touching_axes = (r_fit.touching ? 1 : 0) + (c_fit.touching ? 1 : 0);
+  layout.r_touching = r_fit.touching;
+  layout.c_touching = c_fit.touching;
   const std::vector<Band> rows = bands_of(r_fit, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     layout.rows.push_back({rows[i], bands_of(c_fit, i)});
@@ -261,13 +262,18 @@ std::optional<Layout> clearest(std::span<const Layout> layouts) {
   return *best;
 }
 
+// Along how many axes the plots touch.
+int touching_axes(const Layout& layout) {
+  return (layout.r_touching ? 1 : 0) + (layout.c_touching ? 1 : 0);
+}
+
 // The clearest of layouts of which some touch. These must explain the canopy at least as well as
 // those between gaps. Where nothing shows between plots, others may explain the canopy as well:
 // those that touch along one axis are taken before those that touch along both.
 std::optional<Layout> clearest_of_touching(std::vector<Layout> layouts) {
-  std::ranges::stable_sort(layouts, {}, &Layout::touching_axes);
+  std::ranges::stable_sort(layouts, {}, touching_axes);
   const auto touching_along = [&](int axes) {
-    return clearest(std::ranges::equal_range(layouts, axes, {}, &Layout::touching_axes));
+    return clearest(std::ranges::equal_range(layouts, axes, {}, touching_axes));
   };
   const auto evidence = [](const std::optional<Layout>& layout) {
     return layout ? layout->evidence : 0;

@@ -23,9 +23,10 @@ struct Layout {
   Segmentation r_seen = {}, c_seen = {};  // the bands that show: drill rows, or the plots
   double row_spacing = 0;  // in cells, of drill rows put together along c; 0 for none
   std::vector<Row> rows = {};
-  int touching_axes = 0;  // 0 to 2, along which the plots touch and gaps show nothing
-  bool aligned = true;    // columns run through all rows; else every row's plots lie by themselves
-  double evidence = 0;    // by how much it explains the raster better than one level does, nats
+  // In cells, the side of plots that touch along r, along c.
+  std::optional<double> r_touching = std::nullopt, c_touching = std::nullopt;
+  bool aligned = true;  // columns run through all rows; else every row's plots lie by themselves
+  double evidence = 0;  // by how much it explains the raster better than one level does, nats
   double evidence_in_outline = 0;  // the same of the layout's outline alone (layout_criterion.h)
 };
 

@@ -12,6 +12,9 @@
 namespace plotscan::plots {
 namespace {
 
+// From the usual step. Of plots that touch it is known; rows are seen up to a hand beside them, as
+// leaves lean to where there is light. Chosen.
+constexpr double kLeastOddStep_m = 0.06, kLeastAlley_m = 0.35;
 constexpr double kLeastError_m = 0.005;  // of centres about the lattice, however few they are
 
 // Which row, or which column, each plot lies in.
@@ -114,22 +117,22 @@ struct MeasuredLines {
   const std::vector<double>& counts;
   double sigma_m = 0;
   double step_m = 0;  // the usual one
+  double least_alley_m = 0;
 
   // Whether the way from one to another differs from as many usual steps, beyond its error: -1
   // shorter, 1 longer, 0 neither.
   int unusual(std::size_t from, std::size_t to) const {
     const double error_m = sigma_m * std::sqrt(1 / counts[from] + 1 / counts[to]);
     const double off_m = at[to] - at[from] - static_cast<double>(to - from) * step_m;
-    if (std::abs(off_m) <= std::max(0.06, 4 * error_m)) return 0;
+    if (std::abs(off_m) <= std::max(least_alley_m, 4 * error_m)) return 0;
     return off_m > 0 ? 1 : -1;
   }
 };
 
-MeasuredLines measured_lines(const std::vector<double>& at, const std::vector<double>& counts,
-                             double sigma_m) {
+double median_step_m(const std::vector<double>& at) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < at.size(); ++i) steps.push_back(at[i] - at[i - 1]);
-  return {.at = at, .counts = counts, .sigma_m = sigma_m, .step_m = quantile(steps, 0.5)};
+  return quantile(steps, 0.5);
 }
 
 // Whether a row lies between a step that is too wide and one that is too narrow, two usual ones
@@ -142,14 +145,27 @@ bool is_out_of_place(std::size_t row, const std::vector<int>& unusual, const Mea
   return alone_before && alone_behind && lines.unusual(row - 1, row + 1) == 0;
 }
 
+// The lines that follow a step that is no usual one.
+std::vector<std::size_t> alleys_before(const std::vector<int>& unusual,
+                                       const std::vector<double>& weights) {
+  std::vector<std::size_t> alleys;
+  for (std::size_t i = 0; i < unusual.size(); ++i)
+    if (unusual[i] != 0 && weights[i] > 0 && weights[i + 1] > 0) alleys.push_back(i + 1);
+  return alleys;
+}
+
 // Positions of rows or columns, each a mean of `counts` centres of error sigma_m, smoothed: equal
-// steps, except at alleys that clearly differ.
+// steps, of that size if it is known, except at alleys that clearly differ.
 Positions with_equal_steps(const std::vector<double>& positions, const std::vector<double>& counts,
-                           double sigma_m) {
+                           double sigma_m, std::optional<double> known_step_m) {
   const auto size = static_cast<Eigen::Index>(positions.size());
   Positions as_they_are{.at = positions, .parameters = static_cast<double>(size)};
-  if (size < 3) return as_they_are;
-  const MeasuredLines lines = measured_lines(positions, counts, sigma_m);
+  if (size < (known_step_m ? 2 : 3)) return as_they_are;
+  const MeasuredLines lines{.at = positions,
+                            .counts = counts,
+                            .sigma_m = sigma_m,
+                            .step_m = known_step_m.value_or(median_step_m(positions)),
+                            .least_alley_m = known_step_m ? kLeastAlley_m : kLeastOddStep_m};
   std::vector<int> unusual;
   for (std::size_t row = 1; row < positions.size(); ++row)
     unusual.push_back(lines.unusual(row - 1, row));
@@ -158,25 +174,23 @@ Positions with_equal_steps(const std::vector<double>& positions, const std::vect
     in_place.push_back(is_out_of_place(row, unusual, lines) ? 0 : 1);
     weights.push_back(in_place.back() * std::sqrt(counts[row]));
   }
-  std::vector<std::size_t> alleys;
-  for (std::size_t i = 0; i < unusual.size(); ++i)
-    if (unusual[i] != 0 && weights[i] > 0 && weights[i + 1] > 0) alleys.push_back(i);
-  const auto unknowns = static_cast<Eigen::Index>(2 + alleys.size());
+  const std::vector<std::size_t> alleys = alleys_before(unusual, weights);
+  const auto unknowns = static_cast<Eigen::Index>((known_step_m ? 1 : 2) + alleys.size());
   if (unknowns >= size - std::ranges::count(weights, 0.0)) return as_they_are;
-  Eigen::MatrixXd design(size, unknowns);
-  Eigen::VectorXd right(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    design(i, 0) = 1;
-    design(i, 1) = static_cast<double>(i);
-    for (std::size_t k = 0; k < alleys.size(); ++k)
-      design(i, static_cast<Eigen::Index>(2 + k)) = at > alleys[k] ? 1 : 0;
-    right(i) = positions[at];
-  }
-  const Eigen::Map<const Eigen::VectorXd> weight(weights.data(), size);
-  const Eigen::VectorXd fitted =
-      (weight.asDiagonal() * design).colPivHouseholderQr().solve(weight.asDiagonal() * right);
-  const Eigen::VectorXd smooth = design * fitted;
+  const Eigen::VectorXd numbers =
+      Eigen::VectorXd::LinSpaced(size, 0, static_cast<double>(size - 1));
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(size, unknowns);
+  design.col(0).setOnes();
+  if (!known_step_m) design.col(1) = numbers;
+  Eigen::Index column = known_step_m ? 1 : 2;
+  for (const std::size_t alley : alleys)
+    design.col(column++).tail(size - static_cast<Eigen::Index>(alley)).setOnes();
+  const Eigen::VectorXd known = known_step_m.value_or(0) * numbers;
+  const Eigen::Map<const Eigen::VectorXd> at(positions.data(), size), weight(weights.data(), size);
+  const Eigen::VectorXd fitted = (weight.asDiagonal() * design)
+                                     .colPivHouseholderQr()
+                                     .solve(weight.asDiagonal() * (at - known));
+  const Eigen::VectorXd smooth = design * fitted + known;
   return {.at = {smooth.begin(), smooth.end()},
           .parameters = static_cast<double>(unknowns),
           .in_place = std::move(in_place)};
@@ -213,27 +227,28 @@ struct Columns {
 };
 
 // Positions of the columns, from plots' c without their rows' offsets.
-Positions columns_at(bool aligned, const Centers& centers, const std::vector<double>& c) {
-  if (aligned) {
+Positions columns_at(const Lattice& lattice, const Centers& centers, const std::vector<double>& c) {
+  if (lattice.aligned) {
     std::vector<double> at = centers.column.means(c);
     const double error_m = rms_of(centers.column.less(c, at), centers.column);
-    return with_equal_steps(at, centers.column.counts(), error_m);
+    return with_equal_steps(at, centers.column.counts(), error_m, lattice.c.touching_m);
   }
   std::vector<double> numbers(centers.column.count());
   for (std::size_t column = 0; column < numbers.size(); ++column)
     numbers[column] = static_cast<double>(column);
-  const double pitch_m = fit_lines(centers.row, centers.column.spread_out(numbers), c).slope;
+  const double pitch_m = lattice.c.touching_m.value_or(
+      fit_lines(centers.row, centers.column.spread_out(numbers), c).slope);
   for (double& number : numbers) number *= pitch_m;
   return {.at = std::move(numbers), .parameters = 1};
 }
 
 // Fits the columns' places and the rows' offsets in turn.
-Columns fit_columns(const Centers& centers, bool aligned) {
+Columns fit_columns(const Lattice& lattice, const Centers& centers) {
   constexpr int kRounds = 8;
   Columns fit;
   fit.row_offset.assign(centers.row.count(), 0);
   for (int round = 0; round < kRounds; ++round) {
-    fit.column = columns_at(aligned, centers, centers.row.less(centers.c, fit.row_offset));
+    fit.column = columns_at(lattice, centers, centers.row.less(centers.c, fit.row_offset));
     const std::vector<double> rest = centers.column.less(centers.c, fit.column.at);
     fit.row_offset = centers.row.means(rest, centers.column.spread_out(fit.column.in_place));
     fit.rms_m = rms_of(centers.row.less(rest, fit.row_offset), centers.row);
@@ -310,7 +325,7 @@ std::vector<double> offsets_on_line(const Centers& centers, const Columns& colum
 void straighten(Lattice& lattice) {
   const Centers centers = measured_centers(lattice);
   const LinesOfGroups rows = fit_lines(centers.row, centers.c, centers.r);
-  Columns columns = fit_columns(centers, lattice.aligned);
+  Columns columns = fit_columns(lattice, centers);
   // Rows with offsets of their own do not show the direction of the plots' sides, even if the
   // offsets lie on a line.
   const Skew skew = lattice.aligned ? fit_skew(centers, rows.at, columns) : Skew{};
@@ -324,8 +339,8 @@ void straighten(Lattice& lattice) {
 
   std::vector<double> r_at_0 = centers.r;
   for (std::size_t i = 0; i < r_at_0.size(); ++i) r_at_0[i] -= lattice.r_per_c * centers.c[i];
-  const Positions row =
-      with_equal_steps(centers.row.means(r_at_0), centers.row.counts(), lattice.r.rms_m);
+  const Positions row = with_equal_steps(centers.row.means(r_at_0), centers.row.counts(),
+                                         lattice.r.rms_m, lattice.r.touching_m);
   if (directions.columns_straight)
     columns.row_offset = offsets_on_line(centers, columns, lattice.c_per_r);
   lattice.r.parameters = row.parameters + 1;  // the rows' slope
