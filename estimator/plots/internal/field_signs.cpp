@@ -38,8 +38,9 @@ constexpr double kLeastSquarenessOfFew = 1.05;
 constexpr double kMostUneven = 0.45;
 constexpr double kMostUnevenAtRandom = 0.9;
 constexpr double kLeastHeldOfUneven = 0.85;
-constexpr double kLeastHeld = 0.6;    // of the canopy; the rest may be weeds, or another trial
-constexpr double kLeastFilled = 0.6;  // of the places
+constexpr double kLeastHeld = 0.6;  // of the canopy; the rest may be weeds, or another trial
+constexpr double kLeastHeldOfTouching = 0.85;  // tall maize: 0.88, as its leaves hang over; chosen
+constexpr double kLeastFilled = 0.6;           // of the places
 // Nats a plot, in the layout's outline. One canopy cut into cells, mounds: up to 4; plots, also
 // those of clouds cut to the field: 6.5 and more (57 fields of two words).
 constexpr double kLeastEvidence = 3;
@@ -179,6 +180,13 @@ std::string no_plots_because(const FieldSigns& signs) {
   if (signs.filled_share < kLeastFilled || field_confidence(signs) < kLeastConfidence)
     return "canopy lies here, but not in plots of one size at equal steps";
   return "";
+}
+
+std::string no_touching_plots_because(FieldSigns signs) {
+  if (signs.held_share < kLeastHeldOfTouching)
+    return "canopy lies here, but not in plots without gaps";
+  signs.least_gap_m = std::numeric_limits<double>::infinity();
+  return no_plots_because(signs);
 }
 
 bool may_be_beside_others(FieldSigns signs) {

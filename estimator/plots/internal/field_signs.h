@@ -20,6 +20,9 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);
 
+// The same of plots that are said to have no gaps: they leave next to nothing beside them.
+std::string no_touching_plots_because(FieldSigns signs);
+
 // Whether these may be plots of a trial beside others, whose canopy they do not hold: whether
 // nothing else speaks against them.
 bool may_be_beside_others(FieldSigns signs);

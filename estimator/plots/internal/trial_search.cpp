@@ -170,6 +170,13 @@ bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
   return rows && width * layout.view.cell_m() < rows->spacing_m;
 }
 
+// Why what looks like plots is none; "" where it may be plots. What the user told is taken as true,
+// but that plots touch is not told.
+std::string refused_because(const FieldSigns& signs, const Hints& hints, LineModel model) {
+  if (model == LineModel::touching) return no_touching_plots_because(signs);
+  return hints.tell_layout() ? "" : no_plots_because(signs);
+}
+
 // How many plots of a trial beside others these may be.
 std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
   constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
@@ -198,7 +205,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence_in_outline);
   lattice.view.raster = &cover;
-  Look look{no_plots(hints.tell_layout() ? "" : no_plots_because(signs))};
+  Look look{no_plots(refused_because(signs, hints, model))};
   look.field.fit = fit_of(lattice, rows);
   look.field.signs = signs;
   if (rival && !are_rows(*rival, rows)) look.field.rival = text_of(*rival);
@@ -245,18 +252,16 @@ bool shows_more(const Look& look, const Look& before) {
   return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
 }
 
-// Whether the plots hold that share of the canopy that was looked at.
-bool holds(const Look& look, double share) {
-  return look.evidence > 0 && look.field.signs->held_share > share;
+// Whether the plots hold nearly all of the canopy that was looked at.
+bool holds_most(const Look& look) {
+  constexpr double kMost = 0.9;
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
 }
 
-bool holds_most(const Look& look) { return holds(look, 0.9); }
-
-// Whether the plots and their gaps are what stands there.
-bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
-
-// Plots that touch leave no more beside them than the leaves that hang over: a ninth in tall maize.
-bool may_touch(const Look& look) { return holds(look, 0.85); }
+// Whether the plots and their gaps are all that stands there.
+bool explains_all(const Look& look) {
+  return look.evidence > 0 && look.explained > kNearlyAll;
+}
 
 // Looks at a field in several ways, and keeps the best.
 class TrialSearch {
@@ -290,7 +295,6 @@ class TrialSearch {
     looks_.insert(looks_.end(), looks.begin(), looks.end());
     Look look = clearest(looks);
     look.field.others_m2 = blocks_.covered_m2(crop.others);
-    if (model == LineModel::touching && !may_touch(look)) return;
     if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
   }
 
