@@ -259,9 +259,7 @@ bool holds_most(const Look& look) {
 }
 
 // Whether the plots and their gaps are all that stands there.
-bool explains_all(const Look& look) {
-  return look.evidence > 0 && look.explained > kNearlyAll;
-}
+bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
 
 // Looks at a field in several ways, and keeps the best.
 class TrialSearch {

@@ -136,6 +136,28 @@ TEST(FieldSigns, TellBushesThatBoxesHoldByChance) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// What would be rows of a crop may be plots that touch, if they hold the canopy.
+TEST(FieldSigns, AllowPlotsThatTouch) {
+  FieldSigns signs{.plots = 40,
+                   .held_share = 0.9,
+                   .filled_share = 1,
+                   .squareness = 1.3,
+                   .straightness = 4,
+                   .roughness = 0.25,
+                   .unevenness = 0.2,
+                   .mean_unevenness = 0.1,
+                   .aspect = 3.3,
+                   .least_gap_m = 0,
+                   .evidence = 100};
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("rows of a crop"));
+  EXPECT_EQ(no_touching_plots_because(signs), "");
+  signs.held_share = 0.8;
+  EXPECT_THAT(no_touching_plots_because(signs), ::testing::HasSubstr("without gaps"));
+  signs.held_share = 0.9;
+  signs.aspect = 15;
+  EXPECT_THAT(no_touching_plots_because(signs), ::testing::HasSubstr("rows of a crop"));
+}
+
 TEST(FieldSigns, TellLongRows) {
   EXPECT_NE(why_none_of(
                 [](double x, double, RandomStream& random) {

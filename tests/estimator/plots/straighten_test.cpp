@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "known_trial.h"
 #include <gtest/gtest.h>
 
@@ -65,6 +67,31 @@ TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
 }
 
 // A narrow gap beside an alley is none between a wide and a narrow one.
+// Plots that touch; the leaves of the outer ones hang 0.2 m over, and there is an alley.
+TEST(Straighten, KeepsTheStepsOfPlotsThatTouch) {
+  constexpr double kAlley_m = 2;
+  TrialLayout trial = known_trial({0, 0, 0}, 6);
+  for (TrialPlace& place : trial.places)
+    place.position_m.x() = 2 + 1.5 * (place.column - 1) + (place.column > 4 ? kAlley_m : 0);
+  const CanopyRaster raster = raster_of(14, 14, [&](double x, double y) {
+    const auto covers = [&](const TrialPlace& place) {
+      PlotBox box = trial.box(place);
+      if (place.column == 1 || place.column >= 4) box.width_m += 0.4;
+      return box.contains({x, y});
+    };
+    return std::ranges::any_of(trial.places, covers) ? 0.8 : 0.0;
+  });
+  Lattice lattice = lattice_of(trial, raster);
+  lattice.c.touching_m = 1.5;
+  straighten(lattice);
+  const auto c_m = [&](int column) {
+    return lattice.places[static_cast<std::size_t>(column - 1)].c_m;
+  };
+  for (const int column : {2, 3, 4, 6}) EXPECT_NEAR(c_m(column) - c_m(column - 1), 1.5, 1e-9);
+  EXPECT_NEAR(c_m(5) - c_m(4), 1.5 + kAlley_m, 0.02);
+  EXPECT_NEAR(c_m(1), 2, 0.02);
+}
+
 TEST(Straighten, KeepsAnAlleyBesideANarrowGap) {
   TrialLayout trial = known_trial({0, 0, 0}, 8);
   for (TrialPlace& place : trial.places) {
