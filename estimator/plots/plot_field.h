@@ -41,6 +41,7 @@ struct FieldSigns {
 struct SownRows {
   int rows = 0;  // of a plot
   double spacing_m = 0;
+  bool across = false;  // they run across the plot's length
 
   double extent_m() const { return rows * spacing_m; }
 };

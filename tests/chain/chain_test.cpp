@@ -7,6 +7,7 @@
 #include "programs.h"
 #include "small_farm.h"
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/csv.h"
@@ -73,6 +74,24 @@ TEST_F(Chain, TellsTrialsBesideEachOtherApart) {
   std::map<int, int> plots_of_trial;
   for (const auto& plot : map["features"]) ++plots_of_trial[plot["properties"]["trial_number"]];
   EXPECT_EQ(plots_of_trial, (std::map<int, int>{{1, 18}, {2, 8}}));
+}
+
+// Plots without gaps: by their width they are found, without it the blocks between alleys are
+// taken for plots, and are doubted.
+TEST_F(Chain, FindsANurserysPlotsByTheirWidth) {
+  succeed(std::string("farmgen generate '") + PLOTSCAN_SOURCE_DIR "/worlds/nursery.yaml'" +
+          " -o farm --seed 102 --set terrain.side_m=40 --set plots.missing_rate=0" +
+          " --set 'plots.rows=[{plots: 12}, {plots: 12}, {plots: 12}]'");
+  succeed("lidarsim fly farm -o scan");
+  succeed("estimator run scan -o estimate --plot-width 1.52");
+  const Finished scored = succeed("estimator score estimate --truth farm --json");
+  const auto scores = nlohmann::json::parse(scored.output)["boxes"];
+  EXPECT_EQ(scores["found"], 36);
+  EXPECT_EQ(scores["extra"], 0);
+  EXPECT_GT(scores["iou_mean"], 0.95);
+  const Finished blocks = succeed("estimator run scan -o blocks");
+  EXPECT_THAT(blocks.output + blocks.errors,
+              ::testing::HasSubstr("12 rows of the crop run across it, as of several plots"));
 }
 
 // LAS has steps of 0.1 mm: the plots are the same within them. Heights count from ground planes by

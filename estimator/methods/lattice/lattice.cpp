@@ -110,8 +110,20 @@ std::string why_none(const std::string& by_plots, double density_m2, double nois
   return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
 }
 
+// Blocks of plots that touch look like plots whose rows run across them: those of a plot run along
+// its length, and are few. "" where it is no such block.
+std::string doubt_of_rows(const std::optional<plots::FieldFit>& fit) {
+  constexpr int kMostOfPlot = 6;  // the most rows that plots are usually sown in; chosen
+  if (!fit || !fit->sown_rows) return "";
+  const plots::SownRows& sown = *fit->sown_rows;
+  if (!sown.across || sown.rows <= kMostOfPlot) return "";
+  return fmt::format("{} rows of the crop run across it, as of several plots side by side",
+                     sown.rows);
+}
+
 void add_plots(const plots::PlotField& trial, int number,
                std::vector<estimate::PlotEstimate>& found) {
+  const std::string doubt = doubt_of_rows(trial.fit);
   for (const plots::FoundPlot& plot : trial.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
                      .trial = number,
@@ -122,6 +134,7 @@ void add_plots(const plots::PlotField& trial, int number,
     found.back().confidence = plot.confidence;
     if (!trial.rival.empty())
       found.back().flags.push_back("the canopy shows " + trial.rival + " more clearly");
+    if (!doubt.empty()) found.back().flags.push_back(doubt);
     if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
   }
 }

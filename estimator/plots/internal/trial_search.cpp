@@ -99,7 +99,8 @@ std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
     straighten(lattice);
   }
   fit_edges(lattice);
-  const std::optional<SownRows> rows = take_sown_rows(lattice);
+  std::optional<SownRows> rows = take_sown_rows(lattice);
+  if (rows) rows->across = rows->extent_m() >= std::max(lattice.r.size_m, lattice.c.size_m);
   take_given_sides(lattice, hints);
   return rows;
 }
