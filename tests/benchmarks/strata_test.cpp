@@ -180,6 +180,15 @@ TEST(KeepEmptyField, IsMadeOnce) {
               HasSubstr("holds a field of another word"));
 }
 
+TEST(PlanField, TellsTheWidthOfPlotsWithoutAGap) {
+  for (int index = 0; index < 8; ++index) {
+    const FieldPlan plan = plan_field("test", "gapless", index, kSources);
+    EXPECT_THAT(plan.overrides, ::testing::Contains("plots.gap_width_m=0"));
+    EXPECT_NE(plan.told, Told::nothing);
+  }
+  EXPECT_EQ(plan_field("test", "ordinary", 0, kSources).told, Told::nothing);
+}
+
 // Four plots in two rows: the cloud ends a margin from them on all sides.
 TEST(KeepFarm, CutsTheCloudToTheMarginAboutThePlots) {
   const TemporaryFolder folder;
