@@ -18,11 +18,11 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kCanopyPiece_m = 1;  // of a plot, in which canopy is taken
-constexpr double kNear_m = 1.5;       // of a plot, where surfaces are looked for
-constexpr double kMostSurface = 0.1;  // walls and roofs: 0.14 and more; crops up to 0.02
-constexpr double kLeastRoughness =
-    0.08;  // tables: up to 0.02; cars: from 0.03; crops: 0.115 and more
+constexpr double kCanopyPiece_m = 1;         // of a plot, in which canopy is taken
+constexpr double kNear_m = 1.5;              // of a plot, where surfaces are looked for
+constexpr double kMostSurface = 0.1;         // walls and roofs: 0.14 and more; crops up to 0.02
+constexpr double kLeastRoughness = 0.08;     // tables: up to 0.02; cars: from 0.03
+constexpr double kRoughnessOfCrops = 0.115;  // and more; a torn sheet: 0.09
 // Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
 // a crop. Plots of drawn trials: up to 9.0; vine rows, whole or in equal parts: 10.7 and more.
 constexpr double kMostAspect = 10;
@@ -202,6 +202,7 @@ double field_confidence(const FieldSigns& signs) {
       std::max(share(signs.squareness, kLeastSquareness, 1.3),
                share(std::log(signs.straightness), std::log(kStraight), std::log(2 * kStraight)));
   return share(signs.held_share, kLeastHeld, 1) * squareness *
+         share(signs.roughness, kLeastRoughness, kRoughnessOfCrops) *
          share(std::log(std::max(kLeastEvidence, signs.evidence)), std::log(kLeastEvidence),
                std::log(4 * kLeastEvidence));
 }

@@ -136,6 +136,25 @@ TEST(FieldSigns, TellBushesThatBoxesHoldByChance) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// The signs of a torn sheet on the ground: most are just good enough, and it is smoother than a
+// crop.
+TEST(FieldSigns, RefuseATornSheet) {
+  FieldSigns signs{.plots = 14,
+                   .held_share = 0.71,
+                   .filled_share = 0.74,
+                   .squareness = 1.2,
+                   .straightness = 1.2,
+                   .roughness = 0.092,
+                   .unevenness = 0.37,
+                   .mean_unevenness = 0.05,
+                   .aspect = 1.6,
+                   .least_gap_m = 0.052,
+                   .evidence = 50};
+  EXPECT_NE(no_plots_because(signs), "");
+  signs.roughness = 0.115;
+  EXPECT_EQ(no_plots_because(signs), "");
+}
+
 // What would be rows of a crop may be plots that touch, if they hold the canopy.
 TEST(FieldSigns, AllowPlotsThatTouch) {
   FieldSigns signs{.plots = 40,
