@@ -11,6 +11,7 @@ namespace {
 // All chosen.
 constexpr double kWidestBetweenRows_m = 0.8;  // without leaves: maize, rows 40 in apart
 constexpr double kLeavesOfRow_m = 0.2;        // with leaves
+constexpr double kNarrowest_m = 0.3;          // plot: leaves of one cover a narrower next one
 constexpr double kLeastStanding = 0.25;       // of the fullest plot's canopy: less is bare
 // Of a plot, by which a stretch may be longer than plots end to end, as leaves hang over, or
 // shorter, as the outer rows lie within: half the way between two rows on either side.
@@ -81,6 +82,7 @@ std::optional<TouchingPlots> touching_plots(std::span<const ProfileSums> profile
     const std::vector<Stretch> stretches =
         stretches_of(profile, cells(side_m.value_or(1)), cells(row_m));
     if (!side_m) plots.side = side_of_count(stretches, *count);
+    if (plots.side * cell_m < kNarrowest_m) return std::nullopt;
     plots.begins.push_back(cut(stretches, plots.side));
     most = std::max(most, plots.begins.back().size());
   }

@@ -73,6 +73,7 @@ TEST(TouchingPlots, ShareWhatStandsThereAsTheyWereCounted) {
   EXPECT_EQ(plots->begins.front().size(), 7U);
   EXPECT_TRUE(cut(profile, 1.5, 7));
   EXPECT_FALSE(cut(profile, 1.5, 8));
+  EXPECT_FALSE(cut(profile, {}, 100'000)) << "plots of a tenth of a millimetre";
 }
 
 TEST(TouchingPlots, AreNoneWhereNothingIsKnownOrNothingStands) {
