@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "core/statistics.h"
@@ -255,32 +254,32 @@ void add_in_columns(std::vector<Layout>& layouts) {
   }
 }
 
-// The layout with the most evidence, if any has some.
-std::optional<Layout> clearest(std::span<const Layout> layouts) {
-  const auto best = std::ranges::max_element(layouts, {}, &Layout::evidence);
-  if (best == layouts.end() || best->evidence <= 0) return std::nullopt;
-  return *best;
-}
-
 // Along how many axes the plots touch.
 int touching_axes(const Layout& layout) {
   return (layout.r_touching ? 1 : 0) + (layout.c_touching ? 1 : 0);
 }
 
-// The clearest of layouts of which some touch. These must explain the canopy at least as well as
-// those between gaps. Where nothing shows between plots, others may explain the canopy as well:
-// those that touch along one axis are taken before those that touch along both.
-std::optional<Layout> clearest_of_touching(std::vector<Layout> layouts) {
-  std::ranges::stable_sort(layouts, {}, touching_axes);
-  const auto touching_along = [&](int axes) {
-    return clearest(std::ranges::equal_range(layouts, axes, {}, touching_axes));
-  };
+// Of the layouts whose plots touch along so many axes, the one with the most evidence, if any has
+// some.
+std::optional<Layout> clearest(const std::vector<Layout>& layouts, int axes) {
+  const Layout* best = nullptr;
+  for (const Layout& layout : layouts) {
+    const double least = best == nullptr ? 0 : best->evidence;
+    if (touching_axes(layout) == axes && layout.evidence > least) best = &layout;
+  }
+  return best == nullptr ? std::nullopt : std::optional(*best);
+}
+
+// The clearest layout. Those that touch must explain the canopy at least as well as those between
+// gaps. Where nothing shows between plots, others may explain the canopy as well: those that touch
+// along one axis are taken before those that touch along both.
+std::optional<Layout> clearest(const std::vector<Layout>& layouts) {
   const auto evidence = [](const std::optional<Layout>& layout) {
     return layout ? layout->evidence : 0;
   };
-  std::optional<Layout> none = touching_along(0), one = touching_along(1), two = touching_along(2);
-  std::optional<Layout>& touching = evidence(one) >= kNearlyAsClear * evidence(two) ? one : two;
-  return evidence(touching) >= evidence(none) ? touching : none;
+  const auto none = clearest(layouts, 0), one = clearest(layouts, 1), two = clearest(layouts, 2);
+  const auto& touching = evidence(one) >= kNearlyAsClear * evidence(two) ? one : two;
+  return touching && evidence(touching) >= evidence(none) ? touching : none;
 }
 
 }  // namespace
@@ -327,8 +326,7 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, LineModel mod
   if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});
   for (Layout& layout : layouts) layout.evidence = 0.5 * (without - criterion(layout));
-  std::optional<Layout> best =
-      model == LineModel::touching ? clearest_of_touching(std::move(layouts)) : clearest(layouts);
+  std::optional<Layout> best = clearest(layouts);
   if (!best) return {.view = view};
   best->evidence_in_outline = criterion.evidence_in_outline(*best);
   return *std::move(best);
