@@ -33,8 +33,8 @@ void count_box_figures(const PlotBox& truth, const estimate::PlotEstimate& plot,
   }
 }
 
-methods::lattice::Options options_of(Told told, const std::vector<score::TruePlot>& truth,
-                                     int threads) {
+methods::lattice::Options told_options(Told told, const std::vector<score::TruePlot>& truth,
+                                       int threads) {
   methods::lattice::Options options{.threads = threads};
   if (told == Told::nothing) return options;
   const PlotBox& plot = truth.front().box;
@@ -52,7 +52,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   MeasuredField measured{.stratum = stratum, .index = index, .score = {}, .failure = {}};
   const std::vector<score::TruePlot> truth =
       field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
-  const methods::lattice::Options options = options_of(told, truth, threads);
+  const methods::lattice::Options options = told_options(told, truth, threads);
   estimate::Estimate estimate{.method = "lattice"};
   const auto start = std::chrono::steady_clock::now();
   try {
