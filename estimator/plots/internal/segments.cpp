@@ -43,8 +43,9 @@ struct Start {
   int begin = 0;
   std::vector<Level> levels;
   double misfit = 0;
-  double cost = 0;  // of the best bands up to this one
-  int before = -1;  // the start before it
+  double cost = 0;   // of the best bands up to this one
+  double least = 0;  // cost of the cheapest start up to this one
+  int before = -1;   // the start before it
 };
 
 double highest_mean(const ProfileSums& sums, int width) {
@@ -117,6 +118,34 @@ double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, c
   return gap.level > kMostGap * lower ? kNever : gap.misfit;
 }
 
+// What the gap costs at least, as does any that begins earlier: the squares about the mean of more
+// cells are no fewer.
+double least_gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape,
+                      const Start& from, const Start& to) {
+  double misfit = 0;
+  for (const ProfileSums& sums : profiles)
+    misfit += sums.even(from.begin + shape.size + shape.blur, to.begin - shape.blur).misfit;
+  return misfit;
+}
+
+// Lets the i-th start follow the one with which the bands up to it cost least, or none. The gap
+// before it, and so the search, is rarely longer than a band.
+void follow_cheapest(std::span<const ProfileSums> profiles, const BandShape& shape, int least_gap,
+                     std::vector<Start>& starts, std::size_t i) {
+  Start& start = starts[i];
+  start.cost = gap_cost(profiles, shape, nullptr, &start);
+  for (std::size_t k = i; k-- > 0;) {
+    const Start& other = starts[k];
+    if (start.begin - other.begin - shape.size < least_gap) continue;
+    if (other.least + least_gap_cost(profiles, shape, other, start) > start.cost) return;
+    if (other.cost > start.cost) continue;
+    const double cost = other.cost + gap_cost(profiles, shape, &other, &start);
+    if (cost > start.cost) continue;
+    start.cost = cost;
+    start.before = static_cast<int>(k);
+  }
+}
+
 // A begin, and on every profile the band's level and that of the gap before it.
 double parameters_of_band(std::size_t profiles) { return 1 + 2 * static_cast<double>(profiles); }
 
@@ -130,18 +159,10 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
   const double band_price = price * parameters_of_band(profiles.size());
   least_gap = std::max(least_gap, 2 * shape.blur + 1);
   for (std::size_t i = 0; i < starts.size(); ++i) {
+    follow_cheapest(profiles, shape, least_gap, starts, i);
     Start& start = starts[i];
-    start.cost = gap_cost(profiles, shape, nullptr, &start);
-    for (std::size_t k = 0; k < i; ++k) {
-      const Start& other = starts[k];
-      if (start.begin - other.begin - shape.size < least_gap) break;
-      if (other.cost >= start.cost) continue;
-      const double cost = other.cost + gap_cost(profiles, shape, &other, &start);
-      if (cost >= start.cost) continue;
-      start.cost = cost;
-      start.before = static_cast<int>(k);
-    }
     start.cost += start.misfit + band_price;
+    start.least = i > 0 ? std::min(starts[i - 1].least, start.cost) : start.cost;
   }
   double best = kNever;
   int last = -1;
