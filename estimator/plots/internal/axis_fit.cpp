@@ -24,6 +24,7 @@ constexpr double kMostSpacing_m = 1.12;
 constexpr double kLeastGap_m = 0.15;     // between plots
 constexpr double kMostIrregular = 0.34;  // of the steps from plot to plot,
 constexpr double kAlleys = 1;            // but one at least
+constexpr std::size_t kMostPeriod = 4;   // plots that one pass of a drill sows
 constexpr double kSizeStep = 1.05;       // from one size that is tried to the next
 constexpr std::size_t kRefined = 4;      // best shapes of which others like them are tried
 constexpr std::size_t kRowsTried = 3;    // in each of which all shapes are tried
@@ -32,17 +33,38 @@ int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
 }
 
-// Number of steps that are no whole multiple of the usual step; of two steps the narrower one is
-// usual, as the other may be an alley. Each adds two parameters: its size and its place.
+// How many steps are no whole multiple of the usual one; of two steps the narrower one is usual, as
+// the other may be an alley.
+double unusual_steps(const std::vector<double>& steps, double tolerance) {
+  const double usual = steps.size() == 2 ? std::ranges::min(steps) : usual_step(steps);
+  return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
+    return std::abs(step - usual * std::max(1.0, std::round(step / usual))) > tolerance;
+  }));
+}
+
+// One step of each period, from the first one on.
+std::vector<double> every(std::size_t period, std::size_t first, const std::vector<double>& steps) {
+  std::vector<double> some;
+  for (std::size_t i = first; i < steps.size(); i += period) some.push_back(steps[i]);
+  return some;
+}
+
+// Number of steps that are no whole multiple of the usual one, or, where a wheel's track or the
+// next pass of the drill follows every so many plots, of the usual one at the same place of the
+// period, with one for each further place. Each adds two parameters: its size and its place.
 double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
   if (steps.size() < 2) return 0;
-  const double usual = steps.size() == 2 ? std::ranges::min(steps) : usual_step(steps);
   const double tolerance = std::max(0.05 / cell_m + 1, 0.05 * shape.size);
-  return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
-    return std::abs(step - usual * std::max(1.0, std::round(step / usual))) > tolerance;
-  }));
+  double fewest = unusual_steps(steps, tolerance);
+  for (std::size_t period = 2; period <= kMostPeriod && 2 * period <= steps.size(); ++period) {
+    auto irregular = static_cast<double>(period - 1);
+    for (std::size_t first = 0; first < period; ++first)
+      irregular += unusual_steps(every(period, first, steps), tolerance);
+    fewest = std::min(fewest, irregular);
+  }
+  return fewest;
 }
 
 // Fits bands of one shape; with `shared` the same on all profiles, else each profile's own.

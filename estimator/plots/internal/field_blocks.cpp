@@ -18,10 +18,10 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeast_m = 0.05;          // lower is no canopy, however little the noise
-constexpr double kLeastDensity = 0.1;      // of the usual block's: less is the survey's margin
-constexpr double kLeastCanopyShare = 0.1;  // of a block's returns, where there is canopy
-constexpr double kBlockTop = 0.9;          // quantile of a block's canopy returns: its top
+constexpr double kLeast_m = 0.05;      // lower is no canopy, however little the noise
+constexpr double kLeastDensity = 0.1;  // of the usual block's: less is the survey's margin
+constexpr double kLeastCover = 0.1, kLeastOfUsualCover = 0.25, kLeastOfSeedlings = 0.02;
+constexpr double kBlockTop = 0.9;  // quantile of a block's canopy returns: its top
 constexpr std::size_t kMostBlocks = 1 << 18;
 constexpr int kMostPatches = 3;          // of a block's side
 constexpr double kPatchReturns = 12;     // of the usual patch, at least: fewer lie near some plane
@@ -99,6 +99,11 @@ std::size_t patches_for(std::span<const std::uint32_t> block_of_point, std::size
 }
 
 }  // namespace
+
+double least_cover(const std::vector<double>& covers) {
+  const double of_usual = kLeastOfUsualCover * self_weighted_median(covers);
+  return std::clamp(of_usual, kLeastOfSeedlings, kLeastCover);
+}
 
 struct FieldBlocks::Block {
   explicit Block(double canopy_m) : heights(canopy_m) {}
@@ -180,8 +185,12 @@ FieldBlocks::FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m
   for (const Block& block : blocks)
     if (block.count > 0) scanned.push_back(block.count);
   const double least = kLeastDensity * quantile(std::move(scanned), 0.5);
+  std::vector<double> covers;
+  for (const Block& block : blocks)
+    if (block.count >= least) covers.push_back(block.cover());
+  const double least_share = least_cover(covers);
   for (const Block& block : blocks) {
-    const bool canopy = block.count >= least && block.cover() >= kLeastCanopyShare;
+    const bool canopy = block.count >= least && block.cover() >= least_share;
     facts_.push_back({.seldom_seen = block.count < least,
                       .stands_out = canopy,
                       .cover = block.cover(),

@@ -12,6 +12,10 @@
 
 namespace plotscan::plots {
 
+// The share of a place's returns from which something may stand there: a tenth, or of seedlings a
+// quarter of the share where half of all canopy has less. `covers` are shares of places alike.
+double least_cover(const std::vector<double>& covers);
+
 // What the returns of a block say of it.
 struct BlockFacts {
   bool seldom_seen = false;  // less than a tenth of the usual density: the survey's margin

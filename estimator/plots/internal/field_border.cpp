@@ -178,7 +178,7 @@ void leave_out_beside(Lattice& lattice) {
           rows.few_at_border(place) || (lattice.aligned && columns.few_at_border(place));
       const bool border = rows.ends_with(place) || (lattice.aligned && columns.ends_with(place));
       if (few) return kLeastContrastOfFew;
-      return border && !is_between(place) ? kLeastBorderContrast : 0.0;
+      return border && !place.low && !is_between(place) ? kLeastBorderContrast : 0.0;
     };
     beside.clear();
     for (Place& place : lattice.places)

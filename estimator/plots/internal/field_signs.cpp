@@ -201,8 +201,10 @@ double field_confidence(const FieldSigns& signs) {
   const double squareness =
       std::max(share(signs.squareness, kLeastSquareness, 1.3),
                share(std::log(signs.straightness), std::log(kStraight), std::log(2 * kStraight)));
+  // Not known of plots with few returns.
+  const double roughness = std::isnan(signs.roughness) ? kRoughnessOfCrops : signs.roughness;
   return share(signs.held_share, kLeastHeld, 1) * squareness *
-         share(signs.roughness, kLeastRoughness, kRoughnessOfCrops) *
+         share(roughness, kLeastRoughness, kRoughnessOfCrops) *
          share(std::log(std::max(kLeastEvidence, signs.evidence)), std::log(kLeastEvidence),
                std::log(4 * kLeastEvidence));
 }

@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "core/statistics.h"
+#include "plots/internal/field_blocks.h"
 #include "plots/internal/steps.h"
 
 namespace plotscan::plots {
@@ -22,7 +23,6 @@ constexpr double kTilt_rad = 0.5 * kDegrees;  // between what the families say: 
 constexpr double kHintReach_rad = 5 * kDegrees;
 constexpr int kApart_deg = 10;         // between pairs of which neither family is the same
 constexpr double kLeastOfBest = 0.25;  // of the best pair's worth: the other may be the plots'
-constexpr double kLeastCover = 0.1;    // of a block with canopy
 constexpr double kBareAround_m = 2;    // of bare ground about the canopy
 
 struct Cell {
@@ -33,10 +33,15 @@ struct Cell {
 std::vector<Cell> cells_of(const CanopyRaster& raster) {
   const double step = raster.cell_m();
   const int around = static_cast<int>(kBareAround_m / step), block = std::max(1, around / 2);
+  std::vector<double> covers;
+  for (int a = 0; a < raster.a_cells(); a += block)
+    for (int b = 0; b < raster.b_cells(); b += block)
+      covers.push_back(raster.cover(a, a + block, b, b + block));
+  const double least = least_cover(covers);
   int a0 = raster.a_cells(), a1 = 0, b0 = raster.b_cells(), b1 = 0;
   for (int a = 0; a < raster.a_cells(); a += block) {
     for (int b = 0; b < raster.b_cells(); b += block) {
-      if (raster.cover(a, a + block, b, b + block) < kLeastCover) continue;
+      if (raster.cover(a, a + block, b, b + block) < least) continue;
       a0 = std::min(a0, a - around);
       a1 = std::max(a1, a + block + around);
       b0 = std::min(b0, b - around);

@@ -23,6 +23,7 @@ namespace {
 constexpr double kLeastPlaceShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
+constexpr double kLeastRise = 0.1;  // of the usual plot's: low ones 0.12 and more, missing 0.00
 
 struct Column {
   double c_m = 0;
@@ -148,6 +149,18 @@ void add_crossings(Lattice& lattice) {
   }
 }
 
+// Medians of the plots' rises.
+SideContrast usual_rise(const Lattice& lattice) {
+  std::vector<double> along_r, along_c;
+  for (const Place& place : lattice.places) {
+    if (!place.full) continue;
+    const SideContrast rise = rise_of(lattice, place);
+    along_r.push_back(rise.r);
+    along_c.push_back(rise.c);
+  }
+  return {.r = quantile(std::move(along_r), 0.5), .c = quantile(std::move(along_c), 0.5)};
+}
+
 void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
@@ -165,6 +178,22 @@ void test_places(Lattice& lattice) {
     // A lodged plot leans over its neighbour and shows no edge there, but it is covered.
     place.full = place.share >= kLeastPlaceShare &&
                  (place.contrast >= kLeastContrast || place.share >= kWellCovered);
+  }
+}
+
+// Plots that are much lower than the usual one show little of its canopy, but where every leaf
+// counts they stand out from what lies beside them. Nothing stands in most missing plots.
+void take_low_plots(const CanopyRaster& low_leaves, Lattice& lattice) {
+  Lattice low = lattice;
+  low.view.raster = &low_leaves;
+  const SideContrast usual = usual_rise(low);
+  for (Place& place : lattice.places) {
+    if (place.full) continue;
+    const SideContrast rise = rise_of(low, place);
+    place.low = rise.r >= kLeastRise * usual.r && rise.c >= kLeastRise * usual.c;
+    if (!place.low) continue;
+    place.full = true;
+    place.contrast = std::max(place.contrast, rise.mean() / std::max(1e-6, usual.mean()));
   }
 }
 
@@ -250,7 +279,7 @@ CellBox cells_about(const Lattice& lattice, const Place& place, double around_m)
           at(place.c_m + c_half)};
 }
 
-Lattice fit_lattice(const Layout& layout, const Hints& hints) {
+Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster* low_leaves) {
   const double r_m = layout.r_shape.size * layout.view.cell_m();
   const double c_m = layout.c_shape.size * layout.view.cell_m();
   const auto metres = [&](std::optional<double> cells) {
@@ -263,6 +292,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints) {
   straighten(lattice);
   add_crossings(lattice);
   test_places(lattice);
+  if (low_leaves != nullptr) take_low_plots(*low_leaves, lattice);
   if (hints.plots) {
     take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   } else {

@@ -18,7 +18,8 @@ struct Place {
   double r_m = 0, c_m = 0;  // centre
   double share = 0;         // its canopy as a share of a full plot's
   double contrast = 0;      // of its sides, as a share of a full plot's
-  bool full = false;        // holds a plot
+  bool full = false;        // holds a plot,
+  bool low = false;         // which is much lower than the usual one
 };
 
 // What the plots have in common along one of the view's axes, metres.
@@ -57,8 +58,10 @@ struct CellBox {
 CellBox cells_about(const Lattice& lattice, const Place& place, double around_m);
 
 // The lattice through those of a layout's plots that hold canopy; where the user gave the number of
-// plots, through the plots with the most canopy.
-Lattice fit_lattice(const Layout& layout, const Hints& hints);
+// plots, through the plots with the most canopy. In low_leaves every leaf counts, however low:
+// there plots show that are much lower than the usual one.
+Lattice fit_lattice(const Layout& layout, const Hints& hints,
+                    const CanopyRaster* low_leaves = nullptr);
 
 // The same as a layout of plots, their length the longer side.
 TrialLayout layout_of(const Lattice& lattice);

@@ -20,4 +20,7 @@ struct SideContrast {
 };
 SideContrast contrast_of(const Lattice& lattice, const Place& place);
 
+// Mean cover within the plot, off its edges, less that beyond its sides.
+SideContrast rise_of(const Lattice& lattice, const Place& place);
+
 }  // namespace plotscan::plots

@@ -25,8 +25,8 @@ namespace {
 
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
-constexpr double kLeastLeaves_m = 0.12;  // lower are weeds and clods
-constexpr double kStep_m = 1e-3;         // from no leaves to leaves
+constexpr double kLeastLeaves_m = 0.12;  // lower are clods and the lowest weeds
+constexpr double kLeavesFrom = 0.25;     // of the crop's height: lower may be weeds
 
 constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
 
@@ -178,6 +178,12 @@ std::string refused_because(const FieldSigns& signs, const Hints& hints, LineMod
   return hints.tell_layout() ? "" : no_plots_because(signs);
 }
 
+// Counts what is higher, tall plots too.
+CanopyScale leaves_above(double height_m) {
+  constexpr double kStep_m = 1e-3;  // from no leaves to leaves
+  return {.low_m = height_m, .high_m = height_m + kStep_m, .with_tall = true};
+}
+
 // How many plots of a trial beside others these may be.
 std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
   constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
@@ -187,12 +193,11 @@ std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
                 LineModel model, int threads) {
   const Frame frame = frame_of(axes);
-  const double leaves_m = std::max({kLeastLeaves_m, 4 * noise_m, 0.25 * field.scale().high_m});
-  const std::array scales = {
-      field.scale(),
-      CanopyScale{.low_m = leaves_m, .high_m = leaves_m + kStep_m, .with_tall = true}};
+  const double low_m = std::max(kLeastLeaves_m, 4 * noise_m);
+  const double leaves_m = std::max(low_m, kLeavesFrom * field.scale().high_m);
+  const std::array scales = {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
-  const CanopyRaster &canopy = rasters[0], &cover = rasters[1];
+  const CanopyRaster &canopy = rasters[0], &cover = rasters[1], &low_leaves = rasters[2];
   tbb::task_arena arena(threads);
   Choice choice;
   arena.execute([&] { choice = choose_layout(canopy, hints, model); });
@@ -200,7 +205,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   if (layout.rows.empty()) return {no_plots(no_layout(hints, rival))};
 
   layout.view.raster = &cover;
-  Lattice lattice = fit_lattice(layout, hints);
+  Lattice lattice = fit_lattice(layout, hints, &low_leaves);
   if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
   const std::optional<SownRows> rows = refine(lattice, hints);
   lattice.view.raster = &canopy;

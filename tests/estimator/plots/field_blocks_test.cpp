@@ -43,6 +43,18 @@ TEST(FieldBlocks, TheCropsHeightIsThatOfHalfTheVolume) {
   EXPECT_THAT(crop_tops_m(field_of(0.6, 3, 3)), ElementsAre(DoubleNear(0.55, 0.04)));
 }
 
+// Leaves are 6 % of the returns from the plots' blocks, none of those from the ground's.
+TEST(FieldBlocks, SeedlingsStandOut) {
+  std::vector<Eigen::Vector3f> points = field_of(0.6);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (RandomStream(6, random_purpose("test/leaf"), i).uniform() > 0.08) points[i].z() = 0;
+  const FieldBlocks blocks(points, kSigma_m, 2);
+  for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
+    const double y = blocks.middle_of(number).y();
+    EXPECT_EQ(blocks.facts()[number].stands_out, y < 10) << y;
+  }
+}
+
 // Trees on 49 m2 are more than half of the volume, beside a crop on 200 m2.
 TEST(FieldBlocks, BelowTreesTheCropMayBeLower) {
   EXPECT_THAT(crop_tops_m(field_of(0.6, 5, 7)),
@@ -125,6 +137,12 @@ TEST(FieldBlocks, MiddlesLieInTheirBlocks) {
         blocks.middle_of(blocks.number_of({7.3F, 3.1F, 0}, per_side), per_side);
     EXPECT_LT((middle - Eigen::Vector2d(7.3, 3.1)).cwiseAbs().maxCoeff(), 0.5 / per_side + 1e-3);
   }
+}
+
+TEST(LeastCover, IsATenthOrOfSeedlingsAQuarterOfTheUsual) {
+  EXPECT_DOUBLE_EQ(least_cover({0, 0.3, 0.6, 0.7}), 0.1);
+  EXPECT_DOUBLE_EQ(least_cover({0, 0.01, 0.2, 0.2, 0.2}), 0.05);
+  EXPECT_DOUBLE_EQ(least_cover({0.001, 0.002, 0.001}), 0.02);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "trial_cloud.h"
@@ -152,6 +153,25 @@ TEST(FieldSigns, RefuseATornSheet) {
                    .evidence = 50};
   EXPECT_NE(no_plots_because(signs), "");
   signs.roughness = 0.115;
+  EXPECT_EQ(no_plots_because(signs), "");
+}
+
+// Of plots with too few returns the roughness is not known; the other signs decide.
+TEST(FieldSigns, DecideWithoutRoughness) {
+  FieldSigns signs{.plots = 5,
+                   .held_share = 0.001,
+                   .filled_share = 0.62,
+                   .squareness = 0.99,
+                   .straightness = 1.03,
+                   .roughness = std::numeric_limits<double>::quiet_NaN(),
+                   .aspect = 2.4,
+                   .least_gap_m = 0.56,
+                   .evidence = -3.7};
+  EXPECT_EQ(field_confidence(signs), 0);
+  EXPECT_NE(no_plots_because(signs), "");
+  signs.held_share = 0.95;
+  signs.squareness = 1.2;
+  signs.evidence = 100;
   EXPECT_EQ(no_plots_because(signs), "");
 }
 

@@ -269,5 +269,15 @@ TEST(FindPlots, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.signs->squareness, two.signs->squareness);
 }
 
+// As in a trial of many cultivars: of two plots hardly a leaf is as high as those of the others.
+TEST(FindPlots, FindsPlotsThatAreMuchLower) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  for (Eigen::Vector3f& point : points)
+    for (const std::size_t low : {0, 9})
+      if (boxes[low].contains(point.head<2>().cast<double>())) point.z() *= 0.28F;
+  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+}
+
 }  // namespace
 }  // namespace plotscan::plots

@@ -14,18 +14,19 @@ namespace {
 
 // Plots of 4 x 1.5 m at steps of 5 x 2 m on the middle 16 m of 24 x 24 m. The lines between the
 // rows run at heading_rad; those between the columns `skew_rad` off the right angle.
-CanopyRaster turned_field(double heading_rad, double skew_rad = 0) {
+CanopyRaster turned_field(double heading_rad, double skew_rad = 0, double canopy = 0.8) {
   const double second_rad = heading_rad + std::numbers::pi / 2 + skew_rad;
   return raster_of(
       24, 24,
       [&](double x, double y) {
         const Eigen::Vector2d at(x - 12, y - 12);
-        if (at.norm() > 9) return 0.02;
+        if (at.norm() > 9) return canopy / 40;
         // Across either family of lines.
         const double u = std::cos(second_rad) * at.y() - std::sin(second_rad) * at.x();
         const double v = std::cos(heading_rad) * at.y() - std::sin(heading_rad) * at.x();
-        return std::abs(std::remainder(u, 5)) < 2 && std::abs(std::remainder(v, 2)) < 0.75 ? 0.8
-                                                                                           : 0.02;
+        return std::abs(std::remainder(u, 5)) < 2 && std::abs(std::remainder(v, 2)) < 0.75
+                   ? canopy
+                   : canopy / 40;
       },
       0.1);
 }
@@ -46,6 +47,12 @@ TEST(FindAxes, TurnWithTheField) {
         << heading_deg;
     EXPECT_NEAR(axes[0].second_rad - axes[0].first_rad, std::numbers::pi / 2, 1e-9);
   }
+}
+
+TEST(FindAxes, TurnWithSeedlings) {
+  const auto axes = find_axes(turned_field(20 * kDegrees, 0, 0.08), std::nullopt, 2);
+  ASSERT_EQ(axes.size(), 1U);
+  EXPECT_LT(std::abs(std::remainder(axes[0].first_rad - 20 * kDegrees, kPi / 2)), 0.2 * kDegrees);
 }
 
 TEST(FindAxes, MayBeSkewed) {

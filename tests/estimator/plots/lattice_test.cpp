@@ -99,6 +99,26 @@ TEST(Lattice, HasNoColumnOfAPlotThatLeansOver) {
     EXPECT_EQ(lattice.places[i].column + 1, trial.places[i].column) << i;
 }
 
+// Of two plots hardly a leaf is as high as those of the usual plot; a third is missing.
+TEST(Lattice, HasPlotsThatAreMuchLower) {
+  const TrialLayout bands = known_trial({0, 0, 0});
+  TrialLayout trial = bands;
+  trial.places.erase(trial.places.begin() + 11);
+  const auto leaves = [&](double of_low_plots) {
+    return raster_of(14, 12, [&](double x, double y) {
+      for (const TrialPlace& place : trial.places) {
+        const bool low = place.column == place.row;  // the first one at a corner
+        if (trial.box(place).contains({x, y})) return low && place.row < 3 ? of_low_plots : 0.8;
+      }
+      return 0.0;
+    });
+  };
+  const CanopyRaster high = leaves(0.08), all = leaves(0.2);
+  const Layout layout = bands_of(trial, high, {{1, 1}, {2, 2}});
+  EXPECT_EQ(fit_lattice(layout, {}).places.size(), trial.places.size() - 2);
+  expect_places(layout_of(fit_lattice(layout, {}, &all)), trial);
+}
+
 // A patch as large as a plot, ten columns beyond the second row.
 TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
   const TrialLayout trial = known_trial({0, 0, 0});
