@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -25,6 +26,7 @@ constexpr double kLeastGap_m = 0.15;     // between plots
 constexpr double kMostIrregular = 0.34;  // of the steps from plot to plot,
 constexpr double kAlleys = 1;            // but one at least
 constexpr std::size_t kMostPeriod = 4;   // plots that one pass of a drill sows
+constexpr double kMostTrack = 0.5;       // of a plot's width, between two passes
 constexpr double kSizeStep = 1.05;       // from one size that is tried to the next
 constexpr std::size_t kRefined = 4;      // best shapes of which others like them are tried
 constexpr std::size_t kRowsTried = 3;    // in each of which all shapes are tried
@@ -43,27 +45,37 @@ double unusual_steps(const std::vector<double>& steps, double tolerance) {
 }
 
 // One step of each period, from the first one on.
-std::vector<double> every(std::size_t period, std::size_t first, const std::vector<double>& steps) {
+std::vector<double> one_of_each(std::size_t period, std::size_t first,
+                                const std::vector<double>& steps) {
   std::vector<double> some;
   for (std::size_t i = first; i < steps.size(); i += period) some.push_back(steps[i]);
   return some;
 }
 
-// Number of steps that are no whole multiple of the usual one, or, where a wheel's track or the
-// next pass of the drill follows every so many plots, of the usual one at the same place of the
-// period, with one for each further place. Each adds two parameters: its size and its place.
+// The same where a wheel's track or the next pass of the drill follows every so many plots: of the
+// usual step at the same place of the period, and one for each further place. Wider gaps than those
+// may be between drill rows.
+double irregular_steps(std::size_t period, const std::vector<double>& steps, double size,
+                       double tolerance) {
+  auto irregular = static_cast<double>(period - 1);
+  for (std::size_t first = 0; first < period; ++first) {
+    const std::vector<double> some = one_of_each(period, first, steps);
+    if (usual_step(some) > (1 + kMostTrack) * size) return std::numeric_limits<double>::infinity();
+    irregular += unusual_steps(some, tolerance);
+  }
+  return irregular;
+}
+
+// Number of steps that are no whole multiple of the usual one, of equal steps or of those that
+// repeat. Each adds two parameters: its size and its place.
 double irregular_steps(const std::vector<int>& begins, const BandShape& shape, double cell_m) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < begins.size(); ++i) steps.push_back(begins[i] - begins[i - 1]);
   if (steps.size() < 2) return 0;
   const double tolerance = std::max(0.05 / cell_m + 1, 0.05 * shape.size);
   double fewest = unusual_steps(steps, tolerance);
-  for (std::size_t period = 2; period <= kMostPeriod && 2 * period <= steps.size(); ++period) {
-    auto irregular = static_cast<double>(period - 1);
-    for (std::size_t first = 0; first < period; ++first)
-      irregular += unusual_steps(every(period, first, steps), tolerance);
-    fewest = std::min(fewest, irregular);
-  }
+  for (std::size_t period = 2; period <= kMostPeriod && 2 * period <= steps.size(); ++period)
+    fewest = std::min(fewest, irregular_steps(period, steps, shape.size, tolerance));
   return fewest;
 }
 
