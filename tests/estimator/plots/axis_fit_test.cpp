@@ -85,7 +85,7 @@ TEST(BandsCost, AnAlleyAddsItsSizeAndItsPlace) {
 TEST(BandsCost, StepsThatRepeatCostLikeOne) {
   const BandShape shape{.size = 24};
   for (const std::vector<int>& begins :
-       {std::vector{20, 50, 90, 120, 160}, {20, 50, 90, 120, 160, 190, 230}}) {
+       {std::vector{20, 50, 85, 115, 150}, {20, 50, 85, 115, 150, 180, 215}}) {
     const Line line = line_along(raster_of(14, 2, [](double, double) { return 0.5; }));
     const Segmentation bands = bands_at(line.profiles, shape, begins);
     EXPECT_NEAR(bands_cost(line, {.shape = shape, .begins = begins}),
@@ -93,14 +93,15 @@ TEST(BandsCost, StepsThatRepeatCostLikeOne) {
   }
 }
 
-// The gaps are 0.3 and 0.8 m wide in turn, the narrow ones half closed.
+// The gaps are 0.3 and 0.55 m wide in turn, the narrow ones half closed.
 TEST(FitAxis, FindsPlotsBetweenGapsThatAlternate) {
-  const std::vector<double> begins_m = {1, 2.5, 4.5, 6, 8, 9.5};
+  const std::vector<double> begins_m = {1, 2.5, 4.25, 5.75, 7.5, 9};
   const CanopyRaster raster = raster_of(12, 2, [&](double a_m, double b_m) {
     double canopy = 0.05;
     for (const double begin_m : begins_m) {
       if (a_m > begin_m && a_m < begin_m + 1.2) return b_m < 1 ? 0.9 : 0.8;
-      if (begin_m - a_m > 0 && begin_m - a_m < 0.3 && std::fmod(begin_m - 1, 3.5) > 1) canopy = 0.4;
+      if (begin_m - a_m > 0 && begin_m - a_m < 0.3 && std::fmod(begin_m - 1, 3.25) > 1)
+        canopy = 0.4;
     }
     return canopy;
   });
@@ -108,6 +109,16 @@ TEST(FitAxis, FindsPlotsBetweenGapsThatAlternate) {
   ASSERT_EQ(fit.begins.front().size(), begins_m.size());
   for (std::size_t i = 0; i < begins_m.size(); ++i)
     EXPECT_NEAR(0.05 * fit.begins.front()[i], begins_m[i], 0.06);
+}
+
+// Drill rows repeat too, but the gaps between plots are as wide as they are.
+TEST(BandsCost, DrillRowsOfPlotsAreIrregular) {
+  const Line line = line_along(raster_of(14, 2, [](double, double) { return 0.5; }));
+  const BandShape shape{.size = 8};
+  const std::vector<int> begins = {20, 32, 44, 74, 86, 98, 128, 140, 152};
+  const Segmentation bands = bands_at(line.profiles, shape, begins);
+  EXPECT_NEAR(bands_cost(line, {.shape = shape, .begins = begins}),
+              bands.misfit + line.price * (bands.parameters + 2 * 2), 1e-9);
 }
 
 // Rows 0.36 m apart, as soybeans are sown (15 in: 0.38 m), and 0.2 m between the sown widths.
