@@ -26,7 +26,8 @@ struct Layout {
   Bounds gap_length_m = {0.3, 1.5};
   double missing_rate = 0.1;
   double alley_chance = 0.3;
-  bool offsets = false;  // each row starts at a place of its own, and has its own number of plots
+  bool offsets = false;   // each row starts at a place of its own, and has its own number of plots
+  int plots_of_pass = 0;  // beside which the drill's wheels leave tracks; 0: no tracks
 };
 
 struct Field {
@@ -43,6 +44,15 @@ struct Field {
   }
 };
 
+// A wider gap after every so many columns.
+std::string tracks(int plots_of_pass, int columns, double width_m) {
+  std::string list;
+  for (int after = plots_of_pass; after < columns; after += plots_of_pass)
+    list += (list.empty() ? "" : ", ") + std::string("{after_column: ") + std::to_string(after) +
+            ", width_m: " + text(width_m) + "}";
+  return "[" + list + "]";
+}
+
 // 20 to 45 places: some are missing, and rows with offsets of their own have different numbers.
 void draw_rows(const Field& field, const Layout& layout, double pitch_m) {
   const int rows = draw_count(field.random, 3, 5);
@@ -56,6 +66,9 @@ void draw_rows(const Field& field, const Layout& layout, double pitch_m) {
             ", offset_m: " + text(offset_m) + "}";
   }
   field.set("plots.rows", "[" + list + "]");
+  if (layout.plots_of_pass > 0)
+    field.set("plots.alleys",
+              tracks(layout.plots_of_pass, columns, field.random.uniform(0.5, 0.8)));
   if (!chance(field.random, layout.alley_chance)) return;
   const bool across = chance(field.random, 0.5);
   const int after = draw_count(field.random, 1, (across ? rows : columns) - 1);
@@ -127,6 +140,11 @@ void touching(const Field& field) {
                            .alley_chance = 0});
 }
 
+void passes(const Field& field) {
+  const int plots = 2 * draw_count(field.random, 1, 2);
+  draw_small_grain(field, {.gap_width_m = {0.2, 0.4}, .alley_chance = 0, .plots_of_pass = plots});
+}
+
 // The sown width is the rows times their spacing: half a spacing beside the outer rows.
 void drilled(const Field& field) {
   constexpr double kNarrowest_m = 0.6;
@@ -176,6 +194,12 @@ void gapless(const Field& field) {
   draw_any(field);
   field.set("plots.gap_width_m", 0.0);
   field.plan.told = chance(field.random, 0.5) ? Told::width : Told::sides;
+}
+
+// Cultivars from dwarfs to giants.
+void panel(const Field& field) {
+  draw_any(field);
+  field.set(draw_panel(field.random));
 }
 
 // As users cut their clouds before they measure.
@@ -259,10 +283,11 @@ struct Stratum {
 
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = {
-      {"ordinary", ordinary}, {"drilled", drilled},   {"offset", offset},   {"touching", touching},
-      {"gapless", gapless},   {"maize", maize},       {"objects", objects}, {"border", border},
-      {"clipped", clipped},   {"several", several},   {"others", others},   {"realism", realism},
-      {"sensors", sensors},   {"kentland", kentland}, {"paper", paper},     {"steep", steep}};
+      {"ordinary", ordinary}, {"drilled", drilled}, {"offset", offset},   {"touching", touching},
+      {"gapless", gapless},   {"passes", passes},   {"maize", maize},     {"panel", panel},
+      {"objects", objects},   {"border", border},   {"clipped", clipped}, {"several", several},
+      {"others", others},     {"realism", realism}, {"sensors", sensors}, {"kentland", kentland},
+      {"paper", paper},       {"steep", steep}};
   return all;
 }
 

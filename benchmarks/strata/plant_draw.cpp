@@ -2,6 +2,9 @@
 #include "strata/plant_draw.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
 
 #include "core/yaml_section.h"
 
@@ -12,19 +15,23 @@ constexpr double kTuft_m = 0.25;
 // Plant seeds that fit a JSON number exactly.
 constexpr std::uint64_t kSeeds = std::uint64_t{1} << 48;
 
+// Cultivars of the given sizes, whose plants differ by the spread.
+Overrides cultivars_of(const std::vector<double>& sizes, double spread) {
+  std::string list;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    list += (i > 0 ? ", " : "") + std::string("{name: C") + std::to_string(i + 1) + ", scale: [" +
+            text(sizes[i] * (1 - spread)) + ", " + text(sizes[i] * (1 + spread)) + "]}";
+  return {"plants.cultivars=[" + list + "]", "plants.design=random"};
+}
+
 // In half of the fields: cultivars that are taller or shorter than the field's mean.
 void draw_cultivars(double spread, RandomStream& random, Overrides& set) {
   if (!chance(random, 0.5)) return;
   const int count = draw_count(random, 4, 8);
   const double differ = random.uniform(0.05, 0.2);
-  std::string cultivars;
-  for (int i = 0; i < count; ++i) {
-    const double size = 1 + differ * random.uniform(-1, 1);
-    cultivars += (i > 0 ? ", " : "") + std::string("{name: C") + std::to_string(i + 1) +
-                 ", scale: [" + text(size * (1 - spread)) + ", " + text(size * (1 + spread)) + "]}";
-  }
-  set.push_back("plants.cultivars=[" + cultivars + "]");
-  set.push_back("plants.design=random");
+  std::vector<double> sizes;
+  for (int i = 0; i < count; ++i) sizes.push_back(1 + differ * random.uniform(-1, 1));
+  std::ranges::copy(cultivars_of(sizes, spread), std::back_inserter(set));
 }
 
 void draw_scales(const Bounds& spreads, RandomStream& random, Overrides& set) {
@@ -96,6 +103,15 @@ Overrides draw_plants(const std::string& crop, const CropRanges& ranges, const S
     set.push_back("plants.density_m2=" + text(draw(random, density)));
   }
   return set;
+}
+
+Overrides draw_panel(RandomStream& random) {
+  constexpr double kSpread = 0.1;  // within a cultivar
+  const int count = draw_count(random, 6, 10);
+  const double differ = random.uniform(0.4, 0.65);
+  std::vector<double> sizes;
+  for (int i = 0; i < count; ++i) sizes.push_back(1 + differ * (2.0 * i / (count - 1) - 1));
+  return cultivars_of(sizes, kSpread);
 }
 
 Overrides draw_meshes(const std::filesystem::path& folder, RandomStream& random) {

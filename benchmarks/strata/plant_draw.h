@@ -38,6 +38,10 @@ struct Sowing {
 Overrides draw_plants(const std::string& crop, const CropRanges& ranges, const Sowing& sowing,
                       bool tufts, RandomStream& random);
 
+// 6 to 10 cultivars of a diversity panel, in place of those that are set: at equal steps from 0.35
+// to 0.6 times the field's plants up to as much above them.
+Overrides draw_panel(RandomStream& random);
+
 // Draws third-party plants (meshes; `folder` holds bean/ and maize/): a mesh, its size, the range
 // by which its copies are stretched along each axis, and their number.
 Overrides draw_meshes(const std::filesystem::path& folder, RandomStream& random);

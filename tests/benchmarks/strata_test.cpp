@@ -78,6 +78,13 @@ planting::PlotGridDescription grid_of(const std::string& stratum, int index) {
 
 TEST(PlanField, StrataAreWhatTheirNamesSay) {
   for (int index = 0; index < 20; ++index) {
+    const planting::PlotGridDescription passes = grid_of("passes", index);
+    EXPECT_LE(passes.gap_width_m, 0.4);
+    EXPECT_FALSE(passes.column_alleys_m.empty());
+    for (const auto& [after, width_m] : passes.column_alleys_m) {
+      EXPECT_EQ(after % 2, 0U);
+      EXPECT_GE(width_m, 0.5);
+    }
     const planting::PlotGridDescription touching = grid_of("touching", index);
     EXPECT_EQ(std::min(touching.gap_width_m, touching.gap_length_m), 0.2);
     const planting::PlotGridDescription maize = grid_of("maize", index);
@@ -187,6 +194,18 @@ TEST(PlanField, TellsTheWidthOfPlotsWithoutAGap) {
     EXPECT_NE(plan.told, Told::nothing);
   }
   EXPECT_EQ(plan_field("test", "ordinary", 0, kSources).told, Told::nothing);
+}
+
+TEST(PlanField, APanelHasDwarfsAndGiants) {
+  for (int index = 0; index < 8; ++index) {
+    const FieldPlan plan = plan_field("test", "panel", index, kSources);
+    const auto farm = description::load_description(plan.farm, plan.overrides);
+    std::vector<double> sizes;
+    for (const auto& cultivar : farm.trials[0].plants->cultivars)
+      sizes.push_back(cultivar.min_scale + cultivar.max_scale);
+    const auto [least, most] = std::ranges::minmax(sizes);
+    EXPECT_GT(most, 2 * least);
+  }
 }
 
 // Four plots in two rows: the cloud ends a margin from them on all sides.
