@@ -23,7 +23,8 @@ namespace {
 constexpr double kLeastPlaceShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
-constexpr double kLeastRise = 0.1;  // of the usual plot's: low ones 0.12 and more, missing 0.00
+constexpr double kLeastRise = 0.1;  // of the usual plot's: low ones 0.12 and more, missing 0.00,
+constexpr double kLeastCoverOfLow = 0.03;  // and so much: where gaps are closed, plots rise little
 
 struct Column {
   double c_m = 0;
@@ -190,7 +191,8 @@ void take_low_plots(const CanopyRaster& low_leaves, Lattice& lattice) {
   for (Place& place : lattice.places) {
     if (place.full) continue;
     const SideContrast rise = rise_of(low, place);
-    place.low = rise.r >= kLeastRise * usual.r && rise.c >= kLeastRise * usual.c;
+    place.low = rise.r >= std::max(kLeastCoverOfLow, kLeastRise * usual.r) &&
+                rise.c >= std::max(kLeastCoverOfLow, kLeastRise * usual.c);
     if (!place.low) continue;
     place.full = true;
     place.contrast = std::max(place.contrast, rise.mean() / std::max(1e-6, usual.mean()));

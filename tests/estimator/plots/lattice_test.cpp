@@ -119,6 +119,16 @@ TEST(Lattice, HasPlotsThatAreMuchLower) {
   expect_places(layout_of(fit_lattice(layout, {}, &all)), trial);
 }
 
+// Leaves are everywhere, so plots rise above nothing: a missing plot stays missing.
+TEST(Lattice, HasNoLowPlotsWhereLeavesCloseTheGaps) {
+  const TrialLayout bands = known_trial({0, 0, 0});
+  TrialLayout trial = bands;
+  trial.places.erase(trial.places.begin() + 7);
+  const CanopyRaster high = canopy_of(trial),
+                     all = raster_of(16, 14, [](double, double) { return 0.5; });
+  expect_places(layout_of(fit_lattice(bands_of(bands, high), {}, &all)), trial);
+}
+
 // A patch as large as a plot, ten columns beyond the second row.
 TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
   const TrialLayout trial = known_trial({0, 0, 0});
