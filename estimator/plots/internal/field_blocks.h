@@ -13,7 +13,8 @@
 namespace plotscan::plots {
 
 // The share of a place's returns from which something may stand there: a tenth, or of seedlings a
-// quarter of the share where half of all canopy has less. `covers` are shares of places alike.
+// quarter of the share where half of all canopy has less, but a fiftieth. `covers` are shares of
+// places alike.
 double least_cover(const std::vector<double>& covers);
 
 // What the returns of a block say of it.
