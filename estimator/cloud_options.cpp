@@ -37,7 +37,7 @@ void declare_frame(CLI::App& command, CloudArguments& arguments) {
   command
       .add_option("--units", arguments.units,
                   "unit of the cloud's coordinates (default: what the file states, else metres)")
-      ->check(CLI::IsMember({"m", "ft", "us-ft"}));
+      ->check(CLI::IsMember(unit_symbols()));
   command.add_option("--crs", arguments.cloud.crs,
                      "coordinate system of the cloud: EPSG:CODE of UTM in metres (EPSG:32617) or "
                      "of longitude and latitude (EPSG:4326) (default: what the file states)");

@@ -14,6 +14,7 @@
 
 #include "core/coordinate_units.h"
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace {
@@ -92,7 +93,8 @@ methods::RunOptions inner(const EstimateFilesOptions& options) {
   if (const auto unit_m = unit_named(options.units.value_or("")))
     run.cloud.units = {*unit_m, *unit_m};
   if (options.units && !run.cloud.units)
-    throw InputError("units are m, ft or us-ft, not \"" + *options.units + "\"");
+    throw InputError("units are " + joined(unit_symbols(), ", ") + "; not \"" + *options.units +
+                     "\"");
   run.cloud.leave_out_classes = options.leave_out_classes;
   run.id = options.id;
   run.csv = options.csv;

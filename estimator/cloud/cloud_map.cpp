@@ -53,6 +53,16 @@ void require_area(const Area& area, const std::string& option) {
   }
 }
 
+void require_scanned_area(const Area& area, const std::string& cloud) {
+  try {
+    require_area(area, cloud + ": the scanned field");
+  } catch (const InputError& error) {
+    throw InputError(
+        std::string(error.what()) +
+        "; give a part of it (--crop-box), or --units where coordinates are not metres");
+  }
+}
+
 CloudMap::CloudMap(const Area& area) : area_(area) {
   origin_.head<2>() << std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2);
 }
@@ -75,7 +85,11 @@ void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
 CloudMap read_map(const CloudFiles& cloud, const std::optional<NamedArea>& area,
                   const ProgressReport& progress) {
   const NamedArea field = area ? *area : scanned_field(cloud);
-  require_area(field.area, area ? field.name : cloud.name() + ": the " + field.name);
+  if (area) {
+    require_area(field.area, field.name);
+  } else {
+    require_scanned_area(field.area, cloud.name());
+  }
   if (progress) progress(0.2);
   CloudMap map(field.area);
   record::read_positions(cloud, [&](auto points) { map.add(points); });

@@ -22,6 +22,9 @@ using Area = std::array<double, 4>;
 // 10 km.
 void require_area(const Area& area, const std::string& option);
 
+// The same of the area that a cloud covers; the message says what to do.
+void require_scanned_area(const Area& area, const std::string& cloud);
+
 // "x0,y0,x1,y1".
 std::string text_of(const Area& area);
 

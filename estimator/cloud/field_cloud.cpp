@@ -75,15 +75,16 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   std::optional<FieldHull> hull;
   std::vector<TileCount> tile_counts = store.tile_counts();
   const std::string extent = extent_text(tile_counts);
-  if (!options.area) {
-    require_places(tile_counts, name);
-    hull = find_field(tile_counts);
-  }
-  field.area = options.area ? *options.area : hull->bounds();
-  require_area(field.area, options.area ? options.area_name : name + ": the scanned field");
   if (options.area) {
+    field.area = *options.area;
+    require_area(field.area, options.area_name);
     std::erase_if(tile_counts,
                   [&](const TileCount& count) { return !overlap(count.tile, field.area); });
+  } else {
+    require_places(tile_counts, name);
+    hull = find_field(tile_counts);
+    field.area = hull->bounds();
+    require_scanned_area(field.area, name);
   }
   if (!tile_counts.empty()) field.density_m2 = field_density(tile_counts).median;
   TiledKeys tiles =

@@ -41,7 +41,8 @@ void judge_extent(CloudReport& report) {
         "--crs EPSG:4326 if x and y are longitude and latitude");
   const cloud::Area& field = report.density.field;
   if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
-    report.obstacles.emplace_back("the field is over 10 km long: give a part of it (--crop-box)");
+    report.obstacles.emplace_back(
+        "the field is over 10 km long: give a part of it (--crop-box), or --units");
 }
 
 void judge_steps(const cloud::CoordinateSteps& steps, CloudReport& report) {

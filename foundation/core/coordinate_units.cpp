@@ -1,32 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/coordinate_units.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/csv.h"
 
 namespace plotscan {
+namespace {
 
-std::string unit_name(double unit_m) {
-  if (unit_m == 1) return "metres";
-  if (unit_m == kFoot_m) return "feet";
-  if (unit_m == kUsSurveyFoot_m) return "US survey feet";
-  return "units of " + format_number(unit_m) + " m";
+struct NamedUnit {
+  const char* symbol;
+  const char* plural;
+  double length_m;
+};
+
+constexpr std::array<NamedUnit, 5> kNamedUnits = {{{"m", "metres", 1},
+                                                   {"cm", "centimetres", 0.01},
+                                                   {"mm", "millimetres", 0.001},
+                                                   {"ft", "feet", kFoot_m},
+                                                   {"us-ft", "US survey feet", kUsSurveyFoot_m}}};
+
+}  // namespace
+
+std::vector<std::string> unit_symbols() {
+  std::vector<std::string> symbols;
+  for (const NamedUnit& unit : kNamedUnits) symbols.emplace_back(unit.symbol);
+  return symbols;
 }
 
-std::optional<double> unit_named(const std::string& name) {
-  if (name == "m") return 1;
-  if (name == "ft") return kFoot_m;
-  if (name == "us-ft") return kUsSurveyFoot_m;
-  return std::nullopt;
+std::optional<double> unit_named(const std::string& symbol) {
+  const auto* const unit = std::ranges::find(kNamedUnits, symbol, &NamedUnit::symbol);
+  if (unit == kNamedUnits.end()) return std::nullopt;
+  return unit->length_m;
+}
+
+std::string unit_name(double unit_m) {
+  const auto* const unit = std::ranges::find(kNamedUnits, unit_m, &NamedUnit::length_m);
+  return unit != kNamedUnits.end() ? unit->plural : "units of " + format_number(unit_m) + " m";
 }
 
 double exact_unit(double unit_m) {
   // Small enough to tell the two feet apart, whose lengths differ by a share of 2e-6.
   constexpr double kTolerance = 3e-7;
-  for (const double known : {1.0, kFoot_m, kUsSurveyFoot_m})
-    if (std::abs(unit_m / known - 1) < kTolerance) return known;
-  return unit_m;
+  const auto* const unit = std::ranges::find_if(kNamedUnits, [unit_m](const NamedUnit& known) {
+    return std::abs(unit_m / known.length_m - 1) < kTolerance;
+  });
+  return unit != kNamedUnits.end() ? unit->length_m : unit_m;
 }
 
 }  // namespace plotscan

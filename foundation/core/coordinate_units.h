@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace plotscan {
 
@@ -17,14 +18,18 @@ struct CoordinateUnits {
   bool operator==(const CoordinateUnits&) const = default;
 };
 
-// "metres", "feet", "US survey feet", or "units of 0.3 m".
+// What units are called in options: m, cm, mm (phenotyping platforms over a bench or a field), ft
+// and us-ft.
+std::vector<std::string> unit_symbols();
+
+// Metres in the unit of that symbol; nothing for any other name.
+std::optional<double> unit_named(const std::string& symbol);
+
+// "metres", "millimetres", "US survey feet", or "units of 0.3 m".
 std::string unit_name(double unit_m);
 
-// Metres in the unit called "m", "ft" or "us-ft"; nothing for any other name.
-std::optional<double> unit_named(const std::string& name);
-
-// The exact metre or foot that a file's rounded number stands for (files give 7 digits and more);
-// any other number as it is.
+// The exact length of the named unit that a file's rounded number stands for (files give 7 digits
+// and more); any other number as it is.
 double exact_unit(double unit_m);
 
 }  // namespace plotscan

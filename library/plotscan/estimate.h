@@ -72,8 +72,9 @@ struct EstimateFilesOptions {
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
   std::optional<std::filesystem::path> boxes = {};  // a map of plots
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
-  std::optional<std::string> units = {};    // of the coordinates, m, ft or us-ft; else the file's
-  std::vector<int> leave_out_classes = {};  // ASPRS classes, 0 to 255
+  std::optional<std::string> units =
+      {};  // of the coordinates, m, cm, mm, ft or us-ft; else the file's
+  std::vector<int> leave_out_classes = {};        // ASPRS classes, 0 to 255
   std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
   std::uint64_t seed = 1;
   bool replace = false;  // an estimate folder, a table that exists

@@ -50,7 +50,7 @@ void project(const std::filesystem::path& cloud, const CloudLayout& layout, cons
                                            : "says that x and y are degrees") +
                          ", but its first point has longitude " + format_number(first.x()) +
                          ", latitude " + format_number(first.y()) +
-                         (given.crs ? "" : "; --units m, ft or us-ft says what they are"));
+                         (given.crs ? "" : "; --units says what they are"));
   }
   system.units.horizontal_m = 1;
   system.zone = utm_zone(geodetic(first));

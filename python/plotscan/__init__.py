@@ -273,7 +273,7 @@ def estimate_files(
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: a map of the plots (GeoJSON, GeoPackage, shapefile): heights in its boxes, its ids and attributes kept.
     id: property of the map that holds the plots' ids.
-    units: of the coordinates, "m", "ft" or "us-ft"; else what the file states.
+    units: of the coordinates, "m", "cm", "mm", "ft" or "us-ft"; else what the file states.
     leave_out_classes: ASPRS classes of points to leave out.
     csv: a table for breeding databases to write as well.
     settings: by the keys of `estimate_settings(method)`: plots=30, crop="maize". None is not set.

@@ -48,6 +48,15 @@ TEST(CloudMap, RefusesAreasThatAreNone) {
   EXPECT_THROW(require_area({0, 0, 1, std::nan("")}, "crop box"), InputError);
 }
 
+TEST(CloudMap, SaysOfAFieldTooLongThatItsUnitsMayBeOthers) {
+  EXPECT_NO_THROW(require_scanned_area({0, 0, 80, 80}, "field.ply"));
+  EXPECT_THAT(message_of<InputError>([] {
+                require_scanned_area({0, 0, 80000, 80000}, "field.ply");
+              }),
+              AllOf(HasSubstr("field.ply: the scanned field"), HasSubstr("longer than 10 km"),
+                    HasSubstr("--units")));
+}
+
 std::string pcd_of(const std::string& rows, int count) {
   return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
          std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
