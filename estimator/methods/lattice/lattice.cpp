@@ -24,7 +24,7 @@
 #include "estimate/given_plots.h"
 #include "ground/surface.h"
 #include "heights/measure_heights.h"
-#include "plots/find_trials.h"
+#include "plots/search/find_trials.h"
 
 namespace plotscan::methods::lattice {
 namespace {

@@ -26,7 +26,7 @@ constexpr double kReadPoint = 16, kMergedPoint = 20, kMostMerged = 16.8e6;
 constexpr double kGroundPoint = 14, kGroundNode = 390;
 constexpr double kSearchPoint = 24, kSearch_ha = 190e6;
 // Above this area the search's cells are twice as wide, and so on
-// (plots/internal/canopy_raster.cpp).
+// (plots/canopy/canopy_raster.cpp).
 constexpr double kFineSearch_ha = 6.25;
 
 // The area of finest cells, hectares, whose search takes equal work; 0 where no plots are searched.

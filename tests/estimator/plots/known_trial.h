@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/trial_layout.h"
-#include "plots/internal/lattice.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 

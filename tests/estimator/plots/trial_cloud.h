@@ -13,7 +13,7 @@
 #include "core/angle.h"
 #include "core/plot_box.h"
 #include "core/random.h"
-#include "plots/find_trials.h"
+#include "plots/search/find_trials.h"
 
 namespace plotscan::plots {
 

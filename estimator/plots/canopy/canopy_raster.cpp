@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/canopy/canopy_raster.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr std::uint32_t kUnseen = 255;  // in place of the cover of a cell without returns
+constexpr int kCoverBits = 32;          // above which a cell's sum of covers lies, below its count
+constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
+constexpr int kUnseenAround = 24;         // cells on every side: more than leaves hang over an edge
+constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
+
+struct Bounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+
+  void add(const Eigen::Vector2d& place) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  void add(const Bounds& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+};
+
+Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
+  const std::span<const Eigen::Vector3f> points = field.points();
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Bounds{},
+      [&](const tbb::blocked_range<std::size_t>& some, Bounds bounds) {
+        for (std::size_t i = some.begin(); i != some.end(); ++i)
+          bounds.add(ab_from_world * points[i].head<2>().cast<double>());
+        return bounds;
+      },
+      [](Bounds one, const Bounds& other) {
+        one.add(other);
+        return one;
+      });
+}
+
+// The cells that the points between bounds lie in, and unseen ones around them.
+class RasterGrid {
+ public:
+  RasterGrid(const Eigen::Matrix2d& ab_from_world, const Bounds& bounds, double cell_m)
+      : ab_from_world_(ab_from_world), low_(bounds.low), cell_m_(cell_m) {
+    const Eigen::Vector2d extent = bounds.high - bounds.low;
+    while ((extent / cell_m_).prod() > kMostCells) cell_m_ *= 2;
+    seen_ = (extent / cell_m_).cast<int>().array() + 1;
+  }
+
+  double cell_m() const { return cell_m_; }
+  int a_cells() const { return seen_.x() + 2 * kUnseenAround; }
+  int b_cells() const { return seen_.y() + 2 * kUnseenAround; }
+  std::size_t cells() const {
+    return static_cast<std::size_t>(a_cells()) * static_cast<std::size_t>(b_cells());
+  }
+  std::size_t cell_of(const Eigen::Vector3f& point) const {
+    const Eigen::Vector2d ab = (ab_from_world_ * point.head<2>().cast<double>() - low_) / cell_m_;
+    const Eigen::Array2i cell = ab.cast<int>().array().max(0).min(seen_ - 1) + kUnseenAround;
+    return static_cast<std::size_t>(cell.x()) * static_cast<std::size_t>(b_cells()) +
+           static_cast<std::size_t>(cell.y());
+  }
+  Frame frame_along(Frame axes) const {
+    const Eigen::Vector2d corner = low_.array() - kUnseenAround * cell_m_;
+    axes.origin = corner.x() * axes.a_axis + corner.y() * axes.b_axis;
+    return axes;
+  }
+
+ private:
+  Eigen::Matrix2d ab_from_world_;
+  Eigen::Vector2d low_;
+  double cell_m_;
+  Eigen::Array2i seen_;
+};
+
+std::uint64_t share_of(double z_m, const CanopyScale& scale) {
+  const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): at least 0, and lround is a call for each return.
+  return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kFullCover + 0.5);
+}
+
+std::uint64_t count_of(std::uint64_t cell) { return cell & ((std::uint64_t{1} << kCoverBits) - 1); }
+
+}  // namespace
+
+Eigen::Matrix2d Frame::ab_from_world() const {
+  Eigen::Matrix2d world_from_ab;
+  world_from_ab << a_axis, b_axis;
+  return world_from_ab.inverse();
+}
+Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
+  return origin + ab.x() * a_axis + ab.y() * b_axis;
+}
+
+CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
+                           std::span<const std::uint64_t> returns)
+    : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
+  std::vector<std::uint32_t> cover(returns.size());
+  std::ranges::transform(returns, cover.begin(), [](std::uint64_t cell) {
+    const std::uint64_t all = count_of(cell);
+    return all > 0 ? static_cast<std::uint32_t>((cell >> kCoverBits) / all) : kUnseen;
+  });
+  sum_up(cover);
+}
+
+void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
+  covered_.assign(seen_.size(), 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells_); ++i) {
+    std::uint32_t seen = 0, covered = 0;
+    for (std::size_t j = 0; j + 1 < stride; ++j) {
+      const std::uint32_t cell = cover[i * (stride - 1) + j];
+      seen += cell != kUnseen ? 1 : 0;
+      covered += cell != kUnseen ? cell : 0;
+      const std::size_t at = (i + 1) * stride + j + 1;
+      seen_[at] = seen_[at - stride] + seen;
+      covered_[at] = covered_[at - stride] + covered;
+    }
+  }
+}
+
+std::vector<std::uint64_t> CanopyRaster::squares() const {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  std::vector<std::uint64_t> squares(covered_.size(), 0);
+  for (int a = 0; a < a_cells_; ++a) {
+    std::uint64_t along = 0;
+    for (int b = 0; b < b_cells_; ++b) {
+      const std::uint64_t cell = sum(covered_, a, a + 1, b, b + 1);
+      along += cell * cell;
+      const std::size_t at =
+          (static_cast<std::size_t>(a) + 1) * stride + static_cast<std::size_t>(b) + 1;
+      squares[at] = squares[at - stride] + along;
+    }
+  }
+  return squares;
+}
+
+double CanopyRaster::seen_cells(int a0, int a1, int b0, int b1) const {
+  return static_cast<double>(sum(seen_, a0, a1, b0, b1));
+}
+
+double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
+  const double seen = seen_cells(a0, a1, b0, b1);
+  if (seen == 0) return 0;
+  return static_cast<double>(sum(covered_, a0, a1, b0, b1)) / (seen * kFullCover);
+}
+
+std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                                    std::span<const CanopyScale> scales, int threads) {
+  const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
+  const std::span<const Eigen::Vector3f> points = field.points();
+  tbb::task_arena arena(threads);
+  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
+  if (!(bounds.low.x() <= bounds.high.x()))
+    return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
+  const RasterGrid grid(ab_from_world, bounds, cell_m);
+  std::vector<std::vector<std::uint64_t>> returns(scales.size(),
+                                                  std::vector<std::uint64_t>(grid.cells()));
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce),
+                      [&](const auto& some) {
+                        for (std::size_t i = some.begin(); i != some.end(); ++i) {
+                          const std::size_t cell = grid.cell_of(points[i]);
+                          for (std::size_t k = 0; k < scales.size(); ++k) {
+                            if (i >= field.crop_points() && !scales[k].with_tall) continue;
+                            std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
+                            sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
+                                           std::memory_order_relaxed);
+                          }
+                        }
+                      });
+  });
+  std::vector<CanopyRaster> rasters;
+  rasters.reserve(returns.size());
+  for (const std::vector<std::uint64_t>& sums : returns)
+    rasters.emplace_back(grid.frame_along(axes), grid.cell_m(), grid.a_cells(), grid.b_cells(),
+                         sums);
+  return rasters;
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: where a field is covered by canopy, on a grid along two axes.
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "plots/canopy/field_canopy.h"
+
+namespace plotscan::plots {
+
+// Oblique coordinates (a, b), metres: place = origin + a * a_axis + b * b_axis, with unit axes.
+struct Frame {
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  Eigen::Vector2d a_axis = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d b_axis = Eigen::Vector2d::UnitY();
+
+  Eigen::Matrix2d ab_from_world() const;
+  Eigen::Vector2d to_world(const Eigen::Vector2d& ab) const;
+};
+
+inline constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover
+
+// Mean share of full canopy over the returns of square cells along a frame's axes. Cell (i, j)
+// spans [i, i + 1) x [j, j + 1) times cell_m along a and b. Sums over rectangles take constant
+// time (summed-area table: Crow, SIGGRAPH 1984).
+class CanopyRaster {
+ public:
+  // Sums are whole numbers, so that no order of adding matters.
+  CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
+               std::span<const std::uint64_t> returns);
+
+  const Frame& frame() const { return frame_; }
+  double cell_m() const { return cell_m_; }
+  int a_cells() const { return a_cells_; }
+  int b_cells() const { return b_cells_; }
+
+  // A summed-area table of the squares of the cells' covers, in units of the squares of kFullCover.
+  std::vector<std::uint64_t> squares() const;
+  // Sum over the cells of [a0, a1) x [b0, b1), clipped to the grid, from a table of this raster.
+  template <typename Number>
+  Number sum(const std::vector<Number>& table, int a0, int a1, int b0, int b1) const {
+    a0 = std::clamp(a0, 0, a_cells_);
+    a1 = std::clamp(a1, a0, a_cells_);
+    b0 = std::clamp(b0, 0, b_cells_);
+    b1 = std::clamp(b1, b0, b_cells_);
+    const auto at = [&](int a, int b) {
+      return table[static_cast<std::size_t>(a) * (static_cast<std::size_t>(b_cells_) + 1) +
+                   static_cast<std::size_t>(b)];
+    };
+    // Unsigned arithmetic: right even where the table wrapped around.
+    return at(a1, b1) - at(a0, b1) - at(a1, b0) + at(a0, b0);
+  }
+  // Number of cells with returns in [a0, a1) x [b0, b1), clipped to the grid.
+  double seen_cells(int a0, int a1, int b0, int b1) const;
+  // Mean cover, 0 to 1, of these cells; 0 where there are none.
+  double cover(int a0, int a1, int b0, int b1) const;
+
+ private:
+  void sum_up(std::span<const std::uint32_t> cover);  // 0 to 200 by cell, 255 where unseen
+
+  Frame frame_;
+  double cell_m_;
+  int a_cells_, b_cells_;
+  std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
+};
+
+// The field's canopy along `axes`, with cells without returns all around, so that a plot may end
+// where the cloud does. The origin is moved to the lowest a and b; one raster for each scale.
+std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
+                                    std::span<const CanopyScale> scales, int threads);
+
+}  // namespace plotscan::plots

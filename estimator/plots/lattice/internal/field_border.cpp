@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/lattice/internal/field_border.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/statistics.h"
+#include "plots/lattice/internal/place_canopy.h"
+
+namespace plotscan::plots {
+namespace {
+
+// Lodged plots at a field's border: 0.3 and more. What else stands there at the plots' steps has
+// the edges of plots by chance only.
+constexpr double kLeastBorderContrast = 0.25;
+constexpr double kLeastBorderCover = 0.5;    // of the usual plot, where a lodged one stands
+constexpr double kFewOfLine = 0.5;           // a border line with no more of the usual one's plots
+constexpr double kLeastContrastOfFew = 0.5;  // must show them clearly
+
+// The plots that show their edges.
+class ClearPlots {
+ public:
+  explicit ClearPlots(const std::vector<Place>& places) {
+    for (const Place& place : places)
+      if (place.full && place.contrast >= kLeastBorderContrast)
+        at_.emplace(place.row, place.column);
+  }
+  bool stand_beside_in_row(const Place& place) const {
+    return at_.contains({place.row, place.column - 1}) &&
+           at_.contains({place.row, place.column + 1});
+  }
+  bool stand_beside_in_column(const Place& place) const {
+    return at_.contains({place.row - 1, place.column}) &&
+           at_.contains({place.row + 1, place.column});
+  }
+
+ private:
+  std::set<std::pair<int, int>> at_;
+};
+
+// The plots on a row or on a column.
+struct PlotsOnLine {
+  int first = 0, last = 0;  // numbers along the line
+  double plots = 0;
+};
+
+class LinesOfPlots {
+ public:
+  LinesOfPlots(const std::vector<Place>& places, int Place::*line, int Place::*along)
+      : line_(line), along_(along) {
+    for (const Place& place : places) {
+      if (!place.full) continue;
+      const PlotsOnLine alone{.first = place.*along, .last = place.*along};
+      PlotsOnLine& of = lines_.try_emplace(place.*line, alone).first->second;
+      of.first = std::min(of.first, place.*along);
+      of.last = std::max(of.last, place.*along);
+      ++of.plots;
+    }
+    std::vector<double> counts;
+    for (const auto& [number, of] : lines_) counts.push_back(of.plots);
+    usual_ = quantile(std::move(counts), 0.5);
+  }
+
+  // Whether a plot is the first or the last of its line.
+  bool ends_with(const Place& place) const {
+    const PlotsOnLine& of = lines_.at(place.*line_);
+    return place.*along_ == of.first || place.*along_ == of.last;
+  }
+  // Whether its line is the first or the last, and has few plots.
+  bool few_at_border(const Place& place) const {
+    const bool border =
+        place.*line_ == lines_.begin()->first || place.*line_ == lines_.rbegin()->first;
+    return border && lines_.at(place.*line_).plots <= kFewOfLine * usual_;
+  }
+
+ private:
+  int Place::*line_;
+  int Place::*along_;
+  std::map<int, PlotsOnLine> lines_;
+  double usual_ = 0;
+};
+
+// What the usual plot shows.
+struct UsualPlot {
+  double cover = 0;
+  SideContrast contrast = {};
+  double of_line = 0;  // plots on a row
+};
+
+UsualPlot usual_plot(const Lattice& lattice) {
+  std::vector<double> covers, r_contrasts, c_contrasts;
+  std::map<int, double> of_row;
+  for (const Place& place : lattice.places) {
+    if (!place.full) continue;
+    const SideContrast contrast = contrast_of(lattice, place);
+    covers.push_back(inner_cover(lattice, place));
+    r_contrasts.push_back(contrast.r);
+    c_contrasts.push_back(contrast.c);
+    ++of_row[place.row];
+  }
+  std::vector<double> counts;
+  counts.reserve(of_row.size());
+  for (const auto& [row, count] : of_row) counts.push_back(count);
+  return {.cover = quantile(std::move(covers), 0.5),
+          .contrast = {.r = quantile(std::move(r_contrasts), 0.5),
+                       .c = quantile(std::move(c_contrasts), 0.5)},
+          .of_line = quantile(std::move(counts), 0.5)};
+}
+
+// Whether a place beyond the border is covered as plots are, and has their edges on all sides: a
+// hedge has them on two, another crop on one.
+bool shows_a_plot(const Lattice& lattice, const UsualPlot& usual, Place& place) {
+  const SideContrast contrast = contrast_of(lattice, place);
+  place.share = inner_cover(lattice, place) / std::max(1e-6, usual.cover);
+  place.contrast = contrast.mean() / std::max(1e-6, usual.contrast.mean());
+  return place.share >= kLeastBorderCover &&
+         contrast.r >= kLeastBorderContrast * usual.contrast.r &&
+         contrast.c >= kLeastBorderContrast * usual.contrast.c;
+}
+
+// Takes covered places with a clear plot on either side for plots: lodged ones lean over their
+// edges.
+void fill_between(std::vector<Place>& row) {
+  const ClearPlots clear(row);
+  for (Place& place : row)
+    place.full =
+        place.full || (place.share >= kLeastBorderCover && clear.stand_beside_in_row(place));
+}
+
+// The plots of the row before the first one or after the last one.
+std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bool after) {
+  const int step = after ? 1 : -1;
+  const auto outwards = [&](const Place& place) { return std::pair(place.full, step * place.row); };
+  const int outer = std::ranges::max(lattice.places, {}, outwards).row;
+  std::vector<Place> row;
+  for (const Place& place : lattice.places) {
+    if (place.row != outer) continue;
+    Place beyond = place;
+    beyond.row += step;
+    beyond.r_m += step * lattice.r.pitch_m;
+    beyond.c_m += step * lattice.r.pitch_m * lattice.c_per_r;
+    beyond.full = shows_a_plot(lattice, usual, beyond);
+    row.push_back(beyond);
+  }
+  fill_between(row);
+  if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual.of_line) row.clear();
+  return row;
+}
+
+void add_rows_beyond(Lattice& lattice) {
+  if (lattice.r.pitch_m < lattice.r.size_m) return;  // one row, or rows that overlap
+  const UsualPlot usual = usual_plot(lattice);
+  for (const bool after : {false, true}) {
+    for (std::vector<Place> row = row_beyond(lattice, usual, after); !row.empty();
+         row = row_beyond(lattice, usual, after))
+      lattice.places.insert(lattice.places.end(), row.begin(), row.end());
+  }
+}
+
+}  // namespace
+
+void leave_out_beside(Lattice& lattice) {
+  std::vector<Place*> beside;
+  do {
+    const LinesOfPlots rows(lattice.places, &Place::row, &Place::column);
+    const LinesOfPlots columns(lattice.places, &Place::column, &Place::row);
+    const ClearPlots clear(lattice.places);
+    const auto is_between = [&](const Place& place) {
+      return place.share >= kLeastBorderCover &&
+             (clear.stand_beside_in_row(place) ||
+              (lattice.aligned && clear.stand_beside_in_column(place)));
+    };
+    const auto least_contrast = [&](const Place& place) {
+      const bool few =
+          rows.few_at_border(place) || (lattice.aligned && columns.few_at_border(place));
+      const bool border = rows.ends_with(place) || (lattice.aligned && columns.ends_with(place));
+      if (few) return kLeastContrastOfFew;
+      return border && !place.low && !is_between(place) ? kLeastBorderContrast : 0.0;
+    };
+    beside.clear();
+    for (Place& place : lattice.places)
+      if (place.full && least_contrast(place) > std::max(0.0, place.contrast))
+        beside.push_back(&place);
+    for (Place* place : beside) place->full = false;
+  } while (!beside.empty());
+}
+
+void go_on_beyond(Lattice& lattice) {
+  if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
+  add_rows_beyond(lattice);
+  lattice = lattice.turned();
+  add_rows_beyond(lattice);
+  lattice = lattice.turned();
+}
+
+}  // namespace plotscan::plots

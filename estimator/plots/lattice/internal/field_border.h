@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: where a field's lattice ends.
+
+#include "plots/lattice/lattice.h"
+
+namespace plotscan::plots {
+
+// Removes the plots at the field's border that hedges, vehicles or weeds were taken for.
+void leave_out_beside(Lattice& lattice);
+
+// Adds the rows and columns beyond the outer ones that hold plots too: leaves that close the gap to
+// them may have hidden where they begin. Of fields in common rows and columns only.
+void go_on_beyond(Lattice& lattice);
+
+}  // namespace plotscan::plots

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: the lattice on which a field's plots lie, and which of its places hold
+// one.
+
+#include <optional>
+#include <vector>
+
+#include "core/trial_layout.h"
+#include "plots/layout/layout.h"
+
+namespace plotscan::plots {
+
+// A place of the lattice. Coordinates are the view's, metres.
+struct Place {
+  int row = 0, column = 0;  // from 0
+  double r_m = 0, c_m = 0;  // centre
+  double share = 0;         // its canopy as a share of a full plot's
+  double contrast = 0;      // of its sides, as a share of a full plot's
+  bool full = false;        // holds a plot,
+  bool low = false;         // which is much lower than the usual one
+};
+
+// What the plots have in common along one of the view's axes, metres.
+struct Side {
+  double size_m = 0;    // of a plot
+  double band_m = 0;    // of the layout's bands
+  double blur_m = 0.1;  // sigma of the leaves' spread over the edges
+  double pitch_m = 0;   // 0 where there is one row or one column only
+  // Of plots that touch, their side: the step from one to the next is known.
+  std::optional<double> touching_m = std::nullopt;
+  double rms_m = 0;       // plots' centres about the lattice
+  double parameters = 0;  // of the lattice, that the centres were fitted by
+};
+
+struct Lattice {
+  RowView view;
+  Side r, c;
+  int rows = 0, columns = 0;
+  bool aligned = true;        // columns run through all rows; else every row has its own offset
+  double r_per_c = 0;         // how far a row's plots move along r for every metre along c
+  double c_per_r = 0;         // how far a column's plots move along c for every metre along r
+  double contrast = 0;        // median of the plots' sides
+  double turn_error_rad = 0;  // standard error of the rows' and columns' direction
+  std::vector<Place> places = {};
+
+  // The same with r and c exchanged, for what is measured along either axis alike.
+  Lattice turned() const;
+};
+
+// Cells [r0, r1) x [c0, c1) of the lattice's raster.
+struct CellBox {
+  int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
+};
+
+// The cells of a place's plot, widened by around_m on each side.
+CellBox cells_about(const Lattice& lattice, const Place& place, double around_m);
+
+// The lattice through those of a layout's plots that hold canopy; where the user gave the number of
+// plots, through the plots with the most canopy. In low_leaves every leaf counts, however low:
+// there plots show that are much lower than the usual one.
+Lattice fit_lattice(const Layout& layout, const Hints& hints,
+                    const CanopyRaster* low_leaves = nullptr);
+
+// The same as a layout of plots, their length the longer side.
+TrialLayout layout_of(const Lattice& lattice);
+
+// Moves the places to where their canopy lies, smoothed by the lattice. Rows are straight, and
+// steps are equal except at alleys that clearly differ. Columns are straight where they are
+// aligned; else every row has its own offset and the common pitch.
+void straighten(Lattice& lattice);
+
+}  // namespace plotscan::plots

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/layout/segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kLeastLevel = 0.15;  // of the line's highest: less is no plot
+constexpr double kMostGap = 0.92;     // of the lower band beside it: a gap is lower than its bands
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// One band on one profile.
+struct Level {
+  double canopy = 0;
+  double misfit = kNever;
+};
+
+Level level_of(const ProfileSums& sums, const BandShape& shape, int begin) {
+  const int low = begin + shape.blur, high = begin + shape.size - shape.blur;
+  const double canopy = sums.mean(low, high);
+  return {canopy, sums.squares(low, high, canopy)};
+}
+
+// The gap from the end of one band, at its level, to the beginning of the next; -1 in place of a
+// band stands for the line's begin or end.
+ProfileSums::Stretch gap_between(const ProfileSums& sums, int blur, int end, double from, int begin,
+                                 double to) {
+  const int low = end + blur, high = begin < 0 ? sums.cells() : begin - blur;
+  ProfileSums::Stretch gap = end < 0     ? sums.until(high)
+                             : begin < 0 ? sums.from(low)
+                                         : sums.even(low, high);
+  if (end >= 0) gap.misfit += sums.squares(end - blur, low, from, gap.level);
+  if (begin >= 0) gap.misfit += sums.squares(high, begin + blur, gap.level, to);
+  return gap;
+}
+
+// A place where a band may begin, with its level on every profile.
+struct Start {
+  int begin = 0;
+  std::vector<Level> levels;
+  double misfit = 0;
+  double cost = 0;   // of the best bands up to this one
+  double least = 0;  // cost of the cheapest start up to this one
+  int before = -1;   // the start before it
+};
+
+double highest_mean(const ProfileSums& sums, int width) {
+  double most = 0;
+  for (int i = 0; i + width <= sums.cells(); ++i) most = std::max(most, sums.mean(i, i + width));
+  return most;
+}
+
+// A band that rises at its begin and falls at its end, on the profiles together.
+bool stands_out(std::span<const ProfileSums> profiles, const BandShape& shape, const Start& start) {
+  const int end = start.begin + shape.size;
+  double level = 0, before = 0, after = 0;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const ProfileSums& sums = profiles[i];
+    level += start.levels[i].canopy;
+    before += sums.mean(std::max(0, start.begin - shape.blur - 2), start.begin - shape.blur);
+    after += sums.mean(end + shape.blur, std::min(sums.cells(), end + shape.blur + 2));
+  }
+  return std::max(before, after) < kMostGap * level;
+}
+
+std::vector<Start> starts_on(std::span<const ProfileSums> profiles, const BandShape& shape) {
+  const int cells = profiles.front().cells();
+  double least = 0;
+  for (const ProfileSums& sums : profiles)
+    least += kLeastLevel * highest_mean(sums, std::min(shape.size, cells));
+  std::vector<Start> starts;
+  for (int begin = shape.blur + 1; begin + shape.size + shape.blur < cells; ++begin) {
+    Start start{.begin = begin, .levels = {}};
+    double canopy = 0;
+    for (const ProfileSums& sums : profiles) {
+      start.levels.push_back(level_of(sums, shape, begin));
+      start.misfit += start.levels.back().misfit;
+      canopy += start.levels.back().canopy;
+    }
+    if (canopy < least || start.misfit == kNever) continue;
+    if (stands_out(profiles, shape, start)) starts.push_back(std::move(start));
+  }
+  return starts;
+}
+
+double level_of(const Start& start) {
+  double level = 0;
+  for (const Level& own : start.levels) level += own.canopy;
+  return level;
+}
+
+// The gap on all profiles together; a null pointer stands for the line's begin or end.
+ProfileSums::Stretch gap_between(std::span<const ProfileSums> profiles, const BandShape& shape,
+                                 const Start* from, const Start* to) {
+  const int end = from != nullptr ? from->begin + shape.size : -1;
+  const int begin = to != nullptr ? to->begin : -1;
+  ProfileSums::Stretch sum;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const ProfileSums::Stretch gap =
+        gap_between(profiles[i], shape.blur, end, from != nullptr ? from->levels[i].canopy : 0,
+                    begin, to != nullptr ? to->levels[i].canopy : 0);
+    sum.level += gap.level;
+    sum.misfit += gap.misfit;
+  }
+  return sum;
+}
+
+// The cost of a gap; infinite where the gap is not lower than both bands beside it.
+double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
+                const Start* to) {
+  const ProfileSums::Stretch gap = gap_between(profiles, shape, from, to);
+  const double lower =
+      std::min(from != nullptr ? level_of(*from) : kNever, to != nullptr ? level_of(*to) : kNever);
+  return gap.level > kMostGap * lower ? kNever : gap.misfit;
+}
+
+// What the gap costs at least, as does any that begins earlier: the squares about the mean of more
+// cells are no fewer.
+double least_gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape,
+                      const Start& from, const Start& to) {
+  double misfit = 0;
+  for (const ProfileSums& sums : profiles)
+    misfit += sums.even(from.begin + shape.size + shape.blur, to.begin - shape.blur).misfit;
+  return misfit;
+}
+
+// Lets the i-th start follow the one with which the bands up to it cost least, or none. The gap
+// before it, and so the search, is rarely longer than a band.
+void follow_cheapest(std::span<const ProfileSums> profiles, const BandShape& shape, int least_gap,
+                     std::vector<Start>& starts, std::size_t i) {
+  Start& start = starts[i];
+  start.cost = gap_cost(profiles, shape, nullptr, &start);
+  for (std::size_t k = i; k-- > 0;) {
+    const Start& other = starts[k];
+    if (start.begin - other.begin - shape.size < least_gap) continue;
+    if (other.least + least_gap_cost(profiles, shape, other, start) > start.cost) return;
+    if (other.cost > start.cost) continue;
+    const double cost = other.cost + gap_cost(profiles, shape, &other, &start);
+    if (cost > start.cost) continue;
+    start.cost = cost;
+    start.before = static_cast<int>(k);
+  }
+}
+
+// A begin, and on every profile the band's level and that of the gap before it.
+double parameters_of_band(std::size_t profiles) { return 1 + 2 * static_cast<double>(profiles); }
+
+}  // namespace
+
+Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& shape,
+                        int least_gap, double price) {
+  Segmentation none{.shape = shape, .begins = {}, .misfit = kNever, .parameters = 0};
+  if (shape.size < 2 * shape.blur + 1) return none;
+  std::vector<Start> starts = starts_on(profiles, shape);
+  const double band_price = price * parameters_of_band(profiles.size());
+  least_gap = std::max(least_gap, 2 * shape.blur + 1);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    follow_cheapest(profiles, shape, least_gap, starts, i);
+    Start& start = starts[i];
+    start.cost += start.misfit + band_price;
+    start.least = i > 0 ? std::min(starts[i - 1].least, start.cost) : start.cost;
+  }
+  double best = kNever;
+  int last = -1;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double cost = starts[i].cost + gap_cost(profiles, shape, &starts[i], nullptr);
+    if (cost >= best) continue;
+    best = cost;
+    last = static_cast<int>(i);
+  }
+  if (last < 0) return none;
+  Segmentation found = none;
+  for (; last >= 0; last = starts[static_cast<std::size_t>(last)].before)
+    found.begins.push_back(starts[static_cast<std::size_t>(last)].begin);
+  std::ranges::reverse(found.begins);
+  found.parameters = static_cast<double>(found.begins.size()) * parameters_of_band(profiles.size());
+  found.misfit = best - price * found.parameters;
+  return found;
+}
+
+Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& shape,
+                      std::vector<int> begins) {
+  Segmentation bands{.shape = shape, .begins = std::move(begins), .misfit = 0, .parameters = 0};
+  std::vector<Start> starts;
+  for (const int begin : bands.begins) {
+    Start start{.begin = begin, .levels = {}};
+    for (const ProfileSums& sums : profiles) {
+      start.levels.push_back(level_of(sums, shape, begin));
+      bands.misfit += start.levels.back().misfit;
+    }
+    starts.push_back(std::move(start));
+  }
+  for (std::size_t i = 0; i <= starts.size(); ++i) {
+    bands.misfit += gap_between(profiles, shape, i > 0 ? &starts[i - 1] : nullptr,
+                                i < starts.size() ? &starts[i] : nullptr)
+                        .misfit;
+  }
+  bands.parameters = static_cast<double>(starts.size()) * parameters_of_band(profiles.size());
+  return bands;
+}
+
+}  // namespace plotscan::plots

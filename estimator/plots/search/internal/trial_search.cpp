@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/search/internal/trial_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+#include <tbb/task_arena.h>
+
+#include "plots/canopy/canopy_raster.h"
+#include "plots/lattice/box_errors.h"
+#include "plots/lattice/lattice.h"
+#include "plots/lattice/outline.h"
+#include "plots/layout/layout.h"
+#include "plots/search/internal/heading.h"
+#include "plots/search/internal/trial_area.h"
+#include "plots/signs/field_signs.h"
+#include "plots/signs/sown_rows.h"
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
+constexpr double kCell_m = 0.05;
+constexpr double kLeastLeaves_m = 0.12;  // lower are clods and the lowest weeds
+constexpr double kLeavesFrom = 0.25;     // of the crop's height: lower may be weeds
+
+constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
+
+constexpr int kSizeRounds = 2;  // of size and centres in turn
+
+PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
+
+// Whether the ground beyond one of a plot's sides was not scanned.
+bool is_cut_off(const Lattice& lattice, const Place& place) {
+  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
+  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
+  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
+  const auto share = [&](int ra, int rb, int ca, int cb) {
+    return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
+  };
+  const double least = kLeastShare * share(r0, r1, c0, c1);
+  return share(r0 - beyond, r0, c0, c1) < least || share(r1, r1 + beyond, c0, c1) < least ||
+         share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
+}
+
+// The same plots, each with half of the gaps beside it.
+Lattice with_gaps(Lattice lattice) {
+  for (Side* side : {&lattice.r, &lattice.c})
+    side->size_m += gap_of_trial_m(side->pitch_m, side->size_m);
+  return lattice;
+}
+
+FieldFit fit_of(const Lattice& lattice, const std::optional<SownRows>& sown_rows) {
+  const bool by_c = lattice.c.size_m > lattice.r.size_m;
+  const Side &length = by_c ? lattice.c : lattice.r, &width = by_c ? lattice.r : lattice.c;
+  return {.layout = layout_of(lattice),
+          .columns_aligned = lattice.aligned,
+          .rms_along_length_m = length.rms_m,
+          .rms_along_width_m = width.rms_m,
+          .leaf_spread_m = std::max(lattice.r.blur_m, lattice.c.blur_m),
+          .sown_rows = sown_rows,
+          .side_contrast = lattice.contrast};
+}
+
+Frame frame_of(const FieldAxes& axes) {
+  return {.a_axis = {std::cos(axes.first_rad), std::sin(axes.first_rad)},
+          .b_axis = {std::cos(axes.second_rad), std::sin(axes.second_rad)}};
+}
+
+// Sizes that the user gave are the sizes; the length is the longer one.
+void take_given_sides(Lattice& lattice, const Hints& hints) {
+  const bool along_r = lattice.r.size_m >= lattice.c.size_m;
+  Side &length = along_r ? lattice.r : lattice.c, &width = along_r ? lattice.c : lattice.r;
+  length.size_m = hints.length_m.value_or(length.size_m);
+  width.size_m = hints.width_m.value_or(width.size_m);
+}
+
+// The rows that the plots are sown in. For plots of few rows leaves say little of the sown width:
+// the number of rows times their spacing is used instead.
+std::optional<SownRows> take_sown_rows(Lattice& lattice) {
+  std::optional<SownRows> rows = sown_rows_along(lattice);
+  if (rows) {
+    lattice.r.size_m = rows->extent_m();
+    return rows;
+  }
+  rows = sown_rows_along(lattice.turned());
+  if (rows) lattice.c.size_m = rows->extent_m();
+  return rows;
+}
+
+// Sizes and places in turn.
+std::optional<SownRows> refine(Lattice& lattice, const Hints& hints) {
+  for (int round = 0; round < kSizeRounds; ++round) {
+    fit_edges(lattice);
+    straighten(lattice);
+  }
+  fit_edges(lattice);
+  std::optional<SownRows> rows = take_sown_rows(lattice);
+  if (rows) rows->across = rows->extent_m() >= std::max(lattice.r.size_m, lattice.c.size_m);
+  take_given_sides(lattice, hints);
+  return rows;
+}
+
+std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layout,
+                                double field_confidence, const Hints& hints) {
+  std::vector<FoundPlot> plots;
+  const PlotBoxError error = box_error(lattice, hints);
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    const Place& place = lattice.places[i];
+    const double clearness = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
+    plots.push_back({.row = layout.places[i].row,
+                     .column = layout.places[i].column,
+                     .box = layout.box(layout.places[i]),
+                     .box_error = error,
+                     .confidence = field_confidence * clearness,
+                     .cut_off = is_cut_off(lattice, place)});
+  }
+  // Whichever axis the search took for that of the rows.
+  std::ranges::sort(plots, {},
+                    [](const FoundPlot& plot) { return std::pair(plot.row, plot.column); });
+  return plots;
+}
+
+// "3 rows of 10 plots of 1.48 x 3.99 m".
+std::string text_of(const Layout& layout) {
+  std::size_t columns = 0;
+  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
+  std::size_t rows = layout.rows.size();
+  const double cell_m = layout.view.cell_m();
+  double length_m = layout.r_shape.size * cell_m, width_m = layout.c_shape.size * cell_m;
+  if (length_m < width_m) {
+    std::swap(length_m, width_m);
+    std::swap(rows, columns);
+  }
+  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
+}
+
+// A layout, and another that the canopy shows more clearly than the user's, if there is one.
+struct Choice {
+  Layout layout;
+  std::optional<Layout> rival = std::nullopt;
+};
+
+Choice choose_layout(const CanopyRaster& canopy, Hints hints, LineModel model) {
+  constexpr double kMoreClearly = 1.1;
+  if (!hints.tell_layout()) return {best_layout(canopy, hints, model)};
+  Layout shown = best_layout(canopy);
+  // Where plots touch, their length lies along the rows of the crop.
+  if (model == LineModel::touching && !hints.heading_rad)
+    hints.heading_rad = heading_of_rows(shown);
+  Choice choice{best_layout(canopy, hints, model)};
+  const bool clearer = shown.evidence > kMoreClearly * choice.layout.evidence;
+  if (!shown.rows.empty() && clearer) choice.rival = std::move(shown);
+  return choice;
+}
+
+// Why there is no layout.
+std::string no_layout(const Hints& hints, const std::optional<Layout>& rival) {
+  if (!hints.tell_layout()) return "no plots of one size lie in rows here";
+  return "no plots of the size and number told lie in rows here" +
+         (rival ? "; the canopy shows " + text_of(*rival) : "");
+}
+
+// Whether the layout's plots are single rows that others are sown in.
+bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
+  const int width = std::min(layout.r_shape.size, layout.c_shape.size);
+  return rows && width * layout.view.cell_m() < rows->spacing_m;
+}
+
+// Why what looks like plots is none; "" where it may be plots. What the user told is taken as true,
+// but that plots touch is not told.
+std::string refused_because(const FieldSigns& signs, const Hints& hints, LineModel model) {
+  if (model == LineModel::touching) return no_touching_plots_because(signs);
+  return hints.tell_layout() ? "" : no_plots_because(signs);
+}
+
+// Counts what is higher, tall plots too.
+CanopyScale leaves_above(double height_m) {
+  constexpr double kStep_m = 1e-3;  // from no leaves to leaves
+  return {.low_m = height_m, .high_m = height_m + kStep_m, .with_tall = true};
+}
+
+// How many plots of a trial beside others these may be.
+std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
+  constexpr double kLeastOfAll = 0.15;  // six trials of one size hold 0.17 each
+  return explained > kLeastOfAll && may_be_beside_others(signs) ? signs.plots : 0;
+}
+
+Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
+                LineModel model, int threads) {
+  const Frame frame = frame_of(axes);
+  const double low_m = std::max(kLeastLeaves_m, 4 * noise_m);
+  const double leaves_m = std::max(low_m, kLeavesFrom * field.scale().high_m);
+  const std::array scales = {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
+  const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
+  const CanopyRaster &canopy = rasters[0], &cover = rasters[1], &low_leaves = rasters[2];
+  tbb::task_arena arena(threads);
+  Choice choice;
+  arena.execute([&] { choice = choose_layout(canopy, hints, model); });
+  auto& [layout, rival] = choice;
+  if (layout.rows.empty()) return {no_plots(no_layout(hints, rival))};
+
+  layout.view.raster = &cover;
+  Lattice lattice = fit_lattice(layout, hints, &low_leaves);
+  if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
+  const std::optional<SownRows> rows = refine(lattice, hints);
+  lattice.view.raster = &canopy;
+  const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence_in_outline);
+  lattice.view.raster = &cover;
+  Look look{no_plots(refused_because(signs, hints, model))};
+  look.field.fit = fit_of(lattice, rows);
+  look.field.signs = signs;
+  if (rival && !are_rows(*rival, rows)) look.field.rival = text_of(*rival);
+  look.explained = held_share(with_gaps(lattice));
+  if (!look.field.why_none.empty()) {
+    look.may_be = plots_beside_others(signs, look.explained);
+    return look;
+  }
+  look.field.plots = plots_on(lattice, look.field.fit->layout, field_confidence(signs), hints);
+  look.may_be = look.field.plots.size();
+  look.evidence = layout.evidence;
+  return look;
+}
+
+// One look along each pair of axes.
+std::vector<Look> looks_at(const FieldCanopy& field, double noise_m, const Hints& hints,
+                           LineModel model, int threads) {
+  const CanopyRaster coarse =
+      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+  std::vector<Look> looks;
+  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads))
+    looks.push_back(look_along(axes, field, noise_m, hints, model, threads));
+  return looks;
+}
+
+// Of looks at the same canopy.
+Look clearest(const std::vector<Look>& looks) {
+  if (looks.empty()) return {no_plots(kNoCanopy)};
+  return *std::ranges::max_element(
+      looks, {}, [](const Look& look) { return std::pair(look.evidence, look.may_be); });
+}
+
+// Where a part of what stands on a field is taken for something else, what is left may be few
+// pieces of anything: they must be so many.
+bool is_field(const Look& look) {
+  constexpr std::size_t kLeastPlots = 4;
+  return look.evidence > 0 && look.field.plots.size() >= kLeastPlots;
+}
+
+// Whether a look shows more plots than the one before, as far as they are plots. The evidence of
+// the two is not that of the same canopy.
+bool shows_more(const Look& look, const Look& before) {
+  if (look.evidence == 0 && before.evidence == 0) return look.may_be > before.may_be;
+  return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
+}
+
+// Whether the plots hold nearly all of the canopy that was looked at.
+bool holds_most(const Look& look) {
+  constexpr double kMost = 0.9;
+  return look.evidence > 0 && look.field.signs->held_share > kMost;
+}
+
+// Whether the plots and their gaps are all that stands there.
+bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
+
+// Looks at a field in several ways, and keeps the best.
+class TrialSearch {
+ public:
+  explicit TrialSearch(const ScannedField& scanned)
+      : scanned_(scanned),
+        blocks_(scanned.points, scanned.noise_m, scanned.threads),
+        tops_m_(blocks_.crop_tops_m()) {}
+
+  void look_in_every_canopy(LineModel model, const std::vector<bool>& others = {}) {
+    for (const double top_m : tops_m_) look({.top_m = top_m, .others = others}, model);
+  }
+
+  // Another crop may stand beside the plots.
+  void look_beside_closed_canopy() {
+    for (const std::vector<bool>& others : blocks_.closed()) {
+      look_in_every_canopy(LineModel::free_ends, others);
+      if (holds_most(best())) return;
+    }
+  }
+
+  bool found_canopy() const { return best_.has_value(); }
+  const std::vector<Look>& looks() const { return looks_; }
+  Look best() const { return best_.value_or(Look{no_plots(kNoCanopy)}); }
+
+ private:
+  void look(const Crop& crop, LineModel model) {
+    const auto& [points, noise_m, hints, threads, ground_error] = scanned_;
+    const FieldCanopy field(points, blocks_, crop, threads, ground_error);
+    const std::vector<Look> looks = looks_at(field, noise_m, hints, model, threads);
+    looks_.insert(looks_.end(), looks.begin(), looks.end());
+    Look look = clearest(looks);
+    look.field.others_m2 = blocks_.covered_m2(crop.others);
+    if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
+  }
+
+  const ScannedField& scanned_;
+  FieldBlocks blocks_;
+  std::vector<double> tops_m_;
+  std::vector<Look> looks_;
+  std::optional<Look> best_;
+};
+
+}  // namespace
+
+double expected_plots(const Look& look) {
+  if (look.evidence == 0) return 0;
+  return static_cast<double>(look.field.plots.size()) * field_confidence(*look.field.signs);
+}
+
+Look look_once(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(LineModel::free_ends);
+  return search.best();
+}
+
+Look look_twice(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(LineModel::free_ends);
+  const Look first = search.best();
+  if (first.explained > kNearlyAll) return first;
+  search.look_in_every_canopy(LineModel::even_ends);
+  const Look best = search.best();
+  return first.evidence == 0 || best.explained > kNearlyAll ? best : first;
+}
+
+Looks look_in_all_ways(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(LineModel::free_ends);
+  const std::vector<Look> at_all = search.looks();
+  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
+  search.look_beside_closed_canopy();
+  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
+  if (scanned.hints.tell_sides() && !explains_all(search.best()))
+    search.look_in_every_canopy(LineModel::touching);
+  return {at_all, search.best()};
+}
+
+}  // namespace plotscan::plots

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/search/internal/trials_beside.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "core/angle.h"
+#include "core/plot_box.h"
+#include "core/random.h"
+#include "plots/search/internal/trial_area.h"
+#include "plots/signs/field_signs.h"
+
+namespace plotscan::plots {
+namespace {
+
+using Trials = std::vector<SeenTrial>;
+
+constexpr std::size_t kMostTrials = 6;
+constexpr int kMostRounds = 3;
+constexpr std::size_t kMostStarts = 3;
+constexpr double kAlike = 0.15;       // sizes that differ by less
+constexpr double kEnoughPerM2 = 400;  // points, to tell trials apart
+
+// About `per_m2` points a square metre. Which ones depends on each point alone, not on their order.
+std::vector<Eigen::Vector3f> thinned(std::span<const Eigen::Vector3f> points, double per_m2) {
+  Eigen::AlignedBox2f extent;
+  for (const Eigen::Vector3f& point : points)
+    if (point.allFinite()) extent.extend(point.head<2>());
+  std::vector<Eigen::Vector3f> kept;
+  if (extent.isEmpty()) return kept;
+  const double share = per_m2 * extent.volume() / static_cast<double>(points.size());
+  std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
+    const std::uint64_t x = std::bit_cast<std::uint32_t>(point.x());
+    const std::uint64_t y = std::bit_cast<std::uint32_t>(point.y());
+    return RandomStream(0, random_purpose("plots/thinned"), x << 32 | y).uniform() < share;
+  });
+  return kept;
+}
+
+// The points of the field without the trials, but for those that are kept.
+std::vector<Eigen::Vector3f> rest_of(const ScannedField& field, const Trials& trials,
+                                     const std::vector<const SeenTrial*>& kept = {}) {
+  std::vector<PlotBox> areas;
+  for (const SeenTrial& trial : trials)
+    if (std::ranges::find(kept, &trial) == kept.end())
+      areas.insert(areas.end(), trial.area.begin(), trial.area.end());
+  return points_outside(field.points, areas);
+}
+
+ScannedField with_points(ScannedField field, std::span<const Eigen::Vector3f> points) {
+  field.points = points;
+  return field;
+}
+
+// What shows beside the trials, whatever else stands there.
+Look look_beside(const ScannedField& field, const Trials& trials) {
+  const std::vector<Eigen::Vector3f> rest = rest_of(field, trials);
+  return look_once(with_points(field, rest));
+}
+
+// What shows where some of the trials stand, with all others taken away.
+Look look_at(const ScannedField& field, const Trials& trials,
+             const std::vector<const SeenTrial*>& some) {
+  const std::vector<Eigen::Vector3f> rest = rest_of(field, trials, some);
+  return look_twice(with_points(field, rest));
+}
+
+// Adds one trial after the other, each in what the ones before leave of the canopy. It need not
+// convince yet, as those that are still to come disturb its picture.
+void propose(const ScannedField& field, Look look, Trials& trials) {
+  while (look.may_be >= kLeastOfTrial && trials.size() < kMostTrials) {
+    trials.push_back({.area = area_of(look.field.fit->layout)});
+    look = look_beside(field, trials);
+  }
+}
+
+// Looks at a trial with the others taken away. Whether it is a field of plots then.
+bool is_confirmed(const ScannedField& field, const Trials& trials, SeenTrial& trial) {
+  trial.look = look_at(field, trials, {&trial});
+  if (trial.look.field.plots.size() < kLeastOfTrial) return false;
+  trial.area = area_of(trial.look.field.fit->layout);
+  return true;
+}
+
+void drop_unconfirmed(const ScannedField& field, Trials& trials) {
+  for (std::size_t i = 0; i < trials.size();) {
+    if (is_confirmed(field, trials, trials[i]))
+      ++i;
+    else
+      trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+// Those that stay when all others are taken away; none where that does not come to an end.
+Trials confirmed(const ScannedField& field, Trials trials) {
+  for (int round = 0; round < kMostRounds && trials.size() > 1; ++round) {
+    const std::size_t before = trials.size();
+    drop_unconfirmed(field, trials);
+    if (trials.size() == before) return trials;
+  }
+  return {};
+}
+
+// The trials of which the look is the first. Once some are confirmed, it shows more clearly where
+// further ones lie.
+Trials told_apart(const ScannedField& field, const Look& first) {
+  Trials trials;
+  propose(field, first, trials);
+  if (trials.size() < 2) return {};
+  drop_unconfirmed(field, trials);
+  if (trials.empty()) return {};
+  propose(field, look_beside(field, trials), trials);
+  return confirmed(field, std::move(trials));
+}
+
+bool are_alike(double a, double b) { return std::abs(a - b) <= kAlike * std::max(a, b); }
+
+// Whether plots of two layouts may be of one.
+bool are_alike(const TrialLayout& a, const TrialLayout& b) {
+  constexpr double kSameHeading_rad = 5 * kDegrees;
+  const double turned = std::remainder(a.heading_rad() - b.heading_rad(), kPi);
+  return are_alike(a.width_m, b.width_m) && are_alike(a.length_m, b.length_m) &&
+         std::abs(turned) < kSameHeading_rad;
+}
+
+// Two trials as one, if as many plots are found so.
+std::optional<SeenTrial> one_of_both(const ScannedField& field, const Trials& trials,
+                                     const SeenTrial& a, const SeenTrial& b) {
+  if (!are_alike(a.look.field.fit->layout, b.look.field.fit->layout)) return {};
+  Look look = look_at(field, trials, {&a, &b});
+  if (expected_plots(look) < expected_plots(a.look) + expected_plots(b.look)) return {};
+  std::vector<PlotBox> area = area_of(look.field.fit->layout);
+  return SeenTrial{.area = std::move(area), .look = std::move(look)};
+}
+
+// Whether the plots are as many as the other look's, and of the same size.
+bool shows_those(const Look& look, const Look& other) {
+  return look.field.plots.size() >= other.field.plots.size() &&
+         are_alike(look.field.fit->layout, other.field.fit->layout);
+}
+
+// The trials, with those that are parts of one put together.
+Trials as_one(const ScannedField& field, Trials trials) {
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    for (std::size_t k = i + 1; k < trials.size(); ++k) {
+      std::optional<SeenTrial> both = one_of_both(field, trials, trials[i], trials[k]);
+      if (!both) continue;
+      trials[i] = std::move(*both);
+      trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i;
+    }
+  }
+  return trials;
+}
+
+bool is_same(const Look& a, const Look& b) {
+  const TrialLayout &one = a.field.fit->layout, &other = b.field.fit->layout;
+  return one.places.size() == other.places.size() && are_alike(one.width_m, other.width_m) &&
+         are_alike(one.length_m, other.length_m);
+}
+
+// The looks that may show a first trial, the clearest first.
+std::vector<Look> starts_of(const Looks& looks) {
+  std::vector<Look> all = looks.at_all;
+  std::ranges::stable_sort(all, std::greater(), &Look::evidence);
+  all.insert(all.begin(), looks.best);
+  std::vector<Look> starts;
+  for (const Look& look : all) {
+    if (look.may_be < kLeastOfTrial || starts.size() == kMostStarts) continue;
+    if (std::ranges::none_of(starts, [&](const Look& start) { return is_same(start, look); }))
+      starts.push_back(look);
+  }
+  return starts;
+}
+
+// The trials looked at in all points of the field, where these show the same plots. (Thinned clouds
+// show gaps that some dense ones hide.)
+Trials looked_at_closely(const ScannedField& field, Trials trials) {
+  for (SeenTrial& trial : trials) {
+    Look look = look_at(field, trials, {&trial});
+    if (!shows_those(look, trial.look)) continue;
+    trial.area = area_of(look.field.fit->layout);
+    trial.look = std::move(look);
+  }
+  return trials;
+}
+
+// Whether no other trials can explain the field much better.
+bool are_clear(const Trials& trials) {
+  constexpr double kClear = 0.85;  // confidence of a field
+  return trials.size() > 1 && std::ranges::all_of(trials, [](const SeenTrial& trial) {
+           return trial.look.explained > kNearlyAll &&
+                  field_confidence(*trial.look.field.signs) > kClear;
+         });
+}
+
+}  // namespace
+
+double expected_plots(const std::vector<SeenTrial>& trials) {
+  double expected = 0;
+  for (const SeenTrial& trial : trials) expected += expected_plots(trial.look);
+  return expected;
+}
+
+std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& looks) {
+  const std::vector<Eigen::Vector3f> points = thinned(field.points, kEnoughPerM2);
+  const ScannedField thin = with_points(field, points);
+  Trials best;
+  for (const Look& start : starts_of(looks)) {
+    Trials trials = as_one(thin, told_apart(thin, start));
+    if (expected_plots(trials) > expected_plots(best)) best = std::move(trials);
+    if (are_clear(best)) break;
+  }
+  if (best.size() < 2) return {};
+  return looked_at_closely(field, std::move(best));
+}
+
+}  // namespace plotscan::plots

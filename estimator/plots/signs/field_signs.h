@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: whether what lies on a lattice is a field of plots.
+
+#include <string>
+
+#include "plots/lattice/lattice.h"
+#include "plots/plot_field.h"
+
+namespace plotscan::plots {
+
+// Share of the raster's canopy that lies in the plots.
+double held_share(const Lattice& lattice);
+
+// `lattice` is on a raster of the field's canopy.
+FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noise_m,
+                    double evidence);
+
+// Why these are no plots; "" where they are.
+std::string no_plots_because(const FieldSigns& signs);
+
+// The same of plots that are said to have no gaps: they leave next to nothing beside them.
+std::string no_touching_plots_because(FieldSigns signs);
+
+// Whether these may be plots of a trial beside others, whose canopy they do not hold: whether
+// nothing else speaks against them.
+bool may_be_beside_others(FieldSigns signs);
+
+// 0 to 1: how clearly the field is one of plots.
+double field_confidence(const FieldSigns& signs);
+
+}  // namespace plotscan::plots

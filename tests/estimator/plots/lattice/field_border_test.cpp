@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plots/lattice/internal/field_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "estimator/plots/known_trial.h"
+#include <gtest/gtest.h>
+
+namespace plotscan::plots {
+namespace {
+
+constexpr double kGapsClosed = 0.2;  // sigma of leaves that close gaps of 0.4 and 0.8 m
+
+// The canopy of the trial's first rows and, from beyond them on, of something else.
+CanopyRaster canopy_beside(const TrialLayout& trial, int rows,
+                           const std::function<double(double x, double y)>& beyond) {
+  TrialLayout sown = trial;
+  std::erase_if(sown.places, [&](const TrialPlace& place) { return place.row > rows; });
+  const CanopyRaster of_plots = canopy_of(trial, 1.5, kGapsClosed);
+  const CanopyRaster canopy = canopy_of(sown, 1.5, kGapsClosed);
+  return raster_of(of_plots.a_cells() * 0.05, of_plots.b_cells() * 0.05, [&](double x, double y) {
+    const int a = static_cast<int>(x / 0.05), b = static_cast<int>(y / 0.05);
+    return std::max(canopy.cover(a, a + 1, b, b + 1), beyond(x, y));
+  });
+}
+
+// Of the trial's rows on the raster, the lattice has the first ones.
+Lattice lattice_of_first(const TrialLayout& trial, int rows, const CanopyRaster& raster) {
+  Lattice lattice = lattice_of(trial, raster);
+  std::erase_if(lattice.places, [&](const Place& place) { return place.row >= rows; });
+  return lattice;
+}
+
+std::ptrdiff_t plots_of(const Lattice& lattice) {
+  return std::ranges::count_if(lattice.places, &Place::full);
+}
+
+TEST(GoOnBeyond, FindsTheRowsAndColumnsThatFollow) {
+  const TrialLayout trial = known_trial({0, 0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial, 1.5, kGapsClosed);
+  Lattice lattice = lattice_of_first(trial, 2, raster);
+  std::erase_if(lattice.places, [](const Place& place) { return place.column == 0; });
+  go_on_beyond(lattice);
+  EXPECT_EQ(plots_of(lattice), std::ssize(trial.places));
+  for (const Place& place : lattice.places) {
+    EXPECT_NEAR(place.r_m, 3 + place.row * trial.row_pitch_m, 1e-9);
+    EXPECT_NEAR(place.c_m, 2 + place.column * trial.column_pitch_m, 1e-9);
+  }
+}
+
+TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const double third_m = 3 + 2 * trial.row_pitch_m;
+  const std::function<double(double, double)> beyond[] = {
+      [](double, double) { return 0.0; },
+      [&](double x, double) { return std::abs(x - third_m) < trial.length_m / 2 ? 0.9 : 0.0; },
+      [&](double x, double) { return x > third_m - trial.length_m / 2 ? 0.9 : 0.0; }};
+  for (const auto& standing : beyond) {
+    const CanopyRaster raster = canopy_beside(trial, 2, standing);
+    Lattice lattice = lattice_of_first(trial, 2, raster);
+    go_on_beyond(lattice);
+    EXPECT_EQ(plots_of(lattice), 10);
+  }
+}
+
+// Of three rows, the middle plot of the last one and the last plot of the first one are as covered
+// as the others and show no edges, as lodged plots. Weeds may be that at a corner.
+TEST(LeaveOutBeside, KeepsLodgedPlotsThatStandBetweenOthers) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  for (Place& place : lattice.places) {
+    place.share = 1;
+    place.contrast = 1;
+    if ((place.row == 2 && place.column == 2) || (place.row == 0 && place.column == 4))
+      place.contrast = 0.1;
+  }
+  leave_out_beside(lattice);
+  for (const Place& place : lattice.places)
+    EXPECT_EQ(place.full, place.row != 0 || place.column != 4) << place.row << ' ' << place.column;
+}
+
+// As a closed crop is sometimes seen: steps from row to row that are less than a plot.
+TEST(GoOnBeyond, LeavesLatticesAloneThatOverlapOrHoldNothing) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of_first(trial, 2, raster);
+  lattice.r.pitch_m = lattice.c.pitch_m = 1e-9;
+  go_on_beyond(lattice);
+  EXPECT_EQ(plots_of(lattice), 10);
+  for (Place& place : lattice.places) place.full = false;
+  go_on_beyond(lattice);
+  EXPECT_EQ(plots_of(lattice), 0);
+}
+
+}  // namespace
+}  // namespace plotscan::plots

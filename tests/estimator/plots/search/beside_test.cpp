@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "estimator/plots/trial_cloud.h"
+#include <gtest/gtest.h>
+
+#include "core/angle.h"
+#include "core/random.h"
+#include "plots/search/find_trials.h"
+
+// What stands beside the plots of a field.
+namespace plotscan::plots {
+namespace {
+
+// Two rows of three end 0.8 m early at the field's border, as grazed ones do: what stands there is
+// no longer like the plots of the middle row, but nothing else either.
+TEST(FindPlots, FindsPlotsOfOuterRowsThatAreShorter) {
+  for (const double gap_m : {0.2, 0.3}) {
+    std::vector<PlotBox> boxes = Trial{.gap_m = gap_m, .row_gap_m = 0.6, .width_m = 1.35}.boxes();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (i / 6 == 1) continue;
+      boxes[i].length_m -= 0.8;
+      boxes[i].center += (i / 6 == 0 ? 0.4 : -0.4) * boxes[i].length_axis();
+    }
+    SCOPED_TRACE(gap_m);
+    expect_those(boxes, find_plots(cloud_over(boxes), 0.02, {}, 2), 0.75);
+  }
+}
+
+// A task of the raster gets none but points that are left out.
+TEST(FindPlots, FindsPlotsBesideALargeRoof) {
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 140000; ++i) {
+    RandomStream random(8, random_purpose("test/roof"), i);
+    points.emplace_back(static_cast<float>(random.uniform(20, 35)),
+                        static_cast<float>(random.uniform(-7, 7)),
+                        static_cast<float>(4 + 0.02 * random.normal()));
+  }
+  EXPECT_NE(find_plots(points, 0.02, {}, 2).why_none, "");
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::ranges::copy(cloud_over(boxes), std::back_inserter(points));
+  EXPECT_EQ(find_plots(points, 0.02, {}, 2).plots.size(), boxes.size());
+}
+
+// A hedge of 1.8 m along one side of the field, and trees of 5 m in two corners: most of the
+// volume, if not of the area.
+TEST(FindPlots, FindsPlotsBesideTreesAndHedges) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  std::uint64_t index = 0;
+  for (Eigen::Vector3f& point : points) {
+    RandomStream random(8, random_purpose("test/hedge"), index++);
+    const float from_tree = std::min((point.head<2>() - Eigen::Vector2f(9, 9)).norm(),
+                                     (point.head<2>() + Eigen::Vector2f(9, 9)).norm());
+    if (from_tree < 2.4F) point.z() = static_cast<float>(random.uniform(1, 5));
+    if (point.y() < -10.6F) point.z() = static_cast<float>(random.uniform(0.6, 1.8));
+  }
+  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+}
+
+// A row of straw as high as the crop, at several distances from the field: as wide as the plots, so
+// that it could be a row of them.
+TEST(FindPlots, FindsPlotsBesideAWindrow) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  const std::vector<Eigen::Vector3f> alone = cloud_over(boxes);
+  const PlotBox axes{.heading_rad = 33 * kDegrees};
+  for (const double gap_m : {1.5, 2.0, 3.0}) {
+    std::vector<Eigen::Vector3f> points = alone;
+    std::uint64_t index = 0;
+    for (Eigen::Vector3f& point : points) {
+      RandomStream random(10, random_purpose("test/windrow"), index++);
+      const Eigen::Vector2d at = axes.box_from_world(point.head<2>().cast<double>());
+      if (at.x() > 6.8 + gap_m && at.x() < 8.4 + gap_m && std::abs(at.y()) < 5.5)
+        point.z() = static_cast<float>(random.uniform(0.3, 0.8));
+    }
+    SCOPED_TRACE(gap_m);
+    expect_those(boxes, find_plots(points, 0.02, {}, 2));
+  }
+}
+
+// The same crop without plots, 24 x 12 m, beyond an alley of 1.3 m: more of it than in the plots.
+TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  for (std::uint64_t i = 0; i < 200000; ++i) {
+    RandomStream random(9, random_purpose("test/bulk"), i);
+    const double height_m = random.uniform() < 0.9 ? random.uniform(0.3, 0.8) : 0;
+    points.emplace_back(static_cast<float>(random.uniform(-12, 12)),
+                        static_cast<float>(random.uniform(-24, -10)),
+                        static_cast<float>(height_m + 0.02 * random.normal()));
+  }
+  std::erase_if(points, [](const Eigen::Vector3f& point) {
+    return point.y() < -10 && point.y() > -12 && point.z() < 0.2F;
+  });
+  const PlotField field = find_plots(points, 0.02, {}, 2);
+  expect_those(boxes, field);
+  EXPECT_NEAR(field.others_m2, 24 * 14, 24);
+}
+
+// Plots with narrow gaps, 0.2 m beside the same crop without plots: on squares of a metre the crop
+// goes on through them.
+TEST(FindPlots, FindsPlotsWithNarrowGapsBesideACropWithoutPlots) {
+  const std::vector<PlotBox> boxes = Trial{.gap_m = 0.3, .row_gap_m = 0.5}.boxes();
+  double edge_m = 0;
+  for (const PlotBox& box : boxes)
+    for (const Eigen::Vector2d& corner : box.corners()) edge_m = std::min(edge_m, corner.y() - 0.2);
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  std::uint64_t index = 0;
+  for (Eigen::Vector3f& point : points) {
+    RandomStream random(11, random_purpose("test/bulk"), index++);
+    if (point.y() < edge_m && random.uniform() < 0.75)
+      point.z() = static_cast<float>(random.uniform(0.3, 0.8));
+  }
+  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+}
+
+}  // namespace
+}  // namespace plotscan::plots
