@@ -50,9 +50,10 @@ void declare_report(Program& program) {
           "estimate folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
       ->required();
   report.add_option("-o,--output", options.html, "page to write (.html)")->required();
-  report.add_option("--truth", options.truth,
-                    "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres: "
-                    "errors are shown");
+  report.add_option(
+      "--truth", options.truth,
+      "farm folder, a GeoJSON file of plots with numbers height_<name>_m, metres, or a "
+      "table (.csv) of heights that were measured in the field: errors are shown");
   declare_shown_cloud(report, shared->cloud);
   report.add_option("--points", options.points, "points on the page, at most")
       ->capture_default_str()

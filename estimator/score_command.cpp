@@ -9,10 +9,23 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/text.h"
 #include "score/run.h"
 
 namespace plotscan {
 namespace {
+
+// The plots of a table, which are found by their ids.
+void say_table(const Program& program, const score::Scores& scores) {
+  const score::TableMatch& table = *scores.table;
+  const std::size_t found = scores.boxes.found;
+  program.say(fmt::format("plots    {} of {} measured plots are in the estimate, by {}", found,
+                          found + table.not_found.size(), table.id_column));
+  if (table.not_found.empty()) return;
+  std::vector<std::string> ids;
+  for (const PlotId& id : table.not_found) ids.push_back(id.text());
+  program.say("         not in it: " + joined(ids, ", "));
+}
 
 void say_boxes(const Program& program, const score::BoxScore& boxes) {
   program.say(fmt::format("plots    {} of {} found, {} missed, {} extra", boxes.found, boxes.plots,
@@ -59,7 +72,11 @@ void say_trust(const Program& program, const std::vector<score::HeightScore>& he
 }
 
 void say_scores(const Program& program, const score::Scores& scores) {
-  say_boxes(program, scores.boxes);
+  if (scores.table) {
+    say_table(program, scores);
+  } else {
+    say_boxes(program, scores.boxes);
+  }
   for (const std::string& note : scores.notes) program.say(note);
   if (scores.heights.empty()) return;
   const std::set<std::string> heights = score::estimated_heights(scores.field);
@@ -103,8 +120,13 @@ void declare_score(Program& program) {
       ->required();
   score
       .add_option("--truth", options.truth,
-                  "farm folder, or a GeoJSON file of plots with numbers height_<name>_m, metres")
+                  "farm folder, a GeoJSON file of plots with numbers height_<name>_m, metres, or a "
+                  "table (.csv) of heights that were measured in the field: ids, and columns such "
+                  "as height_mean_cm")
       ->required();
+  score.add_option("--id", options.score.id,
+                   "column of that table with the plots' ids (default: plot_number, plot_id or "
+                   "another usual name)");
   score.add_option("-o,--output", output,
                    "folder to write scores.json and plots.csv to (default: write nothing)");
   score.add_option("--min-iou", options.score.min_iou,

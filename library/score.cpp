@@ -47,8 +47,7 @@ Scores score_estimate(const std::filesystem::path& estimate, const std::filesyst
 Scores score_estimate(const FieldEstimate& estimate, const std::filesystem::path& truth,
                       double min_iou) {
   return boundary::guarded([&] {
-    return outer(
-        score::score(score::read_truth(truth), boundary::inner(estimate), {.min_iou = min_iou}));
+    return outer(score::score_against(truth, boundary::inner(estimate), {.min_iou = min_iou}));
   });
 }
 

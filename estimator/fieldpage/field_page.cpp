@@ -58,6 +58,22 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
                           "has another hash).");
 }
 
+// A farm's truth, a map of true plots, or a table of measured heights.
+void add_truth(report::ShownField& field, const estimate::Estimate& estimate,
+               const fs::path& truth) {
+  if (score::is_measured_table(truth)) {
+    const std::size_t shown = show_measured(field, score::read_measured(truth, estimate));
+    field.facts.push_back({"plots measured by hand", std::to_string(shown)});
+    return;
+  }
+  const std::vector<score::TruePlot> plots = score::read_truth(truth);
+  show_truth(field, estimate, plots);
+  if (score::lie_apart(plots, estimate)) field.notes.emplace_back(score::kApart);
+  const fs::path terrain = truth / "truth" / "terrain.ply";
+  if (fs::exists(terrain)) show_terrain(field, farmfolder::read_terrain(terrain));
+  field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
+}
+
 }  // namespace
 
 PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress) {
@@ -75,14 +91,7 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
     field.notes.push_back(estimate.diagnostics.why_no_plots);
   show_estimate(field, estimate);
   show_working(field, estimate);
-  if (options.truth) {
-    const std::vector<score::TruePlot> truth = score::read_truth(*options.truth);
-    show_truth(field, estimate, truth);
-    if (score::lie_apart(truth, estimate)) field.notes.emplace_back(score::kApart);
-    const fs::path terrain = *options.truth / "truth" / "terrain.ply";
-    if (fs::exists(terrain)) show_terrain(field, farmfolder::read_terrain(terrain));
-    field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
-  }
+  if (options.truth) add_truth(field, estimate, *options.truth);
   if (options.cloud) show_cloud(field, options, estimate.units, progress);
   nlohmann::json document = {{"kind", "estimate"}, {"title", "Plots of " + field.name}};
   document["fields"] = nlohmann::json::array();

@@ -13,7 +13,7 @@ namespace plotscan::fieldpage {
 struct PageOptions {
   std::filesystem::path estimate;  // an estimate folder, or a GeoJSON file of plots with heights
   std::filesystem::path html;
-  // A farm folder, or a GeoJSON file of plots with heights.
+  // A farm folder, a GeoJSON file of plots with heights, or a table of measured ones.
   std::optional<std::filesystem::path> truth = {};
   std::optional<CloudFiles> cloud = {};  // that was measured; files as cloud_files_of takes them
   std::size_t points = 3'000'000;        // at most, 1 to report::kMostPoints

@@ -49,6 +49,13 @@ report::ShownGrid grid_around(const report::ShownField& field) {
           .rows = static_cast<int>(size.y() / cell_m) + 2};
 }
 
+// The field's plots by their ids, which are all different.
+std::map<std::string, report::ShownPlot*> plots_by_id(report::ShownField& field) {
+  std::map<std::string, report::ShownPlot*> by_id;
+  for (report::ShownPlot& plot : field.plots) by_id[plot.id] = &plot;
+  return by_id;
+}
+
 report::ShownPoint shown(const Eigen::Vector3d& place) { return {.place = place.cast<float>()}; }
 
 }  // namespace
@@ -76,8 +83,7 @@ void show_working(report::ShownField& field, const estimate::Estimate& estimate)
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth) {
   const score::FieldScore scored = score::score_field(truth, estimate);
-  std::map<std::string, report::ShownPlot*> by_id;  // an estimate's are all different
-  for (report::ShownPlot& plot : field.plots) by_id[plot.id] = &plot;
+  const std::map<std::string, report::ShownPlot*> by_id = plots_by_id(field);
   for (const PlotId& id : scored.extra) by_id.at(id.text())->state = report::PlotState::extra;
   for (const score::PlotScore& plot : scored.plots) {
     field.true_boxes.push_back(
@@ -87,6 +93,17 @@ void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
     found.state = report::PlotState::found;
     found.truths_m = plot.truth.heights_m;
   }
+}
+
+std::size_t show_measured(report::ShownField& field, const score::MeasuredPlots& measured) {
+  std::size_t shown = 0;
+  const std::map<std::string, report::ShownPlot*> by_id = plots_by_id(field);
+  for (const score::TruePlot& plot : measured.plots) {
+    if (!plot.scored) continue;
+    by_id.at(plot.id.text())->truths_m = plot.heights_m;
+    ++shown;
+  }
+  return shown;
 }
 
 void show_terrain(report::ShownField& field, const terrain::Terrain& terrain) {

@@ -12,6 +12,7 @@
 #include "estimate/estimate.h"
 #include "report/shown_cloud.h"
 #include "report/shown_field.h"
+#include "score/measured_table.h"
 #include "score/score.h"
 
 namespace plotscan::fieldpage {
@@ -26,6 +27,9 @@ void show_working(report::ShownField& field, const estimate::Estimate& estimate)
 // true heights, and the true boxes.
 void show_truth(report::ShownField& field, const estimate::Estimate& estimate,
                 const std::vector<score::TruePlot>& truth);
+
+// Puts what people measured beside the heights of these plots; returns how many they are.
+std::size_t show_measured(report::ShownField& field, const score::MeasuredPlots& measured);
 
 // The true ground at the nodes of the field's fitted ground, else around its plots.
 void show_terrain(report::ShownField& field, const terrain::Terrain& terrain);

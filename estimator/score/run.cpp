@@ -7,6 +7,7 @@
 #include "core/output_folder.h"
 #include "core/text_file.h"
 #include "estimate/estimate.h"
+#include "score/measured_table.h"
 #include "score/score_files.h"
 
 namespace plotscan::score {
@@ -30,7 +31,7 @@ void write_scores(const Scores& scores, const RunOptions& options) {
                                  .options = {{"min_iou", options.score.min_iou}},
                                  .inputs = {file_in(options.estimate, "plots.geojson"),
                                             file_in(options.truth, "truth/plots.geojson")},
-                                 .results = {{"boxes", to_json(scores.boxes)}}});
+                                 .results = {{"boxes", to_json(scores)["boxes"]}}});
   folder.commit();
 }
 
@@ -39,10 +40,16 @@ void write_scores(const Scores& scores, const RunOptions& options) {
 json to_json(const Scores& scores) {
   json heights = json::array();
   for (const HeightScore& score : scores.heights) heights.push_back(to_json(score));
-  return {{"format", kFormat},
-          {"boxes", to_json(scores.boxes)},
-          {"heights", heights},
-          {"field", to_json(scores.field)}};
+  json document = {{"format", kFormat},
+                   {"boxes", scores.table ? json(nullptr) : to_json(scores.boxes)},
+                   {"heights", heights},
+                   {"field", to_json(scores.field)}};
+  if (const auto& table = scores.table) {
+    json not_found = json::array();
+    for (const PlotId& id : table->not_found) not_found.push_back(id.json());
+    document["table"] = {{"id_column", table->id_column}, {"not_found", not_found}};
+  }
+  return document;
 }
 
 Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
@@ -63,9 +70,18 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
   return scores;
 }
 
+Scores score_against(const fs::path& truth, const estimate::Estimate& estimate,
+                     const ScoreOptions& options) {
+  if (!is_measured_table(truth)) return score(read_truth(truth), estimate, options);
+  const MeasuredPlots measured = read_measured(truth, estimate, options.id);
+  Scores scores = score(measured.plots, estimate, options);
+  scores.table = {.id_column = measured.id_column, .not_found = measured.not_found};
+  return scores;
+}
+
 Scores run(const RunOptions& options) {
   Scores scores =
-      score(read_truth(options.truth), estimate::read_estimate(options.estimate), options.score);
+      score_against(options.truth, estimate::read_estimate(options.estimate), options.score);
   if (options.output) write_scores(scores, options);
   return scores;
 }

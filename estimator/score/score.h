@@ -57,7 +57,8 @@ struct FieldScore {
 };
 
 struct ScoreOptions {
-  double min_iou = 0.5;  // least intersection over union for a plot to count as found
+  double min_iou = 0.5;                // least intersection over union for a plot to count as found
+  std::optional<std::string> id = {};  // column of a table of measured heights with the plots' ids
 };
 
 // Compares an estimate with the truth. Estimated plots that match an unscored true plot, or have

@@ -38,8 +38,9 @@ struct Scores {
 };
 
 // What `estimator score` does: an estimate folder, or a GeoJSON file of plots with heights, against
-// a farm folder, or a GeoJSON file of true ones. A plot is found where the boxes' intersection over
-// union is at least min_iou, over 0 and at most 1. Throws BadInput on bad input.
+// a farm folder, a GeoJSON file of true ones, or a table of measured heights (docs/benchmark.md). A
+// plot is found where the boxes' intersection over union is at least min_iou, over 0 and at most 1.
+// Throws BadInput on bad input.
 PLOTSCAN_API Scores score_estimate(const std::filesystem::path& estimate,
                                    const std::filesystem::path& truth, double min_iou = 0.5);
 

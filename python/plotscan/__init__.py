@@ -297,7 +297,7 @@ def score_estimate(estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou
     """Compare an estimate with the truth, as `estimator score` does.
 
     estimate: what `estimate_field` or `estimate_files` returned, an estimate folder, or a GeoJSON file.
-    truth: a farm folder, or a GeoJSON file of plots with heights.
+    truth: a farm folder, a GeoJSON file of plots with heights, or a table (.csv) of measured ones (docs/benchmark.md).
     min_iou: least intersection over union for a plot to count as found, over 0 and at most 1.
 
     Errors are estimate minus truth, metres; what cannot be computed is NaN. Raises BadInput on bad input.

@@ -61,6 +61,15 @@ class FieldPage : public ::testing::Test {
                                                  feature("12", 6, R"("height_max_m":1.0)")}));
 };
 
+TEST_F(FieldPage, ShowsMeasuredHeightsBesideTheirPlotsAlone) {
+  const fs::path table = folder_.write("ruler.csv", "plot_id,height_max_cm\n2,55\n");
+  write_estimate_page({.estimate = estimate_, .html = html_, .truth = table});
+  const nlohmann::json field = field_of(html_);
+  EXPECT_NEAR(field["plots"][1]["truths"]["height_max_m"].get<double>(), 0.55, 1e-6);
+  EXPECT_FALSE(field["plots"][0].contains("truths") && !field["plots"][0]["truths"].empty());
+  EXPECT_TRUE(field.value("true_boxes", nlohmann::json::array()).empty());
+}
+
 TEST_F(FieldPage, SaysWhichPlotsAreFoundExtraAndMissed) {
   write_estimate_page({.estimate = estimate_, .html = html_, .truth = truth_});
   const nlohmann::json field = field_of(html_);
