@@ -26,6 +26,7 @@ struct RunArguments {
   std::string plot_names;
   std::string numbering;
   std::string first_corner;
+  std::string measured;
   std::string csv;
   GivenSettings settings;  // of the method
 };
@@ -68,6 +69,7 @@ methods::RunOptions chosen_options(const Program& program, const RunArguments& a
   if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
   if (!arguments.id.empty()) options.id = arguments.id;
   options.numbering = numbering_of(arguments);
+  if (!arguments.measured.empty()) options.measured = arguments.measured;
   if (!arguments.csv.empty()) options.csv = arguments.csv;
   if (options.method == "dhami2020" && arguments.boxes.empty() &&
       !arguments.settings.contains("--plots")) {
@@ -122,10 +124,11 @@ void declare_parts(CLI::App& run, RunArguments& arguments) {
 
 // What the plots are called.
 void declare_names(CLI::App& run, RunArguments& arguments) {
-  run.add_option("--id", arguments.id,
-                 "property of --boxes, or column of --plot-names, that is the plots' id (default: "
-                 "the first there is of plot_number, plot_id, plot_name, observationUnitName, "
-                 "observationunit_name, name, id)");
+  run.add_option(
+      "--id", arguments.id,
+      "property of --boxes, or column of --plot-names and --measured, that is the plots' "
+      "id (default: the first there is of plot_number, plot_id, plot_name, observationUnitName, "
+      "observationunit_name, name, id)");
   run.add_option("--first-number", arguments.options.numbering.first_number,
                  "number of the first plot that is found; the others follow along the rows "
                  "(default: 1)")
@@ -147,6 +150,13 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
       ->excludes("--boxes", "--first-number", "--numbering");
 }
 
+void declare_measured(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--measured", arguments.measured,
+                 "table (CSV) of heights measured by hand in at least 5 plots: their ids, and "
+                 "columns such as height_mean_cm; the field's heights of these names are scaled to "
+                 "agree with them");
+}
+
 }  // namespace
 
 void declare_run(Program& program) {
@@ -166,6 +176,7 @@ void declare_run(Program& program) {
       ->capture_default_str();
   declare_parts(run, arguments);
   declare_names(run, arguments);
+  declare_measured(run, arguments);
   run.add_option("--csv", arguments.csv,
                  "also write a table (CSV) for breeding databases, one line for each plot: "
                  "observationunit_name, attributes, heights (metres)");

@@ -60,9 +60,24 @@ void say_named(const Program& program, const estimate::Estimate& estimate) {
                           estimate.plots.size(), names->plots, estimate.id_property,
                           estimate.plots.front().id.text(), estimate.plots.back().id.text()));
   if (names->not_found.empty()) return;
-  std::vector<std::string> ids;
-  for (const PlotId& id : names->not_found) ids.push_back(id.text());
-  program.say("           not found: " + joined(ids, ", "));
+  program.say("           not found: " + joined(names->not_found));
+}
+
+// How far the heights were moved to agree with those measured by hand.
+void say_measured(const Program& program, const estimate::Estimate& estimate) {
+  const auto& measured = estimate.diagnostics.measured;
+  if (!measured) return;
+  for (const estimate::Agreed& agreed : measured->heights) {
+    const std::string trial =
+        agreed.trial > 0 ? fmt::format("trial {}: ", agreed.trial) : std::string();
+    program.say(
+        fmt::format("measured   {}{} times {:.3f} +- {:.3f}, by {} plots, which scatter by "
+                    "{:.1f} cm about it",
+                    trial, agreed.height, agreed.factor, agreed.factor_sd, agreed.plots,
+                    100 * agreed.residual_m));
+  }
+  if (measured->not_found.empty()) return;
+  program.say("           measured, and not found: " + joined(measured->not_found));
 }
 
 void say_points(const Program& program, const estimate::PointAccount& points, double unit_m) {
@@ -122,6 +137,7 @@ void say_estimate(const Program& program, const estimate::Estimate& estimate,
   say_how(program, estimate.diagnostics, estimate.units ? estimate.units->horizontal_m : 1);
   say_given(program, estimate);
   say_named(program, estimate);
+  say_measured(program, estimate);
   say_heights(program, summary);
   say_flags(program, estimate);
 }

@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
-#include "core/text.h"
+#include "core/plot_id.h"
 #include "score/run.h"
 
 namespace plotscan {
@@ -22,9 +22,7 @@ void say_table(const Program& program, const score::Scores& scores) {
   program.say(fmt::format("plots    {} of {} measured plots are in the estimate, by {}", found,
                           found + table.not_found.size(), table.id_column));
   if (table.not_found.empty()) return;
-  std::vector<std::string> ids;
-  for (const PlotId& id : table.not_found) ids.push_back(id.text());
-  program.say("         not in it: " + joined(ids, ", "));
+  program.say("         not in it: " + joined(table.not_found));
 }
 
 void say_boxes(const Program& program, const score::BoxScore& boxes) {

@@ -97,6 +97,7 @@ methods::RunOptions inner(const EstimateFilesOptions& options) {
                      "\"");
   run.cloud.leave_out_classes = options.leave_out_classes;
   run.id = options.id;
+  run.measured = options.measured;
   run.csv = options.csv;
   run.replace = options.replace;
   run.crop_box = options.field.crop_box;

@@ -101,6 +101,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("id", &EstimateFilesOptions::id)
       .def_readwrite("units", &EstimateFilesOptions::units)
       .def_readwrite("leave_out_classes", &EstimateFilesOptions::leave_out_classes)
+      .def_readwrite("measured", &EstimateFilesOptions::measured)
       .def_readwrite("csv", &EstimateFilesOptions::csv)
       .def_readwrite("seed", &EstimateFilesOptions::seed)
       .def_readwrite("replace", &EstimateFilesOptions::replace);

@@ -44,10 +44,30 @@ json boxes_json(const GivenBoxes& boxes) {
   return {{"plots", boxes.plots}, {"id", boxes.id_property}, {"from_degrees", boxes.from_degrees}};
 }
 
+json ids_json(const std::vector<PlotId>& ids) {
+  json document = json::array();
+  for (const PlotId& id : ids) document.push_back(id.json());
+  return document;
+}
+
 json names_json(const GivenNames& names) {
-  json not_found = json::array();
-  for (const PlotId& id : names.not_found) not_found.push_back(id.json());
-  return {{"plots", names.plots}, {"id", names.id_property}, {"not_found", not_found}};
+  return {
+      {"plots", names.plots}, {"id", names.id_property}, {"not_found", ids_json(names.not_found)}};
+}
+
+json measured_json(const GivenMeasured& measured) {
+  json heights = json::array();
+  for (const Agreed& agreed : measured.heights) {
+    heights.push_back({{"height", agreed.height},
+                       {"plots", agreed.plots},
+                       {"factor", agreed.factor},
+                       {"factor_sd", agreed.factor_sd},
+                       {"residual_m", agreed.residual_m}});
+    if (agreed.trial > 0) heights.back()["trial_number"] = agreed.trial;
+  }
+  return {{"id", measured.id_column},
+          {"not_found", ids_json(measured.not_found)},
+          {"heights", heights}};
 }
 
 }  // namespace
@@ -76,6 +96,7 @@ json to_json(const Diagnostics& diagnostics) {
   if (!diagnostics.why_no_plots.empty()) document[kWhyNoPlots] = diagnostics.why_no_plots;
   if (diagnostics.boxes) document["boxes"] = boxes_json(*diagnostics.boxes);
   if (diagnostics.names) document["names"] = names_json(*diagnostics.names);
+  if (diagnostics.measured) document["measured"] = measured_json(*diagnostics.measured);
   return document;
 }
 

@@ -60,6 +60,23 @@ struct GivenNames {
   std::vector<PlotId> not_found = {};
 };
 
+// Heights of a trial that were scaled to agree with measured ones.
+struct Agreed {
+  std::string height;     // "mean"
+  int trial = 0;          // from 1; 0 where the field is one
+  std::size_t plots = 0;  // that were measured
+  double factor = 1;      // by which the heights were multiplied
+  double factor_sd = 0;
+  double residual_m = 0;  // standard deviation of a plot about that
+};
+
+// A table of heights measured by hand that was given (--measured).
+struct GivenMeasured {
+  std::string id_column;
+  std::vector<PlotId> not_found = {};
+  std::vector<Agreed> heights = {};
+};
+
 // Facts found while an estimate was made. Those that another part of the program uses have a member
 // of their own; files and the library get all of them from to_json.
 struct Diagnostics {
@@ -71,6 +88,7 @@ struct Diagnostics {
   std::string why_no_plots = {};                          // "" where there are plots
   std::optional<GivenBoxes> boxes = {};
   std::optional<GivenNames> names = {};
+  std::optional<GivenMeasured> measured = {};
   // What only this method reports: as JSON for the manifest, and as lines for people.
   nlohmann::json of_method = nlohmann::json::object();
   std::vector<std::string> lines = {};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cloud/field_density.h"
+#include "methods/internal/agree.h"
 
 #include "core/error.h"
 #include "core/manifest.h"
@@ -15,6 +16,7 @@
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "estimate/measured_heights.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
 #include "record/positions.h"
@@ -64,6 +66,7 @@ json options_json(const RunOptions& options) {
   document["leave_out_classes"] = cloud.leave_out_classes;
   document["given_boxes"] = options.boxes.has_value();
   document["id"] = to_json(options.id);
+  if (options.measured) document["measured"] = true;
   if (options.numbering.any()) document["numbering"] = options_json(options.numbering);
   return document;
 }
@@ -97,8 +100,10 @@ void require_sound(const RunOptions& options) {
     throw InputError("plots in given boxes keep their ids: they are neither numbered nor named");
   if (numbering.names && (numbering.first_number || numbering.numbering))
     throw InputError("plots are numbered or named by a table, not both");
-  if (options.id && !options.boxes && !numbering.names)
-    throw InputError("an id is a property of given boxes or a column of plot names; give either");
+  if (options.id && !options.boxes && !numbering.names && !options.measured)
+    throw InputError(
+        "an id is a property of given boxes, or a column of plot names or measured heights; give "
+        "one of these");
 }
 
 // These files and the others that the user gives.
@@ -106,6 +111,7 @@ std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions&
   if (options.cloud.recording.trajectory) files.push_back(*options.cloud.recording.trajectory);
   if (options.boxes) files.push_back(*options.boxes);
   if (options.numbering.names) files.push_back(*options.numbering.names);
+  if (options.measured) files.push_back(*options.measured);
   return files;
 }
 
@@ -199,9 +205,12 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
   estimate::NamedPlaces places;
   if (options.numbering.names)
     places = estimate::read_named_places(*options.numbering.names, options.id);
+  std::optional<estimate::MeasuredHeights> measured;
+  if (options.measured) measured = estimate::read_measured_heights(*options.measured, options.id);
   estimate::Estimate estimate = run_method(cloud, in_metres(options, unit_m), map.plots, progress);
   take_system(system, options, estimate);
   name(options, map, places, estimate);
+  if (measured) agree_with(*measured, estimate);
   estimate::write_estimate(folder.path(), estimate);
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},

@@ -23,7 +23,10 @@ struct RunOptions {
   std::string method = "lattice";                   // one of method_names()
   std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
   estimate::NumberingOptions numbering = {};        // of the plots that are found, without boxes
-  std::optional<std::string> id = {};  // property of the boxes, or column of the names, with ids
+  // Property of the boxes, or column of the names and of the measured heights, with the ids.
+  std::optional<std::string> id = {};
+  // A table of heights measured by hand in some plots: the field's are scaled to agree with them.
+  std::optional<std::filesystem::path> measured = {};
   std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
   bool replace = false;                           // an estimate folder, a table that exists
   // Use only the points in here. In the cloud's own coordinates, as are the given boxes and

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,12 +21,8 @@ struct MeasuredPlots {
 // Whether a truth is a table of heights: a file .csv, .tsv or .txt.
 bool is_measured_table(const std::filesystem::path& truth);
 
-// Reads a table (read_csv_table) with a line for each plot: its id, in the column `id_column` (else
-// the first there is of plot_id_properties()), and heights in columns height_<name>_<unit>,
-// canopy_<name>_<unit> or height_<unit> (which becomes height_hand_m), the unit m, cm or mm. An
-// empty field, NA and a point are no height; other columns are not read. Throws InputError as
-// read_csv_table does, where a column is missing, an id is empty or there twice, a height is no
-// plausible number, and where no plot of the table is in the estimate.
+// Reads a table as estimate::read_measured_heights does. Throws InputError as that does, and where
+// no plot of the table is in the estimate.
 MeasuredPlots read_measured(const std::filesystem::path& table, const estimate::Estimate& estimate,
                             const std::optional<std::string>& id_column = std::nullopt);
 

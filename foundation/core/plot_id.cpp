@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "core/text.h"
 
 namespace plotscan {
 
@@ -22,6 +23,13 @@ std::optional<PlotId> PlotId::from(const nlohmann::json& value) {
 
 nlohmann::json PlotId::json() const {
   return is_number_ ? nlohmann::json::parse(text_) : nlohmann::json(text_);
+}
+
+std::string joined(const std::vector<PlotId>& ids) {
+  std::vector<std::string> texts;
+  texts.reserve(ids.size());
+  for (const PlotId& id : ids) texts.push_back(id.text());
+  return joined(texts, ", ");
 }
 
 }  // namespace plotscan

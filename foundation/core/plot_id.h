@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -31,5 +32,8 @@ class PlotId {
   std::string text_;
   bool is_number_ = false;
 };
+
+// "7, A-12".
+std::string joined(const std::vector<PlotId>& ids);
 
 }  // namespace plotscan

@@ -74,7 +74,9 @@ struct EstimateFilesOptions {
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
   std::optional<std::string> units =
       {};  // of the coordinates, m, cm, mm, ft or us-ft; else the file's
-  std::vector<int> leave_out_classes = {};        // ASPRS classes, 0 to 255
+  std::vector<int> leave_out_classes = {};  // ASPRS classes, 0 to 255
+  // A table of heights measured by hand in some plots, with which the estimate's are made to agree.
+  std::optional<std::filesystem::path> measured = {};
   std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well
   std::uint64_t seed = 1;
   bool replace = false;  // an estimate folder, a table that exists

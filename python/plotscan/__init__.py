@@ -259,6 +259,7 @@ def estimate_files(
     id: Optional[str] = None,
     units: Optional[str] = None,
     leave_out_classes: Sequence[int] = (),
+    measured: Optional[Path] = None,
     csv: Optional[Path] = None,
     seed: int = 1,
     threads: int = 0,
@@ -272,9 +273,10 @@ def estimate_files(
     method: "lattice", or "dhami2020", which needs `plots`.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: a map of the plots (GeoJSON, GeoPackage, shapefile): heights in its boxes, its ids and attributes kept.
-    id: property of the map that holds the plots' ids.
+    id: property of the map, and column of `measured`, that holds the plots' ids.
     units: of the coordinates, "m", "cm", "mm", "ft" or "us-ft"; else what the file states.
     leave_out_classes: ASPRS classes of points to leave out.
+    measured: a table of heights measured by hand in at least 5 plots, with which the estimate's are made to agree.
     csv: a table for breeding databases to write as well.
     settings: by the keys of `estimate_settings(method)`: plots=30, crop="maize". None is not set.
 
@@ -287,6 +289,7 @@ def estimate_files(
     options.id = id
     options.units = units
     options.leave_out_classes = list(leave_out_classes)
+    options.measured = measured
     options.csv = csv
     options.seed = seed
     options.replace = replace

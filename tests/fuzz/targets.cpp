@@ -9,6 +9,7 @@
 #include "core/manifest.h"
 #include "estimate/estimate.h"
 #include "estimate/internal/esri_grid.h"
+#include "estimate/measured_heights.h"
 #include "estimate/plot_map.h"
 #include "farmbench/entry/internal/entered_rows.h"
 #include "farmbench/entry/problems.h"
@@ -20,7 +21,6 @@
 #include "record/positions.h"
 #include "scan/point_reader.h"
 #include "scan/trajectory.h"
-#include "score/measured_table.h"
 #include "sensor/sensor.h"
 
 namespace plotscan::fuzz {
@@ -34,13 +34,6 @@ void read_cloud(const fs::path& file) {
   record::read_positions(file, [](auto) {});
   const record::Source source = record::open_source(file, {});
   source.stream([](auto) {});
-}
-
-// Heights that were measured in two plots of an estimate.
-void read_measured_heights(const fs::path& file) {
-  estimate::Estimate estimate{.method = "lattice"};
-  for (const char* id : {"1", "A-2"}) estimate.plots.push_back({.id = PlotId(id), .box = {}});
-  score::read_measured(file, estimate);
 }
 
 // A suite's farms are read with it.
@@ -114,7 +107,8 @@ const std::vector<Target>& targets() {
       {"plots", ".geojson", Structure::json, read_plots},
       {"places", ".csv", Structure::bytes,
        [](const fs::path& f) { estimate::read_named_places(f); }},
-      {"measured", ".csv", Structure::bytes, read_measured_heights},
+      {"measured", ".csv", Structure::bytes,
+       [](const fs::path& f) { estimate::read_measured_heights(f); }},
       {"grid", ".asc", Structure::bytes, [](const fs::path& f) { estimate::read_esri_grid(f); }},
       {"manifest", ".json", Structure::json, read_manifest_of},
       {"submitted-boxes", ".geojson", Structure::json, read_submitted},

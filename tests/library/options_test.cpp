@@ -78,6 +78,13 @@ TEST_F(LibraryOptions, OfEstimatesAreTheProgramsMapsAndMethods) {
               " --id plot_number");
   estimate_files({cloud()}, path("map_ours"), {.boxes = map, .id = "plot_number"});
   expect_same("map_ours", "map_theirs");
+  std::ofstream ruler(path("ruler.csv"));
+  ruler << "plot_number,height_mean_cm\n";
+  for (int plot = 1; plot <= 9; ++plot) ruler << plot << ",50\n";
+  ruler.close();
+  run_program("estimator run " + cloud().string() + " -o measured_theirs --measured ruler.csv");
+  estimate_files({cloud()}, path("measured_ours"), {.measured = path("ruler.csv")});
+  expect_same("measured_ours", "measured_theirs");
   run_program("estimator run " + cloud().string() +
               " -o paper_theirs --method dhami2020 --plots 9 --voxel 0.06 --learn-box=-9,-8,9,8");
   const EstimateOptions field{.settings = {{"plots", 9.0},

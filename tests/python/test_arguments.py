@@ -69,7 +69,7 @@ class Arguments(unittest.TestCase):
         self.assertEqual([box.width_m for box in options.boxes], [3])
 
         files = {"method": "dhami2020", "boxes": Path("map"), "id": "name", "units": "ft",
-                 "leave_out_classes": [5, 6], "csv": Path("table"), "seed": 5, "replace": True}  # fmt: skip
+                 "leave_out_classes": [5, 6], "measured": Path("ruler"), "csv": Path("table"), "seed": 5, "replace": True}  # fmt: skip
         clouds, folder, options, progress = sent("estimate_files", "scan", "out", **files, **given)
         self.assertEqual((clouds, folder, progress), (["scan"], "out", print))
         self.expect_options(options, files)

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/internal/agree.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "estimate/height_properties.h"
+#include "heights/agreement.h"
+
+namespace plotscan::methods {
+namespace {
+
+using estimate::PlotEstimate;
+using heights::Height;
+using Pairs = std::vector<heights::MeasuredPair>;
+
+std::set<std::string> measured_names(const estimate::MeasuredHeights& measured) {
+  std::set<std::string> names;
+  for (const auto& [id, heights_m] : measured.plots_m)
+    for (const auto& [property, height_m] : heights_m) names.insert(estimate::height_of(property));
+  return names;
+}
+
+// Throws unless the estimate has every measured height, and how sure it is of it.
+void require_estimated(const estimate::MeasuredHeights& measured,
+                       const estimate::Estimate& estimate) {
+  std::set<std::string> sure;
+  for (const PlotEstimate& plot : estimate.plots)
+    for (const auto& [name, error] : plot.errors) sure.insert(name);
+  for (const std::string& name : measured_names(measured)) {
+    if (!sure.contains(name))
+      throw InputError(
+          measured.file,
+          fmt::format("{} is no height that the method gives with a standard error: {}; "
+                      "a column is named after one of them, such as height_mean_cm",
+                      estimate::property_of(name), joined({sure.begin(), sure.end()}, ", ")));
+  }
+}
+
+Height height_of(const PlotEstimate& plot, const std::string& name) {
+  const estimate::HeightError& error = plot.errors.at(name);
+  return {plot.heights_m.at(name), error.standard_error_m, error.low95_m, error.high95_m};
+}
+
+void set(const Height& height, const std::string& name, PlotEstimate& plot) {
+  plot.heights_m[name] = height.value_m;
+  plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
+}
+
+// The plots of each trial that were measured and have this height.
+std::map<int, Pairs> pairs_by_trial(const estimate::MeasuredHeights& measured,
+                                    const std::string& name, const estimate::Estimate& estimate) {
+  std::map<int, Pairs> pairs;
+  for (const PlotEstimate& plot : estimate.plots) {
+    const auto found = measured.plots_m.find(plot.id);
+    if (found == measured.plots_m.end() || !plot.errors.contains(name)) continue;
+    const auto height_m = found->second.find(estimate::property_of(name));
+    if (height_m == found->second.end() || plot.heights_m.at(name) <= 0) continue;
+    pairs[plot.trial].push_back({height_of(plot, name), height_m->second});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+void agree_with(const estimate::MeasuredHeights& measured, estimate::Estimate& estimate) {
+  if (estimate.plots.empty()) return;
+  require_estimated(measured, estimate);
+  estimate::GivenMeasured given{.id_column = measured.id_column,
+                                .not_found = estimate::not_found(measured, estimate)};
+  for (const std::string& name : measured_names(measured)) {
+    for (const auto& [trial, pairs] : pairs_by_trial(measured, name, estimate)) {
+      if (pairs.size() < heights::kLeastMeasured) continue;
+      const heights::Agreement agreement = heights::agreement(pairs);
+      for (PlotEstimate& plot : estimate.plots) {
+        if (plot.trial == trial && plot.errors.contains(name))
+          set(heights::agreed(agreement, height_of(plot, name)), name, plot);
+      }
+      given.heights.push_back({.height = name,
+                               .trial = trial,
+                               .plots = agreement.plots,
+                               .factor = agreement.factor,
+                               .factor_sd = agreement.factor_sd,
+                               .residual_m = agreement.residual_m});
+    }
+  }
+  if (given.heights.empty())
+    throw InputError(measured.file,
+                     fmt::format("has too few measured plots that are in the estimate: at least {} "
+                                 "of a trial are needed for a height",
+                                 heights::kLeastMeasured));
+  estimate.diagnostics.measured = std::move(given);
+}
+
+}  // namespace plotscan::methods

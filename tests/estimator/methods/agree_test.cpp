@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/internal/agree.h"
+
+#include "temporary_folder.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace plotscan::methods {
+namespace {
+
+using estimate::Estimate;
+using estimate::MeasuredHeights;
+using plotscan::testing::message_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Plots 1 to `count` of a trial, each 0.8 m in its mean and 1 m in its greatest height.
+void add_plots(int trial, std::uint64_t count, Estimate& estimate) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    estimate.plots.push_back({.id = estimate.plots.size() + 1,
+                              .trial = trial,
+                              .box = {},
+                              .heights_m = {{"mean", 0.8}, {"max", 1}, {"raw-p99", 0.9}},
+                              .errors = {{"mean", {0.1, 0.6, 1}}, {"max", {0.1, 0.8, 1.2}}}});
+  }
+}
+
+MeasuredHeights measured_in(std::uint64_t first, std::uint64_t last, const std::string& property,
+                            double height_m) {
+  MeasuredHeights measured{.file = "ruler.csv", .id_column = "plot_number"};
+  for (std::uint64_t id = first; id <= last; ++id) measured.plots_m[id][property] = height_m;
+  return measured;
+}
+
+std::string refusal(const MeasuredHeights& measured, Estimate estimate) {
+  return message_of<InputError>([&] { agree_with(measured, estimate); });
+}
+
+TEST(Agree, ScalesTheMeasuredHeightOfEveryPlotAndNoOther) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(0, 20, estimate);
+  agree_with(measured_in(15, 24, "height_mean_m", 0.72), estimate);
+  for (const estimate::PlotEstimate& plot : estimate.plots) {
+    EXPECT_NEAR(plot.heights_m.at("mean"), 0.72, 0.003);
+    EXPECT_LT(plot.errors.at("mean").high95_m - plot.errors.at("mean").low95_m, 0.2);
+    EXPECT_EQ(plot.heights_m.at("max"), 1);
+    EXPECT_EQ(plot.errors.at("max").low95_m, 0.8);
+  }
+  const estimate::GivenMeasured given = estimate.diagnostics.measured.value();
+  EXPECT_THAT(given.not_found, ElementsAre(PlotId(21), PlotId(22), PlotId(23), PlotId(24)));
+  ASSERT_EQ(given.heights.size(), 1U);
+  EXPECT_EQ(given.heights[0].plots, 6U);
+  EXPECT_NEAR(given.heights[0].factor, 0.9, 0.004);
+  EXPECT_EQ(to_json(estimate.diagnostics)["measured"]["heights"][0]["height"], "mean");
+}
+
+// Another trial has another crop, whose error is another one.
+TEST(Agree, LeavesTrialsAloneOfWhichTooFewPlotsWereMeasured) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(1, 8, estimate);
+  add_plots(2, 8, estimate);
+  agree_with(measured_in(1, 10, "height_max_m", 1.1), estimate);
+  EXPECT_NEAR(estimate.plots[7].heights_m.at("max"), 1.1, 0.01);
+  EXPECT_EQ(estimate.plots[8].heights_m.at("max"), 1);
+  EXPECT_EQ(estimate.diagnostics.measured.value().heights[0].trial, 1);
+}
+
+TEST(Agree, SaysWhatATableLacks) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(0, 20, estimate);
+  EXPECT_THAT(refusal(measured_in(1, 4, "height_mean_m", 0.7), estimate), HasSubstr("at least 5"));
+  EXPECT_THAT(refusal(measured_in(1, 9, "height_hand_m", 0.7), estimate),
+              HasSubstr("such as height_mean_cm"));
+  EXPECT_THAT(refusal(measured_in(1, 9, "height_raw-p99_m", 0.7), estimate),
+              HasSubstr("with a standard error: max, mean"));
+  EXPECT_THAT(refusal(measured_in(301, 309, "height_mean_m", 0.7), estimate),
+              HasSubstr("ruler.csv: has plot 301 and others"));
+}
+
+}  // namespace
+}  // namespace plotscan::methods
