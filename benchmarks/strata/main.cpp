@@ -9,6 +9,7 @@
 #include "core/program.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
+#include "heights/agreement.h"
 #include "strata/empty_field.h"
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
@@ -30,6 +31,7 @@ struct Arguments {
   int farms = 10;
   std::vector<std::string> strata;  // none: all
   std::optional<double> density_per_m2;
+  int hand_measured = 0;
   std::optional<fs::path> keep;
   fs::path source = ".";
   std::optional<fs::path> meshes;
@@ -82,18 +84,18 @@ std::vector<Task> plan(const Program& program, const Arguments& arguments) {
 strata::MeasuredField measure(const Task& task, const Arguments& arguments, const fs::path& folder,
                               int threads) {
   strata::KeptField field;
-  strata::Told told = strata::Told::nothing;
+  strata::MeasureOptions options{.hand_measured = arguments.hand_measured, .threads = threads};
   if (task.empty) {
     field = strata::keep_empty_field(arguments.secret, task.stratum, task.index, folder);
   } else {
     const strata::FieldPlan plan =
         strata::plan_field(arguments.secret, task.stratum, task.index, sources_of(arguments));
     field = strata::keep_farm(plan, folder, threads);
-    told = plan.told;
+    options.told = plan.told;
   }
   if (arguments.density_per_m2)
     field.cloud = strata::thinned_cloud(field.cloud, *arguments.density_per_m2, threads);
-  return strata::measure_field(task.stratum, task.index, field, told, threads);
+  return strata::measure_field(task.stratum, task.index, field, options);
 }
 
 strata::MeasuredField measure_kept_or_not(const Task& task, const Arguments& arguments,
@@ -143,6 +145,12 @@ int main(int argc, char** argv) {
       .add_option("--density", arguments.density_per_m2,
                   "thin each cloud to so many returns in its median square metre")
       ->check(CLI::Range(1.0, 1e6));
+  command
+      .add_option(
+          "--hand-measured", arguments.hand_measured,
+          "so many plots of each trial are measured by hand, three plants in each; the others' "
+          "mean heights are made to agree, and scored (default: none)")
+      ->check(CLI::Range(static_cast<int>(heights::kLeastMeasured), 10'000));
   command.add_option("--keep", arguments.keep,
                      "folder of fields, STRATUM-INDEX/{farm,scan}: those there are not made again");
   command.add_option("--source", arguments.source, "Plotscan's sources: benchmarks, worlds");

@@ -11,6 +11,7 @@
 #include "methods/lattice/lattice.h"
 
 #include "core/error.h"
+#include "strata/hand_measured.h"
 
 namespace plotscan::strata {
 
@@ -48,21 +49,22 @@ methods::lattice::Options told_options(Told told, const std::vector<score::TrueP
 }  // namespace
 
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
-                            Told told, int threads) {
+                            const MeasureOptions& options) {
   MeasuredField measured{.stratum = stratum, .index = index, .score = {}, .failure = {}};
-  const std::vector<score::TruePlot> truth =
+  std::vector<score::TruePlot> truth =
       field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
-  const methods::lattice::Options options = told_options(told, truth, threads);
   estimate::Estimate estimate{.method = "lattice"};
   const auto start = std::chrono::steady_clock::now();
   try {
-    estimate = methods::lattice::estimate_plots(field.cloud, options);
+    estimate = methods::lattice::estimate_plots(field.cloud,
+                                                told_options(options.told, truth, options.threads));
     measured.points = estimate.diagnostics.points.value().read;
   } catch (const InputError& error) {
     measured.failure = error.what();
   }
   measured.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (options.hand_measured > 0) agree_with_hand(options.hand_measured, index, truth, estimate);
   measured.score = score::score_field(truth, estimate);
   const std::set<PlotId> extra(measured.score.extra.begin(), measured.score.extra.end());
   for (const estimate::PlotEstimate& plot : estimate.plots) {

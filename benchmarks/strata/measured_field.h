@@ -28,8 +28,14 @@ struct MeasuredField {
   std::string failure;     // why the estimator gave up; "" when it did not
 };
 
+struct MeasureOptions {
+  Told told = Told::nothing;
+  int hand_measured = 0;  // plots of each trial that are measured by hand (agree_with_hand)
+  int threads = 1;
+};
+
 // Runs the default method on the cloud and on what is told of the plots, and scores its estimate.
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
-                            Told told, int threads);
+                            const MeasureOptions& options);
 
 }  // namespace plotscan::strata

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cloud/field_density.h"
-#include "methods/internal/agree.h"
+#include "methods/agree.h"
 
 #include "core/error.h"
 #include "core/manifest.h"

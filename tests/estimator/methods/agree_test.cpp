@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/internal/agree.h"
+#include "methods/agree.h"
 
 #include "temporary_folder.h"
 #include <gmock/gmock.h>

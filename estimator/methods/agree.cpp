@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/internal/agree.h"
+#include "methods/agree.h"
 
 #include <map>
 #include <set>
