@@ -26,6 +26,7 @@ constexpr std::array<NamedUnit, 5> kNamedUnits = {{{"m", "metres", 1},
 
 std::vector<std::string> unit_symbols() {
   std::vector<std::string> symbols;
+  symbols.reserve(kNamedUnits.size());
   for (const NamedUnit& unit : kNamedUnits) symbols.emplace_back(unit.symbol);
   return symbols;
 }
