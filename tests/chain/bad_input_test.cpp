@@ -182,7 +182,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"estimator run index.ply -o out --boxes estimate/plots.geojson --method "
                    "dhami2020 --no-level",
                    "--no-level"},
-        BadCommand{"estimator run index.ply -o out --id plot", "give either"},
+        BadCommand{"estimator run index.ply -o out --id plot", "give one of these"},
+        BadCommand{"estimator run index.ply -o out --measured absent.csv", "absent.csv"},
+        BadCommand{"estimator run index.ply -o out --measured latin.csv",
+                   "latin.csv:2: is no UTF-8"},
+        BadCommand{"estimator score estimate --truth absent.csv", "absent.csv"},
+        BadCommand{"estimator score estimate --truth broken.csv", "--id names the column"},
         BadCommand{"estimator run index.ply -o out --plot-names broken.yaml", "broken.yaml:2:"},
         BadCommand{"estimator run index.ply -o out --numbering rows", "zigzag"},
         BadCommand{"estimator report estimate -o out.html --points 100",
