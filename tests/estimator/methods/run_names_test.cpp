@@ -141,7 +141,7 @@ TEST(Run, NumbersAndNamesThePlotsThatItFinds) {
   options.numbering.first_number = 1;
   EXPECT_THAT(message(), HasSubstr("not both"));
   options.numbering = {};
-  EXPECT_THAT(message(), HasSubstr("give either"));
+  EXPECT_THAT(message(), HasSubstr("give one of these"));
 }
 
 TEST(Run, WritesATableForDatabases) {
