@@ -213,6 +213,7 @@ class EstimateFilesOptions:
     id: Optional[str]
     units: Optional[str]
     leave_out_classes: List[int]
+    measured: Optional[Path]
     csv: Optional[Path]
     seed: int
     replace: bool
