@@ -20,6 +20,11 @@ namespace {
 
 // float32 relative to the area's centre resolves 0.5 mm at 5 km.
 constexpr double kLongestSide_m = 10000;
+constexpr const char* kTooLong = " is longer than 10 km on a side";
+
+bool is_too_long(const Area& area) {
+  return std::max(area[2] - area[0], area[3] - area[1]) > kLongestSide_m;
+}
 
 // Median height of the first points in the area: one stray point must not become the origin.
 double median_z(const std::vector<Eigen::Vector3d>& points) {
@@ -48,19 +53,16 @@ void require_area(const Area& area, const std::string& option) {
     throw InputError(option + " " + text_of(area) +
                      " is no rectangle; it is x0,y0,x1,y1 in metres with x0 < x1 and y0 < y1");
   }
-  if (std::max(area[2] - area[0], area[3] - area[1]) > kLongestSide_m) {
-    throw InputError(option + " " + text_of(area) + " is longer than 10 km on a side");
-  }
+  if (is_too_long(area)) throw InputError(option + " " + text_of(area) + kTooLong);
 }
 
 void require_scanned_area(const Area& area, const std::string& cloud) {
-  try {
-    require_area(area, cloud + ": the scanned field");
-  } catch (const InputError& error) {
+  const std::string field = cloud + ": the scanned field";
+  if (is_too_long(area))
     throw InputError(
-        std::string(error.what()) +
+        field + " " + text_of(area) + kTooLong +
         "; give a part of it (--crop-box), or --units where coordinates are not metres");
-  }
+  require_area(area, field);
 }
 
 CloudMap::CloudMap(const Area& area) : area_(area) {

@@ -18,6 +18,7 @@
 #include "core/plot_features.h"
 #include "core/text.h"
 #include "estimate/height_properties.h"
+#include "estimate/internal/table_columns.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -59,20 +60,6 @@ std::vector<HeightColumn> height_columns(const fs::path& file, const CsvTable& t
                        joined(table.columns, ", "));
 }
 
-std::size_t id_column_of(const fs::path& file, const CsvTable& table,
-                         const std::optional<std::string>& wanted) {
-  const std::vector<std::string> names =
-      wanted ? std::vector<std::string>{*wanted} : plot_id_properties();
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find(table.columns, name);
-    if (found != table.columns.end())
-      return static_cast<std::size_t>(found - table.columns.begin());
-  }
-  throw InputError(file, "has no column " + joined(names, " or ") +
-                             "; --id names the column with the plots' ids; its columns are " +
-                             joined(table.columns, ", "));
-}
-
 bool is_missing(std::string_view text) { return text.empty() || text == "NA" || text == "."; }
 
 std::map<std::string, double> heights_of(const CsvRow& row,
@@ -94,7 +81,9 @@ std::map<std::string, double> heights_of(const CsvRow& row,
 MeasuredHeights read_measured_heights(const fs::path& file,
                                       const std::optional<std::string>& id_column) {
   const CsvTable table = read_csv_table(file);
-  const std::size_t id = id_column_of(file, table, id_column);
+  const std::size_t id =
+      column_of(file, table, id_column ? std::vector{*id_column} : plot_id_properties(),
+                "; --id names the column with the plots' ids");
   const std::vector<HeightColumn> columns = height_columns(file, table);
   MeasuredHeights measured{.file = file, .id_column = table.columns[id]};
   for (const CsvTable::Line& line : table.lines) {

@@ -10,6 +10,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "estimate/internal/table_columns.h"
 #include "estimate/internal/vector_map.h"
 
 namespace plotscan::estimate {
@@ -76,18 +77,6 @@ std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>&
 }
 
 constexpr long long kMostPlaces = 1000000;  // rows, or columns, of a field
-
-// The place of the first of the names among a table's columns, which it must have.
-std::size_t column_of(const fs::path& file, const CsvTable& table,
-                      const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    const auto found = std::ranges::find(table.columns, name);
-    if (found != table.columns.end())
-      return static_cast<std::size_t>(found - table.columns.begin());
-  }
-  throw InputError(file, "has no column " + joined(names, " or ") + "; its columns are " +
-                             joined(table.columns, ", "));
-}
 
 int place_of(const fs::path& file, const CsvTable& table, const CsvTable::Line& line,
              std::size_t column) {

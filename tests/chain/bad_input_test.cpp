@@ -187,6 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"estimator run index.ply -o out --measured latin.csv",
                    "latin.csv:2: is no UTF-8"},
         BadCommand{"estimator score estimate --truth absent.csv", "absent.csv"},
+        BadCommand{"estimator score estimate --truth not_a_farm --id plot", "the truth is none"},
         BadCommand{"estimator score estimate --truth broken.csv", "--id names the column"},
         BadCommand{"estimator run index.ply -o out --plot-names broken.yaml", "broken.yaml:2:"},
         BadCommand{"estimator run index.ply -o out --numbering rows", "zigzag"},

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimate/internal/table_columns.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace plotscan::estimate {
+
+std::size_t column_of(const std::filesystem::path& file, const CsvTable& table,
+                      const std::vector<std::string>& names, const std::string& advice) {
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(table.columns, name);
+    if (found != table.columns.end())
+      return static_cast<std::size_t>(found - table.columns.begin());
+  }
+  throw InputError(file, "has no column " + joined(names, " or ") + advice + "; its columns are " +
+                             joined(table.columns, ", "));
+}
+
+}  // namespace plotscan::estimate
