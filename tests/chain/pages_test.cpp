@@ -3,6 +3,8 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <vector>
 
 #include "programs.h"
 #include "temporary_folder.h"
@@ -25,6 +27,24 @@ std::set<std::string> matches(const std::string& text, const char* pattern) {
   return found;
 }
 
+// The command by which a shell prints what it offers at the end of each line, and then a dot.
+std::string completing(const std::string& shell, const std::vector<std::string>& lines) {
+  const std::string program = lines.at(0).substr(0, lines.at(0).find(' '));
+  std::string bash = "source <(" + program +
+                     " --print-bash-completion); offer() { COMPREPLY=() COMP_WORDS=(\"$@\") "
+                     "COMP_CWORD=$(($# - 1)); _" +
+                     program + "; printf \"%s\\n\" \"${COMPREPLY[@]}\" .; }";
+  std::string zsh = PLOTSCAN_SOURCE_DIR "/tests/chain/zsh_offers";
+  std::string fish = program + " --print-fish-completion | source";
+  for (const std::string& line : lines) {
+    bash += "; offer " + line + (line.ends_with(' ') ? "\"\"" : "");
+    zsh += " '" + line + "'";
+    fish += "; complete -C \"" + line + "\" | cut -f 1; echo .";
+  }
+  if (shell == "bash") return "bash -c '" + bash + "'";
+  return shell == "zsh" ? zsh : "HOME=$PWD fish --no-config -c '" + fish + "'";
+}
+
 // A program's pages, in a folder that holds one file, "cloud.las".
 class Pages : public ::testing::TestWithParam<const char*> {
  protected:
@@ -41,18 +61,22 @@ class Pages : public ::testing::TestWithParam<const char*> {
     return std::regex_replace(output_of(std::string(GetParam()) + " --print-manual"),
                               std::regex(R"(\\-)"), "-");
   }
-  // What bash, zsh or fish offers at the end of a command line.
+  // What bash, zsh or fish offers at the end of each of some command lines of one program.
+  std::vector<std::set<std::string>> offered(const std::string& shell,
+                                             const std::vector<std::string>& lines) {
+    std::istringstream output(output_of(completing(shell, lines)));
+    std::vector<std::set<std::string>> offers(1);
+    for (std::string word; output >> word;)
+      if (word == ".") {
+        offers.emplace_back();
+      } else {
+        offers.back().insert(word);
+      }
+    offers.pop_back();
+    return offers;
+  }
   std::set<std::string> offered(const std::string& shell, const std::string& line) {
-    const std::string program = line.substr(0, line.find(' '));
-    const std::string bash =
-        "bash -c 'source <(" + program + " --print-bash-completion); COMP_WORDS=(" + line +
-        (line.ends_with(' ') ? "\"\"" : "") + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _" +
-        program + "; printf \"%s\\n\" \"${COMPREPLY[@]}\"'";
-    const std::string zsh = PLOTSCAN_SOURCE_DIR "/tests/chain/zsh_offers '" + line + "'";
-    const std::string fish = "HOME=$PWD fish --no-config -c '" + program +
-                             " --print-fish-completion | source; complete -C \"" + line +
-                             "\"' | cut -f 1";
-    return matches(output_of(shell == "bash" ? bash : shell == "zsh" ? zsh : fish), "(\\S+)");
+    return offered(shell, std::vector{line}).at(0);
   }
   std::set<std::string> commands() {
     const std::string help = output_of(std::string(GetParam()) + " --help");
@@ -93,12 +117,18 @@ TEST_P(Pages, TellRangesDefaultsAndExclusionsAsHelpDoes) {
 
 TEST_P(Pages, CompleteEveryCommandAndOptionInEveryShell) {
   const std::string program = GetParam();
+  std::vector<std::string> lines = {program + " "};
+  std::vector<std::set<std::string>> complete = {commands()};
+  for (const std::string& command : commands()) {
+    lines.push_back(program + " " + command + " --");
+    complete.push_back(long_flags(command));
+  }
   for (const char* shell : {"bash", "zsh", "fish"}) {
     SCOPED_TRACE(shell);
-    EXPECT_THAT(offered(shell, program + " "), IsSupersetOf(commands()));
-    for (const std::string& command : commands())
-      EXPECT_THAT(offered(shell, program + " " + command + " --"),
-                  IsSupersetOf(long_flags(command)));
+    const auto offers = offered(shell, lines);
+    ASSERT_EQ(offers.size(), lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      EXPECT_THAT(offers[i], IsSupersetOf(complete[i])) << lines[i];
   }
 }
 

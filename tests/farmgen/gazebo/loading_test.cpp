@@ -256,7 +256,10 @@ TEST(ExportLoading, IgnitionFindsNothingToComplainAbout) {
     for (const fs::path& file : sdf_files(folder)) {
       sdf::Root root;
       load(folder, fs::relative(file, folder), root);
-      if (file.parent_path() != folder && variant.options.collision != Collision::box) continue;
+      // A world's check reads its models; one by one they are checked once for either Gazebo.
+      const bool each = variant.options.merge == Merge::plot;
+      if (file.parent_path() != folder && !(each && variant.options.collision == Collision::box))
+        continue;
       const std::string output = (example.path() / "output.txt").string();
       const std::string check = "SDF_PATH=" + models + " IGN_FILE_PATH=" + models +
                                 " ign sdf --check " + file.string() + " >" + output + " 2>" +
