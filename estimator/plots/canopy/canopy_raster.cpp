@@ -15,8 +15,10 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr std::uint32_t kUnseen = 255;  // in place of the cover of a cell without returns
-constexpr int kCoverBits = 32;          // above which a cell's sum of covers lies, below its count
+// A cell's returns are one number, so that threads add to it at once and no order of adding
+// matters: their count, and above these bits the sum of the fourth powers of their shares.
+constexpr int kCountBits = 24;
+constexpr double kWholeShare = 1 << 16;
 constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
 constexpr int kUnseenAround = 24;         // cells on every side: more than leaves hang over an edge
 constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
@@ -85,13 +87,20 @@ class RasterGrid {
   Eigen::Array2i seen_;
 };
 
-std::uint64_t share_of(double z_m, const CanopyScale& scale) {
-  const double share = (z_m - scale.low_m) / (scale.high_m - scale.low_m);
+std::uint64_t return_at(double z_m, const CanopyScale& scale) {
+  const double share = std::clamp((z_m - scale.low_m) / (scale.high_m - scale.low_m), 0.0, 1.0);
+  const double square = share * share;
   // NOLINTNEXTLINE(bugprone-incorrect-roundings): at least 0, and lround is a call for each return.
-  return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kFullCover + 0.5);
+  return 1 + (static_cast<std::uint64_t>(square * square * kWholeShare + 0.5) << kCountBits);
 }
 
-std::uint64_t count_of(std::uint64_t cell) { return cell & ((std::uint64_t{1} << kCoverBits) - 1); }
+std::uint32_t cover_of(std::uint64_t returns) {
+  const std::uint64_t count = returns & ((std::uint64_t{1} << kCountBits) - 1);
+  if (count == 0) return kUnseen;
+  const double mean =
+      static_cast<double>(returns >> kCountBits) / (kWholeShare * static_cast<double>(count));
+  return static_cast<std::uint32_t>(std::lround(std::sqrt(std::sqrt(mean)) * kFullCover));
+}
 
 }  // namespace
 
@@ -105,17 +114,8 @@ Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
 }
 
 CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
-                           std::span<const std::uint64_t> returns)
+                           std::span<const std::uint32_t> cover)
     : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
-  std::vector<std::uint32_t> cover(returns.size());
-  std::ranges::transform(returns, cover.begin(), [](std::uint64_t cell) {
-    const std::uint64_t all = count_of(cell);
-    return all > 0 ? static_cast<std::uint32_t>((cell >> kCoverBits) / all) : kUnseen;
-  });
-  sum_up(cover);
-}
-
-void CanopyRaster::sum_up(std::span<const std::uint32_t> cover) {
   const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
   seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
   covered_.assign(seen_.size(), 0);
@@ -170,24 +170,26 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   std::vector<std::vector<std::uint64_t>> returns(scales.size(),
                                                   std::vector<std::uint64_t>(grid.cells()));
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce),
-                      [&](const auto& some) {
-                        for (std::size_t i = some.begin(); i != some.end(); ++i) {
-                          const std::size_t cell = grid.cell_of(points[i]);
-                          for (std::size_t k = 0; k < scales.size(); ++k) {
-                            if (i >= field.crop_points() && !scales[k].with_tall) continue;
-                            std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
-                            sums.fetch_add(1 + (share_of(points[i].z(), scales[k]) << kCoverBits),
-                                           std::memory_order_relaxed);
-                          }
-                        }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
+          for (std::size_t i = some.begin(); i != some.end(); ++i) {
+            const std::size_t cell = grid.cell_of(points[i]);
+            for (std::size_t k = 0; k < scales.size(); ++k) {
+              if (i >= field.crop_points() && !scales[k].with_tall) continue;
+              std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
+              sums.fetch_add(return_at(points[i].z(), scales[k]), std::memory_order_relaxed);
+            }
+          }
+        });
   });
   std::vector<CanopyRaster> rasters;
   rasters.reserve(returns.size());
-  for (const std::vector<std::uint64_t>& sums : returns)
+  std::vector<std::uint32_t> cover(grid.cells());
+  for (const std::vector<std::uint64_t>& sums : returns) {
+    std::ranges::transform(sums, cover.begin(), cover_of);
     rasters.emplace_back(grid.frame_along(axes), grid.cell_m(), grid.a_cells(), grid.b_cells(),
-                         sums);
+                         cover);
+  }
   return rasters;
 }
 

@@ -25,15 +25,16 @@ struct Frame {
 };
 
 inline constexpr std::uint32_t kFullCover = 200;  // steps of a cell's cover
+inline constexpr std::uint32_t kUnseen = 255;     // in place of the cover of a cell without returns
 
-// Mean share of full canopy over the returns of square cells along a frame's axes. Cell (i, j)
-// spans [i, i + 1) x [j, j + 1) times cell_m along a and b. Sums over rectangles take constant
-// time (summed-area table: Crow, SIGGRAPH 1984).
+// The cover of square cells along a frame's axes, as a share of full canopy. Cell (i, j) spans
+// [i, i + 1) x [j, j + 1) times cell_m along a and b. Sums over rectangles take constant time
+// (summed-area table: Crow, SIGGRAPH 1984).
 class CanopyRaster {
  public:
-  // Sums are whole numbers, so that no order of adding matters.
+  // `cover` is that of cell (i, j) at i * b_cells + j: 0 to kFullCover, or kUnseen.
   CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
-               std::span<const std::uint64_t> returns);
+               std::span<const std::uint32_t> cover);
 
   const Frame& frame() const { return frame_; }
   double cell_m() const { return cell_m_; }
@@ -62,8 +63,6 @@ class CanopyRaster {
   double cover(int a0, int a1, int b0, int b1) const;
 
  private:
-  void sum_up(std::span<const std::uint32_t> cover);  // 0 to 200 by cell, 255 where unseen
-
   Frame frame_;
   double cell_m_;
   int a_cells_, b_cells_;
@@ -72,6 +71,12 @@ class CanopyRaster {
 
 // The field's canopy along `axes`, with cells without returns all around, so that a plot may end
 // where the cloud does. The origin is moved to the lowest a and b; one raster for each scale.
+//
+// A cell's cover is the generalised mean of order 4 of its returns' shares of full canopy. It is
+// near the highest one, as in a canopy height model: ground that is seen between leaves leaves no
+// pit (Khosravipour et al., PE&RS 80(9), 2014), and leaves look the same from either side,
+// whether or not they hide the ground behind them. Unlike the highest one it does not grow with the
+// number of returns, and one of them alone does not make it.
 std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
                                     std::span<const CanopyScale> scales, int threads);
 

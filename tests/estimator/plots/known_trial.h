@@ -12,20 +12,20 @@
 
 namespace plotscan::plots {
 
-// A raster of a_m x b_m metres whose cells were seen once each, with the share of full canopy that
+// A raster of a_m x b_m metres whose cells are all seen, with the share of full canopy that
 // `canopy` gives at (a, b), metres.
 template <class Canopy>
 CanopyRaster raster_of(double a_m, double b_m, const Canopy& canopy, double cell_m = 0.05) {
   const int a_cells = static_cast<int>(std::lround(a_m / cell_m));
   const int b_cells = static_cast<int>(std::lround(b_m / cell_m));
-  std::vector<std::uint64_t> returns;
+  std::vector<std::uint32_t> cover;
   for (int a = 0; a < a_cells; ++a) {
     for (int b = 0; b < b_cells; ++b) {
       const double share = canopy((a + 0.5) * cell_m, (b + 0.5) * cell_m);
-      returns.push_back(1 + (static_cast<std::uint64_t>(std::lround(200 * share)) << 32));
+      cover.push_back(static_cast<std::uint32_t>(std::lround(kFullCover * share)));
     }
   }
-  return {{}, cell_m, a_cells, b_cells, returns};
+  return {{}, cell_m, a_cells, b_cells, cover};
 }
 
 // Rows of plots of 3 x 1.5 m follow each other along x, columns along y; the first plot's centre

@@ -52,9 +52,9 @@ TEST(CanopyProfile, CountsCellsOfOneLeafOnce) {
 }
 
 TEST(CanopyProfile, GivesUnseenCellsNoWeight) {
-  std::vector<std::uint64_t> returns(40 * 30, 1);
-  for (std::size_t i = 0; i < 30; ++i) returns[20 * 30 + i] = 0;
-  const CanopyProfile profile = profile_of({{}, 0.05, 40, 30, returns});
+  std::vector<std::uint32_t> cover(40 * 30, 0);
+  for (std::size_t i = 0; i < 30; ++i) cover[20 * 30 + i] = kUnseen;
+  const CanopyProfile profile = profile_of({{}, 0.05, 40, 30, cover});
   EXPECT_EQ(profile.weight[20], 0);
   EXPECT_GT(profile.weight[19], 0);
 }

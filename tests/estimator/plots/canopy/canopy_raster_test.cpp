@@ -12,26 +12,25 @@
 namespace plotscan::plots {
 namespace {
 
-// 7 x 9 cells with 0 to 3 returns, each with 0 to 200 steps of cover; cells without are unseen.
+// 7 x 9 cells, three quarters of them seen.
 struct Cells {
-  std::vector<std::uint64_t> sums;
+  std::vector<std::uint32_t> steps;
   std::vector<double> cover, seen;
 
   Cells() {
     for (std::uint64_t i = 0; i < 63; ++i) {
       RandomStream random(1, random_purpose("test/raster"), i);
-      const auto count = static_cast<std::uint64_t>(random.uniform(0, 4));
-      const auto steps = static_cast<std::uint64_t>(random.uniform(0, 200));
-      sums.push_back(count + (count * steps << 32));
-      cover.push_back(static_cast<double>(steps) / 200);
-      seen.push_back(count > 0 ? 1 : 0);
+      const bool is_seen = random.uniform(0, 4) > 1;
+      steps.push_back(is_seen ? static_cast<std::uint32_t>(random.uniform(0, 200)) : kUnseen);
+      cover.push_back(is_seen ? steps.back() / 200.0 : 0);
+      seen.push_back(is_seen ? 1 : 0);
     }
   }
 };
 
 TEST(CanopyRaster, SumsAreWhatAddingCellByCellGives) {
   const Cells cells;
-  const CanopyRaster raster({}, 0.1, 7, 9, cells.sums);
+  const CanopyRaster raster({}, 0.1, 7, 9, cells.steps);
   for (int a0 = -1; a0 < 7; ++a0) {
     for (int b0 = -1; b0 < 9; ++b0) {
       const int a1 = a0 + 3, b1 = b0 + 4;
@@ -40,7 +39,7 @@ TEST(CanopyRaster, SumsAreWhatAddingCellByCellGives) {
         for (int b = std::max(0, b0); b < std::min(9, b1); ++b) {
           const auto at = static_cast<std::size_t>(9 * a + b);
           seen += cells.seen[at];
-          cover += cells.seen[at] * cells.cover[at];
+          cover += cells.cover[at];
         }
       }
       EXPECT_EQ(raster.seen_cells(a0, a1, b0, b1), seen);
@@ -62,7 +61,7 @@ TEST(Frame, LeadsToTheWorldAndBack) {
   EXPECT_LT((frame.ab_from_world() * (world - frame.origin) - Eigen::Vector2d(2, 3)).norm(), 1e-12);
 }
 
-// Every cell holds the mean share of the points that lie in its parallelogram.
+// Every cell holds the mean of order 4 of the shares of the points in its parallelogram.
 TEST(Rasterise, PutsEveryPointInItsCell) {
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 4000; ++i) {
@@ -78,7 +77,7 @@ TEST(Rasterise, PutsEveryPointInItsCell) {
   const Frame& frame = raster.frame();
   for (int a = 0; a < raster.a_cells(); ++a) {
     for (int b = 0; b < raster.b_cells(); ++b) {
-      double count = 0, share = 0;
+      double count = 0, powers = 0;
       for (const Eigen::Vector3f& point : points) {
         // By Cramer's rule, not by the frame's inverse.
         const Eigen::Vector2d from = point.head<2>().cast<double>() - frame.origin;
@@ -87,10 +86,11 @@ TEST(Rasterise, PutsEveryPointInItsCell) {
         const double at_b = (from.y() * std::cos(0.3) - from.x() * std::sin(0.3)) / angle / 0.4;
         if (std::floor(at_a + 1e-9) != a || std::floor(at_b + 1e-9) != b) continue;
         ++count;
-        share += std::clamp((point.z() - 0.2) / 0.5, 0.0, 1.0);
+        powers += std::pow(std::clamp((point.z() - 0.2) / 0.5, 0.0, 1.0), 4);
       }
       EXPECT_EQ(raster.seen_cells(a, a + 1, b, b + 1), count > 0 ? 1 : 0);
-      EXPECT_NEAR(raster.cover(a, a + 1, b, b + 1), share / std::max(1.0, count), 0.01);
+      EXPECT_NEAR(raster.cover(a, a + 1, b, b + 1), std::pow(powers / std::max(1.0, count), 0.25),
+                  0.01);
     }
   }
 }
