@@ -8,6 +8,7 @@
 #include "core/statistics.h"
 #include "plots/lattice/internal/centers.h"
 #include "plots/lattice/lattice.h"
+#include "plots/layout/steps.h"
 
 namespace plotscan::plots {
 namespace {
@@ -320,6 +321,16 @@ std::vector<double> offsets_on_line(const Centers& centers, const Columns& colum
   return on_line;
 }
 
+// The usual step between neighbouring lines that hold plots; `before` where there are none.
+double pitch_of(const Positions& lines, const PlotGroups& plots, double before) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < lines.at.size(); ++i) {
+    if (plots.counts()[i - 1] > 0 && plots.counts()[i] > 0)
+      steps.push_back(lines.at[i] - lines.at[i - 1]);
+  }
+  return steps.empty() ? before : usual_step(std::move(steps));
+}
+
 }  // namespace
 
 void straighten(Lattice& lattice) {
@@ -347,6 +358,8 @@ void straighten(Lattice& lattice) {
   lattice.c.parameters =
       columns.column.parameters +
       (directions.columns_straight ? 1 : static_cast<double>(centers.row.count() - 1));
+  lattice.r.pitch_m = pitch_of(row, centers.row, lattice.r.pitch_m);
+  lattice.c.pitch_m = pitch_of(columns.column, centers.column, lattice.c.pitch_m);
   const std::vector<double> row_middle = centers.row.means(centers.r);
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     Place& place = lattice.places[i];
