@@ -97,6 +97,7 @@ std::uint64_t return_at(double z_m, const CanopyScale& scale) {
 std::uint32_t cover_of(std::uint64_t returns) {
   const std::uint64_t count = returns & ((std::uint64_t{1} << kCountBits) - 1);
   if (count == 0) return kUnseen;
+  if (returns >> kCountBits == 0) return 0;  // bare ground: most cells
   const double mean =
       static_cast<double>(returns >> kCountBits) / (kWholeShare * static_cast<double>(count));
   return static_cast<std::uint32_t>(std::lround(std::sqrt(std::sqrt(mean)) * kFullCover));
@@ -167,8 +168,8 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   if (!(bounds.low.x() <= bounds.high.x()))
     return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
   const RasterGrid grid(ab_from_world, bounds, cell_m);
-  std::vector<std::vector<std::uint64_t>> returns(scales.size(),
-                                                  std::vector<std::uint64_t>(grid.cells()));
+  std::vector<std::vector<std::uint64_t>> returns(scales.size());
+  for (std::vector<std::uint64_t>& sums : returns) sums.resize(grid.cells());
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {

@@ -29,8 +29,13 @@ struct Cell {
   float x, y, cover;
 };
 
+struct Cells {
+  std::vector<Cell> all = {};
+  std::vector<Cell> row_ends = {};  // the first and the last cell of each of the raster's rows
+};
+
 // The cells about the canopy: bare ground has no lines.
-std::vector<Cell> cells_of(const CanopyRaster& raster) {
+Cells cells_of(const CanopyRaster& raster) {
   const double step = raster.cell_m();
   const int around = static_cast<int>(kBareAround_m / step), block = std::max(1, around / 2);
   std::vector<double> covers;
@@ -48,13 +53,18 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
       b1 = std::max(b1, b + block + around);
     }
   }
-  std::vector<Cell> cells;
+  Cells cells;
   for (int a = std::max(0, a0); a < std::min(raster.a_cells(), a1); ++a) {
+    const std::size_t before = cells.all.size();
     for (int b = std::max(0, b0); b < std::min(raster.b_cells(), b1); ++b) {
       if (raster.seen_cells(a, a + 1, b, b + 1) == 0) continue;
-      cells.push_back({static_cast<float>((a + 0.5) * step), static_cast<float>((b + 0.5) * step),
-                       static_cast<float>(raster.cover(a, a + 1, b, b + 1))});
+      cells.all.push_back({static_cast<float>((a + 0.5) * step),
+                           static_cast<float>((b + 0.5) * step),
+                           static_cast<float>(raster.cover(a, a + 1, b, b + 1))});
     }
+    if (cells.all.size() == before) continue;
+    cells.row_ends.push_back(cells.all[before]);
+    cells.row_ends.push_back(cells.all.back());
   }
   return cells;
 }
@@ -62,10 +72,10 @@ std::vector<Cell> cells_of(const CanopyRaster& raster) {
 // The cells in bins across lines of one direction.
 class LineFamily {
  public:
-  LineFamily(const std::vector<Cell>& cells, double angle_rad, double bin_m)
+  LineFamily(const Cells& cells, double angle_rad, double bin_m)
       : c_(static_cast<float>(std::cos(angle_rad))), s_(static_cast<float>(std::sin(angle_rad))) {
     float low_along = 1e30F, high_along = -1e30F, low_across = 1e30F, high_across = -1e30F;
-    for (const Cell& cell : cells) {
+    for (const Cell& cell : cells.row_ends) {
       low_along = std::min(low_along, along(cell));
       high_along = std::max(high_along, along(cell));
       low_across = std::min(low_across, across(cell));
@@ -75,7 +85,7 @@ class LineFamily {
     least_cells_ = 0.25F * (high_along - low_along) * per_bin;
     bins_ = static_cast<std::size_t>((high_across - low_across) * per_bin) + 3;
     sums_.assign(2 * bins_, 0);
-    for (const Cell& cell : cells) add(cell, (across(cell) - low_across) * per_bin);
+    for (const Cell& cell : cells.all) add(cell, (across(cell) - low_across) * per_bin);
   }
 
   // Sum of the squared steps of mean cover from line to line. Two bins on either side: single ones
@@ -113,8 +123,8 @@ class LineFamily {
 };
 
 // Sharpness of the lines in each direction.
-std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vector<double>& angles,
-                                double bin_m, int threads) {
+std::vector<double> sharpnesses(const Cells& cells, const std::vector<double>& angles, double bin_m,
+                                int threads) {
   std::vector<double> values(angles.size());
   tbb::task_arena arena(threads);
   arena.execute([&] {
@@ -126,7 +136,7 @@ std::vector<double> sharpnesses(const std::vector<Cell>& cells, const std::vecto
 }
 
 // The sharpest direction within reach_rad of a guess, tried in steps, and the parabola's top.
-double refined(const std::vector<Cell>& cells, double guess_rad, double reach_rad, double step_rad,
+double refined(const Cells& cells, double guess_rad, double reach_rad, double step_rad,
                double bin_m, int threads) {
   std::vector<double> angles;
   const int steps = static_cast<int>(std::lround(reach_rad / step_rad));
@@ -183,8 +193,7 @@ std::vector<Pair> best_pairs(const std::vector<double>& values,
   return next.worth > kLeastOfBest * best.worth ? std::vector{best, next} : std::vector{best};
 }
 
-std::vector<FieldAxes> axes_of(const Pair& pair, const std::vector<Cell>& cells, double bin_m,
-                               int threads) {
+std::vector<FieldAxes> axes_of(const Pair& pair, const Cells& cells, double bin_m, int threads) {
   const auto fine = [&](double guess_rad) {
     const double closer = refined(cells, guess_rad, 2 * kDegrees, 0.2 * kDegrees, bin_m, threads);
     return refined(cells, closer, 0.3 * kDegrees, 0.05 * kDegrees, bin_m, threads);
@@ -204,8 +213,8 @@ std::vector<FieldAxes> axes_of(const Pair& pair, const std::vector<Cell>& cells,
 
 std::vector<FieldAxes> find_axes(const CanopyRaster& raster, std::optional<double> hint_rad,
                                  int threads) {
-  const std::vector<Cell> cells = cells_of(raster);
-  if (cells.empty()) return {};
+  const Cells cells = cells_of(raster);
+  if (cells.all.empty()) return {};
   const double bin_m = raster.cell_m();
   std::vector<double> angles;
   angles.reserve(kAngles);

@@ -194,6 +194,13 @@ Trials looked_at_closely(const ScannedField& field, Trials trials) {
   return trials;
 }
 
+// Whether a look shows one of the trials. From there these would be found once more.
+bool shows_one_of(const Trials& trials, const Look& look) {
+  return std::ranges::any_of(trials, [&](const SeenTrial& trial) {
+    return are_alike(trial.look.field.fit->layout, look.field.fit->layout);
+  });
+}
+
 // Whether no other trials can explain the field much better.
 bool are_clear(const Trials& trials) {
   constexpr double kClear = 0.85;  // confidence of a field
@@ -216,6 +223,7 @@ std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& loo
   const ScannedField thin = with_points(field, points);
   Trials best;
   for (const Look& start : starts_of(looks)) {
+    if (shows_one_of(best, start)) continue;
     Trials trials = as_one(thin, told_apart(thin, start));
     if (expected_plots(trials) > expected_plots(best)) best = std::move(trials);
     if (are_clear(best)) break;
