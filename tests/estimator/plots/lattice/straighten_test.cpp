@@ -19,7 +19,9 @@ void expect_straightened(const TrialLayout& trial, bool aligned) {
     lattice.places[i].r_m += random.uniform(-0.06, 0.06);
     lattice.places[i].c_m += random.uniform(-0.06, 0.06);
   }
+  lattice.r.pitch_m += 0.03;  // of bands that were seen in cells of 5 cm
   straighten(lattice);
+  EXPECT_NEAR(lattice.r.pitch_m, trial.row_pitch_m, 0.01);
   for (std::size_t i = 0; i < trial.places.size(); ++i) {
     const Eigen::Vector2d truth = trial.box(trial.places[i]).center;
     EXPECT_NEAR(lattice.places[i].r_m, truth.x(), 0.012) << i;
@@ -66,7 +68,6 @@ TEST(Straighten, PutsAColumnBetweenAWideAndANarrowGapBack) {
     EXPECT_NEAR(lattice.places[i].c_m, sown.box(sown.places[i]).center.y(), 0.012) << i;
 }
 
-// A narrow gap beside an alley is none between a wide and a narrow one.
 // Plots that touch; the leaves of the outer ones hang 0.2 m over, and there is an alley.
 TEST(Straighten, KeepsTheStepsOfPlotsThatTouch) {
   constexpr double kAlley_m = 2;
