@@ -45,7 +45,7 @@ constexpr double kLeastFilled = 0.6;           // of the places
 // those of clouds cut to the field: 6.5 and more (57 fields of two words).
 constexpr double kLeastEvidence = 3;
 // Several signs that are each just good enough are no plots: trees in thin clouds reach 0.01, wrong
-// plots on fields of plots 0.08, right ones 0.18 and more (234 fields of eight words).
+// plots on fields of plots 0.08, right ones 0.14 and more (304 fields of ten words).
 constexpr double kLeastConfidence = 0.1;
 
 double canopy_in(const RowView& view, const CellBox& box) {
