@@ -33,6 +33,7 @@ struct FieldSigns {
   double mean_unevenness = 0;  // the same of the plots' mean
   double aspect = 0;           // length of a plot over its width and that width's standard error
   double least_gap_m = 0;      // between plots, along their length or their width
+  double gap_cover = 0;        // at most, of the gaps over that of the plots beside (gap_cover.h)
   // For a plot, over a canopy of one level in the plots' outline: Schwarz's criterion, nats.
   double evidence = 0;
 };

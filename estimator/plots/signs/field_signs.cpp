@@ -12,6 +12,7 @@
 
 #include "core/statistics.h"
 #include "plots/lattice/box_errors.h"
+#include "plots/signs/internal/gap_cover.h"
 #include "plots/signs/internal/roughness.h"
 #include "plots/signs/internal/squareness.h"
 
@@ -27,6 +28,8 @@ constexpr double kRoughnessOfCrops = 0.115;  // and more; a torn sheet: 0.09
 // a crop. Plots of drawn trials: up to 9.0; vine rows, whole or in equal parts: 10.7 and more.
 constexpr double kMostAspect = 10;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
+// Plots whose leaves close their gaps: up to 0.91, as most 0.6; pieces of vine rows: 0.96 and more.
+constexpr double kMostGapCover = 0.93;
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
 constexpr double kStraight = 2;           // or this of the canopy: crowns and mounds up to 1.2
 // This few plots may lie at equal steps by chance: they must be rectangles rather than ellipses.
@@ -162,13 +165,15 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
           .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
           .aspect = least_aspect(lattice),
           .least_gap_m = least_gap_m(lattice),
+          .gap_cover = gap_cover(lattice),
           .evidence = evidence / static_cast<double>(lattice.places.size())};
 }
 
 std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
-  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m)
+  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m ||
+      signs.gap_cover > kMostGapCover)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
   const bool square = signs.squareness >= (few ? kLeastSquarenessOfFew : kLeastSquareness);
@@ -186,6 +191,7 @@ std::string no_touching_plots_because(FieldSigns signs) {
   if (signs.held_share < kLeastHeldOfTouching)
     return "canopy lies here, but not in plots without gaps";
   signs.least_gap_m = std::numeric_limits<double>::infinity();
+  signs.gap_cover = 0;
   return no_plots_because(signs);
 }
 

@@ -47,6 +47,7 @@ json signs_json(const plots::FieldSigns& signs) {
           {"unevenness", signs.unevenness},
           {"mean_unevenness", signs.mean_unevenness},
           {"least_gap_m", signs.least_gap_m},
+          {"gap_cover", signs.gap_cover},
           {"plots", signs.plots},
           {"evidence_per_plot", signs.evidence}};
 }

@@ -132,7 +132,21 @@ bool are_alike(const TrialLayout& a, const TrialLayout& b) {
          std::abs(turned) < kSameHeading_rad;
 }
 
-// Two trials as one, if as many plots are found so.
+// Whether most plots of one begin where a plot of the other ends: between trials ground is seen.
+bool follow(const PlotField& one, const PlotField& other) {
+  constexpr double kSeen_m = 0.3;  // less is closed by leaves
+  const auto follows_another = [&](const FoundPlot& plot) {
+    PlotBox around = plot.box;
+    around.length_m += 2 * kSeen_m;
+    around.width_m += 2 * kSeen_m;
+    return std::ranges::any_of(other.plots, [&](const FoundPlot& beside) {
+      return intersection_area(around, beside.box) > 0;
+    });
+  };
+  return 2 * std::ranges::count_if(one.plots, follows_another) > std::ssize(one.plots);
+}
+
+// Two trials of like plots as one, if as many plots are found so.
 std::optional<SeenTrial> one_of_both(const ScannedField& field, const Trials& trials,
                                      const SeenTrial& a, const SeenTrial& b) {
   if (!are_alike(a.look.field.fit->layout, b.look.field.fit->layout)) return {};
@@ -140,6 +154,15 @@ std::optional<SeenTrial> one_of_both(const ScannedField& field, const Trials& tr
   if (expected_plots(look) < expected_plots(a.look) + expected_plots(b.look)) return {};
   std::vector<PlotBox> area = area_of(look.field.fit->layout);
   return SeenTrial{.area = std::move(area), .look = std::move(look)};
+}
+
+// What two trials are together: one, or none where they are pieces of rows that run on from one to
+// the other, or both.
+Trials put_together(const ScannedField& field, const Trials& trials, const SeenTrial& a,
+                    const SeenTrial& b) {
+  if (auto one = one_of_both(field, trials, a, b)) return {std::move(*one)};
+  const bool run_on = follow(a.look.field, b.look.field) && follow(b.look.field, a.look.field);
+  return run_on ? Trials{} : Trials{a, b};
 }
 
 // Whether the plots are as many as the other look's, and of the same size.
@@ -152,11 +175,12 @@ bool shows_those(const Look& look, const Look& other) {
 Trials as_one(const ScannedField& field, Trials trials) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t k = i + 1; k < trials.size(); ++k) {
-      std::optional<SeenTrial> both = one_of_both(field, trials, trials[i], trials[k]);
-      if (!both) continue;
-      trials[i] = std::move(*both);
+      const Trials together = put_together(field, trials, trials[i], trials[k]);
+      if (together.size() == 2) continue;
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(k));
-      k = i;
+      trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
+      trials.insert(trials.begin(), together.begin(), together.end());
+      return as_one(field, std::move(trials));
     }
   }
   return trials;

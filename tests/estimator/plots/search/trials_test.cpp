@@ -197,5 +197,52 @@ TEST(TrialArea, TakesTheGapsBetweenThePlots) {
   EXPECT_NEAR(area_of(layout).front().length_m, 4.5, 1e-12);
 }
 
+// Vine rows, 1.85 m apart, of vines from -half_m to half_m but for 1 m from gaps_m on.
+std::vector<PlotBox> vine_rows(double half_m, const std::vector<double>& gaps_m) {
+  const PlotBox axes{.heading_rad = kHeading_rad};
+  std::vector<PlotBox> boxes;
+  double across_m = -9.25 + 1.85 / 2;
+  const auto add = [&](double from_m, double to_m) {
+    if (to_m <= from_m) return;
+    boxes.push_back(
+        {.center = axes.length_axis() * (from_m + to_m) / 2 + axes.width_axis() * across_m,
+         .width_m = 0.75,
+         .length_m = to_m - from_m,
+         .heading_rad = kHeading_rad});
+  };
+  for (const double gap_m : gaps_m) {
+    add(-half_m, gap_m);
+    add(gap_m + 1, half_m);
+    across_m += 1.85;
+  }
+  return boxes;
+}
+
+void expect_none(const std::vector<PlotBox>& rows) {
+  const std::vector<PlotField> fields = find_trials(cloud_over(rows), 0.02, {}, 2);
+  ASSERT_EQ(fields.size(), 1u);
+  EXPECT_EQ(fields[0].plots.size(), 0u);
+  EXPECT_NE(fields[0].why_none, "");
+}
+
+// One row has a gap near its middle: either half of the rows is a row of plots, were the other a
+// trial of its own.
+TEST(FindTrials, LeavesRowsThatRunOnBe) {
+  constexpr double kNone_m = 5.86;
+  std::vector<double> gaps_m(10, kNone_m);
+  gaps_m[4] = -0.18;
+  expect_none(vine_rows(kNone_m, gaps_m));
+}
+
+// Here plots at offsets of each row's own were found, two at each place.
+TEST(FindTrials, LeavesRowsWithGapsAnywhereBe) {
+  constexpr double kNone_m = 6.533;
+  std::vector<double> gaps_m(10, kNone_m);
+  gaps_m[3] = 3.980336;
+  gaps_m[4] = 4.566917;
+  gaps_m[7] = -2.838467;
+  expect_none(vine_rows(kNone_m, gaps_m));
+}
+
 }  // namespace
 }  // namespace plotscan::plots

@@ -137,6 +137,24 @@ TEST(FieldSigns, TellBushesThatBoxesHoldByChance) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// Signs of a vineyard whose rows were cut into 21 pieces, and of plots whose leaves close the gaps.
+TEST(FieldSigns, TellRowsCutIntoPieces) {
+  FieldSigns signs{.plots = 21,
+                   .held_share = 0.82,
+                   .filled_share = 1,
+                   .squareness = 1.2,
+                   .straightness = 2,
+                   .roughness = 0.2,
+                   .unevenness = 0.2,
+                   .aspect = 5.6,
+                   .least_gap_m = 1.1,
+                   .gap_cover = 1.05,
+                   .evidence = 51};
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("vineyard"));
+  signs.gap_cover = 0.85;
+  EXPECT_EQ(no_plots_because(signs), "");
+}
+
 // The signs of a torn sheet on the ground: most are just good enough, and it is smoother than a
 // crop.
 TEST(FieldSigns, RefuseATornSheet) {
