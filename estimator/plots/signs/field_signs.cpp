@@ -197,6 +197,7 @@ std::string no_touching_plots_because(FieldSigns signs) {
 
 bool may_be_beside_others(FieldSigns signs) {
   signs.held_share = 1;
+  signs.gap_cover = 0;
   return no_plots_because(signs).empty();
 }
 

@@ -23,8 +23,8 @@ std::string no_plots_because(const FieldSigns& signs);
 // The same of plots that are said to have no gaps: they leave next to nothing beside them.
 std::string no_touching_plots_because(FieldSigns signs);
 
-// Whether these may be plots of a trial beside others, whose canopy they do not hold: whether
-// nothing else speaks against them.
+// Whether these may be plots of a trial beside others, whose canopy they do not hold and which may
+// stand in their gaps: whether nothing else speaks against them.
 bool may_be_beside_others(FieldSigns signs);
 
 // 0 to 1: how clearly the field is one of plots.

@@ -151,6 +151,7 @@ TEST(FieldSigns, TellRowsCutIntoPieces) {
                    .gap_cover = 1.05,
                    .evidence = 51};
   EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("vineyard"));
+  EXPECT_TRUE(may_be_beside_others(signs));  // another trial may stand in the gaps
   signs.gap_cover = 0.85;
   EXPECT_EQ(no_plots_because(signs), "");
 }
