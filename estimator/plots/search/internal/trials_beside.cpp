@@ -158,8 +158,8 @@ std::optional<SeenTrial> one_of_both(const ScannedField& field, const Trials& tr
 
 // What two trials are together: one, or none where they are pieces of rows that run on from one to
 // the other, or both.
-Trials put_together(const ScannedField& field, const Trials& trials, const SeenTrial& a,
-                    const SeenTrial& b) {
+Trials joined_or_dropped(const ScannedField& field, const Trials& trials, const SeenTrial& a,
+                         const SeenTrial& b) {
   if (auto one = one_of_both(field, trials, a, b)) return {std::move(*one)};
   const bool run_on = follow(a.look.field, b.look.field) && follow(b.look.field, a.look.field);
   return run_on ? Trials{} : Trials{a, b};
@@ -175,7 +175,7 @@ bool shows_those(const Look& look, const Look& other) {
 Trials as_one(const ScannedField& field, Trials trials) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t k = i + 1; k < trials.size(); ++k) {
-      const Trials together = put_together(field, trials, trials[i], trials[k]);
+      const Trials together = joined_or_dropped(field, trials, trials[i], trials[k]);
       if (together.size() == 2) continue;
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(k));
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
