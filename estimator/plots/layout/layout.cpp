@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSameColumn_m = 0.15;   // off which leaves do not move what is seen of a plot
 constexpr double kNearlyAsClear = 0.9;   // of the evidence, where gaps show along more axes
-constexpr double kLeastAspectOfRow = 6;  // of a drill row; chosen
+constexpr double kLeastAspectOfRow = 3;  // of a drill row, also across a plot; chosen
 constexpr double kLeastOfUsual = 0.3;    // of the usual plot's canopy: less is a missing one
 
 std::vector<Band> whole(int cells) { return {{0, cells}}; }
