@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kSameColumn_m = 0.15;   // off which leaves do not move what is seen of a plot
 constexpr double kNearlyAsClear = 0.9;   // of the evidence, where gaps show along more axes
-constexpr double kLeastAspectOfRow = 3;  // of a drill row, also across a plot; chosen
-constexpr double kLeastOfUsual = 0.3;    // of the usual plot's canopy: less is a missing one
+constexpr double kLeastAspectOfRow = 6;  // of a crop row where no spacing tells that it is one;
+constexpr double kLeastAspectOfDrillRow = 3;  // of one at a known spacing, also across a plot
+constexpr double kLeastOfUsual = 0.3;         // of the usual plot's canopy: less is a missing one
 
 std::vector<Band> whole(int cells) { return {{0, cells}}; }
 
@@ -193,7 +194,7 @@ void leave_best_aligned(const RowView& view, LineModel model, const LayoutCriter
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
   double width = layout.r_shape.size, length = layout.c_shape.size;
   if (layout.view.swapped == drilled.view.swapped) std::swap(width, length);
-  return length > kLeastAspectOfRow * width && width < drilled.row_spacing;
+  return length > kLeastAspectOfDrillRow * width && width < drilled.row_spacing;
 }
 
 // Where rows of plots have different offsets, their drill rows may by chance form columns through

@@ -178,9 +178,11 @@ Trials as_one(const ScannedField& field, Trials trials) {
       const Trials together = joined_or_dropped(field, trials, trials[i], trials[k]);
       if (together.size() == 2) continue;
       trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(k));
-      trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
-      trials.insert(trials.begin(), together.begin(), together.end());
-      return as_one(field, std::move(trials));
+      if (together.empty())
+        trials.erase(trials.begin() + static_cast<std::ptrdiff_t>(i));
+      else
+        trials[i] = together.front();
+      k = i;
     }
   }
   return trials;

@@ -279,5 +279,23 @@ TEST(FindPlots, FindsPlotsThatAreMuchLower) {
   expect_those(boxes, find_plots(points, 0.02, {}, 2));
 }
 
+// Young plants at random in rows of 0.2 x 1.1 m across the plots, with bare ground between: the
+// rows are not the plots.
+TEST(FindPlots, FindsYoungPlotsOfShortRowsAcross) {
+  constexpr double kSpacing_m = 0.45, kPlant_m = 0.12, kHalf_m = 0.1;
+  const std::vector<PlotBox> boxes = Trial{.width_m = 1.1}.boxes();
+  const auto grows = [&](const PlotBox& box, const Eigen::Vector2d& off) {
+    const double row = std::floor(off.x() / kSpacing_m);
+    const double plant = std::floor((off.y() + 5) / kPlant_m);
+    const auto plot =
+        static_cast<std::uint64_t>(1000 * box.center.x() + 77777 * box.center.y() + 1e7);
+    RandomStream random(plot, random_purpose("test/plant"),
+                        static_cast<std::uint64_t>((row + 50) * 1000 + plant));
+    return random.uniform() < 0.75 &&
+           std::abs(off.x() - (row + 0.5) * kSpacing_m) < kHalf_m * random.uniform(0.6, 1.4);
+  };
+  EXPECT_EQ(find_plots(cloud_over(boxes, grows), 0.02, {}, 2).plots.size(), boxes.size());
+}
+
 }  // namespace
 }  // namespace plotscan::plots
