@@ -28,8 +28,8 @@ constexpr double kRoughnessOfCrops = 0.115;  // and more; a torn sheet: 0.09
 // a crop. Plots of drawn trials: up to 9.0; vine rows, whole or in equal parts: 10.7 and more.
 constexpr double kMostAspect = 10;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
-// Plots whose leaves close their gaps: up to 0.91, as most 0.6; pieces of vine rows: 0.96 and more.
-constexpr double kMostGapCover = 0.93;
+// Plots whose leaves close their gaps: up to 0.94, most 0.6; pieces of vine rows: 0.965 and more.
+constexpr double kMostGapCover = 0.95;
 constexpr double kLeastSquareness = 0.9;  // round crowns: 0.6 to 0.8; plots: 0.97 and more,
 constexpr double kStraight = 2;           // or this of the canopy: crowns and mounds up to 1.2
 // This few plots may lie at equal steps by chance: they must be rectangles rather than ellipses.
