@@ -34,33 +34,45 @@ struct Cells {
   std::vector<Cell> row_ends = {};  // the first and the last cell of each of the raster's rows
 };
 
-// The cells about the canopy: bare ground has no lines.
-Cells cells_of(const CanopyRaster& raster) {
-  const double step = raster.cell_m();
-  const int around = static_cast<int>(kBareAround_m / step), block = std::max(1, around / 2);
+// Cells [a0, a1) by [b0, b1) of a raster.
+struct Window {
+  int a0 = 0, a1 = 0, b0 = 0, b1 = 0;
+};
+
+// The canopy and some bare ground around it.
+Window about_canopy(const CanopyRaster& raster) {
+  const int around = static_cast<int>(kBareAround_m / raster.cell_m());
+  const int block = std::max(1, around / 2);
   std::vector<double> covers;
   for (int a = 0; a < raster.a_cells(); a += block)
     for (int b = 0; b < raster.b_cells(); b += block)
       covers.push_back(raster.cover(a, a + block, b, b + block));
   const double least = least_cover(covers);
-  int a0 = raster.a_cells(), a1 = 0, b0 = raster.b_cells(), b1 = 0;
+  Window window{raster.a_cells(), 0, raster.b_cells(), 0};
+  auto cover = covers.begin();
   for (int a = 0; a < raster.a_cells(); a += block) {
     for (int b = 0; b < raster.b_cells(); b += block) {
-      if (raster.cover(a, a + block, b, b + block) < least) continue;
-      a0 = std::min(a0, a - around);
-      a1 = std::max(a1, a + block + around);
-      b0 = std::min(b0, b - around);
-      b1 = std::max(b1, b + block + around);
+      if (*cover++ < least) continue;
+      window.a0 = std::min(window.a0, std::max(0, a - around));
+      window.a1 = std::max(window.a1, std::min(raster.a_cells(), a + block + around));
+      window.b0 = std::min(window.b0, std::max(0, b - around));
+      window.b1 = std::max(window.b1, std::min(raster.b_cells(), b + block + around));
     }
   }
+  return window;
+}
+
+// The cells about the canopy: bare ground has no lines.
+Cells cells_of(const CanopyRaster& raster) {
+  const auto middle = [&](int cell) { return static_cast<float>((cell + 0.5) * raster.cell_m()); };
+  const Window window = about_canopy(raster);
   Cells cells;
-  for (int a = std::max(0, a0); a < std::min(raster.a_cells(), a1); ++a) {
+  for (int a = window.a0; a < window.a1; ++a) {
     const std::size_t before = cells.all.size();
-    for (int b = std::max(0, b0); b < std::min(raster.b_cells(), b1); ++b) {
+    for (int b = window.b0; b < window.b1; ++b) {
       if (raster.seen_cells(a, a + 1, b, b + 1) == 0) continue;
-      cells.all.push_back({static_cast<float>((a + 0.5) * step),
-                           static_cast<float>((b + 0.5) * step),
-                           static_cast<float>(raster.cover(a, a + 1, b, b + 1))});
+      const auto cover = static_cast<float>(raster.cover(a, a + 1, b, b + 1));
+      cells.all.push_back({middle(a), middle(b), cover});
     }
     if (cells.all.size() == before) continue;
     cells.row_ends.push_back(cells.all[before]);
