@@ -156,7 +156,7 @@ scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int thre
     read += static_cast<double>(points.size());
     if (progress) progress(done * std::min(1.0, read / expected));
   };
-  const scan::CloudSummary summary = record::read_positions(cloud, add, {.leave_out_marked = true});
+  scan::CloudSummary summary = record::read_positions(cloud, add, {.leave_out_marked = true});
   adding.finish();
   return summary;
 }

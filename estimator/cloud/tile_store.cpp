@@ -110,46 +110,51 @@ std::vector<TileStore::Slot> TileStore::all_slots() const {
   return slots;
 }
 
-void TileStore::merge(const std::vector<Slot>& order) {
-  std::vector<std::size_t> sizes(tiles_.size(), 0);
-  for (const Slot slot : new_slots_) ++sizes[slot];
-  for (std::size_t slot = 0; slot < sizes.size(); ++slot) sizes[slot] += tiles_[slot].kept;
-  constexpr auto kDropped = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> begin(tiles_.size(), kDropped);
-  std::size_t size = 0;
+TileStore::Groups TileStore::grouped(const std::vector<Slot>& order) {
+  Groups groups{.begin = std::vector<std::size_t>(tiles_.size(), kDropped),
+                .size = std::vector<std::size_t>(tiles_.size(), 0)};
+  for (const Slot slot : new_slots_) ++groups.size[slot];
+  for (std::size_t slot = 0; slot < tiles_.size(); ++slot) groups.size[slot] += tiles_[slot].kept;
+  std::size_t all = 0;
   for (const Slot slot : order) {
-    begin[slot] = size;
-    size += sizes[slot];
+    groups.begin[slot] = all;
+    all += groups.size[slot];
   }
-
-  auto grouped = std::make_unique_for_overwrite<std::uint64_t[]>(size);
-  std::vector<std::size_t> end = begin;
+  groups.keys = std::make_unique_for_overwrite<std::uint64_t[]>(all);
+  std::vector<std::size_t> end = groups.begin;
   const std::uint64_t* kept = kept_.get();
   for (const Slot slot : kept_order_) {
-    if (begin[slot] != kDropped) end[slot] += tiles_[slot].kept;
-    if (begin[slot] != kDropped) std::copy_n(kept, tiles_[slot].kept, &grouped[begin[slot]]);
-    kept += tiles_[slot].kept;
+    const std::size_t count = tiles_[slot].kept;
+    if (end[slot] != kDropped) {
+      std::copy_n(kept, count, &groups.keys[end[slot]]);
+      end[slot] += count;
+    }
+    kept += count;
   }
   for (std::size_t i = 0; i < new_keys_.size(); ++i)
-    if (begin[new_slots_[i]] != kDropped) grouped[end[new_slots_[i]]++] = new_keys_[i];
+    if (end[new_slots_[i]] != kDropped) groups.keys[end[new_slots_[i]]++] = new_keys_[i];
   new_keys_.clear();
   new_slots_.clear();
+  return groups;
+}
 
+void TileStore::merge(const std::vector<Slot>& order) {
+  Groups groups = grouped(order);
   for_each_index(order.size(), options_.threads, [&](std::size_t i) {
     TileState& tile = tiles_[order[i]];
-    const std::span keys(&grouped[begin[order[i]]], sizes[order[i]]);
+    const std::span keys(&groups.keys[groups.begin[order[i]]], groups.size[order[i]]);
     const Thinned thinned = thin(keys, tile.kept, options_.points_per_cell);
     tile.kept = thinned.kept;
     tile.repeated += thinned.repeated;
   });
-
   kept_size_ = 0;
   for (const Slot slot : order) {
-    if (begin[slot] != kept_size_)
-      std::copy_n(&grouped[begin[slot]], tiles_[slot].kept, &grouped[kept_size_]);
+    const std::size_t begin = groups.begin[slot];
+    if (begin != kept_size_)
+      std::copy_n(&groups.keys[begin], tiles_[slot].kept, &groups.keys[kept_size_]);
     kept_size_ += tiles_[slot].kept;
   }
-  kept_ = std::move(grouped);
+  kept_ = std::move(groups.keys);
   kept_order_ = order;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <unordered_map>
@@ -77,9 +78,18 @@ class TileStore {
     std::size_t kept = 0;  // of kept_
   };
 
+  // Keys by slot, one slot's after another's.
+  struct Groups {
+    std::vector<std::size_t> begin, size;  // by slot; kDropped: its keys are not there
+    std::unique_ptr<std::uint64_t[]> keys = {};
+  };
+  static constexpr auto kDropped = std::numeric_limits<std::size_t>::max();
+
   Slot slot_of(Tile tile);
-  // Groups the kept and the new keys by slot, slots in `order`, and sorts and thins each slot's
-  // keys. Keys of slots that are not in `order` are dropped.
+  // The kept keys and the new ones, slots in `order`, in each slot the kept ones first. Keys of
+  // slots that are not in `order` are dropped, and no key is new afterwards.
+  Groups grouped(const std::vector<Slot>& order);
+  // Groups the keys, and sorts and thins those of each slot: they are the kept ones from then on.
   void merge(const std::vector<Slot>& order);
   std::vector<Slot> all_slots() const;
 

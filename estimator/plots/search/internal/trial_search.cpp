@@ -325,10 +325,10 @@ Look look_once(const ScannedField& scanned) {
 Look look_twice(const ScannedField& scanned) {
   TrialSearch search(scanned);
   search.look_in_every_canopy(LineModel::free_ends);
-  const Look first = search.best();
+  Look first = search.best();
   if (first.explained > kNearlyAll) return first;
   search.look_in_every_canopy(LineModel::even_ends);
-  const Look best = search.best();
+  Look best = search.best();
   return first.evidence == 0 || best.explained > kNearlyAll ? best : first;
 }
 
