@@ -1,12 +1,12 @@
 # How every library, program and test of Plotscan is declared.
 
 # Headers that most files include are compiled once for all libraries, and once with GoogleTest for all tests. Not by Clang,
-# whose preset so finds files that lack an include; nor behind a launcher, as ccache takes every such file as new; nor where
-# warnings are errors: GCC no longer tells a precompiled header of the system's from our files.
-set(PLOTSCAN_PRECOMPILES OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT PLOTSCAN_WERROR)
-  set(PLOTSCAN_PRECOMPILES ON)
+# whose preset so finds files that lack an include; nor behind a launcher, as ccache takes every such file as new.
+set(precompile OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(precompile ON)
 endif()
+option(PLOTSCAN_PRECOMPILE "Compile headers that most files include once" ${precompile})
 
 # The files of a library, or a test, are compiled together: templates and headers that they share once for all of them. Not by Clang, nor
 # without optimisation, where small rebuilds count.
@@ -22,7 +22,8 @@ function(plotscan_compile_options target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     # Its file is the one that includes all others.
     $<$<AND:$<BOOL:${PLOTSCAN_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
-    $<$<BOOL:${PLOTSCAN_PRECOMPILES}>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>
+    # GCC does not tell a precompiled header of the system's from our files.
+    $<$<BOOL:${PLOTSCAN_PRECOMPILE}>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>
     # Embedded texts are long.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
     $<$<BOOL:${PLOTSCAN_WERROR}>:-Werror>)
@@ -38,7 +39,7 @@ endfunction()
 
 # plotscan_precompile(TARGET FROM): takes over the headers of FROM. All are compiled with -fPIC, as some targets have to be.
 function(plotscan_precompile target from)
-  if(PLOTSCAN_PRECOMPILES)
+  if(PLOTSCAN_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM ${from})
     target_compile_options(${target} PRIVATE -fPIC)
   endif()

@@ -29,8 +29,8 @@ void draw_cultivars(double spread, RandomStream& random, Overrides& set) {
   if (!chance(random, 0.5)) return;
   const int count = draw_count(random, 4, 8);
   const double differ = random.uniform(0.05, 0.2);
-  std::vector<double> sizes;
-  for (int i = 0; i < count; ++i) sizes.push_back(1 + differ * random.uniform(-1, 1));
+  std::vector<double> sizes(static_cast<std::size_t>(count));
+  std::ranges::generate(sizes, [&] { return 1 + differ * random.uniform(-1, 1); });
   std::ranges::copy(cultivars_of(sizes, spread), std::back_inserter(set));
 }
 
@@ -110,6 +110,7 @@ Overrides draw_panel(RandomStream& random) {
   const int count = draw_count(random, 6, 10);
   const double differ = random.uniform(0.4, 0.65);
   std::vector<double> sizes;
+  sizes.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) sizes.push_back(1 + differ * (2.0 * i / (count - 1) - 1));
   return cultivars_of(sizes, kSpread);
 }

@@ -29,7 +29,7 @@ std::filesystem::path thinned_cloud(const std::filesystem::path& cloud, double d
   std::vector<Eigen::Vector3f> points = read_positions(cloud);
   const double left = static_cast<double>(points.size()) * density_per_m2 / density;
   thin(points, static_cast<std::size_t>(std::llround(left)), points.size());
-  const std::filesystem::path thinned = cloud.parent_path() / "thinned.pcd";
+  std::filesystem::path thinned = cloud.parent_path() / "thinned.pcd";
   write_positions(thinned, points);
   return thinned;
 }

@@ -6,7 +6,6 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -55,9 +54,9 @@ std::span<const Return> Detector::detect(std::span<const Hit> hits) {
     return std::isfinite(hit.range_m) && hit.reflectance * hit.cos_incidence > 0;
   });
   if (hits_.empty()) return returns_;
-  const auto [least, most] = std::ranges::minmax(hits_ | std::views::transform(&Hit::range_m));
-  const double nearest_m = std::max<double>(kNearest_m, least);
-  const double farthest_m = std::max<double>(kNearest_m, most);
+  const auto [nearest, farthest] = std::ranges::minmax(hits_, {}, &Hit::range_m);
+  const double nearest_m = std::max<double>(kNearest_m, nearest.range_m);
+  const double farthest_m = std::max<double>(kNearest_m, farthest.range_m);
   if (farthest_m - nearest_m <= kOnePeak * sigma_m_) {
     listen(hits.size());
     const Peak peak = only_peak(echoes_, nearest_m, farthest_m, sigma_m_);

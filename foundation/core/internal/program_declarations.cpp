@@ -31,8 +31,8 @@ std::string range_of(const CLI::Option& option) {
 }
 
 std::string names_of(const std::set<CLI::Option*>& options) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : options) names.push_back(option->get_name());
+  std::vector<std::string> names(options.size());
+  std::ranges::transform(options, names.begin(), [](const auto* each) { return each->get_name(); });
   std::ranges::sort(names);  // the set's order is that of their places in memory
   return joined(names, ", ");
 }
