@@ -1,13 +1,5 @@
 # How every library, program and test of Plotscan is declared.
 
-# Headers that most files include are compiled once for all libraries, and once with GoogleTest for all tests. Not by Clang,
-# whose preset so finds files that lack an include; nor behind a launcher, as ccache takes every such file as new.
-set(precompile OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(precompile ON)
-endif()
-option(PLOTSCAN_PRECOMPILE "Compile headers that most files include once" ${precompile})
-
 # The files of a library, or a test, are compiled together: templates and headers that they share once for all of them. Not by Clang, nor
 # without optimisation, where small rebuilds count.
 set(unity OFF)
@@ -22,8 +14,6 @@ function(plotscan_compile_options target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     # Its file is the one that includes all others.
     $<$<AND:$<BOOL:${PLOTSCAN_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
-    # GCC does not tell a precompiled header of the system's from our files.
-    $<$<BOOL:${PLOTSCAN_PRECOMPILE}>:-Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread>
     # Embedded texts are long.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
     $<$<BOOL:${PLOTSCAN_WERROR}>:-Werror>)
@@ -35,27 +25,6 @@ function(plotscan_compile_options target)
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
     target_link_options(${target} PRIVATE -fsanitize=${PLOTSCAN_SANITIZE})
   endif()
-endfunction()
-
-# plotscan_precompile(TARGET FROM): takes over the headers of FROM. All are compiled with -fPIC, as some targets have to be.
-function(plotscan_precompile target from)
-  if(PLOTSCAN_PRECOMPILE)
-    target_precompile_headers(${target} REUSE_FROM ${from})
-    target_compile_options(${target} PRIVATE -fPIC)
-  endif()
-endfunction()
-
-# plotscan_common_headers(NAME [HEADERS ...] [LIBRARIES ...]): what to take them over from, HEADERS of LIBRARIES among them.
-function(plotscan_common_headers name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
-  set(empty ${PROJECT_BINARY_DIR}/${name}.cpp)
-  file(CONFIGURE OUTPUT ${empty} CONTENT "")
-  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${empty})
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen ${ARG_LIBRARIES})
-  plotscan_compile_options(${name})
-  target_compile_options(${name} PRIVATE -fPIC)
-  target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <span>
-    <sstream> <string> <vector> <Eigen/Eigenvalues> <Eigen/Geometry> ${ARG_HEADERS})
 endfunction()
 
 # plotscan_library(NAME ROOT dir SOURCES ... PUBLIC ... PRIVATE ...)
@@ -70,12 +39,7 @@ function(plotscan_library name)
     VISIBILITY_INLINES_HIDDEN ON)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLOTSCAN_UNITY} UNITY_BUILD_BATCH_SIZE 0)
   plotscan_compile_options(${name})
-  plotscan_precompile(${name} common_headers)
 endfunction()
-
-plotscan_common_headers(common_headers HEADERS <fmt/format.h> <nlohmann/json.hpp>
-  LIBRARIES fmt::fmt nlohmann_json::nlohmann_json)
-set_target_properties(common_headers PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 
 # For what is compiled in two thirds of the time at -O1, and where that does not matter to users. GCC sees uninitialised values
 # where there are none (in Eigen) when it optimises so little.
@@ -115,7 +79,6 @@ function(plotscan_test_program name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLOTSCAN_UNITY} UNITY_BUILD_BATCH_SIZE 0)
   plotscan_compile_options(${name})
   plotscan_optimise_less(${name})
-  plotscan_precompile(${name} common_test_headers)
 endfunction()
 
 # Sets the variable to a test's time limit: under a sanitizer programs take up to ten times as long.
