@@ -13,8 +13,9 @@ class NumberText {
  public:
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number>
-  explicit NumberText(Number value)
-      : end_(std::to_chars(text_.data(), text_.data() + text_.size(), value).ptr) {}
+  explicit NumberText(Number value) {
+    end_ = std::to_chars(text_.data(), text_.data() + text_.size(), value).ptr;
+  }
   NumberText(const NumberText&) = delete;
   NumberText& operator=(const NumberText&) = delete;
 
@@ -22,7 +23,7 @@ class NumberText {
 
  private:
   std::array<char, 32> text_;
-  const char* end_;
+  const char* end_ = nullptr;
 };
 
 }  // namespace plotscan
