@@ -6,9 +6,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -32,6 +34,8 @@ namespace plotscan {
 namespace {
 
 constexpr int kWaitingFactor = 20;
+// How often work is started while its child processes hang at once.
+constexpr int kStarts = 3;
 
 // The first byte of what the child sends; the rest is the result or a message.
 enum class Outcome : char { done = 'd', bad_input = 'i', no_memory = 'm', failed = 'f' };
@@ -113,6 +117,13 @@ class Child {
   }
 
   int pipe() const { return pipe_; }
+  // The processor time that it has used; nothing once it has ended.
+  std::optional<std::chrono::nanoseconds> processor_time() const {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0) return {};
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  }
   // Waits for its end and returns its wait status.
   int wait() {
     close(pipe_);
@@ -151,27 +162,70 @@ Child start(const IsolationLimits& limits, const std::function<std::string()>& w
   return Child(process, ends[0]);
 }
 
-// Receives everything that the child sends; false if it has not finished in time.
-bool receive(int pipe, std::chrono::seconds patience, std::string& received) {
-  const auto end = std::chrono::steady_clock::now() + patience;
+enum class Reception { whole, hung, late };
+
+struct Patience {
+  std::chrono::seconds all;        // until the child has sent everything
+  std::chrono::milliseconds idle;  // without a byte from it, and without processor time
+};
+
+// Receives everything that the child sends.
+Reception receive(const Child& child, const Patience& patience, std::string& received) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + patience.all;
+  auto used = child.processor_time();
   std::string part(std::size_t{1} << 18, '\0');
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        end - std::chrono::steady_clock::now());
-    pollfd waiting{.fd = pipe, .events = POLLIN, .revents = 0};
-    const int ready = poll(&waiting, 1, static_cast<int>(std::max<long long>(left.count(), 0)));
+    const auto pause = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::min<Clock::duration>(end - Clock::now(), patience.idle));
+    pollfd waiting{.fd = child.pipe(), .events = POLLIN, .revents = 0};
+    const int ready = poll(&waiting, 1, static_cast<int>(std::max<long long>(pause.count(), 0)));
     if (ready < 0 && errno == EINTR) continue;
-    if (ready <= 0) return false;
-    const ssize_t count = read(pipe, part.data(), part.size());
+    if (ready < 0 || Clock::now() >= end) return Reception::late;
+    if (ready == 0) {
+      const auto before = std::exchange(used, child.processor_time());
+      if (used && used == before) return Reception::hung;
+      continue;
+    }
+    const ssize_t count = read(child.pipe(), part.data(), part.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return true;
+    if (count <= 0) return Reception::whole;
     received.append(part.data(), static_cast<std::size_t>(count));
   }
 }
 
-std::string reason_of(int status, bool in_time, const IsolationLimits& limits) {
+// How one child ended, and what it had sent.
+struct Ending {
+  Reception reception = Reception::late;
+  int status = -1;  // of waiting for it
+  std::string received;
+};
+
+Ending run_once(const IsolationLimits& limits, const Patience& patience,
+                const std::function<std::string()>& work) {
+  Child child = start(limits, work);
+  Ending ending;
+  ending.reception = receive(child, patience, ending.received);
+  ending.status = ending.reception == Reception::whole ? child.wait() : child.end();
+  return ending;
+}
+
+// A child inherits the locks that other threads hold while it is forked, but not these threads: it
+// may wait for ever. Another child rarely meets the same; the last is given all the time, as a disk
+// may be slow.
+Ending run_until_it_ends(const IsolationLimits& limits, const std::function<std::string()>& work) {
+  const std::chrono::seconds all(kWaitingFactor * limits.processor_s);
+  for (int tried = 1; tried < kStarts; ++tried) {
+    Ending ending = run_once(limits, {.all = all, .idle = limits.idle}, work);
+    if (ending.reception != Reception::hung) return ending;
+  }
+  return run_once(limits, {.all = all, .idle = all}, work);
+}
+
+std::string reason_of(const Ending& ending, const IsolationLimits& limits) {
+  const int status = ending.status;
   const bool killed = WIFSIGNALED(status);
-  if (!in_time) return "came to no end";
+  if (ending.reception != Reception::whole) return "came to no end";
   if (killed && WTERMSIG(status) == SIGXCPU)
     return "takes more than " + std::to_string(limits.processor_s) + " s";
   if (killed) {
@@ -185,13 +239,11 @@ std::string reason_of(int status, bool in_time, const IsolationLimits& limits) {
 
 std::string run_isolated(const std::string& what, const IsolationLimits& limits,
                          const std::function<std::string()>& work) {
-  Child child = start(limits, work);
-  std::string received;
-  const bool in_time =
-      receive(child.pipe(), std::chrono::seconds(kWaitingFactor * limits.processor_s), received);
-  const int status = in_time ? child.wait() : child.end();
-  const bool ended = in_time && WIFEXITED(status) && WEXITSTATUS(status) == 0 && !received.empty();
-  if (!ended) throw InputError(what + ": its reader " + reason_of(status, in_time, limits));
+  Ending ending = run_until_it_ends(limits, work);
+  const bool ended = ending.reception == Reception::whole && WIFEXITED(ending.status) &&
+                     WEXITSTATUS(ending.status) == 0 && !ending.received.empty();
+  if (!ended) throw InputError(what + ": its reader " + reason_of(ending, limits));
+  std::string received = std::move(ending.received);
   const auto outcome = static_cast<Outcome>(received.front());
   received.erase(0, 1);
   switch (outcome) {

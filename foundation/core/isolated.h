@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -11,6 +12,9 @@ namespace plotscan {
 struct IsolationLimits {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // in addition to what this process has
   int processor_s = 60;  // of processor time; waiting is cut off at twenty times as much
+  // A child that uses no processor time and sends nothing for so long is started anew, twice at
+  // most: a lock that another thread held when the child was forked never opens in it.
+  std::chrono::milliseconds idle{10'000};
 };
 
 // Runs `work` in a child process and returns what it returns: third-party parsers may crash, loop

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/isolated.h"
 
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -77,6 +81,37 @@ TEST(Isolated, WorkWithoutEndIsEnded) {
                   },
                   {.processor_s = 1}),
               HasSubstr("takes more than 1 s"));
+}
+
+// What a child does that was forked while another thread held a lock.
+TEST(Isolated, AChildThatHangsIsStartedAgain) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path starts = folder.path() / "starts";
+  const auto hangs_at_first = [&](std::uintmax_t times) {
+    return [&starts, times]() -> std::string {
+      std::ofstream(starts, std::ios::app) << '.';
+      while (std::filesystem::file_size(starts) <= times) pause();
+      return "done";
+    };
+  };
+  const IsolationLimits limits{.idle = std::chrono::milliseconds(200)};
+  EXPECT_EQ(run_isolated("x", limits, hangs_at_first(2)), "done");
+  EXPECT_EQ(std::filesystem::file_size(starts), 3);
+}
+
+TEST(Isolated, TheLastChildMayWaitForASlowDisk) {
+  const auto work = [] {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    return std::string("done");
+  };
+  EXPECT_EQ(run_isolated("x", {.idle = std::chrono::milliseconds(200)}, work), "done");
+}
+
+TEST(Isolated, WorkThatWaitsForeverIsEnded) {
+  const auto work = []() -> std::string {
+    for (;;) pause();
+  };
+  EXPECT_THAT(failure(work, {.processor_s = 0}), HasSubstr("came to no end"));
 }
 
 TEST(Isolated, MemoryIsLimited) {
