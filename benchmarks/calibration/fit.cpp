@@ -46,6 +46,12 @@ Differences differences(const MeasuredField& field, const heights::CalibrationFa
   return own;
 }
 
+// Each height's spread that the weights of the differences leave, over a farm's plots.
+Eigen::VectorXd spread_left(const Differences& own, const Eigen::MatrixXd& within) {
+  const Eigen::MatrixXd left = own.ratios - own.features * within.transpose();
+  return left.cwiseAbs2().colwise().mean().cwiseSqrt();
+}
+
 // Weights of the differences by ridge regression, and each farm's residual spread. The larger a
 // farm's residuals, the less it counts; otherwise a lodged plot or a crease of the ground would
 // outweigh all even fields.
@@ -75,11 +81,8 @@ void fit_within(std::span<const MeasuredField> fields, heights::Calibration& cal
     }
     normal.diagonal().array() += kRidge * plots;
     calibration.within = normal.ldlt().solve(right).transpose();
-    for (std::size_t f = 0; f < farms.size(); ++f) {
-      const Eigen::MatrixXd left =
-          farms[f].ratios - farms[f].features * calibration.within.transpose();
-      calibration.farms[f].within = left.cwiseAbs2().colwise().mean().cwiseSqrt();
-    }
+    for (std::size_t f = 0; f < farms.size(); ++f)
+      calibration.farms[f].within = spread_left(farms[f], calibration.within);
   }
 }
 
@@ -215,27 +218,41 @@ Eigen::VectorXd known_crops(const heights::Calibration& others, Eigen::VectorXd 
   return probabilities / probabilities.sum();
 }
 
+// Farms that others are predicted from.
+class Predictors {
+ public:
+  explicit Predictors(heights::Calibration farms)
+      : farms_(std::move(farms)), model_(farms_), crops_(farms_) {}
+
+  // Sets what the farm, which is of another library or crop, is missed by.
+  void surprise(heights::CalibrationFarm& farm, Group group) const {
+    const Eigen::VectorXd scaled = farms_.scaled(farm.features);
+    const Eigen::VectorXd told = known_crops(farms_, crops_.probabilities(scaled));
+    auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
+    from_others.novelty = crops_.novelty(scaled);
+    from_others.standardised = standardised_errors(farm, model_.mixture(scaled, farm.top_m, told));
+    if (group == Group::library)
+      farm.standardised_given_crop = standardised_errors(farm, of_its_crop(farm));
+  }
+  heights::Prediction of_its_crop(const heights::CalibrationFarm& farm) const {
+    return model_.mixture(farms_.scaled(farm.features), farm.top_m,
+                          farms_.indicators_of(farm.crop));
+  }
+
+ private:
+  heights::Calibration farms_;
+  heights::RatioModel model_;
+  heights::CropModel crops_;
+};
+
 // Predicts each farm's ratios from farms of other libraries or other crops, since a user's plants
 // are of no library.
 void find_surprises(heights::Calibration& calibration, Group group) {
   const heights::Calibration all = calibration;
   const std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    const heights::Calibration others = all.without(groups[g]);
-    const heights::RatioModel model(others);
-    const heights::CropModel crops(others);
-    for (const std::size_t i : groups[g]) {
-      heights::CalibrationFarm& farm = calibration.farms[i];
-      const Eigen::VectorXd scaled = others.scaled(farm.features);
-      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
-      auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
-      from_others.novelty = crops.novelty(scaled);
-      from_others.standardised = standardised_errors(farm, model.mixture(scaled, farm.top_m, told));
-      if (group == Group::library) {
-        farm.standardised_given_crop = standardised_errors(
-            farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));
-      }
-    }
+    const Predictors others(all.without(groups[g]));
+    for (const std::size_t i : groups[g]) others.surprise(calibration.farms[i], group);
   });
 }
 
@@ -316,6 +333,32 @@ std::vector<LeftOut> table_of(const heights::Calibration& calibration,
   return rows;
 }
 
+// The farms' numbers that are of the crop.
+std::vector<std::size_t> farms_of_crop(const heights::Calibration& calibration,
+                                       const std::string& crop) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    if (calibration.farms[i].crop == crop) numbers.push_back(i);
+  return numbers;
+}
+
+// Fits the kernel of a crop, and sets what its new farms, from number `first` on, are missed by.
+void extend_crop(const heights::Calibration& before, std::size_t crop, std::size_t first,
+                 heights::Calibration& extended) {
+  const std::string& name = before.crops[crop];
+  const Predictors all(before);
+  const Predictors other_crops(before.without(farms_of_crop(before, name)));
+  for (std::size_t i = first; i < extended.farms.size(); ++i) {
+    heights::CalibrationFarm& farm = extended.farms[i];
+    if (farm.crop != name) continue;
+    all.surprise(farm, Group::library);
+    other_crops.surprise(farm, Group::crop);
+    farm.novelty = all.of_its_crop(farm).novelty;
+  }
+  const heights::Calibration own = extended.of_crop(name);
+  extended.ratio_kernels[crop] = fit_kernel(own.features_of_farms(), own.ratios(), own.noise());
+}
+
 }  // namespace
 
 MeasuredField measure(const FieldSample& sample, Returns returns) {
@@ -359,6 +402,20 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   find_surprises(calibration, Group::library);
   find_surprises(calibration, Group::crop);
   fit_within(fields, calibration);
+  return calibration;
+}
+
+heights::Calibration extended(const heights::Calibration& before,
+                              std::span<const MeasuredField> fields) {
+  heights::Calibration calibration = before;
+  std::set<std::size_t> crops;
+  for (const MeasuredField& field : fields) {
+    heights::CalibrationFarm farm = farm_of(field, calibration);
+    crops.insert(calibration.index_of(farm.crop));
+    farm.within = spread_left(differences(field, farm, calibration), calibration.within);
+    calibration.farms.push_back(std::move(farm));
+  }
+  for (const std::size_t crop : crops) extend_crop(before, crop, before.farms.size(), calibration);
   return calibration;
 }
 

@@ -37,6 +37,12 @@ MeasuredField measure(const FieldSample& sample, Returns returns);
 // own features.
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
+// The calibration with more farms of its crops. The kernels of these crops, and how surely crops
+// are told, are fitted again; the new farms' errors are those of predictions from the farms before,
+// and all else stays. Throws InputError on a farm of another crop.
+heights::Calibration extended(const heights::Calibration& before,
+                              std::span<const MeasuredField> fields);
+
 // Errors of a height's predictions.
 struct Errors {
   double rmse_m = 0;

@@ -11,8 +11,8 @@
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/program.h"
-#include "core/statistics.h"
 #include "core/text_file.h"
 
 namespace {
@@ -79,6 +79,7 @@ nlohmann::json rounded(nlohmann::json document) {
 
 struct FitArguments {
   std::vector<fs::path> samples;
+  fs::path extended;
   fs::path output;
 };
 
@@ -104,15 +105,15 @@ std::vector<calibration::MeasuredField> measured_fields(const std::vector<fs::pa
 }
 
 // A line a library, crop and height, rmse (bias) and the share inside the interval: with the farm
-// left out, then with its library, each with the crop derived from the canopy and given; last with
-// the library where rays straight down without any error were measured, the crop given.
+// left out, then with its library, each with the crop derived from the canopy and given; last, if
+// stated, with the library where rays straight down without any error were measured, the crop
+// given.
 void print_left_out(const Program& program, const heights::Calibration& fitted,
-                    const heights::Calibration& perfect) {
+                    const std::vector<calibration::LeftOut>& limits) {
   using calibration::Group;
   using calibration::LeftOut;
   const std::vector<LeftOut> farms = leave_out(fitted, Group::farm);
   const std::vector<LeftOut> libraries = leave_out(fitted, Group::library);
-  const std::vector<LeftOut> limits = leave_out(perfect, Group::library);
   const auto figures = [](const char* what, const calibration::Errors& errors) {
     return fmt::format("  {} {:5.2f} ({:+5.2f}) cm, {:5.1f} %", what, 100 * errors.rmse_m,
                        100 * errors.bias_m, 100 * errors.inside);
@@ -122,11 +123,12 @@ void print_left_out(const Program& program, const heights::Calibration& fitted,
     const auto limit = std::ranges::find_if(limits, [&](const LeftOut& other) {
       return other.name == row.name && other.height == row.height;
     });
-    const double limit_m = limit == limits.end() ? kNaN : limit->given.rmse_m;
     program.say(fmt::format("{:20} {:11} {:4}", row.name, row.height, row.farms) +
                 figures("farm out", farms[i].told) + figures("crop given", farms[i].given) +
                 figures("library out", row.told) + figures("crop given", row.given) +
-                fmt::format("  perfect rays {:5.2f} cm", 100 * limit_m));
+                (limit == limits.end()
+                     ? ""
+                     : fmt::format("  perfect rays {:5.2f} cm", 100 * limit->given.rmse_m)));
   }
 }
 
@@ -145,14 +147,29 @@ void write_calibration(const fs::path& output, const heights::Calibration& fitte
   file.close();
 }
 
+heights::Calibration read_calibration(const fs::path& file) {
+  try {
+    return heights::calibration_of(read_json(file));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file.string() + ": is no calibration: " + error.what());
+  }
+}
+
 void run_fit(const Program& program, const FitArguments& arguments) {
+  using calibration::Returns;
   const std::vector<fs::path> files = sample_files(arguments.samples);
-  const auto fitted_to = [&](calibration::Returns returns) {
-    return calibration::fit(measured_fields(files, returns));
-  };
-  const heights::Calibration fitted = fitted_to(calibration::Returns::thinned);
+  if (!arguments.extended.empty()) {
+    const heights::Calibration before = read_calibration(arguments.extended);
+    const heights::Calibration extended =
+        calibration::extended(before, measured_fields(files, Returns::thinned));
+    write_calibration(arguments.output, extended);
+    print_left_out(program, extended, {});
+    return;
+  }
+  const heights::Calibration fitted = calibration::fit(measured_fields(files, Returns::thinned));
   write_calibration(arguments.output, fitted);
-  print_left_out(program, fitted, fitted_to(calibration::Returns::perfect));
+  const heights::Calibration perfect = calibration::fit(measured_fields(files, Returns::perfect));
+  print_left_out(program, fitted, leave_out(perfect, calibration::Group::library));
 }
 
 }  // namespace
@@ -177,6 +194,8 @@ int main(int argc, char** argv) {
   CLI::App& fit = program.command("fit", "Fit the calibration to samples.",
                                   [&] { run_fit(program, fit_arguments); }, {.json = false});
   fit.add_option("SAMPLES", fit_arguments.samples, "folders of samples")->required();
+  fit.add_option("--extend", fit_arguments.extended,
+                 "calibration (JSON) to which the farms of the samples are added");
   fit.add_option("-o,--output", fit_arguments.output, "calibration (JSON) to write")->required();
   return program.run(argc, argv);
 }

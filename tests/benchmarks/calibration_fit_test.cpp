@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <span>
+
 #include "calibration/fit.h"
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "heights/features.h"
 
@@ -59,6 +62,30 @@ TEST(CalibrationFit, FindsTheFeatureThatTellsTheHeights) {
       }
     }
   }
+}
+
+// Farms of three libraries of soybean; the calibration has two of them, and the third is added.
+TEST(CalibrationFit, AnExtendedCalibrationKnowsItsNewFarms) {
+  const std::vector<MeasuredField> fields = known_fields();
+  const std::span<const MeasuredField> all = fields;
+  const heights::Calibration before = fit(all.first(100));
+  const heights::Calibration after = extended(before, all.subspan(100));
+  ASSERT_EQ(after.farms.size(), fields.size());
+  EXPECT_EQ(after.within, before.within);
+  EXPECT_EQ(after.ratio_kernels.front().weights, before.ratio_kernels.front().weights)
+      << "no farm of maize is new";
+  EXPECT_NE(after.ratio_kernels.back().weights, before.ratio_kernels.back().weights);
+  const std::vector<heights::Kernel> at_once = fit(all).ratio_kernels;
+  EXPECT_NEAR(after.ratio_kernels.back().weights(1), at_once.back().weights(1), 0.05);
+  for (std::size_t i = 100; i < fields.size(); ++i) {
+    const heights::CalibrationFarm& farm = after.farms[i];
+    EXPECT_LT(farm.within.maxCoeff(), 0.02) << "what is left to chance";
+    EXPECT_TRUE(farm.from_libraries.standardised.allFinite());
+    EXPECT_GT(farm.from_crops.novelty, farm.from_libraries.novelty);
+    EXPECT_GT(farm.novelty, 0);
+  }
+  EXPECT_THROW(extended(before, {{{.library = "oat-a", .plots = fields.front().plots}}}),
+               InputError);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <set>
+#include <utility>
 
 #include "calibration/farm_plan.h"
 #include "description/load_description.h"
@@ -33,8 +34,10 @@ double value_of(const std::string& models, const std::string& key) {
 
 TEST(CalibrationPlan, HasFarmsThatCanBeMadeOfEveryLibrary) {
   std::set<std::uint64_t> seeds;
-  for (const char* ranges : {"usual", "wide"}) {
-    const std::vector<Library> libraries = read_libraries(kFolder / "libraries.yaml", ranges);
+  const std::pair<const char*, const char*> kinds[] = {
+      {"libraries.yaml", "usual"}, {"libraries.yaml", "wide"}, {"maize_shapes.yaml", "shapes"}};
+  for (const auto& [file, ranges] : kinds) {
+    const std::vector<Library> libraries = read_libraries(kFolder / file, ranges);
     std::set<std::string> names;
     for (std::size_t i = 0; i < libraries.size(); ++i) {
       EXPECT_TRUE(names.insert(libraries[i].name).second) << libraries[i].name;
