@@ -6,6 +6,7 @@
 
 #include "calibration/field_sample.h"
 #include "calibration/fit.h"
+#include "calibration/leave_out.h"
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "calibration/fit.h"
+#include "calibration/leave_out.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
