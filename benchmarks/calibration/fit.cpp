@@ -66,11 +66,15 @@ heights::Kernel fit_crop_kernel(const heights::Calibration& calibration) {
                     std::vector<double>(half.farms.size(), 1));
 }
 
+heights::Kernel fit_ratio_kernel(const heights::Calibration& calibration, const std::string& crop) {
+  const heights::Calibration own = calibration.of_crop(crop);
+  return fit_kernel(own.features_of_farms(), own.ratios(), own.noise());
+}
+
 std::vector<heights::Kernel> fit_ratio_kernels(const heights::Calibration& calibration) {
   std::vector<heights::Kernel> of_crops(calibration.crops.size());
   tbb::parallel_for(std::size_t{0}, of_crops.size(), [&](std::size_t i) {
-    const heights::Calibration own = calibration.of_crop(calibration.crops[i]);
-    of_crops[i] = fit_kernel(own.features_of_farms(), own.ratios(), own.noise());
+    of_crops[i] = fit_ratio_kernel(calibration, calibration.crops[i]);
   });
   return of_crops;
 }
@@ -102,10 +106,10 @@ double likeliest_sharpness(const heights::Calibration& calibration) {
   return best;
 }
 
-// Sets each farm's novelty, as seen from the other farms.
-void find_unlikeness(heights::Calibration& calibration) {
+// Sets the novelty of the farms from number `first` on, each as seen from all other farms.
+void find_unlikeness(heights::Calibration& calibration, std::size_t first) {
   const heights::Calibration all = calibration;
-  tbb::parallel_for(std::size_t{0}, calibration.farms.size(), [&](std::size_t i) {
+  tbb::parallel_for(first, calibration.farms.size(), [&](std::size_t i) {
     heights::CalibrationFarm& farm = calibration.farms[i];
     const heights::Calibration others = all.without({&i, 1});
     farm.novelty =
@@ -135,11 +139,8 @@ class Predictors {
     from_others.novelty = crops_.novelty(scaled);
     from_others.standardised = standardised_errors(farm, model_.mixture(scaled, farm.top_m, told));
     if (group == Group::library)
-      farm.standardised_given_crop = standardised_errors(farm, of_its_crop(farm));
-  }
-  heights::Prediction of_its_crop(const heights::CalibrationFarm& farm) const {
-    return model_.mixture(farms_.scaled(farm.features), farm.top_m,
-                          farms_.indicators_of(farm.crop));
+      farm.standardised_given_crop = standardised_errors(
+          farm, model_.mixture(scaled, farm.top_m, farms_.indicators_of(farm.crop)));
   }
 
  private:
@@ -148,41 +149,24 @@ class Predictors {
   heights::CropModel crops_;
 };
 
-// Predicts each farm's ratios from farms of other libraries or other crops, since a user's plants
-// are of no library.
-void find_surprises(heights::Calibration& calibration, Group group) {
+// Predicts the ratios of the farms from number `first` on, each from farms of other libraries or
+// other crops, since a user's plants are of no library.
+void find_surprises(heights::Calibration& calibration, Group group, std::size_t first) {
   const heights::Calibration all = calibration;
-  const std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
+  std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
+  std::erase_if(groups, [&](const auto& farms) { return farms.back() < first; });
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
     const Predictors others(all.without(groups[g]));
-    for (const std::size_t i : groups[g]) others.surprise(calibration.farms[i], group);
+    for (const std::size_t i : groups[g])
+      if (i >= first) others.surprise(calibration.farms[i], group);
   });
 }
 
-// The farms' numbers that are of the crop.
-std::vector<std::size_t> farms_of_crop(const heights::Calibration& calibration,
-                                       const std::string& crop) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
-    if (calibration.farms[i].crop == crop) numbers.push_back(i);
-  return numbers;
-}
-
-// Fits the kernel of a crop, and sets what its new farms, from number `first` on, are missed by.
-void extend_crop(const heights::Calibration& before, std::size_t crop, std::size_t first,
-                 heights::Calibration& extended) {
-  const std::string& name = before.crops[crop];
-  const Predictors all(before);
-  const Predictors other_crops(before.without(farms_of_crop(before, name)));
-  for (std::size_t i = first; i < extended.farms.size(); ++i) {
-    heights::CalibrationFarm& farm = extended.farms[i];
-    if (farm.crop != name) continue;
-    all.surprise(farm, Group::library);
-    other_crops.surprise(farm, Group::crop);
-    farm.novelty = all.of_its_crop(farm).novelty;
-  }
-  const heights::Calibration own = extended.of_crop(name);
-  extended.ratio_kernels[crop] = fit_kernel(own.features_of_farms(), own.ratios(), own.noise());
+// Sets what the farms from number `first` on are missed by.
+void find_misses(heights::Calibration& calibration, std::size_t first) {
+  find_unlikeness(calibration, first);
+  find_surprises(calibration, Group::library, first);
+  find_surprises(calibration, Group::crop, first);
 }
 
 }  // namespace
@@ -202,9 +186,7 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
   calibration.crop_kernel = fit_crop_kernel(calibration);
   calibration.crop_sharpness = likeliest_sharpness(calibration);
   calibration.ratio_kernels = fit_ratio_kernels(calibration);
-  find_unlikeness(calibration);
-  find_surprises(calibration, Group::library);
-  find_surprises(calibration, Group::crop);
+  find_misses(calibration, 0);
   fit_within(fields, calibration);
   return calibration;
 }
@@ -219,7 +201,9 @@ heights::Calibration extended(const heights::Calibration& before,
     farm.within = spread_within(field, farm, calibration);
     calibration.farms.push_back(std::move(farm));
   }
-  for (const std::size_t crop : crops) extend_crop(before, crop, before.farms.size(), calibration);
+  for (const std::size_t crop : crops)
+    calibration.ratio_kernels[crop] = fit_ratio_kernel(calibration, calibration.crops[crop]);
+  find_misses(calibration, before.farms.size());
   return calibration;
 }
 

@@ -14,8 +14,8 @@ namespace plotscan::calibration {
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
 // The calibration with more farms of its crops. The kernels of these crops' ratios are fitted
-// again; the new farms' errors are those of predictions from the farms before, and all else stays.
-// Throws InputError on a farm of another crop.
+// again, and the new farms' errors are those of predictions from all farms of other libraries and
+// crops; all else stays. Throws InputError on a farm of another crop.
 heights::Calibration extended(const heights::Calibration& before,
                               std::span<const MeasuredField> fields);
 
