@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "calibration/fit_covariance.h"
 #include "calibration/fit_within.h"
@@ -125,30 +126,6 @@ Eigen::VectorXd standardised_errors(const heights::CalibrationFarm& farm,
   return (farm.ratios - prediction.values).cwiseQuotient(prediction.sds);
 }
 
-// Farms that others are predicted from.
-class Predictors {
- public:
-  explicit Predictors(heights::Calibration farms)
-      : farms_(std::move(farms)), model_(farms_), crops_(farms_) {}
-
-  // Sets what the farm, which is of another library or crop, is missed by.
-  void surprise(heights::CalibrationFarm& farm, Group group) const {
-    const Eigen::VectorXd scaled = farms_.scaled(farm.features);
-    const Eigen::VectorXd told = known_crops(farms_, crops_.probabilities(scaled));
-    auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
-    from_others.novelty = crops_.novelty(scaled);
-    from_others.standardised = standardised_errors(farm, model_.mixture(scaled, farm.top_m, told));
-    if (group == Group::library)
-      farm.standardised_given_crop = standardised_errors(
-          farm, model_.mixture(scaled, farm.top_m, farms_.indicators_of(farm.crop)));
-  }
-
- private:
-  heights::Calibration farms_;
-  heights::RatioModel model_;
-  heights::CropModel crops_;
-};
-
 // Predicts the ratios of the farms from number `first` on, each from farms of other libraries or
 // other crops, since a user's plants are of no library.
 void find_surprises(heights::Calibration& calibration, Group group, std::size_t first) {
@@ -156,9 +133,22 @@ void find_surprises(heights::Calibration& calibration, Group group, std::size_t 
   std::vector<std::vector<std::size_t>> groups = groups_of(all, group);
   std::erase_if(groups, [&](const auto& farms) { return farms.back() < first; });
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    const Predictors others(all.without(groups[g]));
-    for (const std::size_t i : groups[g])
-      if (i >= first) others.surprise(calibration.farms[i], group);
+    const heights::Calibration others = all.without(groups[g]);
+    const heights::RatioModel model(others);
+    const heights::CropModel crops(others);
+    for (const std::size_t i : groups[g]) {
+      if (i < first) continue;
+      heights::CalibrationFarm& farm = calibration.farms[i];
+      const Eigen::VectorXd scaled = others.scaled(farm.features);
+      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
+      auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
+      from_others.novelty = crops.novelty(scaled);
+      from_others.standardised = standardised_errors(farm, model.mixture(scaled, farm.top_m, told));
+      if (group == Group::library) {
+        farm.standardised_given_crop = standardised_errors(
+            farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));
+      }
+    }
   });
 }
 

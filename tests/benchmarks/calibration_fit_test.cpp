@@ -89,5 +89,21 @@ TEST(CalibrationFit, AnExtendedCalibrationKnowsItsNewFarms) {
                InputError);
 }
 
+// A farm is as new to a crop as its distance from the farms that it is compared with; more of these
+// can only make it less so.
+TEST(CalibrationFit, AddedFarmsAreComparedWithAllOtherLibraries) {
+  std::vector<MeasuredField> fields = known_fields();
+  for (int farm = 0; farm < 20; ++farm)
+    fields.push_back(known_field("soybean-d", 1, fields.size() + 1));
+  const std::span<const MeasuredField> all = fields;
+  const heights::Calibration before = fit(all.first(100));  // soybean-c and soybean-d are left
+  const auto novelty_of_first = [&](std::size_t added) {
+    return extended(before, all.subspan(100, added)).farms[100].from_libraries.novelty;
+  };
+  const double alone = novelty_of_first(1);
+  EXPECT_DOUBLE_EQ(novelty_of_first(20), alone) << "its own library is left out";
+  EXPECT_LT(novelty_of_first(40), alone) << "another library was added with it";
+}
+
 }  // namespace
 }  // namespace plotscan::calibration
