@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "calibration/fit_covariance.h"
@@ -11,6 +13,7 @@
 #include "calibration/groups.h"
 #include <tbb/parallel_for.h>
 
+#include "core/error.h"
 #include "core/statistics.h"
 #include "heights/crop_model.h"
 #include "heights/features.h"
@@ -47,6 +50,20 @@ heights::CalibrationFarm farm_of(const MeasuredField& field,
           .from_libraries = {},
           .from_crops = {},
           .standardised_given_crop = {}};
+}
+
+// Each library and each crop is left out once, and something must be left then.
+void check_libraries(const heights::Calibration& calibration) {
+  std::map<std::string, std::set<std::string>> libraries;
+  for (const heights::CalibrationFarm& farm : calibration.farms)
+    libraries[farm.crop].insert(farm.library);
+  if (libraries.size() < 2) throw InputError("a calibration needs farms of at least two crops");
+  for (const auto& [crop, of_crop] : libraries) {
+    if (of_crop.size() < 2) {
+      throw InputError("a calibration needs at least two plant libraries of each crop: " + crop +
+                       " has one, " + *of_crop.begin());
+    }
+  }
 }
 
 void scale_features(heights::Calibration& calibration) {
@@ -171,6 +188,7 @@ heights::Calibration fit(std::span<const MeasuredField> fields) {
     calibration.heights.push_back(height);
   for (const MeasuredField& field : fields)
     calibration.farms.push_back(farm_of(field, calibration));
+  check_libraries(calibration);
   calibration.crops = crops_of(calibration.farms);
   scale_features(calibration);
   calibration.crop_kernel = fit_crop_kernel(calibration);

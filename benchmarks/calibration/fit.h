@@ -11,6 +11,7 @@ namespace plotscan::calibration {
 
 // Chooses the covariances under which the farms' ratios and crops are most likely, and the weights
 // of a plot's own features; finds what farms of other libraries and crops miss each farm by.
+// Throws InputError unless there are two crops and two libraries of each.
 heights::Calibration fit(std::span<const MeasuredField> fields);
 
 // The calibration with more farms of its crops. The kernels of these crops' ratios are fitted

@@ -89,6 +89,13 @@ TEST(CalibrationFit, AnExtendedCalibrationKnowsItsNewFarms) {
                InputError);
 }
 
+TEST(CalibrationFit, NothingToPredictFromIsRefused) {
+  const std::vector<MeasuredField> fields = known_fields();
+  const std::span<const MeasuredField> all = fields;
+  EXPECT_THROW(fit(all.first(80)), InputError) << "one library of soybean";
+  EXPECT_THROW(fit(all.first(60)), InputError) << "maize alone";
+}
+
 // A farm is as new to a crop as its distance from the farms that it is compared with; more of these
 // can only make it less so.
 TEST(CalibrationFit, AddedFarmsAreComparedWithAllOtherLibraries) {
