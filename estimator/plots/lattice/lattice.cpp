@@ -23,7 +23,10 @@ namespace {
 constexpr double kLeastPlaceShare = 0.3;
 constexpr double kLeastContrast = 0.25;
 constexpr double kWellCovered = 0.6;
-constexpr double kLeastRise = 0.1;  // of the usual plot's: low ones 0.12 and more, missing 0.00,
+constexpr double kLeastShareOfLodged = 0.5, kMostContrastOfLodged = 1.5;
+constexpr double kMostLodged = 0.1;  // of the plots
+constexpr double kLeastSides = 0.2;  // contrast of the usual plot's sides, of its cover
+constexpr double kLeastRise = 0.1;   // of the usual plot: low ones 0.12 and more, missing 0.00,
 constexpr double kLeastCoverOfLow = 0.03;  // and so much: where gaps are closed, plots rise little
 
 struct Column {
@@ -150,18 +153,6 @@ void add_crossings(Lattice& lattice) {
   }
 }
 
-// Medians of the plots' rises.
-SideContrast usual_rise(const Lattice& lattice) {
-  std::vector<double> along_r, along_c;
-  for (const Place& place : lattice.places) {
-    if (!place.full) continue;
-    const SideContrast rise = rise_of(lattice, place);
-    along_r.push_back(rise.r);
-    along_c.push_back(rise.c);
-  }
-  return {.r = quantile(std::move(along_r), 0.5), .c = quantile(std::move(along_c), 0.5)};
-}
-
 void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
@@ -182,12 +173,33 @@ void test_places(Lattice& lattice) {
   }
 }
 
+// Plots that lean over show their edges beside their place. They are exceptions in a field whose
+// plots show theirs in place: elsewhere the lattice does not fit, or is that of other plots, and so
+// it is where edges beside a place are clearer than the usual plot's.
+void take_lodged_plots(Lattice& lattice) {
+  const UsualPlot usual = usual_plot(lattice);
+  if (usual.contrast.least() < kLeastSides * usual.cover) return;
+  std::vector<std::pair<Place*, double>> lodged;
+  for (Place& place : lattice.places) {
+    if (place.share < kLeastShareOfLodged || place.contrast >= kLeastContrast) continue;
+    const double contrast = contrast_moved(lattice, place, usual.contrast);
+    if (contrast >= kLeastContrast && contrast <= kMostContrastOfLodged)
+      lodged.emplace_back(&place, contrast);
+  }
+  const auto plots = std::ranges::count_if(lattice.places, &Place::full);
+  if (static_cast<double>(lodged.size()) > kMostLodged * static_cast<double>(plots)) return;
+  for (const auto& [place, contrast] : lodged) {
+    place->full = place->lodged = true;
+    place->contrast = contrast;
+  }
+}
+
 // Plots that are much lower than the usual one show little of its canopy, but where every leaf
 // counts they stand out from what lies beside them. Nothing stands in most missing plots.
 void take_low_plots(const CanopyRaster& low_leaves, Lattice& lattice) {
   Lattice low = lattice;
   low.view.raster = &low_leaves;
-  const SideContrast usual = usual_rise(low);
+  const SideContrast usual = usual_sides(low, rise_of);
   for (Place& place : lattice.places) {
     if (place.full) continue;
     const SideContrast rise = rise_of(low, place);
@@ -294,6 +306,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster
   straighten(lattice);
   add_crossings(lattice);
   test_places(lattice);
+  take_lodged_plots(lattice);
   if (low_leaves != nullptr) take_low_plots(*low_leaves, lattice);
   if (hints.plots) {
     take_fullest(lattice, static_cast<std::size_t>(*hints.plots));

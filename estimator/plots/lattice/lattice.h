@@ -19,7 +19,8 @@ struct Place {
   double share = 0;         // its canopy as a share of a full plot's
   double contrast = 0;      // of its sides, as a share of a full plot's
   bool full = false;        // holds a plot,
-  bool low = false;         // which is much lower than the usual one
+  bool low = false;         // which is much lower than the usual one,
+  bool lodged = false;      // or covers its place and shows no edges there
 };
 
 // What the plots have in common along one of the view's axes, metres.

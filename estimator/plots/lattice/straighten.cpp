@@ -203,21 +203,40 @@ struct Centers {
   std::vector<double> r, c;
 };
 
+// Shifts of the plots' centres. A lodged plot does not show where it was sown: it has the mean
+// shift of its row or column, which it thus does not change.
+std::vector<double> shifts_of(const Lattice& lattice,
+                              const std::vector<std::optional<double>>& measured,
+                              const PlotGroups& groups) {
+  std::vector<double> shifts, weights;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    shifts.push_back(measured[i].value_or(0));
+    weights.push_back(lattice.places[i].lodged ? 0 : 1);
+  }
+  const std::vector<double> of_groups = groups.spread_out(groups.means(shifts, weights));
+  for (std::size_t i = 0; i < shifts.size(); ++i)
+    if (lattice.places[i].lodged) shifts[i] = of_groups[i];
+  return shifts;
+}
+
 Centers measured_centers(const Lattice& lattice) {
-  const auto r_shifts = measured_shifts(lattice), c_shifts = measured_shifts(lattice.turned());
   std::vector<int> rows, columns;
-  std::vector<double> r, c;
-  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
-    const Place& place = lattice.places[i];
+  for (const Place& place : lattice.places) {
     rows.push_back(place.row);
     columns.push_back(place.column);
-    r.push_back(place.r_m + r_shifts[i].value_or(0));
-    c.push_back(place.c_m + c_shifts[i].value_or(0));
   }
-  return {.row = {std::move(rows), lattice.rows},
-          .column = {std::move(columns), lattice.columns},
-          .r = std::move(r),
-          .c = std::move(c)};
+  Centers centers{.row = {std::move(rows), lattice.rows},
+                  .column = {std::move(columns), lattice.columns},
+                  .r = {},
+                  .c = {}};
+  centers.r = shifts_of(lattice, measured_shifts(lattice), centers.row);
+  centers.c = shifts_of(lattice, measured_shifts(lattice.turned()),
+                        lattice.aligned ? centers.column : centers.row);
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    centers.r[i] += lattice.places[i].r_m;
+    centers.c[i] += lattice.places[i].c_m;
+  }
+  return centers;
 }
 
 // c of a plot = its column's place + its row's offset.

@@ -83,31 +83,14 @@ class LinesOfPlots {
   double usual_ = 0;
 };
 
-// What the usual plot shows.
-struct UsualPlot {
-  double cover = 0;
-  SideContrast contrast = {};
-  double of_line = 0;  // plots on a row
-};
-
-UsualPlot usual_plot(const Lattice& lattice) {
-  std::vector<double> covers, r_contrasts, c_contrasts;
+double usual_plots_of_row(const Lattice& lattice) {
   std::map<int, double> of_row;
-  for (const Place& place : lattice.places) {
-    if (!place.full) continue;
-    const SideContrast contrast = contrast_of(lattice, place);
-    covers.push_back(inner_cover(lattice, place));
-    r_contrasts.push_back(contrast.r);
-    c_contrasts.push_back(contrast.c);
-    ++of_row[place.row];
-  }
+  for (const Place& place : lattice.places)
+    if (place.full) ++of_row[place.row];
   std::vector<double> counts;
   counts.reserve(of_row.size());
   for (const auto& [row, count] : of_row) counts.push_back(count);
-  return {.cover = quantile(std::move(covers), 0.5),
-          .contrast = {.r = quantile(std::move(r_contrasts), 0.5),
-                       .c = quantile(std::move(c_contrasts), 0.5)},
-          .of_line = quantile(std::move(counts), 0.5)};
+  return quantile(std::move(counts), 0.5);
 }
 
 // Whether a place beyond the border is covered as plots are, and has their edges on all sides: a
@@ -131,7 +114,8 @@ void fill_between(std::vector<Place>& row) {
 }
 
 // The plots of the row before the first one or after the last one.
-std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bool after) {
+std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, double usual_plots,
+                              bool after) {
   const int step = after ? 1 : -1;
   const auto outwards = [&](const Place& place) { return std::pair(place.full, step * place.row); };
   const int outer = std::ranges::max(lattice.places, {}, outwards).row;
@@ -146,16 +130,17 @@ std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, bo
     row.push_back(beyond);
   }
   fill_between(row);
-  if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual.of_line) row.clear();
+  if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual_plots) row.clear();
   return row;
 }
 
 void add_rows_beyond(Lattice& lattice) {
   if (lattice.r.pitch_m < lattice.r.size_m) return;  // one row, or rows that overlap
   const UsualPlot usual = usual_plot(lattice);
+  const double usual_plots = usual_plots_of_row(lattice);
   for (const bool after : {false, true}) {
-    for (std::vector<Place> row = row_beyond(lattice, usual, after); !row.empty();
-         row = row_beyond(lattice, usual, after))
+    for (std::vector<Place> row = row_beyond(lattice, usual, usual_plots, after); !row.empty();
+         row = row_beyond(lattice, usual, usual_plots, after))
       lattice.places.insert(lattice.places.end(), row.begin(), row.end());
   }
 }

@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/statistics.h"
 
 namespace plotscan::plots {
-
 namespace {
 
-constexpr double kReach_m = 0.2;  // beyond a plot's sides
+constexpr double kReach_m = 0.2;     // beyond a plot's sides
+constexpr double kMoveStep_m = 0.1;  // of sides that are moved, chosen
+constexpr double kMostMoved = 0.5;   // of a plot's shorter side: half of it stays in its place
 
 }  // namespace
 
@@ -40,6 +46,42 @@ SideContrast rise_of(const Lattice& lattice, const Place& place) {
   return {
       .r = inner - (view.cover(r0 - reach, r0, c0, c1) + view.cover(r1, r1 + reach, c0, c1)) / 2,
       .c = inner - (view.cover(r0, r1, c0 - reach, c0) + view.cover(r0, r1, c1, c1 + reach)) / 2};
+}
+
+SideContrast usual_sides(const Lattice& lattice,
+                         SideContrast (*of_place)(const Lattice& lattice, const Place& place)) {
+  std::vector<double> along_r, along_c;
+  for (const Place& place : lattice.places) {
+    if (!place.full) continue;
+    const SideContrast of = of_place(lattice, place);
+    along_r.push_back(of.r);
+    along_c.push_back(of.c);
+  }
+  return {.r = quantile(std::move(along_r), 0.5), .c = quantile(std::move(along_c), 0.5)};
+}
+
+UsualPlot usual_plot(const Lattice& lattice) {
+  std::vector<double> covers;
+  for (const Place& place : lattice.places)
+    if (place.full) covers.push_back(inner_cover(lattice, place));
+  return {.cover = quantile(std::move(covers), 0.5), .contrast = usual_sides(lattice, contrast_of)};
+}
+
+double contrast_moved(const Lattice& lattice, const Place& place, const SideContrast& usual) {
+  const double most_m = kMostMoved * std::min(lattice.r.size_m, lattice.c.size_m);
+  const int steps = static_cast<int>(most_m / kMoveStep_m);
+  double best = -std::numeric_limits<double>::infinity();
+  for (int r = -steps; r <= steps; ++r) {
+    for (int c = -steps; c <= steps; ++c) {
+      if (std::hypot(r, c) > steps) continue;
+      Place moved = place;
+      moved.r_m += r * kMoveStep_m;
+      moved.c_m += c * kMoveStep_m;
+      const SideContrast of = contrast_of(lattice, moved);
+      best = std::max(best, std::min(of.r / usual.r, of.c / usual.c));
+    }
+  }
+  return best;
 }
 
 }  // namespace plotscan::plots

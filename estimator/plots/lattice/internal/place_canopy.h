@@ -3,6 +3,8 @@
 
 // Private to the library: the canopy at a place of a lattice.
 
+#include <algorithm>
+
 #include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
@@ -17,10 +19,27 @@ struct SideContrast {
   double c = 0;
 
   double mean() const { return (r + c) / 2; }
+  double least() const { return std::min(r, c); }
 };
 SideContrast contrast_of(const Lattice& lattice, const Place& place);
 
 // Mean cover within the plot, off its edges, less that beyond its sides.
 SideContrast rise_of(const Lattice& lattice, const Place& place);
+
+// Medians of either one over the places that hold a plot.
+SideContrast usual_sides(const Lattice& lattice,
+                         SideContrast (*of_place)(const Lattice& lattice, const Place& place));
+
+// What the usual plot shows.
+struct UsualPlot {
+  double cover = 0;
+  SideContrast contrast = {};
+};
+UsualPlot usual_plot(const Lattice& lattice);
+
+// The canopy of a lodged plot lies beside the place where it was sown, in part over its neighbour.
+// The contrast of a plot's sides moved there, as a share of the usual plot's: of the pair of sides
+// that shows less, where it shows most.
+double contrast_moved(const Lattice& lattice, const Place& place, const SideContrast& usual);
 
 }  // namespace plotscan::plots

@@ -165,6 +165,46 @@ TEST(Lattice, KeepsALodgedPlotAtTheBorder) {
   EXPECT_EQ(fit_lattice(bands_of(bands, raster), {}).places.size(), trial.places.size());
 }
 
+// Two plots side by side in the outer row lean away from each other, as far as a plot is half
+// beside its place: over their neighbours, and over the field's border. Bands do not show them.
+TEST(Lattice, KeepsLodgedPlotsSideBySideAtTheBorder) {
+  const TrialLayout bands = known_trial({0, 0, 0, 0}, 6);
+  TrialLayout trial = bands;
+  trial.places[19].position_m += Eigen::Vector2d(-0.7, 0.2);
+  trial.places[20].position_m += Eigen::Vector2d(0.7, 0.2);
+  const CanopyRaster raster = canopy_of(trial);
+  expect_places(layout_of(fit_lattice(bands_of(bands, raster, {{4, 2}, {4, 3}}), {})), bands);
+}
+
+// Three plots half beside the places of a fourth row are another trial's: lodged ones are a tenth
+// of a trial at most.
+TEST(Lattice, LeavesOutARowWhosePlotsAllLieBesideTheirPlaces) {
+  const TrialLayout bands = known_trial({0, 0, 0, 0}, 6);
+  TrialLayout trial = bands;
+  std::erase_if(trial.places,
+                [](const TrialPlace& place) { return place.row == 4 && place.column % 2 == 0; });
+  for (TrialPlace& place : trial.places)
+    if (place.row == 4) place.position_m += Eigen::Vector2d(0.65, 0.3);
+  const CanopyRaster raster = canopy_of(trial);
+  const Layout layout = bands_of(bands, raster, {{4, 2}, {4, 3}, {4, 4}, {4, 5}, {4, 6}});
+  EXPECT_EQ(fit_lattice(layout, {}).places.size(), 18U);
+}
+
+// The plots on either side of a missing one, and the one before it, lean over its place.
+TEST(Lattice, LeavesOutAPlaceThatOthersLeanOver) {
+  const TrialLayout bands = known_trial({0, 0, 0});
+  TrialLayout trial = bands;
+  trial.places[11].position_m.x() += 0.6;
+  trial.places[13].position_m.x() -= 0.6;
+  trial.places[7].position_m.y() += 0.9;
+  trial.places.erase(trial.places.begin() + 12);
+  const CanopyRaster raster = canopy_of(trial);
+  const Lattice lattice = fit_lattice(bands_of(bands, raster), {});
+  EXPECT_EQ(lattice.places.size(), trial.places.size());
+  for (const Place& place : lattice.places)
+    EXPECT_FALSE(place.row == 2 && place.column == 2) << place.share << " " << place.contrast;
+}
+
 TEST(Lattice, HoldsTheNumberOfPlotsThatWasTold) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const CanopyRaster raster = canopy_of(trial);
