@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/lattice/internal/field_report.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -11,6 +14,32 @@ namespace plotscan::methods::lattice {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t kMostListed = 6;  // of the places without a plot, for people
+
+using RowAndColumn = std::pair<int, int>;
+
+// The places of a field of plots where a row crosses a column and no plot was found; none where the
+// columns do not run through all rows.
+std::vector<RowAndColumn> places_without_plot(const plots::PlotField& field) {
+  if (!field.why_none.empty() || !field.fit || !field.fit->columns_aligned) return {};
+  const TrialLayout& layout = field.fit->layout;
+  std::set<RowAndColumn> found;
+  for (const TrialPlace& place : layout.places) found.emplace(place.row, place.column);
+  std::vector<RowAndColumn> without;
+  for (int row = 1; row <= layout.rows(); ++row)
+    for (int column = 1; column <= layout.columns(); ++column)
+      if (!found.contains({row, column})) without.emplace_back(row, column);
+  return without;
+}
+
+std::string listed(const std::vector<RowAndColumn>& places) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(places.size(), kMostListed); ++i)
+    text +=
+        fmt::format("{}row {} column {}", i == 0 ? "" : ", ", places[i].first, places[i].second);
+  return places.size() > kMostListed ? text + ", ..." : text;
+}
 
 json fit_json(const plots::FieldFit& fit) {
   const TrialLayout& layout = fit.layout;
@@ -67,6 +96,8 @@ std::string trial_line(const plots::PlotField& trial, std::size_t number) {
 
 json json_of(const plots::PlotField& field) {
   json report = field.fit ? fit_json(*field.fit) : json::object();
+  if (const auto without = places_without_plot(field); !without.empty())
+    report["places_without_plot"] = without;
   if (field.others_m2 > 0) report["others_m2"] = field.others_m2;
   if (field.signs) report["signs"] = signs_json(*field.signs);
   return report;
@@ -82,6 +113,9 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
   if (const auto& sown = field.fit->sown_rows)
     lines.push_back(
         fmt::format("sown in    {} rows a plot, {:.2f} m apart", sown->rows, sown->spacing_m));
+  if (const auto without = places_without_plot(field); !without.empty())
+    lines.push_back(fmt::format("no plot    at {} of {} places: {}", without.size(),
+                                layout.rows() * layout.columns(), listed(without)));
   if (field.others_m2 > 0)
     lines.push_back(fmt::format("left out   {:.0f} m2 of canopy without gaps beside the plots",
                                 field.others_m2));

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/lattice/internal/field_report.h"
 
+#include <set>
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace plotscan::methods::lattice {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -20,6 +24,33 @@ TEST(FieldReport, TellsWhatWasLeftOut) {
   EXPECT_THAT(lines_of(field), Contains(HasSubstr("left out   478 m2")));
   field.why_none = "no canopy";
   EXPECT_THAT(lines_of(field), Not(Contains(HasSubstr("left out"))));
+}
+
+// Three rows of four columns, but for these places.
+plots::PlotField field_without(const std::set<std::pair<int, int>>& empty) {
+  plots::PlotField field{.fit = plots::FieldFit{}};
+  for (int row = 1; row <= 3; ++row)
+    for (int column = 1; column <= 4; ++column)
+      if (!empty.contains({row, column}))
+        field.fit->layout.places.push_back({.row = row, .column = column});
+  return field;
+}
+
+TEST(FieldReport, TellsPlacesWithoutAPlot) {
+  EXPECT_FALSE(json_of(field_without({})).contains("places_without_plot"));
+  EXPECT_THAT(lines_of(field_without({})), Not(Contains(HasSubstr("no plot"))));
+  plots::PlotField field = field_without({{3, 1}, {1, 2}});
+  EXPECT_EQ(json_of(field)["places_without_plot"], nlohmann::json::parse("[[1, 2], [3, 1]]"));
+  EXPECT_THAT(lines_of(field),
+              Contains("no plot    at 2 of 12 places: row 1 column 2, row 3 column 1"));
+  field.fit->columns_aligned = false;
+  EXPECT_FALSE(json_of(field).contains("places_without_plot"));
+  field.fit->columns_aligned = true;
+  field.why_none = "parked cars";
+  EXPECT_FALSE(json_of(field).contains("places_without_plot"));
+  const plots::PlotField many =
+      field_without({{1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {2, 4}, {3, 1}});
+  EXPECT_THAT(lines_of(many), Contains(AllOf(HasSubstr("at 7 of 12"), HasSubstr("column 4, ..."))));
 }
 
 TEST(FieldReport, TellsEachTrialWhereThereAreSeveral) {
