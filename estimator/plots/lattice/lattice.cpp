@@ -178,7 +178,7 @@ void test_places(Lattice& lattice) {
 // it is where edges beside a place are clearer than the usual plot's.
 void take_lodged_plots(Lattice& lattice) {
   const UsualPlot usual = usual_plot(lattice);
-  if (usual.contrast.least() < kLeastSides * usual.cover) return;
+  if (usual.contrast.least() <= kLeastSides * usual.cover) return;
   std::vector<std::pair<Place*, double>> lodged;
   for (Place& place : lattice.places) {
     if (place.share < kLeastShareOfLodged || place.contrast >= kLeastContrast) continue;
