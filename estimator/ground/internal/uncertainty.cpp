@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "ground/internal/cascade.h"
 #include "ground/internal/solver.h"
 
 namespace plotscan::ground {
@@ -156,9 +157,8 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& e
                     .heights_m = std::vector<float>(kDraws * coarse.nodes()),
                     .doubt_m = coarse_doubt(grid, coarse, evidence, noise_m)};
   tbb::parallel_for(0, kDraws, [&](int draw) {
-    const Field right = random_right_side(coarse, fit, draw);
-    Field error(coarse.nodes(), 0);
-    solve_right_side(coarse, fit, right, {.most_iterations = 150, .tolerance_m = 1e-4}, error);
+    const Field error = solve_by_cascade(coarse, fit, random_right_side(coarse, fit, draw),
+                                         {.most_iterations = 80, .tolerance_m = 1e-4});
     std::copy(error.begin(), error.end(),
               errors.heights_m.begin() + static_cast<long>(draw * coarse.nodes()));
   });
