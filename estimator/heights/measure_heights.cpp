@@ -67,6 +67,11 @@ std::vector<SeenPlot> see_all(std::span<const PlotPoints> plots, const ground::S
   return seen;
 }
 
+const CalibratedModels& shipped_models() {
+  static const CalibratedModels models(shipped_calibration());
+  return models;
+}
+
 }  // namespace
 
 const std::vector<std::string>& crop_names() { return shipped_calibration().crops; }
@@ -82,7 +87,7 @@ FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Su
     field.push_back(seen[i].canopy);
   }
   const FieldPlants plants = options.calibrated
-                                 ? calibrated_heights(field, shipped_calibration(), options.crop)
+                                 ? calibrated_heights(field, shipped_models(), options.crop)
                                  : quantile_heights(field);
   FieldHeights field_heights{.plots = std::vector<PlotHeights>(plots.size()),
                              .crops = plants.crops};

@@ -88,18 +88,26 @@ Eigen::VectorXd RatioModel::OfCrop::place(const Eigen::VectorXd& scaled) const {
   return scaled.cwiseProduct(weights);
 }
 
+RatioModel::Crop::Crop(Calibration own, Kernel kernel)
+    : own_(std::move(own)), kernel_(std::move(kernel)) {}
+
+const RatioModel::OfCrop& RatioModel::Crop::regression() const {
+  std::call_once(asked_, [this] { regression_.emplace(own_, kernel_); });
+  return *regression_;
+}
+
 RatioModel::RatioModel(const Calibration& calibration) {
   for (std::size_t i = 0; i < calibration.crops.size(); ++i) {
-    const Calibration own = calibration.of_crop(calibration.crops[i]);
+    Calibration own = calibration.of_crop(calibration.crops[i]);
     if (own.farms.empty()) continue;
-    crops_.try_emplace(static_cast<Eigen::Index>(i), own, calibration.ratio_kernels[i]);
+    crops_.try_emplace(static_cast<Eigen::Index>(i), std::move(own), calibration.ratio_kernels[i]);
   }
 }
 
 const RatioModel::OfCrop& RatioModel::likeliest(const Eigen::VectorXd& crops) const {
   Eigen::Index likeliest = 0;
   crops.maxCoeff(&likeliest);
-  return crops_.at(likeliest);
+  return crops_.at(likeliest).regression();
 }
 
 Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
@@ -109,7 +117,8 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
   Eigen::VectorXd squares;
   for (const auto& [i, crop] : crops_) {
     if (crops(i) < kLeastLikely) continue;
-    const Prediction of_crop = crop.kriging.at(crop.place(scaled), relative_noise(top_m));
+    const OfCrop& own = crop.regression();
+    const Prediction of_crop = own.kriging.at(own.place(scaled), relative_noise(top_m));
     if (sum == 0) values = squares = Eigen::VectorXd::Zero(of_crop.values.size());
     sum += crops(i);
     values += crops(i) * of_crop.values;

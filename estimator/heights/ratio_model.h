@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -21,7 +23,8 @@ struct FieldRatios {
 };
 
 // Predicts plant heights from the canopy, for each crop from the calibration's farms of that crop.
-// Both standard deviations are those found on the farms most like the field.
+// Both standard deviations are those found on the farms most like the field. A crop's regression is
+// factorised when it is first needed: most fields need one. Threads may share a model.
 class RatioModel {
  public:
   explicit RatioModel(const Calibration& calibration);
@@ -37,7 +40,7 @@ class RatioModel {
   double novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:
-  // A crop that has farms.
+  // The regression on a crop's farms.
   struct OfCrop {
     OfCrop(const Calibration& calibration, const Kernel& kernel);
     Eigen::VectorXd place(const Eigen::VectorXd& scaled) const;
@@ -48,9 +51,22 @@ class RatioModel {
     double usual_novelty;
   };
 
+  // A crop that has farms.
+  class Crop {
+   public:
+    Crop(Calibration own, Kernel kernel);
+    const OfCrop& regression() const;
+
+   private:
+    Calibration own_;
+    Kernel kernel_;
+    mutable std::once_flag asked_;
+    mutable std::optional<OfCrop> regression_;
+  };
+
   const OfCrop& likeliest(const Eigen::VectorXd& crops) const;
 
-  std::map<Eigen::Index, OfCrop> crops_;  // by its place in the calibration's
+  std::map<Eigen::Index, Crop> crops_;  // by its place in the calibration's
 };
 
 }  // namespace plotscan::heights

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "core/statistics.h"
-#include "heights/crop_model.h"
-#include "heights/ratio_model.h"
 
 namespace plotscan::heights {
 namespace {
@@ -55,11 +53,11 @@ void put_in_order(std::map<std::string, Height>& heights) {
   mean = height_of(std::min(mean.value_m, heights.at("max").value_m), mean.standard_error_m);
 }
 
-CropEvidence crop_evidence(const Calibration& calibration, const Eigen::VectorXd& scaled,
+CropEvidence crop_evidence(const CalibratedModels& models, const Eigen::VectorXd& scaled,
                            const std::optional<std::string>& crop) {
-  const CropModel model(calibration);
-  return {.probabilities = crop ? calibration.indicators_of(*crop) : model.probabilities(scaled),
-          .novelty = model.novelty(scaled),
+  return {.probabilities =
+              crop ? models.calibration.indicators_of(*crop) : models.crops.probabilities(scaled),
+          .novelty = models.crops.novelty(scaled),
           .given = crop.has_value()};
 }
 
@@ -97,26 +95,29 @@ FieldPlants quantile_heights(std::span<const PlotCanopy> field) {
   return plants;
 }
 
-FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
+CalibratedModels::CalibratedModels(const Calibration& its_calibration)
+    : calibration(its_calibration), crops(its_calibration), ratios(its_calibration) {}
+
+FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const CalibratedModels& models,
                                const std::optional<std::string>& crop) {
+  const Calibration& calibration = models.calibration;
   FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
   if (field.empty()) return plants;
   std::vector<Eigen::VectorXd> features;
   for (const PlotCanopy& plot : field) features.push_back(plot.features);
   const Eigen::VectorXd middle = calibration.scaled(field_features(features));
-  const CropEvidence crops = crop_evidence(calibration, middle, crop);
+  const CropEvidence crops = crop_evidence(models, middle, crop);
   for (std::size_t i = 0; i < calibration.crops.size(); ++i)
     plants.crops[calibration.crops[i]] = crops.probabilities(static_cast<Eigen::Index>(i));
-  const RatioModel model(calibration);
-  const FieldRatios ratios = model.at(middle, middle_top_m(field), crops);
+  const FieldRatios ratios = models.ratios.at(middle, middle_top_m(field), crops);
   for (std::size_t i = 0; i < field.size(); ++i) {
     const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
     const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
     Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
     PlantHeights& plot = plants.plots[i];
-    plot.novelty = model.novelty(scaled, crops.probabilities);
+    plot.novelty = models.ratios.novelty(scaled, crops.probabilities);
     if (plot.novelty > 1) {
-      const FieldRatios own = model.at(scaled, field[i].top_m, crops);
+      const FieldRatios own = models.ratios.at(scaled, field[i].top_m, crops);
       sds = sds.cwiseMax(own.field_sds.cwiseAbs2() + own.within_sds.cwiseAbs2());
     }
     for (std::size_t k = 0; k < calibration.heights.size(); ++k) {

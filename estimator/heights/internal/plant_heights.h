@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "heights/calibration.h"
+#include "heights/crop_model.h"
 #include "heights/measure_heights.h"
+#include "heights/ratio_model.h"
 
 namespace plotscan::heights {
 
@@ -43,10 +45,19 @@ struct FieldPlants {
 // Heights that are the canopies' own quantiles, whatever the crop.
 FieldPlants quantile_heights(std::span<const PlotCanopy> field);
 
+// What a calibration tells, factorised once for all fields.
+struct CalibratedModels {
+  explicit CalibratedModels(const Calibration& its_calibration);  // keeps a reference
+
+  const Calibration& calibration;
+  CropModel crops;
+  RatioModel ratios;
+};
+
 // Heights by the calibration's farms. They are put in order: no percentile exceeds a higher
 // percentile or the maximum. The crop is the given one, else derived from the canopies. Throws
 // InputError on a given crop that the calibration does not know.
-FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibration& calibration,
+FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const CalibratedModels& models,
                                const std::optional<std::string>& crop = {});
 
 }  // namespace plotscan::heights

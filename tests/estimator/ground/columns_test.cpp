@@ -40,7 +40,8 @@ TEST(GridOf, CoversTheSurveyAndNotWhatIsStrayOrSparse) {
   std::vector<Eigen::Vector3f> points = sloping_points(40000, 20);
   points.emplace_back(95.0f, 3.0f, 0.0f);   // a stray
   points.emplace_back(-30.0f, 8.0f, 0.0f);  // and one more
-  for (int i = 0; i < 40; ++i)              // a sparse fringe, 1 % as dense as the field
+  points.reserve(points.size() + 40);
+  for (int i = 0; i < 40; ++i)  // a sparse fringe, 1 % as dense as the field
     points.emplace_back(20.0f + static_cast<float>(i), 5.0f, 40.0f);
   const Grid grid = grid_of(points, std::nullopt);
   EXPECT_EQ(grid.cell_m, 0.2);
