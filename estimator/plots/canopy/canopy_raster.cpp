@@ -2,9 +2,9 @@
 #include "plots/canopy/canopy_raster.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include <Eigen/LU>
 #include <tbb/blocked_range.h>
@@ -15,8 +15,8 @@
 namespace plotscan::plots {
 namespace {
 
-// A cell's returns are one number, so that threads add to it at once and no order of adding
-// matters: their count, and above these bits the sum of the fourth powers of their shares.
+// A cell's returns are one number: their count, and above these bits the sum of the fourth powers
+// of their shares.
 constexpr int kCountBits = 24;
 constexpr double kWholeShare = 1 << 16;
 constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
@@ -68,9 +68,11 @@ class RasterGrid {
   std::size_t cells() const {
     return static_cast<std::size_t>(a_cells()) * static_cast<std::size_t>(b_cells());
   }
-  std::size_t cell_of(const Eigen::Vector3f& point) const {
+  Eigen::Array2i cell_of(const Eigen::Vector3f& point) const {
     const Eigen::Vector2d ab = (ab_from_world_ * point.head<2>().cast<double>() - low_) / cell_m_;
-    const Eigen::Array2i cell = ab.cast<int>().array().max(0).min(seen_ - 1) + kUnseenAround;
+    return ab.cast<int>().array().max(0).min(seen_ - 1) + kUnseenAround;
+  }
+  std::size_t index(const Eigen::Array2i& cell) const {
     return static_cast<std::size_t>(cell.x()) * static_cast<std::size_t>(b_cells()) +
            static_cast<std::size_t>(cell.y());
   }
@@ -101,6 +103,29 @@ std::uint32_t cover_of(std::uint64_t returns) {
   const double mean =
       static_cast<double>(returns >> kCountBits) / (kWholeShare * static_cast<double>(count));
   return static_cast<std::uint32_t>(std::lround(std::sqrt(std::sqrt(mean)) * kFullCover));
+}
+
+// The returns of each cell by each scale. Each task looks through all points, and adds those that
+// lie in its own band of cells.
+std::unique_ptr<std::uint64_t[]> returns_by_cell(const FieldCanopy& field, const RasterGrid& grid,
+                                                 std::span<const CanopyScale> scales) {
+  const std::span<const Eigen::Vector3f> points = field.points();
+  auto returns = std::make_unique_for_overwrite<std::uint64_t[]>(grid.cells() * scales.size());
+  const int bands = tbb::this_task_arena::max_concurrency();
+  tbb::parallel_for(0, bands, [&](int band) {
+    const int first = grid.a_cells() * band / bands, end = grid.a_cells() * (band + 1) / bands;
+    std::fill(returns.get() + grid.index({first, 0}) * scales.size(),
+              returns.get() + grid.index({end, 0}) * scales.size(), 0);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Eigen::Array2i cell = grid.cell_of(points[i]);
+      if (cell.x() < first || cell.x() >= end) continue;
+      std::uint64_t* sums = returns.get() + grid.index(cell) * scales.size();
+      for (std::size_t k = 0; k < scales.size(); ++k)
+        if (i < field.crop_points() || scales[k].with_tall)
+          sums[k] += return_at(points[i].z(), scales[k]);
+    }
+  });
+  return returns;
 }
 
 }  // namespace
@@ -162,35 +187,20 @@ double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
 std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
                                     std::span<const CanopyScale> scales, int threads) {
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
-  const std::span<const Eigen::Vector3f> points = field.points();
-  tbb::task_arena arena(threads);
-  const Bounds bounds = arena.execute([&] { return bounds_of(field, ab_from_world); });
-  if (!(bounds.low.x() <= bounds.high.x()))
-    return std::vector(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
-  const RasterGrid grid(ab_from_world, bounds, cell_m);
-  std::vector<std::vector<std::uint64_t>> returns(scales.size());
-  for (std::vector<std::uint64_t>& sums : returns) sums.resize(grid.cells());
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), [&](const auto& some) {
-          for (std::size_t i = some.begin(); i != some.end(); ++i) {
-            const std::size_t cell = grid.cell_of(points[i]);
-            for (std::size_t k = 0; k < scales.size(); ++k) {
-              if (i >= field.crop_points() && !scales[k].with_tall) continue;
-              std::atomic_ref<std::uint64_t> sums(returns[k][cell]);
-              sums.fetch_add(return_at(points[i].z(), scales[k]), std::memory_order_relaxed);
-            }
-          }
-        });
+  std::vector<CanopyRaster> rasters(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
+  tbb::task_arena(threads).execute([&] {
+    const Bounds bounds = bounds_of(field, ab_from_world);
+    if (!(bounds.low.x() <= bounds.high.x())) return;
+    const RasterGrid grid(ab_from_world, bounds, cell_m);
+    const auto returns = returns_by_cell(field, grid, scales);
+    tbb::parallel_for(std::size_t{0}, scales.size(), [&](std::size_t k) {
+      std::vector<std::uint32_t> cover(grid.cells());
+      for (std::size_t cell = 0; cell < cover.size(); ++cell)
+        cover[cell] = cover_of(returns[cell * scales.size() + k]);
+      rasters[k] = CanopyRaster(grid.frame_along(axes), grid.cell_m(), grid.a_cells(),
+                                grid.b_cells(), cover);
+    });
   });
-  std::vector<CanopyRaster> rasters;
-  rasters.reserve(returns.size());
-  std::vector<std::uint32_t> cover(grid.cells());
-  for (const std::vector<std::uint64_t>& sums : returns) {
-    std::ranges::transform(sums, cover.begin(), cover_of);
-    rasters.emplace_back(grid.frame_along(axes), grid.cell_m(), grid.a_cells(), grid.b_cells(),
-                         cover);
-  }
   return rasters;
 }
 
