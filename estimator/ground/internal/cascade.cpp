@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace plotscan::ground {
 namespace {
@@ -61,17 +62,26 @@ Fit half_as_fine(const Grid& grid, const Grid& coarse, const Fit& fit) {
 
 }  // namespace
 
-Field solve_by_cascade(const Grid& grid, const Fit& fit, const Field& right,
-                       const SolveOptions& options) {
+Cascade::Cascade(const Grid& grid, Fit fit) {
   constexpr int kCoarsest = 8;  // nodes a side, which need few iterations
-  Field surface(grid.nodes(), 0);
-  if (std::min(grid.columns, grid.rows) > kCoarsest) {
-    const Grid coarse = half_as_fine(grid);
-    surface = interpolated(grid, coarse,
-                           solve_by_cascade(coarse, half_as_fine(grid, coarse, fit),
-                                            restricted(grid, coarse, right), options));
+  levels_.push_back({grid, std::move(fit)});
+  while (std::min(levels_.back().grid.columns, levels_.back().grid.rows) > kCoarsest) {
+    const Level& fine = levels_.back();
+    const Grid coarse = half_as_fine(fine.grid);
+    levels_.push_back({coarse, half_as_fine(fine.grid, coarse, fine.fit)});
   }
-  solve_right_side(grid, fit, right, options, surface);
+}
+
+Field Cascade::solve(const Field& right, const SolveOptions& options) const {
+  std::vector<Field> rights{right};
+  for (std::size_t i = 1; i < levels_.size(); ++i)
+    rights.push_back(restricted(levels_[i - 1].grid, levels_[i].grid, rights.back()));
+  Field surface(levels_.back().grid.nodes(), 0);
+  for (std::size_t i = levels_.size(); i-- > 0;) {
+    const auto& [grid, fit] = levels_[i];
+    if (i + 1 < levels_.size()) surface = interpolated(grid, levels_[i + 1].grid, surface);
+    solve_right_side(grid, fit, rights[i], options, surface);
+  }
   return surface;
 }
 

@@ -156,9 +156,10 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& e
                     .draws = kDraws,
                     .heights_m = std::vector<float>(kDraws * coarse.nodes()),
                     .doubt_m = coarse_doubt(grid, coarse, evidence, noise_m)};
+  const Cascade cascade(coarse, fit);
   tbb::parallel_for(0, kDraws, [&](int draw) {
-    const Field error = solve_by_cascade(coarse, fit, random_right_side(coarse, fit, draw),
-                                         {.most_iterations = 80, .tolerance_m = 1e-4});
+    const Field error = cascade.solve(random_right_side(coarse, fit, draw),
+                                      {.most_iterations = 80, .tolerance_m = 1e-4});
     std::copy(error.begin(), error.end(),
               errors.heights_m.begin() + static_cast<long>(draw * coarse.nodes()));
   });

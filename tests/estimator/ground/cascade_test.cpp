@@ -13,7 +13,7 @@ namespace {
 
 // Ground that is known in the west, seen from up to 12 nodes away in the east. From a level start,
 // as many iterations of conjugate gradients leave most of the east as it was.
-TEST(SolveByCascade, ReachesWhatLiesFarFromAllData) {
+TEST(Cascade, ReachesWhatLiesFarFromAllData) {
   const Grid grid{.cell_m = 0.4, .columns = 24, .rows = 19};
   const Field noise = random_field(grid, "test/right", -800, 800);
   const auto in_the_west = [&](const auto& value) {
@@ -33,7 +33,7 @@ TEST(SolveByCascade, ReachesWhatLiesFarFromAllData) {
   Field from_level(grid.nodes(), 0);
   solve_right_side(grid, fit, right, kFew, from_level);
   EXPECT_GT(off(from_level), 0.6);
-  EXPECT_LT(off(solve_by_cascade(grid, fit, right, kFew)), 0.3);
+  EXPECT_LT(off(Cascade(grid, fit).solve(right, kFew)), 0.3);
 }
 
 }  // namespace
