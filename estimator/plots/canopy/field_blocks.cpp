@@ -145,7 +145,7 @@ std::size_t FieldBlocks::lay_out(std::span<const Eigen::Vector3f> points) {
 // Each task fills blocks of its own with all of their points, in the points' order.
 std::vector<FieldBlocks::Block> FieldBlocks::filled(std::span<const Eigen::Vector3f> points,
                                                     std::size_t count, double canopy_m) const {
-  constexpr std::size_t kTasks = 8;
+  const auto tasks = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   std::vector<std::uint32_t> block_of_point(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     block_of_point[i] =
@@ -154,8 +154,8 @@ std::vector<FieldBlocks::Block> FieldBlocks::filled(std::span<const Eigen::Vecto
   const std::size_t patches = patches_for(block_of_point, count);
   const double patch_m = block_m_ / static_cast<double>(patches);
   std::vector<Block> blocks(count, Block(canopy_m));
-  tbb::parallel_for(std::size_t{0}, kTasks, [&](std::size_t task) {
-    const std::size_t begin = task * count / kTasks, end = (task + 1) * count / kTasks;
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+    const std::size_t begin = task * count / tasks, end = (task + 1) * count / tasks;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (block_of_point[i] < begin || block_of_point[i] >= end) continue;
       const Eigen::Vector3f& point = points[i];
