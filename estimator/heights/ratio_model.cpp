@@ -77,23 +77,21 @@ double usual_novelty(std::span<const CalibrationFarm> farms) {
 
 }  // namespace
 
-RatioModel::OfCrop::OfCrop(const Calibration& calibration, const Kernel& kernel)
-    : farms(calibration.farms),
-      weights(kernel.weights),
-      kriging(calibration.features_of_farms() * weights.asDiagonal(), calibration.ratios(),
-              calibration.noise(), kernel.covariance),
-      usual_novelty(heights::usual_novelty(farms)) {}
+RatioModel::OfCrop::OfCrop(Calibration own, Kernel kernel)
+    : own_(std::move(own)),
+      kernel_(std::move(kernel)),
+      usual_novelty_(heights::usual_novelty(own_.farms)) {}
 
 Eigen::VectorXd RatioModel::OfCrop::place(const Eigen::VectorXd& scaled) const {
-  return scaled.cwiseProduct(weights);
+  return scaled.cwiseProduct(kernel_.weights);
 }
 
-RatioModel::Crop::Crop(Calibration own, Kernel kernel)
-    : own_(std::move(own)), kernel_(std::move(kernel)) {}
-
-const RatioModel::OfCrop& RatioModel::Crop::regression() const {
-  std::call_once(asked_, [this] { regression_.emplace(own_, kernel_); });
-  return *regression_;
+const Kriging& RatioModel::OfCrop::kriging() const {
+  std::call_once(asked_, [this] {
+    kriging_.emplace(own_.features_of_farms() * kernel_.weights.asDiagonal(), own_.ratios(),
+                     own_.noise(), kernel_.covariance);
+  });
+  return *kriging_;
 }
 
 RatioModel::RatioModel(const Calibration& calibration) {
@@ -107,7 +105,7 @@ RatioModel::RatioModel(const Calibration& calibration) {
 const RatioModel::OfCrop& RatioModel::likeliest(const Eigen::VectorXd& crops) const {
   Eigen::Index likeliest = 0;
   crops.maxCoeff(&likeliest);
-  return crops_.at(likeliest).regression();
+  return crops_.at(likeliest);
 }
 
 Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
@@ -117,8 +115,7 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
   Eigen::VectorXd squares;
   for (const auto& [i, crop] : crops_) {
     if (crops(i) < kLeastLikely) continue;
-    const OfCrop& own = crop.regression();
-    const Prediction of_crop = own.kriging.at(own.place(scaled), relative_noise(top_m));
+    const Prediction of_crop = crop.kriging().at(crop.place(scaled), relative_noise(top_m));
     if (sum == 0) values = squares = Eigen::VectorXd::Zero(of_crop.values.size());
     sum += crops(i);
     values += crops(i) * of_crop.values;
@@ -127,23 +124,23 @@ Prediction RatioModel::mixture(const Eigen::VectorXd& scaled, double top_m,
   values /= sum;
   return {.values = values,
           .sds = (squares / sum - values.cwiseAbs2()).cwiseMax(0).cwiseSqrt(),
-          .novelty = likeliest(crops).kriging.novelty(likeliest(crops).place(scaled))};
+          .novelty = likeliest(crops).kriging().novelty(likeliest(crops).place(scaled))};
 }
 
 FieldRatios RatioModel::at(const Eigen::VectorXd& scaled, double top_m,
                            const CropEvidence& crop) const {
   const Prediction ratios = mixture(scaled, top_m, crop.probabilities);
   const OfCrop& likely = likeliest(crop.probabilities);
-  const Eigen::VectorXd distances = likely.kriging.squared_distances(likely.place(scaled));
-  const Eigen::VectorXd standardised = standardised_from_others(likely.farms, distances, crop);
+  const Eigen::VectorXd distances = likely.kriging().squared_distances(likely.place(scaled));
+  const Eigen::VectorXd standardised = standardised_from_others(likely.farms(), distances, crop);
   return {.values = ratios.values,
           .field_sds = ratios.sds.cwiseProduct(standardised),
-          .within_sds = spread_within(likely.farms, distances)};
+          .within_sds = spread_within(likely.farms(), distances)};
 }
 
 double RatioModel::novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const {
   const OfCrop& likely = likeliest(crops);
-  return likely.kriging.novelty(likely.place(scaled)) / likely.usual_novelty;
+  return likely.kriging().novelty(likely.place(scaled)) / likely.usual_novelty();
 }
 
 }  // namespace plotscan::heights

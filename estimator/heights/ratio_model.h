@@ -40,33 +40,27 @@ class RatioModel {
   double novelty(const Eigen::VectorXd& scaled, const Eigen::VectorXd& crops) const;
 
  private:
-  // The regression on a crop's farms.
-  struct OfCrop {
-    OfCrop(const Calibration& calibration, const Kernel& kernel);
-    Eigen::VectorXd place(const Eigen::VectorXd& scaled) const;
-
-    std::vector<CalibrationFarm> farms;
-    Eigen::VectorXd weights;
-    Kriging kriging;
-    double usual_novelty;
-  };
-
   // A crop that has farms.
-  class Crop {
+  class OfCrop {
    public:
-    Crop(Calibration own, Kernel kernel);
-    const OfCrop& regression() const;
+    OfCrop(Calibration own, Kernel kernel);
+
+    const std::vector<CalibrationFarm>& farms() const { return own_.farms; }
+    double usual_novelty() const { return usual_novelty_; }
+    Eigen::VectorXd place(const Eigen::VectorXd& scaled) const;
+    const Kriging& kriging() const;
 
    private:
-    Calibration own_;
+    Calibration own_;  // of its farms
     Kernel kernel_;
+    double usual_novelty_;
     mutable std::once_flag asked_;
-    mutable std::optional<OfCrop> regression_;
+    mutable std::optional<Kriging> kriging_;
   };
 
   const OfCrop& likeliest(const Eigen::VectorXd& crops) const;
 
-  std::map<Eigen::Index, Crop> crops_;  // by its place in the calibration's
+  std::map<Eigen::Index, OfCrop> crops_;  // by its place in the calibration's
 };
 
 }  // namespace plotscan::heights

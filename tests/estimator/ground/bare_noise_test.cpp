@@ -39,7 +39,7 @@ TEST(BareNoise, IsTheSameOnASlope) {
   EXPECT_NEAR(bare_noise_m(block_spreads(columns)), kSensor_m, 0.1 * kSensor_m);
 }
 
-// A fifth of the field is bare; canopies scatter by decimetres.
+// Three columns of ten are bare; canopies scatter by decimetres.
 TEST(BareNoise, IsSeenBetweenPlots) {
   Columns columns = columns_with(kBare, 30, 3, sensor_noise);
   RandomStream random(3, random_purpose("test/leaves"), 0);

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/each_index.h"
 #include "core/error.h"
 #include "heights/crop_model.h"
 #include "heights/features.h"
@@ -200,6 +201,21 @@ TEST(Calibration, ACropsHeightsFollowFromItsOwnFarms) {
   const Prediction by_maize = RatioModel(maize).mixture(scaled, wheat.top_m, is_maize);
   EXPECT_EQ(by_all.values, by_maize.values);
   EXPECT_EQ(by_all.sds, by_maize.sds);
+}
+
+// Regressions are factorised when first asked for, by whichever thread is first.
+TEST(Calibration, ThreadsMayShareAModel) {
+  const Calibration& shipped = shipped_calibration();
+  const RatioModel shared(shipped);
+  constexpr std::size_t kAsked = 60;
+  const auto novelty_by = [&](const RatioModel& model, std::size_t i) {
+    const CalibrationFarm& farm = shipped.farms[i * (shipped.farms.size() / kAsked)];
+    return model.novelty(shipped.scaled(farm.features), shipped.indicators_of(farm.crop));
+  };
+  std::vector<double> by_many(kAsked);
+  for_each_index(kAsked, 4, [&](std::size_t i) { by_many[i] = novelty_by(shared, i); });
+  const RatioModel alone(shipped);
+  for (std::size_t i = 0; i < kAsked; ++i) EXPECT_EQ(by_many[i], novelty_by(alone, i));
 }
 
 TEST(Calibration, FewFarmsAreUnlikeWhatIsKnown) {
