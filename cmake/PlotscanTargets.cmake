@@ -7,6 +7,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_BUILD_TYPE STREQUAL Release)
   set(unity ON)
 endif()
 option(PLOTSCAN_UNITY "Compile the files of each library and test together" ${unity})
+option(PLOTSCAN_UNITY_COMMANDS "Compile the files of each program together" ON)
 
 function(plotscan_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -51,7 +52,7 @@ endfunction()
 # Files that declare commands: CLI11 costs each of them more than all else, and less when it is compiled at -O1, once for
 # all files of a target. They hand numbers on and compute none.
 function(plotscan_command_files target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLOTSCAN_UNITY_COMMANDS} UNITY_BUILD_BATCH_SIZE 0)
   plotscan_optimise_less(${target})
 endfunction()
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/canopy_truth.h"
+#include "calibration/perfect_returns.h"
 #include "description/load_description.h"
 #include "planting/generate.h"
 
@@ -12,6 +12,7 @@
 #include "core/random.h"
 #include "core/statistics.h"
 #include "core/temporary_path.h"
+#include "lidar/canopy_height.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::calibration {
@@ -76,8 +77,10 @@ double bare_noise(const farm::Farm& farm, const std::vector<Eigen::Vector3f>& po
 }
 
 std::map<std::string, double> truth_of(const farm::Plot& plot) {
+  const farm::CanopyHeights& canopy = plot.canopy.value();
   return {{"mean", plot.heights.mean}, {"max", plot.heights.max}, {"p50", plot.heights.p50},
-          {"p90", plot.heights.p90},   {"p95", plot.heights.p95}, {"p99", plot.heights.p99}};
+          {"p90", plot.heights.p90},   {"p95", plot.heights.p95}, {"p99", plot.heights.p99},
+          {"canopy_p95", canopy.p95},  {"canopy_p99", canopy.p99}};
 }
 
 // A box as a method would find it: a few centimetres wrong.
@@ -96,8 +99,9 @@ PlotBox found_box(const PlotBox& box, std::uint64_t seed, std::size_t number) {
 
 FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base_farm,
                          GroundSource source, const std::filesystem::path& work, int threads) {
-  const farm::Farm farm =
+  farm::Farm farm =
       planting::generate(description::load_description(base_farm, plan.overrides), plan.seed);
+  lidar::measure_canopies(farm, threads);
   const TemporaryPath scan(work / ("scan-" + std::to_string(plan.seed)));
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
@@ -107,12 +111,11 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
   sample.surface = source == GroundSource::truth
                        ? true_surface(farm, bare_noise(farm, points))
                        : ground::fit_surface(points, {.threads = threads});
-  std::vector<CanopyTruth> canopies = canopy_truths(farm);
+  std::vector<std::vector<Eigen::Vector3f>> perfect = perfect_returns(farm);
   for (std::size_t i = 0; i < farm.plots.size(); ++i) {
     PlotSample plot{.box = found_box(farm.plots[i].box, plan.seed, i),
-                    .truth = truth_of(farm.plots[i])};
-    plot.truth.merge(canopies[i].heights_m);
-    plot.perfect = std::move(canopies[i].points);
+                    .truth = truth_of(farm.plots[i]),
+                    .perfect = std::move(perfect[i])};
     for (const Eigen::Vector3f& point : points) {
       const Eigen::Vector2d place = point.head<2>().cast<double>();
       if (!plot.box.contains(place)) continue;

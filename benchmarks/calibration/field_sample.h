@@ -39,6 +39,7 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
 
 // One file a field, so that a fit can be repeated without flying.
 void write_sample(const std::filesystem::path& file, const FieldSample& sample);
+// Throws InputError on a file that is no sample, or ends too early.
 FieldSample read_sample(const std::filesystem::path& file);
 
 }  // namespace plotscan::calibration

@@ -22,13 +22,22 @@ void write_array(std::ofstream& out, const std::vector<Value>& values) {
             static_cast<std::streamsize>(count * sizeof(Value)));
 }
 
+std::uint64_t bytes_left(std::ifstream& in) {
+  const std::streamoff here = in.tellg();
+  in.seekg(0, std::ios::end);
+  const std::streamoff end = in.tellg();
+  in.seekg(here);
+  return static_cast<std::uint64_t>(end - here);
+}
+
 template <class Value>
-std::vector<Value> read_array(std::ifstream& in) {
+std::vector<Value> read_array(std::ifstream& in, const std::filesystem::path& file) {
   std::uint64_t count = 0;
   in.read(reinterpret_cast<char*>(&count), sizeof count);
-  std::vector<Value> values(in ? count : 0);
+  if (!in || count > bytes_left(in) / sizeof(Value)) throw InputError(file, "ends too early");
+  std::vector<Value> values(count);
   in.read(reinterpret_cast<char*>(values.data()),
-          static_cast<std::streamsize>(values.size() * sizeof(Value)));
+          static_cast<std::streamsize>(count * sizeof(Value)));
   return values;
 }
 
@@ -54,6 +63,32 @@ json json_of(const FieldSample& sample) {
           {"plots", plots}};
 }
 
+FieldSample sample_of(const json& header) {
+  FieldSample sample{.library = header.at("library"), .seed = header.at("seed")};
+  sample.surface = {.origin = pair_of(header.at("origin")),
+                    .cell_m = header.at("cell_m"),
+                    .columns = header.at("grid").at(0),
+                    .rows = header.at("grid").at(1)};
+  sample.surface.noise_m = header.at("noise_m");
+  for (const json& plot : header.at("plots")) {
+    sample.plots.push_back({.box = {.center = pair_of(plot.at("center")),
+                                    .width_m = plot.at("size").at(0),
+                                    .length_m = plot.at("size").at(1),
+                                    .heading_rad = plot.at("heading")},
+                            .truth = plot.at("truth")});
+  }
+  return sample;
+}
+
+// All but the arrays.
+FieldSample described_by(const std::string& line, const std::filesystem::path& file) {
+  try {
+    return sample_of(json::parse(line));
+  } catch (const json::exception&) {
+    throw InputError(file, "is not a sample of a field");
+  }
+}
+
 }  // namespace
 
 void write_sample(const std::filesystem::path& file, const FieldSample& sample) {
@@ -73,28 +108,14 @@ FieldSample read_sample(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string line;
   std::getline(in, line);
-  const json header = json::parse(line, nullptr, false);
-  if (header.is_discarded()) throw InputError(file.string() + ": is not a sample of a field");
-  FieldSample sample{.library = header.at("library"), .seed = header.at("seed")};
-  sample.surface = {.origin = pair_of(header["origin"]),
-                    .cell_m = header["cell_m"],
-                    .columns = header["grid"][0],
-                    .rows = header["grid"][1]};
-  sample.surface.z_m = read_array<float>(in);
-  sample.surface.sd_m = read_array<float>(in);
-  sample.surface.seen = read_array<std::uint8_t>(in);
-  sample.surface.noise_m = header["noise_m"];
-  for (const json& entry : header["plots"]) {
-    PlotSample plot{.box = {.center = pair_of(entry["center"]),
-                            .width_m = entry["size"][0],
-                            .length_m = entry["size"][1],
-                            .heading_rad = entry["heading"]},
-                    .truth = entry["truth"]};
-    plot.points = read_array<Eigen::Vector3f>(in);
-    plot.perfect = read_array<Eigen::Vector3f>(in);
-    sample.plots.push_back(std::move(plot));
+  FieldSample sample = described_by(line, file);
+  sample.surface.z_m = read_array<float>(in, file);
+  sample.surface.sd_m = read_array<float>(in, file);
+  sample.surface.seen = read_array<std::uint8_t>(in, file);
+  for (PlotSample& plot : sample.plots) {
+    plot.points = read_array<Eigen::Vector3f>(in, file);
+    plot.perfect = read_array<Eigen::Vector3f>(in, file);
   }
-  if (!in) throw InputError(file.string() + ": ends too early");
   return sample;
 }
 

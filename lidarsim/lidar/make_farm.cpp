@@ -6,7 +6,7 @@
 #include "planting/generate.h"
 
 #include "core/stage.h"
-#include "lidar/internal/canopy_height.h"
+#include "lidar/canopy_height.h"
 
 namespace plotscan::lidar {
 namespace {

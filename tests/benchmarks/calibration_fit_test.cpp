@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <span>
 
 #include "calibration/fit.h"
+#include "calibration/groups.h"
 #include "calibration/leave_out.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/random.h"
 #include "heights/features.h"
+#include "heights/ratio_model.h"
 
 namespace plotscan::calibration {
 namespace {
@@ -110,6 +115,72 @@ TEST(CalibrationFit, AddedFarmsAreComparedWithAllOtherLibraries) {
   const double alone = novelty_of_first(1);
   EXPECT_DOUBLE_EQ(novelty_of_first(20), alone) << "its own library is left out";
   EXPECT_LT(novelty_of_first(40), alone) << "another library was added with it";
+}
+
+// Maize's tallest plants, each farm predicted by all others with its crop given.
+TEST(LeaveOut, SumsUpWhatTheOtherFarmsMissEachFarmBy) {
+  heights::Calibration fitted = fit(known_fields());
+  RandomStream random(1, random_purpose("test/leave_out"), 0);
+  for (heights::CalibrationFarm& farm : fitted.farms) farm.top_m = random.uniform(0.5, 2);
+  double squares = 0, sum = 0, inside = 0, farms = 0;
+  for (std::size_t i = 0; i < fitted.farms.size(); ++i) {
+    const heights::CalibrationFarm& farm = fitted.farms[i];
+    if (farm.crop != "maize") continue;
+    const heights::Calibration others = fitted.without({&i, 1});
+    const Eigen::VectorXd scaled = others.scaled(farm.features);
+    const heights::FieldRatios predicted =
+        heights::RatioModel(others).at(scaled, farm.top_m,
+                                       {.probabilities = others.indicators_of("maize"),
+                                        .novelty = heights::CropModel(others).novelty(scaled),
+                                        .given = true});
+    const auto max = std::ranges::find(fitted.heights, "max") - fitted.heights.begin();
+    const double error_m = farm.top_m * (predicted.values(max) - farm.ratios(max));
+    squares += error_m * error_m;
+    sum += error_m;
+    inside += std::abs(error_m) < heights::kIntervalErrors * farm.top_m * predicted.field_sds(max);
+    farms += 1;
+  }
+  const std::vector<LeftOut> rows = leave_out(fitted, Group::farm);
+  const auto row = std::ranges::find_if(
+      rows, [](const LeftOut& each) { return each.name == "maize" && each.height == "max"; });
+  ASSERT_NE(row, rows.end());
+  EXPECT_EQ(row->farms, 60U);
+  EXPECT_NEAR(row->given.rmse_m, std::sqrt(squares / farms), 1e-12);
+  EXPECT_NEAR(row->given.bias_m, sum / farms, 1e-12);
+  EXPECT_NEAR(row->given.inside, inside / farms, 1e-12);
+}
+
+TEST(GroupsOf, EachFarmIsInOneGroup) {
+  const heights::Calibration fitted = fit(known_fields());
+  const auto name_of = [&](std::size_t farm, Group group) {
+    if (group == Group::farm) return std::to_string(farm);
+    return group == Group::crop ? fitted.farms[farm].crop : fitted.farms[farm].library;
+  };
+  for (const auto& [group, count] :
+       {std::pair{Group::farm, 120U}, {Group::library, 6U}, {Group::crop, 2U}}) {
+    const std::vector<std::vector<std::size_t>> groups = groups_of(fitted, group);
+    EXPECT_EQ(groups.size(), count);
+    std::set<std::size_t> seen;
+    for (const std::vector<std::size_t>& farms : groups) {
+      for (const std::size_t farm : farms) {
+        EXPECT_TRUE(seen.insert(farm).second) << farm;
+        EXPECT_EQ(name_of(farm, group), name_of(farms.front(), group));
+      }
+    }
+    EXPECT_EQ(seen.size(), fitted.farms.size());
+  }
+}
+
+TEST(KnownCrops, ACropThatWasLeftOutIsNotRecognised) {
+  heights::Calibration others;
+  others.crops = {"maize", "soybean", "wheat"};
+  for (const char* crop : {"maize", "wheat"}) {
+    heights::CalibrationFarm farm;
+    farm.crop = crop;
+    others.farms.push_back(farm);
+  }
+  const Eigen::VectorXd known = known_crops(others, Eigen::Vector3d(0.1, 0.6, 0.3));
+  EXPECT_TRUE(known.isApprox(Eigen::Vector3d(0.25, 0, 0.75)));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "strata/empty_field.h"
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
+#include "strata/measured_field.h"
 #include "strata/position_file.h"
 #include "strata/scenery.h"
 #include "strata/table.h"
@@ -275,6 +276,45 @@ TEST(Tally, PoolsTheFarmsOfAStratum) {
   EXPECT_DOUBLE_EQ(all.coverage95, 0.5);
   EXPECT_DOUBLE_EQ(all.box_coverage95, 0.75);
   EXPECT_DOUBLE_EQ(all.seconds_per_million_points, 1.5);
+}
+
+// The estimator is given what is told of the plots, and what it finds is counted.
+TEST(MeasureField, CountsWhatTheEstimatorFinds) {
+  const TemporaryFolder folder;
+  FieldPlan plan = plan_field("test", "paper", 0, kSources);
+  for (const char* override : {"terrain.side_m=30", "plots.rows.0.plots=4", "plots.rows.1.plots=4",
+                               "plots.rows.2.plots=4", "plants.count=40"})
+    plan.overrides.emplace_back(override);
+  const KeptField field = keep_farm(plan, folder.path() / "paper-0", 2);
+  const MeasuredField measured = measure_field("paper", 3, field, {.threads = 2});
+  EXPECT_EQ(measured.stratum, "paper");
+  EXPECT_EQ(measured.index, 3);
+  EXPECT_EQ(measured.failure, "");
+  EXPECT_EQ(measured.points, read_positions(field.cloud).size());
+  ASSERT_EQ(measured.score.plots.size(), 12U);
+  EXPECT_EQ(std::ranges::count_if(measured.score.plots,
+                                  [](const auto& plot) { return plot.found.has_value(); }),
+            12);
+  EXPECT_EQ(measured.true_confidences.size(), 12U);
+  EXPECT_TRUE(measured.false_confidences.empty());
+  EXPECT_EQ(measured.box_figures, 48U);
+  EXPECT_GE(measured.box_figures_inside, 36U);
+  const MeasuredField told = measure_field("paper", 3, field, {.told = Told::sides, .threads = 2});
+  EXPECT_EQ(told.true_confidences.size(), 12U);
+  std::size_t told_figures = 0;
+  for (const score::PlotScore& plot : told.score.plots)
+    told_figures += plot.found.has_value() ? 2 : 0;
+  EXPECT_GE(told.box_figures_inside, told_figures) << "sides that were told are right";
+}
+
+TEST(MeasureField, SaysWhyThereIsNoEstimate) {
+  const TemporaryFolder folder;
+  folder.write("cloud.pcd", "no cloud");
+  const MeasuredField measured =
+      measure_field("bare", 0, {.cloud = folder.path() / "cloud.pcd", .farm = {}}, {});
+  EXPECT_THAT(measured.failure, HasSubstr("cloud.pcd"));
+  EXPECT_EQ(measured.points, 0U);
+  EXPECT_TRUE(measured.score.extra.empty());
 }
 
 // 400 returns in each square metre of 20 x 20 m.

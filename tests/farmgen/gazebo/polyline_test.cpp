@@ -31,7 +31,7 @@ TEST(Extruded, ABridgeToAHoleIsNoEdge) {
   Loop keyhole = outer;
   keyhole.insert(keyhole.end(), {{0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}});
   for (std::size_t i = 0; i < keyhole.size(); ++i) {
-    std::ranges::rotate(keyhole, keyhole.begin() + 1);
+    std::rotate(keyhole.begin(), keyhole.begin() + 1, keyhole.end());
     EXPECT_NEAR(bottom_area_m2(extruded({keyhole}, 1)), 12, 1e-5) << i;
     Loop back(keyhole.rbegin(), keyhole.rend());
     EXPECT_NEAR(bottom_area_m2(extruded({back}, 1)), 12, 1e-5) << i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The canopy's true heights against closed forms and against every triangle tried one by one.
-#include "lidar/internal/canopy_height.h"
+#include "lidar/canopy_height.h"
 
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lidar/internal/canopy_height.h"
+#include "lidar/canopy_height.h"
 
 #include <algorithm>
 #include <cmath>
