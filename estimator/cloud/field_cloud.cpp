@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "cloud/field_density.h"
+#include "cloud/internal/background_sink.h"
 #include "cloud/internal/field_hull.h"
 #include "cloud/internal/haze.h"
 #include "cloud/internal/outliers.h"
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include "core/each_index.h"
 #include "core/error.h"
@@ -112,44 +111,13 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
 
 namespace {
 
-// Adds points to a store in the background, while the caller reads the next ones.
-class AddingBehind {
- public:
-  AddingBehind(TileStore& store, int threads) : store_(store), arena_(threads) {}
-  // Ignores errors: add() and finish() throw those of the adding; one left here follows a failed
-  // read.
-  ~AddingBehind() {
-    try {
-      finish();
-    } catch (...) {
-    }
-  }
-  AddingBehind(const AddingBehind&) = delete;
-  AddingBehind& operator=(const AddingBehind&) = delete;
-
-  void add(std::span<const Eigen::Vector3d> points) {
-    finish();
-    points_.assign(points.begin(), points.end());
-    arena_.execute([&] { adding_.run([&] { store_.add(points_); }); });
-  }
-  // Waits until all points are in the store.
-  void finish() {
-    arena_.execute([&] { adding_.wait(); });
-  }
-
- private:
-  TileStore& store_;
-  std::vector<Eigen::Vector3d> points_;
-  tbb::task_arena arena_;
-  tbb::task_group adding_;
-};
-
 // Reports up to `done` of the whole work.
 scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int threads, double done,
                              const ProgressReport& progress) {
   const Stage stage("reading");
   const double expected = record::expected_points(cloud);
-  AddingBehind adding(store, threads);
+  BackgroundSink adding([&](std::span<const Eigen::Vector3d> points) { store.add(points); },
+                        threads);
   double read = 0;
   const auto add = [&](std::span<const Eigen::Vector3d> points) {
     adding.add(points);
