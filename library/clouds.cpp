@@ -92,7 +92,9 @@ Cloud read_cloud(const std::filesystem::path& file, const Progress& progress) {
                 .points = {},
                 .fields = info.fields,
                 .crs_wkt = info.crs_wkt};
-    cloud.points.reserve(info.points);
+    // A broken file may promise any number.
+    constexpr std::uint64_t kMostReserved = 1 << 24;
+    cloud.points.reserve(std::min(info.points, kMostReserved));
     source.stream([&](std::span<const scan::LabelledPoint> points) {
       std::ranges::transform(points, std::back_inserter(cloud.points), outer);
       if (progress && info.points > 0)

@@ -81,6 +81,10 @@ auto farm_in(Farms& farms, const EnteredFarm& farm) {
   });
 }
 
+fs::path file_of(const fs::path& output, const Entry& entry) {
+  return output / "entries" / (entry.method + ".json");
+}
+
 // The entries of a results folder by their files.
 std::map<fs::path, Entry> read_entries(const fs::path& output) {
   std::map<fs::path, Entry> entries;
@@ -110,7 +114,7 @@ void write_entry(const fs::path& output, const Entry& entry) {
                          {"scorer_sha256", entry.scorer_sha256},
                          {"farms", farms}};
   fs::create_directories(output / "entries");
-  write_json(output / "entries" / (entry.method + ".json"), document);
+  write_json(file_of(output, entry), document);
 }
 
 const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& result) {
@@ -126,8 +130,10 @@ void require_entries(const fs::path& output, const std::vector<std::string>& met
   for (const auto& [file, entry] : read_entries(output)) require_new_name(entry, file, methods);
 }
 
-void add_entries(const fs::path& output, SuiteResult& result) {
-  for (const auto& [file, entry] : read_entries(output)) {
+void add_entries(const fs::path& output, SuiteResult& result, const std::optional<Entry>& added) {
+  std::map<fs::path, Entry> entries = read_entries(output);
+  if (added) entries.insert_or_assign(file_of(output, *added), *added);
+  for (const auto& [file, entry] : entries) {
     require_new_name(entry, file, result.methods);
     if (const EnteredFarm* farm = farm_of_other_truth(entry, result))
       throw InputError(file, "was scored against another truth than the results' of case " +

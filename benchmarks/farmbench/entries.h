@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,10 @@ const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& re
 void require_entries(const std::filesystem::path& output, const std::vector<std::string>& methods);
 
 // Adds the entries of a results folder, by name, to the result's methods, for the farms that both
-// have; entries that share no farm are left out. Throws InputError as require_entries, and on an
-// entry that was scored against another truth.
-void add_entries(const std::filesystem::path& output, SuiteResult& result);
+// have; entries that share no farm are left out. `added` counts as if it were there already, in
+// place of an earlier one of its name. Throws InputError as require_entries, and on an entry that
+// was scored against another truth.
+void add_entries(const std::filesystem::path& output, SuiteResult& result,
+                 const std::optional<Entry>& added = {});
 
 }  // namespace plotscan::farmbench

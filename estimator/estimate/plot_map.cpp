@@ -85,6 +85,12 @@ int place_of(const fs::path& file, const CsvTable& table, const CsvTable::Line& 
       CsvRow(file, line.line, table.columns, fields).integer(column, 1, kMostPlaces));
 }
 
+// What a table's column is called among the attributes of its plots. An estimate states the places
+// of its plots under these two names.
+std::string attribute_of(const std::string& column) {
+  return column == "row_number" || column == "col_number" ? "given_" + column : column;
+}
+
 }  // namespace
 
 NamedPlaces read_named_places(const fs::path& file, const std::optional<std::string>& id_property) {
@@ -97,7 +103,8 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
     plots.emplace_back();
     where.push_back("line " + std::to_string(line.line));
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
-      if (i != row && i != column) plots.back().properties[table.columns[i]] = line.fields[i];
+      if (i != row && i != column)
+        plots.back().properties[attribute_of(table.columns[i])] = line.fields[i];
     }
   }
   if (plots.empty()) throw InputError(file, "has no plots");

@@ -26,16 +26,15 @@ int most(const std::vector<PlotEstimate>& plots, Place place) {
   return most;
 }
 
-// The direction in which the places count up: the sum of the steps between plots that are one place
-// apart along this axis and have the same place along the other.
+// The direction in which the places count up: the sum of the steps from plot to plot along this
+// axis, each between two with the same place along the other.
 Eigen::Vector2d counting_direction(const std::vector<PlotEstimate>& plots, Place place,
                                    Place other) {
   std::map<std::pair<int, int>, Eigen::Vector2d> centers;
   for (const PlotEstimate& plot : plots) centers[{plot.*other, plot.*place}] = plot.box.center;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const auto& [at, center] : centers) {
-    const auto next = centers.find({at.first, at.second + 1});
-    if (next != centers.end()) sum += (next->second - center).normalized();
+  for (auto next = centers.begin(), at = next++; next != centers.end(); at = next++) {
+    if (next->first.first == at->first.first) sum += (next->second - at->second).normalized();
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/text.h"
 #include "estimate/measured_heights.h"
 
 namespace plotscan::score {
@@ -11,7 +12,8 @@ namespace fs = std::filesystem;
 
 bool is_measured_table(const fs::path& truth) {
   constexpr std::array<const char*, 3> kTables = {".csv", ".tsv", ".txt"};
-  return !fs::is_directory(truth) && std::ranges::find(kTables, truth.extension()) != kTables.end();
+  return !fs::is_directory(truth) &&
+         std::ranges::find(kTables, lower_extension(truth)) != kTables.end();
 }
 
 MeasuredPlots read_measured(const fs::path& table, const estimate::Estimate& estimate,

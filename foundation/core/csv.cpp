@@ -144,7 +144,8 @@ namespace {
 class TableText {
  public:
   TableText(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {
-    const std::string_view header = text_.substr(0, text_.find('\n'));
+    const std::size_t begin = std::min(text_.find_first_not_of(" \r\n"), text_.size());
+    const std::string_view header = text_.substr(begin, text_.find('\n', begin) - begin);
     for (const char separator : {'\t', ';', ','}) {
       if (header.find(separator) != std::string_view::npos) separator_ = separator;
     }

@@ -56,7 +56,9 @@ WriteError::WriteError(const std::filesystem::path& file, int error)
 
 void throw_as_ours(const std::filesystem::filesystem_error& error) {
   const int reason = error.code().value();
-  if (is_of_disk(reason)) throw WriteError(error.path1(), reason);
+  // What is copied or renamed comes first, and to where second.
+  if (is_of_disk(reason))
+    throw WriteError(error.path2().empty() ? error.path1() : error.path2(), reason);
   throw InputError(error.path1(), error.code().message());
 }
 

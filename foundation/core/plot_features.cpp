@@ -72,7 +72,7 @@ json collection(const std::vector<PlotFeature>& plots, const std::string& coordi
 
 void write_document(const std::filesystem::path& path, const json& document) {
   std::ofstream out(path);
-  out << document.dump(1) << '\n';
+  out << document.dump(1, ' ', false, json::error_handler_t::replace) << '\n';
   if (!out.flush()) throw WriteError(path);
 }
 

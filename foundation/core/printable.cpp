@@ -26,6 +26,15 @@ std::size_t character_length(std::string_view text) {
   return wrong ? 0 : length;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
 bool is_control(std::string_view character) {
   const auto lead = static_cast<std::uint8_t>(character[0]);
   if (character.size() == 1) return (lead < 0x20 && lead != '\n' && lead != '\t') || lead == 0x7f;
@@ -47,6 +56,21 @@ std::string printable(std::string_view text) {
     text.remove_prefix(character.size());
   }
   return shown;
+}
+
+std::string utf8_of(const std::string& text) {
+  if (is_utf8(text)) return text;
+  std::string encoded;
+  for (const char c : text) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    if (byte < 0x80) {
+      encoded += c;
+    } else {
+      encoded += static_cast<char>(0xc0 | byte >> 6);
+      encoded += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return encoded;
 }
 
 void require_utf8(std::string_view text, const std::filesystem::path& file) {

@@ -12,6 +12,9 @@ namespace plotscan {
 // Line ends and tabs stay.
 std::string printable(std::string_view text);
 
+// The text as it is where it is valid UTF-8; else taken for Latin-1 (ISO 8859-1), in UTF-8.
+std::string utf8_of(const std::string& text);
+
 // Throws InputError, naming the file and line, when the file's text is not valid UTF-8 (RFC 3629).
 void require_utf8(std::string_view text, const std::filesystem::path& file);
 

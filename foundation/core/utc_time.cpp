@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/utc_time.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <regex>
@@ -61,7 +62,8 @@ std::string format_utc(UtcTime time) {
 }
 
 UtcTime later(UtcTime time, double seconds) {
-  return time + microseconds(std::llround(1e6 * seconds));
+  constexpr double kMost_s = 1e11;  // more than 3,000 years
+  return time + microseconds(std::llround(1e6 * std::clamp(seconds, -kMost_s, kMost_s)));
 }
 
 double gps_seconds(UtcTime time) {

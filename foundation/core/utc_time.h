@@ -16,7 +16,7 @@ std::optional<UtcTime> parse_utc(const std::string& text);
 // The text of an instant in that form, with as many decimals as needed.
 std::string format_utc(UtcTime time);
 
-// The instant so many seconds later, to the nearest microsecond.
+// The instant so many seconds later (finite, at most 1e11 either way), to the nearest microsecond.
 UtcTime later(UtcTime time, double seconds);
 
 // Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC plus 18 leap seconds, exact since

@@ -59,6 +59,11 @@ GroundGrid outer_ground(const ground::Surface& surface) {
           .sd_m = surface.sd_m};
 }
 
+// Bytes that are no UTF-8 are replaced.
+std::string text_of(const nlohmann::json& document, int indent) {
+  return document.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 FieldEstimate outer(const estimate::Estimate& estimate) {
@@ -68,8 +73,8 @@ FieldEstimate outer(const estimate::Estimate& estimate) {
   if (estimate.ground) made.ground = outer_ground(*estimate.ground);
   made.crs = estimate.crs;
   made.geojson =
-      plot_collection(features_of(estimate), estimate.crs, estimate.units).dump(1) + "\n";
-  made.diagnostics = to_json(estimate.diagnostics).dump();
+      text_of(plot_collection(features_of(estimate), estimate.crs, estimate.units), 1) + "\n";
+  made.diagnostics = text_of(to_json(estimate.diagnostics), -1);
   return made;
 }
 

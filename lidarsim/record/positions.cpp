@@ -2,6 +2,7 @@
 #include "record/positions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -75,7 +76,7 @@ scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& 
     system = scan::told_system(cloud, source.path, place);
     if (place) continue;
     notes.push_back("no transform of " + source.path.filename().string() +
-                    " moves its clouds: their points are taken as they are");
+                    " moves its clouds: they are taken to stand still in the world");
   }
   system.notes.insert(system.notes.end(), notes.begin(), notes.end());
   return system;
@@ -112,7 +113,8 @@ void take_time(const Source& source, double time_s, scan::CloudFacts& facts) {
   auto& [first, last] = *facts.time_s;
   first = std::min(first, time_s);
   last = std::max(last, time_s);
-  if (!source.info.start) return;
+  constexpr double kCentury_s = 3.2e9;  // a time beyond is none
+  if (!source.info.start || std::abs(time_s) > kCentury_s) return;
   const UtcTime time = later(*source.info.start, time_s);
   if (!facts.utc) facts.utc = {time, time};
   facts.utc = {std::min((*facts.utc)[0], time), std::max((*facts.utc)[1], time)};

@@ -34,7 +34,7 @@ struct Columns {
     add(returned, {"returnnumber"});
     add(classified, {"classification"});
     if (layout.is_las) add(withheld, {std::string(las::kWithheld)});
-    add(time, {"time", "timestamp", "gpstime", "t"});
+    add(time, time_names());
   }
 };
 
@@ -69,7 +69,7 @@ class FactFinder {
     if (columns_.classified.there()) ++(*facts_.classes)[bin_of(columns_.classified.of(row))];
     if (is_las_ && (columns_.withheld.of(row) != 0 || is_noise(columns_.classified.of(row))))
       ++facts_.marked;
-    if (columns_.time.there()) take_time(columns_.time.of(row));
+    if (columns_.time.there()) take_time(columns_.time.of(row) * time_unit_s(*columns_.time.field));
     return point_m;
   }
 

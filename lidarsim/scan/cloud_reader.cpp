@@ -192,6 +192,13 @@ const ScalarField* CloudLayout::find(std::string_view name) const {
   return found == fields.end() ? nullptr : &*found;
 }
 
+const std::vector<std::string>& time_names() {
+  static const std::vector<std::string> names = {"time", "timestamp", "gpstime", "t"};
+  return names;
+}
+
+double time_unit_s(const ScalarField& time) { return time.kind == 'F' ? 1 : 1e-9; }
+
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     for (const ScalarField& field : layout.fields) {

@@ -64,8 +64,7 @@ const std::vector<KnownField>& known_fields() {
       {"ring",
        {"ring", "laserid", "channel"},
        [](LabelledPoint& p, double v) { return assign_whole(p.ring, v); }},
-      {"time",
-       {"time", "timestamp", "gpstime", "t"},
+      {"time", time_names(),
        [](LabelledPoint& p, double v) {
          p.time = v;
          return std::isfinite(v);
@@ -108,9 +107,8 @@ struct Selection {
   std::vector<SelectedField> known;
 };
 
-// ROS drivers write times as seconds (floats) or as whole numbers of nanoseconds.
 double unit_of(const KnownField& known, const ScalarField& field) {
-  return known.name == "time" && field.kind != 'F' ? 1e-9 : 1;
+  return known.name == "time" ? time_unit_s(field) : 1;
 }
 
 Selection select(const CloudLayout& layout) {

@@ -209,6 +209,20 @@ TEST_F(Scoring, RefusesResultsOfAnotherTruthAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_.path() / "results/entries"));
 }
 
+// An earlier entry that can't be read is there: the new one is not left half added.
+TEST_F(Scoring, RefusesToStandBesideABrokenEntryAndWritesNothing) {
+  run_suite();
+  const fs::path results = folder_.path() / "results";
+  folder_.write("results/entries/broken.json", "{");
+  write("submission.json", kStatement);
+  write(fields_[0].code + ".csv", "plot_number,height_p99_m\n1,0.8\n");
+  const std::string manifest = read_text(results / "manifest.json");
+  EXPECT_THAT(message_of<InputError>([&] { score_submission(options()); }),
+              HasSubstr("broken.json: not what farmbench score writes"));
+  EXPECT_FALSE(fs::exists(results / "entries/mine true-boxes.json"));
+  EXPECT_EQ(read_text(results / "manifest.json"), manifest);
+}
+
 // Not after the hours that the farms of a suite take.
 TEST_F(Scoring, WhatCannotStandBesideTheSuitesMethodsIsToldBeforeTheFirstFarm) {
   write("submission.json", kStatement);

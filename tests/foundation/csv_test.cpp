@@ -79,6 +79,7 @@ TEST(CsvTable, ReadsWhatSpreadsheetsSave) {
   EXPECT_EQ(quoted.lines[1].fields, (std::vector<std::string>{"2", "", "x"}));
   EXPECT_EQ(quoted.lines[1].line, 5u);
   EXPECT_EQ(table("a;b\n1,5;2\n").lines.at(0).fields, (std::vector<std::string>{"1,5", "2"}));
+  EXPECT_EQ(table("\r\n \na;b\n1;2\n").columns, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(table("a\tb\n1\t2").lines.at(0).fields, (std::vector<std::string>{"1", "2"}));
 }
 

@@ -37,6 +37,10 @@ TEST(ThrowAsOurs, TellsDisksFromInput) {
             "no space left on out/file");
   EXPECT_THAT(testing::message_of<WriteError>([&] { thrown(std::errc::read_only_file_system); }),
               ::testing::HasSubstr("out/file: cannot be written"));
+  const std::filesystem::filesystem_error copy("", "in/file", "out/file",
+                                               std::make_error_code(std::errc::no_space_on_device));
+  EXPECT_EQ(testing::message_of<WriteError>([&] { throw_as_ours(copy); }),
+            "no space left on out/file");
   EXPECT_EQ(testing::message_of<InputError>([&] { thrown(std::errc::permission_denied); }),
             "out/file: Permission denied");
 }

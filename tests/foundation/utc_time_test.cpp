@@ -22,6 +22,14 @@ TEST(UtcTime, WhatIsNoInstantIsRefused) {
 }
 
 // Both from the tables of the US Naval Observatory: Unix time of the instant, and GPS weeks.
+TEST(UtcTime, LaterRoundsToMicrosecondsAndStaysWithinWhatATimeHolds) {
+  const UtcTime time = *parse_utc("2026-06-01T10:00:00Z");
+  EXPECT_EQ(format_utc(later(time, 0.25000049)), "2026-06-01T10:00:00.25Z");
+  EXPECT_EQ(format_utc(later(time, -3600)), "2026-06-01T09:00:00Z");
+  EXPECT_EQ(later(time, 1e300), later(time, 1e11));
+  EXPECT_EQ(later(time, -1e300), later(time, -1e11));
+}
+
 TEST(UtcTime, GpsTimeIsEighteenSecondsAhead) {
   EXPECT_EQ(gps_seconds(*parse_utc("1980-01-06T00:00:00Z")), 18);
   // Week 2238 began on 2022-11-27.

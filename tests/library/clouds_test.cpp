@@ -96,6 +96,17 @@ TEST(LibraryClouds, AreNotWrittenWithNumbersThatAreNone) {
               HasSubstr("point 1 has no finite x, y and z"));
 }
 
+// A header of 10^12 points in a file of 200 bytes.
+TEST(LibraryClouds, TakeNoMemoryForWhatAHeaderPromises) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "huge.ply",
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n" +
+          std::string(120, '\0'));
+  EXPECT_THAT(refused([&] { read_cloud(file); }), HasSubstr("huge.ply: is truncated"));
+}
+
 TEST(LibraryClouds, RefuseWhatCannotBe) {
   const TemporaryFolder folder;
   const auto file = folder.write("there.pcd", "x");

@@ -176,6 +176,7 @@ void require_addable(const Entry& entry, const SuiteResult& earlier,
 
 void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, SuiteResult result) {
   const fs::path& output = *options.output;
+  add_entries(output, result, entry);
   json results = {{"farms", result.farms.size()}, {"finished", false}};
   if (fs::exists(output / "manifest.json")) results = read_manifest(output)["results"];
   fs::create_directories(output);
@@ -185,7 +186,6 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
                           .results = std::move(results)};
   write_manifest(output, manifest);
   write_entry(output, entry);
-  add_entries(output, result);
   write_json(output / "results.json", to_json(result));
   report(output, options.seed);
   write_manifest(output, manifest);

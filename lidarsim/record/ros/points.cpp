@@ -23,16 +23,26 @@ struct CloudTopic {
   std::string frame;
   std::uint64_t points = 0;
   std::vector<std::string> fields;
-  std::string error;  // why its clouds cannot be read; "" if they can
+  std::optional<Eigen::Vector3d> first_m;  // the first finite point, in its frame
+  std::string error;                       // why its clouds cannot be read; "" if they can
 };
 
 using CloudTopics = std::map<std::string, CloudTopic>;
+
+std::optional<Eigen::Vector3d> first_finite(const CloudPoints& points) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const Eigen::Vector3d position_m = points.position_m(i); position_m.allFinite())
+      return position_m;
+  return std::nullopt;
+}
 
 void take_cloud(const ros::PointCloud2& cloud, CloudTopic& topic) {
   topic.frame = cloud.header.frame_id;
   topic.points += std::uint64_t{cloud.width} * cloud.height;
   try {
-    topic.fields = CloudPoints(cloud).fields();
+    const CloudPoints points(cloud);
+    topic.fields = points.fields();
+    if (!topic.first_m) topic.first_m = first_finite(points);
   } catch (const InputError& error) {  // another topic may be wanted
     topic.error = error.what();
   }
@@ -56,20 +66,28 @@ std::string choose(const CloudTopics& topics, const std::string& wanted) {
   return readable.empty() ? names.front() : readable.front();
 }
 
-// The point in the world frame relative to origin_m, its time unchanged; nothing if no transform is
-// known for its time.
-std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point, const FramePath& path,
+// The point at a position in its frame, placed in the world frame relative to origin_m, its time
+// unchanged; nothing if no transform is known for its time.
+std::optional<scan::LabelledPoint> placed(scan::LabelledPoint point,
+                                          const Eigen::Vector3d& position_m, const FramePath& path,
                                           const Eigen::Vector3d& origin_m) {
-  const Eigen::Vector3d position(point.x, point.y, point.z);
-  if (!position.allFinite() || !std::isfinite(point.time)) return std::nullopt;
+  if (!position_m.allFinite() || !std::isfinite(point.time)) return std::nullopt;
   const auto top_from_frame = path.top_from_frame(point.time);
   if (!top_from_frame) return std::nullopt;
-  const Eigen::Vector3f world = (*top_from_frame * position - origin_m).cast<float>();
+  const Eigen::Vector3f world = (*top_from_frame * position_m - origin_m).cast<float>();
   if (!world.allFinite()) return std::nullopt;
   point.x = world.x();
   point.y = world.y();
   point.z = world.z();
   return point;
+}
+
+// Where the body is first, or the first point of clouds that stand still.
+Eigen::Vector3d first_place(const FramePath& path, const CloudTopic& clouds) {
+  if (const auto motion = path.motion()) return motion->poses().front().position_m;
+  const auto top_from_frame = path.top_from_frame(0);
+  if (!top_from_frame || !clouds.first_m) return Eigen::Vector3d::Zero();
+  return *top_from_frame * *clouds.first_m;
 }
 
 }  // namespace
@@ -96,8 +114,7 @@ RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic
     points_ = chosen.points;
     fields_ = chosen.fields;
     path_ = transforms.path(chosen.frame);
-    if (const auto motion = path_.motion())
-      origin_m_ = scan::origin_near(motion->poses().front().position_m);
+    origin_m_ = scan::origin_near(first_place(path_, chosen));
   } catch (const InputError& error) {
     throw InputError(file, error.what());
   }
@@ -119,7 +136,8 @@ scan::CloudSummary RosPoints::stream(const scan::PointSink& sink) const {
     for (std::size_t i = 0; i < points.size(); ++i) {
       scan::LabelledPoint read = points.point(i);
       read.time += stamp_s;
-      if (const auto point = placed(read, path_, origin_m_)) sweep.push_back(*point);
+      if (const auto point = placed(read, points.position_m(i), path_, origin_m_))
+        sweep.push_back(*point);
     }
     summary.points += sweep.size();
     summary.not_finite += points.size() - sweep.size();

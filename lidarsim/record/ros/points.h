@@ -37,7 +37,8 @@ class RosPoints {
   // The names of LabelledPoint's fields that the clouds have.
   const std::vector<std::string>& fields() const { return fields_; }
 
-  // The origin that points count from: scan::origin_near the body's first position, if it moves.
+  // The origin that points count from: scan::origin_near the body's first position, or the first
+  // point of clouds that stand still.
   const Eigen::Vector3d& origin_m() const { return origin_m_; }
 
   // Streams the points in the file's order, relative to origin_m. Points that are not finite, or

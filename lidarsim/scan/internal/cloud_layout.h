@@ -134,6 +134,11 @@ void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 // "ReturnNumber" and "scalar_return_number" are "returnnumber". nullptr when there is none.
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
 
+// The names for find_field of the points' times, and the unit of such a field in seconds: ROS
+// drivers write seconds (floats) or whole numbers of nanoseconds.
+const std::vector<std::string>& time_names();
+double time_unit_s(const ScalarField& time);
+
 // The instant of a LAS file's adjusted GPS time; nothing outside of the century from 1980.
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
 

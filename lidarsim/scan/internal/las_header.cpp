@@ -8,6 +8,7 @@
 #include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/geodesy.h"
+#include "core/printable.h"
 #include "scan/cloud_system.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
@@ -42,10 +43,10 @@ class LasFile {
     if (!in_) fail("cannot be read");
     return text;
   }
-  // Text up to its first zero byte.
+  // Text up to its first zero byte. (The LAS specification states no encoding.)
   std::string text(std::uint64_t offset, std::uint64_t count) {
     const std::string all = bytes(offset, count);
-    return all.substr(0, all.find('\0'));
+    return utf8_of(all.substr(0, all.find('\0')));
   }
   template <class T>
   T number(std::uint64_t offset) {
@@ -183,10 +184,11 @@ void add_extra_bytes(LasFile& file, const std::string& descriptions, const LasHe
   }
 }
 
-// The units that the records state; well-known text takes precedence over GeoTIFF keys.
+// What the records state of the coordinates; well-known text takes precedence over GeoTIFF keys.
 struct StatedUnits {
   WktUnits wkt = {};
   WktUnits keys = {};
+  bool keys_in_degrees = false;
 };
 
 // Metres in the unit of length with this EPSG code (EPSG data set v10.076: metre, foot, US survey
@@ -224,12 +226,13 @@ void note_geocentric(CloudLayout& layout) {
 }
 
 // GeoTIFF keys: quadruples of 16-bit numbers, key, where its value lies (0: here), count, value.
-void read_geo_keys(const std::string& bytes, CloudLayout& layout, WktUnits& units) {
+void read_geo_keys(const std::string& bytes, CloudLayout& layout, StatedUnits& stated) {
+  WktUnits& units = stated.keys;
   std::vector<std::array<std::uint16_t, 4>> entries(bytes.size() / 8);
   std::memcpy(entries.data(), bytes.data(), entries.size() * 8);
   for (const auto& [key, place, count, value] : entries) {
     if (place != 0) continue;
-    if (key == las::kModelKey) layout.in_degrees = value == las::kGeographicModel;
+    if (key == las::kModelKey) stated.keys_in_degrees = value == las::kGeographicModel;
     if (key == las::kModelKey && value == las::kGeocentricModel) note_geocentric(layout);
     if (key == las::kProjectedKey && value != las::kUserDefined) layout.crs_epsg = value;
     if (key == las::kLinearUnitsKey) units.horizontal_m = unit_of_code(value, layout);
@@ -299,11 +302,10 @@ void read_records(LasFile& file, const VariableRecords& records, const LasHeader
       add_extra_bytes(file, file.bytes(at, std::min(size, kMaxText)), header, layout);
     } else if (user == las::kProjectionUser && record == las::kWktRecord) {
       layout.crs_wkt = file.text(at, std::min(size, kMaxText));
-      layout.in_degrees = says_geographic(layout.crs_wkt);
       if (layout.crs_wkt.starts_with("GEOCCS")) note_geocentric(layout);
       units.wkt = units_of_wkt(layout.crs_wkt);
     } else if (user == las::kProjectionUser && record == las::kGeoKeysRecord) {
-      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units.keys);
+      read_geo_keys(file.bytes(at, std::min(size, kMaxText)), layout, units);
     } else if (user == las::kPlotscanUser && record == las::kStartRecord) {
       layout.start = parse_utc(file.text(at, std::min(size, kMaxText)));
     }
@@ -335,6 +337,8 @@ CloudLayout read_las_header(const std::filesystem::path& path) {
     if (count > 0)
       read_records(file, {file.number<std::uint64_t>(235), count, true}, header, layout, units);
   }
+  layout.in_degrees =
+      layout.crs_wkt.empty() ? units.keys_in_degrees : says_geographic(layout.crs_wkt);
   layout.units = units_of(units);
   note_unknown_unit(units, layout);
   return layout;

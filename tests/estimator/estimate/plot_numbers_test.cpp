@@ -130,6 +130,33 @@ TEST(PlotNumbers, LeaveANumberToAPlotThatFailed) {
   EXPECT_THAT(ids, ::testing::ElementsAre("11", "13", "14", "15", "16"));
 }
 
+// Every second plot of a field is there, so that no two are neighbours.
+TEST(PlotNumbers, CountOnAChequerboard) {
+  const auto chequered = [] {
+    const SyntheticFarm farm{.rows = 4, .columns = 4};
+    Estimate estimate{.method = "lattice"};
+    for (int row = 0; row < 4; ++row) {
+      for (int column = row % 2; column < 4; column += 2) {
+        estimate.plots.push_back({.id = estimate.plots.size() + 1,
+                                  .row = row + 1,
+                                  .column = column + 1,
+                                  .box = farm.box(row, column)});
+      }
+    }
+    return estimate;
+  };
+  Estimate from_south_west = chequered(), from_north_east = chequered();
+  number_plots({.first_corner = Corner::sw}, from_south_west);
+  number_plots({.first_corner = Corner::ne}, from_north_east);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const PlotEstimate& plot = from_south_west.plots[i];
+    const auto same = std::ranges::find(from_north_east.plots, plot.box.center,
+                                        [](const auto& other) { return other.box.center; });
+    EXPECT_EQ(same->row, 5 - plot.row);
+    EXPECT_EQ(same->column, 5 - plot.column);
+  }
+}
+
 TEST(PlotNumbers, NeedRowsAndColumns) {
   Estimate estimate = found();
   estimate.plots[2].row = 0;
@@ -151,6 +178,17 @@ TEST(PlotNames, AreThoseOfTheirPlaces) {
   EXPECT_EQ(estimate.id_property, "plot_id");
   EXPECT_EQ(estimate.plots[0].attributes["cultivar"], "Rock, early");
   EXPECT_EQ(estimate.diagnostics.names.value().not_found, std::vector{PlotId("B2")});
+}
+
+// A table's own numbers beside its rows and columns are not those of the estimate.
+TEST(PlotNames, LeaveRowAndColumnNumbersToTheEstimate) {
+  const TemporaryFolder folder;
+  const NamedPlaces places = read_named_places(
+      folder.write("book.csv", "row,column,row_number,col_number,plot_id\n1,1,7,9,A\n"));
+  const nlohmann::json& attributes = places.plots.at({1, 1}).attributes;
+  EXPECT_EQ(attributes["given_row_number"], "7");
+  EXPECT_EQ(attributes["given_col_number"], "9");
+  EXPECT_FALSE(attributes.contains("row_number"));
 }
 
 TEST(PlotNames, AreRefusedWhereTheyDoNotFitTheField) {

@@ -44,6 +44,12 @@ class MeasuredTable : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(MeasuredTable, IsKnownByItsExtensionInAnyCase) {
+  for (const char* name : {"a.csv", "A.CSV", "a.Tsv", "a.TXT"})
+    EXPECT_TRUE(is_measured_table(name)) << name;
+  for (const char* name : {"a.geojson", "a", "farm"}) EXPECT_FALSE(is_measured_table(name)) << name;
+}
+
 TEST_F(MeasuredTable, IsMatchedByIdAndCountsInItsUnit) {
   const MeasuredPlots measured = read(
       "plot_id,observer,height_mean_cm,canopy_p95_mm,height_m\nA-2,Ada,71.5,800,0.7\n"

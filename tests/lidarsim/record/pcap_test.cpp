@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -280,6 +281,42 @@ TEST(PcapFile, WhatIsNoRecordingIsRefused) {
   // A flight shorter than a firing sequence: only the file's header.
   write_pcap(file, hovering("vlp16", 1e-5), {});
   EXPECT_THAT(refusal(), HasSubstr("no data packets"));
+}
+
+// The file as a pcapng of its first frame alone, captured so many seconds after 1970
+// (draft-ietf-opsawg-pcapng, sections 4.1 to 4.3).
+std::string pcapng_of(const std::filesystem::path& pcap, std::uint64_t captured_s) {
+  std::ifstream in(pcap, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  std::uint32_t size = 0;
+  std::memcpy(&size, &whole[24 + 8], sizeof size);
+  std::string bytes;
+  const auto words = [&](std::initializer_list<std::uint32_t> values) {
+    for (const std::uint32_t value : values)
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  words({0x0a0d0d0a, 28, 0x1a2b3c4d, 1, 0xffffffff, 0xffffffff, 28});
+  // An Ethernet whose time stamps (option 9) count in units of 10^0 s.
+  words({1, 32, 1, 65535, 9 | 1 << 16, 0, 0, 32});
+  const std::uint32_t padded = (size + 3) / 4 * 4;
+  words({6, 32 + padded, 0, static_cast<std::uint32_t>(captured_s >> 32),
+         static_cast<std::uint32_t>(captured_s), size, size});
+  bytes += whole.substr(24 + 16, size) + std::string(padded - size, '\0');
+  words({32 + padded});
+  return bytes;
+}
+
+TEST(PcapFile, PacketsOfNoTimeAreRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.pcap";
+  write_pcap(file, hovering("vlp16", 0.01), {});
+  const auto captured = [&](std::uint64_t captured_s) {
+    return folder.write("b.pcap", pcapng_of(file, captured_s));
+  };
+  EXPECT_NO_THROW(read(captured(1'780'000'000)));
+  const auto never = captured(std::uint64_t{1} << 62);
+  EXPECT_THAT(message_of<InputError>([&] { read(never); }),
+              HasSubstr("packet 1: its time lies outside"));
 }
 
 // The file of one packet with a byte changed, counted from the frame's start; the file's header

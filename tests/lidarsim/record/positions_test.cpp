@@ -37,6 +37,8 @@ std::string refusal(const CloudFiles& cloud) {
   return message_of<InputError>([&] { positions_of(cloud); });
 }
 
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
 // Two points of a sensor 1 m above a body that flies 20 m east, 2 s long, from `start_m` on. They
 // were met 2 m ahead of the sensor: 1 s and 1.25 s after the body's start.
 fs::path write_ros(const fs::path& file, const Eigen::Vector3d& start_m,
@@ -52,7 +54,6 @@ fs::path write_ros(const fs::path& file, const Eigen::Vector3d& start_m,
     stamped.transform.rotation = {0, 0, 0, 1};
     return stamped;
   };
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   const ros::TFMessage moves{
       {transform(kSecond_ns, "map", "body", start_m),
        transform(3 * kSecond_ns, "map", "body", start_m + Eigen::Vector3d(20, 0, 0)),
@@ -140,6 +141,68 @@ TEST(RecordedPositions, RecordingsWithoutTransformsAreNamed) {
   EXPECT_THAT(notes, Contains(HasSubstr("no transform of first.bag")));
   EXPECT_THAT(notes, Contains(HasSubstr("no transform of second.bag")));
   EXPECT_THAT(notes, Not(Contains(HasSubstr("third.bag"))));
+}
+
+// Clouds in doubles whose frame is the map grid's, and floats in a local frame that a static
+// transform puts there.
+TEST(RecordedPositions, OfCloudsThatStandStillAreExactInMapGrids) {
+  const TemporaryFolder folder;
+  const Eigen::Vector3d local_m(3.25, -1.5, 0.75);
+  const auto written = [&](const std::string& name, bool doubles) {
+    auto writer = testing::create_file(folder.path() / name,
+                                       {{.name = "/tf_static", .type = ros::TFMessage::kType},
+                                        {.name = "/points", .type = ros::PointCloud2::kType}});
+    if (!doubles) {
+      ros::TransformStamped still;
+      still.header = {.stamp = {kSecond_ns}, .frame_id = "utm"};
+      still.child_frame_id = "map";
+      still.transform.translation = {kUtm.x(), kUtm.y(), kUtm.z()};
+      still.transform.rotation = {0, 0, 0, 1};
+      writer->write(0, {kSecond_ns}, ros::encode(writer->version(), ros::TFMessage{{still}}));
+    }
+    auto cloud = labelled_cloud({.stamp = {kSecond_ns}, .frame_id = "map"});
+    if (doubles) {
+      const Eigen::Vector3d place_m = kUtm + local_m;
+      cloud = {.header = cloud.header, .width = 1, .point_step = 24, .row_step = 24};
+      for (const char* axis : {"x", "y", "z"})
+        cloud.point_fields.push_back(
+            {.name = axis,
+             .offset = static_cast<std::uint32_t>(8 * cloud.point_fields.size()),
+             .datatype = ros::PointField::kFloat64,
+             .count = 1});
+      const auto* bytes = reinterpret_cast<const std::uint8_t*>(place_m.data());
+      cloud.data.assign(bytes, bytes + 24);
+      cloud.height = 1;
+    } else {
+      add_point(cloud, {}, local_m.cast<float>(), 0);
+    }
+    writer->write(1, {kSecond_ns}, ros::encode(writer->version(), cloud));
+    writer->close();
+    return folder.path() / name;
+  };
+  for (const char* name : {"still.bag", "still.mcap"}) {
+    for (const bool doubles : {false, true}) {
+      const auto positions = positions_of(CloudFiles(written(name, doubles)));
+      ASSERT_EQ(positions.size(), 1u);
+      EXPECT_LT((positions[0] - kUtm - local_m).norm(), 1e-4) << name << doubles;
+    }
+  }
+}
+
+// A time of 1e30 s is in no year.
+TEST(RecordedPositions, AbsurdTimesHaveNoDate) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "flight.bag";
+  auto writer = testing::create_file(file, {{.name = "/points", .type = ros::PointCloud2::kType}});
+  auto cloud = labelled_cloud({.stamp = {kSecond_ns}, .frame_id = "lidar"});
+  for (const float time_s : {1e30F, 0.5F, -1e30F}) add_point(cloud, {}, {2, 0, 0}, time_s);
+  writer->write(0, {kSecond_ns}, ros::encode(writer->version(), cloud));
+  writer->close();
+  const scan::CloudFacts facts = read_cloud_facts(CloudFiles(file), [](auto) {});
+  EXPECT_EQ(facts.points, 3u);
+  ASSERT_TRUE(facts.utc.has_value());
+  EXPECT_EQ(format_utc((*facts.utc)[0]), "1970-01-01T00:00:01.5Z");
+  EXPECT_EQ((*facts.utc)[0], (*facts.utc)[1]);
 }
 
 TEST(RecordedPositions, FactsAreOfTheRecording) {

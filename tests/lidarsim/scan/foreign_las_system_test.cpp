@@ -54,6 +54,31 @@ TEST_F(ForeignLasFile, TheCoordinateSystemIsFoundWhereverItStands) {
                   .summary.system.zone.has_value());
 }
 
+// "Réseau" in Latin-1, as older programs write it; estimates and reports are UTF-8.
+TEST_F(ForeignLasFile, TextInLatin1BecomesUtf8) {
+  const auto crs_of = [&](const std::string& wkt) {
+    return read({.records = record("LASF_Projection", 2112, wkt), .record_count = 1}, {{}})
+        .summary.system.crs;
+  };
+  EXPECT_EQ(crs_of("PROJCS[\"R\xe9seau\",GEOGCS[\"b\"]]"), "PROJCS[\"Réseau\",GEOGCS[\"b\"]]");
+  EXPECT_EQ(crs_of("PROJCS[\"Réseau\",GEOGCS[\"b\"]]"), "PROJCS[\"Réseau\",GEOGCS[\"b\"]]");
+}
+
+// Keys of a geographic system beside well-known text of a projected one, in either order.
+TEST_F(ForeignLasFile, WellKnownTextTakesPrecedenceOverKeys) {
+  const std::array<std::uint16_t, 8> numbers = {1, 1, 0, 1, 1024, 0, 1, 2};
+  const std::string keys = record("LASF_Projection", 34735,
+                                  {reinterpret_cast<const char*>(numbers.data()), sizeof numbers});
+  const std::string text =
+      record("LASF_Projection", 2112,
+             R"(PROJCS["WGS 84 / UTM zone 32N",GEOGCS["WGS 84"],AUTHORITY["EPSG","32632"]])");
+  for (const std::string& records : {text + keys, keys + text}) {
+    const Read utm = read({.records = records, .record_count = 2}, {{}});
+    EXPECT_EQ(utm.summary.system.crs, "EPSG:32632");
+    EXPECT_FALSE(utm.summary.system.zone.has_value());
+  }
+}
+
 // New York Long Island in US survey feet (EPSG:2263): the file need not say so.
 TEST_F(ForeignLasFile, ASystemOfUnknownUnitIsNoted) {
   const auto notes_of = [&](std::uint16_t code) {

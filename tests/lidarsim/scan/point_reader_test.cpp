@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "scan/cloud_facts.h"
 
 namespace plotscan::scan {
 namespace {
@@ -63,6 +64,17 @@ TEST(PointReader, AbsentFieldsKeepTheirDefaults) {
   EXPECT_EQ(point.return_count, 1);
   EXPECT_EQ(point.label, PointClass::unlabelled);
   EXPECT_TRUE(read_cloud_info(file).fields.empty());
+}
+
+// `estimator info` says the same of a cloud's times as the points have.
+TEST(PointReader, FactsCountTimesInTheSameUnit) {
+  const TemporaryFolder folder;
+  const auto of = [&](const std::string& property, const std::string& time) {
+    const CloudFiles file(folder.write("cloud.ply", ply(property, "0 0 0 " + time)));
+    return read_cloud_facts(file, [](auto) {}).time_s.value().front();
+  };
+  EXPECT_NEAR(of("property uint t\n", "250000000"), 0.25, 1e-12);
+  EXPECT_EQ(of("property double time\n", "250000000"), 250000000);
 }
 
 TEST(PointReader, ClassificationIsAsprsAndWholeTimesAreNanoseconds) {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
+#include "core/text.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/methods.h"
 
@@ -80,7 +81,7 @@ Submission read_submission(const fs::path& folder, const std::vector<BlindField>
   read_task(folder / "task.json", submission, problems);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
+    const std::string extension = lower_extension(entry.path());
     if (extension == ".csv" || extension == ".geojson") files.push_back(entry.path());
   }
   std::ranges::sort(files);

@@ -162,9 +162,18 @@ void CloudPoints::set(Value& value, const std::uint8_t* point,
   value = static_cast<Value>(read);
 }
 
+const std::uint8_t* CloudPoints::bytes_of(std::size_t index) const {
+  return cloud_.data.data() + index / cloud_.width * cloud_.row_step +
+         index % cloud_.width * cloud_.point_step;
+}
+
+Eigen::Vector3d CloudPoints::position_m(std::size_t index) const {
+  const std::uint8_t* at = bytes_of(index);
+  return {number(at, *x_), number(at, *y_), number(at, *z_)};
+}
+
 scan::LabelledPoint CloudPoints::point(std::size_t index) const {
-  const std::uint8_t* at = cloud_.data.data() + index / cloud_.width * cloud_.row_step +
-                           index % cloud_.width * cloud_.point_step;
+  const std::uint8_t* at = bytes_of(index);
   scan::LabelledPoint point;
   set(point.x, at, x_);
   set(point.y, at, y_);

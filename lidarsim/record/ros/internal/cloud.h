@@ -32,6 +32,8 @@ class CloudPoints {
   std::size_t size() const { return size_; }
   // The names of LabelledPoint's fields that the cloud has.
   std::vector<std::string> fields() const;
+  // A point's position in the cloud's frame, as exact as the cloud has it.
+  Eigen::Vector3d position_m(std::size_t index) const;
   // A point in the cloud's frame. Members that the cloud lacks keep their defaults; `time` is in
   // seconds since the cloud's stamp, from the field `time` (seconds) or `t` (nanoseconds,
   // Ouster's).
@@ -43,6 +45,7 @@ class CloudPoints {
     std::uint8_t datatype = 0;
   };
   std::optional<Field> field(const char* name) const;
+  const std::uint8_t* bytes_of(std::size_t index) const;
   double number(const std::uint8_t* point, const Field& field) const;
   template <class Value>
   void set(Value& value, const std::uint8_t* point, const std::optional<Field>& field) const;

@@ -82,7 +82,10 @@ class DatagramFile {
   }
 
   // libpcap converts the file's time stamps to microseconds.
-  static UtcTime time_of(const pcap_pkthdr& header) {
+  UtcTime time_of(const pcap_pkthdr& header) const {
+    constexpr std::int64_t kMost_s = 0xffffffff;  // of a pcap; pcapng may state any time
+    if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMost_s)
+      fail("its time lies outside of the years 1970 to 2106");
     return UtcTime(seconds(header.ts.tv_sec) + microseconds(header.ts.tv_usec));
   }
 
