@@ -88,7 +88,7 @@ void say_scores(const Program& program, const score::Scores& scores) {
   say_errors(program, shown);
   say_trust(program, shown);
   if (shown.size() < scores.heights.size())
-    program.say("Every height against every truth: -v, or scores.json");
+    program.say("Every height against every truth: -v, or scores.json (-o FOLDER)");
 }
 
 void score_given(const Program& program, score::RunOptions options, const std::string& output) {

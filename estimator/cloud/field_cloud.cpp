@@ -55,6 +55,18 @@ std::string extent_text(std::span<const TileCount> tiles) {
                                      high.x + 1.0, high.y + 1.0});
 }
 
+// What to do where the area may be in degrees, and the cloud can't be.
+std::string degrees_hint(const Area& area, std::span<const TileCount> tiles) {
+  constexpr double kMost = 185;  // degrees, and the metres that are read around boxes
+  const bool may_be_degrees =
+      std::ranges::all_of(area, [](double value) { return std::abs(value) <= kMost; });
+  const bool in_metres = std::ranges::any_of(
+      tiles, [](const TileCount& count) { return std::abs(count.tile.x) > kMost; });
+  return may_be_degrees && in_metres
+             ? "; if it is in longitude and latitude, --crs says in which system the cloud is"
+             : "";
+}
+
 // Drops the points outside the area: a tile at its edge reaches beyond it.
 void crop(FieldCloud& field) {
   const Eigen::Array2d low(field.area[0], field.area[1]);
@@ -73,10 +85,11 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   FieldCloud field;
   std::optional<FieldHull> hull;
   std::vector<TileCount> tile_counts = store.tile_counts();
-  const std::string extent = extent_text(tile_counts);
+  std::string seen = extent_text(tile_counts);
   if (options.area) {
     field.area = *options.area;
     require_area(field.area, options.area_name);
+    seen += degrees_hint(field.area, tile_counts);
     std::erase_if(tile_counts,
                   [&](const TileCount& count) { return !overlap(count.tile, field.area); });
   } else {
@@ -102,8 +115,7 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   field.counts.kept = field.points.size();
   if (field.points.empty()) {
     throw InputError(name, "none of its " + std::to_string(counts.added) + " points lies in the " +
-                               options.area_name + " " + text_of(field.area) + " (metres)" +
-                               extent);
+                               options.area_name + " " + text_of(field.area) + " (metres)" + seen);
   }
   stage.found(std::to_string(field.points.size()) + " points");
   return field;

@@ -6,8 +6,8 @@
 
 #include "core/each_index.h"
 #include "heights/features.h"
+#include "heights/flags.h"
 #include "heights/internal/box_cells.h"
-#include "heights/internal/flags.h"
 #include "heights/internal/plant_heights.h"
 #include "heights/known_returns.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/agree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -12,6 +14,7 @@
 #include "core/text.h"
 #include "estimate/height_properties.h"
 #include "heights/agreement.h"
+#include "heights/flags.h"
 
 namespace plotscan::methods {
 namespace {
@@ -34,12 +37,16 @@ void require_estimated(const estimate::MeasuredHeights& measured,
   for (const PlotEstimate& plot : estimate.plots)
     for (const auto& [name, error] : plot.errors) sure.insert(name);
   for (const std::string& name : measured_names(measured)) {
-    if (!sure.contains(name))
-      throw InputError(
-          measured.file,
-          fmt::format("{} is no height that the method gives with a standard error: {}; "
-                      "a column is named after one of them, such as height_mean_cm",
-                      estimate::property_of(name), joined({sure.begin(), sure.end()}, ", ")));
+    if (sure.contains(name)) continue;
+    const std::string property = estimate::property_of(name);
+    throw InputError(
+        measured.file,
+        fmt::format("{} no height that the method gives with a standard error: {}; a column is "
+                    "named after one of them, such as height_mean_cm",
+                    property == estimate::kUnnamedHeight ? "its column does not say which height "
+                                                           "was measured, and is"
+                                                         : property + " is",
+                    joined({sure.begin(), sure.end()}, ", ")));
   }
 }
 
@@ -51,6 +58,25 @@ Height height_of(const PlotEstimate& plot, const std::string& name) {
 void set(const Height& height, const std::string& name, PlotEstimate& plot) {
   plot.heights_m[name] = height.value_m;
   plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
+  if (name != "mean") return;
+  std::erase(plot.flags, heights::kUnsureHeights);
+  if (heights::is_unsure(height)) plot.flags.emplace_back(heights::kUnsureHeights);
+}
+
+// A height in another unit, or with a digit too many, would move all others. Nobody's plants are
+// twice as high as estimated, or half, and five standard errors off.
+void require_plausible(const estimate::MeasuredHeights& measured, const std::string& name,
+                       const PlotEstimate& plot, double measured_m) {
+  constexpr double kMostTimes = 2, kMostErrors = 5;
+  const Height estimated = height_of(plot, name);
+  const double times = measured_m / estimated.value_m;
+  const double errors = std::abs(measured_m - estimated.value_m) / estimated.standard_error_m;
+  if ((times <= kMostTimes && times >= 1 / kMostTimes) || errors <= kMostErrors) return;
+  throw InputError(
+      measured.file,
+      fmt::format("plot {} has {} {:g} m, and {:.3f} m by the cloud: is it in another unit than "
+                  "its column says, or mistyped?",
+                  plot.id.text(), name, measured_m, estimated.value_m));
 }
 
 // The plots of each trial that were measured and have this height.
@@ -62,6 +88,7 @@ std::map<int, Pairs> pairs_by_trial(const estimate::MeasuredHeights& measured,
     if (found == measured.plots_m.end() || !plot.errors.contains(name)) continue;
     const auto height_m = found->second.find(estimate::property_of(name));
     if (height_m == found->second.end() || plot.heights_m.at(name) <= 0) continue;
+    require_plausible(measured, name, plot, height_m->second);
     pairs[plot.trial].push_back({height_of(plot, name), height_m->second});
   }
   return pairs;

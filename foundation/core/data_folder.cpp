@@ -48,9 +48,11 @@ std::optional<fs::path> installed_folder() {
   return std::nullopt;
 }
 
+// Where the program began: it may be replaced while it runs.
 std::optional<fs::path> known_folder() {
+  static const std::optional<fs::path> installed = installed_folder();
   if (auto told = told_folder()) return told;
-  return installed_folder();
+  return installed;
 }
 
 }  // namespace

@@ -79,10 +79,13 @@ void require_writable(const Source& source, const fs::path& out, const WriteOpti
   const Format& format = writable_format(out);
   require_options(format, out, options);
   if (format.needs_flight && !source.flight) {
-    throw InputError(out, "a " + format.name + " needs the flight, of which " +
-                              source.path.filename().string() +
-                              " says nothing; give a scan folder, or --trajectory FILE (and "
-                              "--sensor, --spin, --mount, --start)");
+    throw InputError(
+        out, "a " + format.name + " needs the flight; " +
+                 (source.trajectory
+                      ? "convert " + source.path.filename().string() +
+                            " to a .tum and to a cloud first, then the cloud with --trajectory"
+                      : "give a scan folder, or --trajectory FILE") +
+                 " (and --sensor, --spin, --mount, --start)");
   }
 }
 

@@ -99,9 +99,12 @@ std::string too_few(const std::string& for_what) {
 }
 
 // Why a field in which plots were searched shows none.
-std::string why_none(const std::string& by_plots, double density_m2, double noise_m) {
+std::string why_none(const std::string& by_plots, double density_m2, double noise_m,
+                     const Options& options) {
   constexpr double kRough_m = 0.05;  // sensors and strips that fit scatter less
   std::string why = by_plots;
+  if (options.heading_deg)
+    why += fmt::format("; searched along and across --heading {:g} only", *options.heading_deg);
   if (noise_m > kRough_m)
     why += fmt::format(
         "; the ground's returns scatter by {:.1f} cm, which hides canopy: the ground was "
@@ -139,6 +142,19 @@ void add_plots(const plots::PlotField& trial, int number,
   }
 }
 
+// The heading that was told is that of the longer side, and both are searched.
+void note_heading(const plots::PlotField& trial, const Options& options,
+                  estimate::Diagnostics& diagnostics) {
+  if (!options.heading_deg || trial.plots.empty()) return;
+  const double heading_rad = trial.plots.front().box.heading_rad;
+  const double off_rad = std::remainder(heading_rad - radians(*options.heading_deg), kPi);
+  if (std::abs(off_rad) < kPi / 4) return;
+  if (!diagnostics.notes) diagnostics.notes.emplace();
+  diagnostics.notes->push_back(
+      fmt::format("the plots are longer along {:.0f} degrees than along --heading {:g}",
+                  heading_rad / kDegrees, *options.heading_deg));
+}
+
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              const ground::Surface& surface, const Options& options,
@@ -151,7 +167,8 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
   constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
   if (surface.noise_m > kMostNoise_m) {
     diagnostics.why_no_plots = fmt::format(
-        "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on",
+        "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on (z has "
+        "to point up)",
         surface.noise_m);
     return {};
   }
@@ -160,8 +177,10 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
       heights, surface.noise_m, hints_of(options), options.threads,
       [&](const Eigen::Vector2d& place) { return surface.standard_error(place); });
   report_trials(trials, diagnostics);
+  note_heading(trials.front(), options, diagnostics);
   if (!trials.front().why_none.empty())
-    diagnostics.why_no_plots = why_none(trials.front().why_none, cloud.density_m2, surface.noise_m);
+    diagnostics.why_no_plots =
+        why_none(trials.front().why_none, cloud.density_m2, surface.noise_m, options);
   std::vector<estimate::PlotEstimate> found;
   for (std::size_t i = 0; i < trials.size(); ++i)
     add_plots(trials[i], trials.size() > 1 ? static_cast<int>(i + 1) : 0, found);

@@ -19,6 +19,7 @@ using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 using WorldPoints = std::vector<Eigen::Vector3d>;
 
@@ -128,6 +129,20 @@ TEST(FieldCloud, RefusesACropBoxWithoutPoints) {
               }),
               HasSubstr("lies in the given boxes 90,90"));
   EXPECT_THROW(read_field(file, {.area = Area{1, 1, 0, 0}}), InputError);
+}
+
+// A map in longitude and latitude over a cloud in UTM of which nobody said so.
+TEST(FieldCloud, HintsAtDegreesBesideAMapGrid) {
+  const TemporaryFolder folder;
+  const auto message = [&](const Eigen::Vector3d& place_m, const Area& area) {
+    const auto file = folder.write("cloud.pcd", pcd_text(field_points(3, place_m)));
+    return message_of<InputError>([&] { read_field(file, {.area = area}); });
+  };
+  const Eigen::Vector3d utm_m(553000, 4116000, 600);
+  const Area degrees = {-80.4, 37.2, -80.3, 37.3};
+  EXPECT_THAT(message(utm_m, degrees), HasSubstr("longitude and latitude, --crs"));
+  EXPECT_THAT(message({0, 0, 0}, degrees), Not(HasSubstr("longitude")));
+  EXPECT_THAT(message(utm_m, {553500, 4116000, 553600, 4116100}), Not(HasSubstr("longitude")));
 }
 
 }  // namespace

@@ -56,6 +56,39 @@ TEST(Agree, ScalesTheMeasuredHeightOfEveryPlotAndNoOther) {
   EXPECT_EQ(to_json(estimate.diagnostics)["measured"]["heights"][0]["height"], "mean");
 }
 
+// 80 and 85 cm as millimetres, a digit too many, and metres.
+TEST(Agree, RefusesHeightsThatCanNotBeThePlots) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(0, 20, estimate);
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.errors["mean"] = {0.03, 0.74, 0.86};
+  EXPECT_THAT(refusal(measured_in(1, 9, "height_mean_m", 0.08), estimate),
+              HasSubstr("ruler.csv: plot 1 has mean 0.08 m, and 0.800 m by the cloud"));
+  MeasuredHeights typed = measured_in(1, 9, "height_mean_m", 0.85);
+  typed.plots_m[4]["height_mean_m"] = 8.5;
+  EXPECT_THAT(refusal(typed, estimate), HasSubstr("plot 4 has mean 8.5 m"));
+  EXPECT_THAT(refusal(measured_in(1, 9, "height_mean_m", 80), estimate), HasSubstr("mistyped"));
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.errors["mean"] = {0.2, 0.4, 1.2};
+  EXPECT_NO_THROW(agree_with(measured_in(1, 9, "height_mean_m", 0.35), estimate));
+}
+
+// The flag of unsure heights is that of the new errors.
+TEST(Agree, FlagsAreThoseOfTheNewErrors) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(0, 20, estimate);
+  for (estimate::PlotEstimate& plot : estimate.plots)
+    plot.flags = {"too few returns", "heights are unsure by centimetres"};
+  for (estimate::PlotEstimate& plot : estimate.plots) plot.errors["mean"] = {0.03, 0.74, 0.86};
+  Estimate scattered = estimate;
+  agree_with(measured_in(1, 12, "height_mean_m", 0.8), estimate);
+  EXPECT_LT(estimate.plots[0].errors.at("mean").standard_error_m, 0.025);
+  EXPECT_THAT(estimate.plots[0].flags, ElementsAre("too few returns"));
+  MeasuredHeights uneven = measured_in(1, 12, "height_mean_m", 0.6);
+  for (std::uint64_t id = 1; id <= 6; ++id) uneven.plots_m[id]["height_mean_m"] = 1;
+  agree_with(uneven, scattered);
+  EXPECT_THAT(scattered.plots[0].flags,
+              ElementsAre("too few returns", "heights are unsure by centimetres"));
+}
+
 // Another trial has another crop, whose error is another one.
 TEST(Agree, LeavesTrialsAloneOfWhichTooFewPlotsWereMeasured) {
   Estimate estimate{.method = "lattice"};
@@ -72,7 +105,8 @@ TEST(Agree, SaysWhatATableLacks) {
   add_plots(0, 20, estimate);
   EXPECT_THAT(refusal(measured_in(1, 4, "height_mean_m", 0.7), estimate), HasSubstr("at least 5"));
   EXPECT_THAT(refusal(measured_in(1, 9, "height_hand_m", 0.7), estimate),
-              HasSubstr("such as height_mean_cm"));
+              ::testing::AllOf(HasSubstr("does not say which height"),
+                               HasSubstr("such as height_mean_cm")));
   EXPECT_THAT(refusal(measured_in(1, 9, "height_raw-p99_m", 0.7), estimate),
               HasSubstr("with a standard error: max, mean"));
   EXPECT_THAT(refusal(measured_in(301, 309, "height_mean_m", 0.7), estimate),

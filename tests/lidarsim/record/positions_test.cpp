@@ -110,6 +110,27 @@ TEST(RecordedPositions, OfAPcapLieAlongItsTrajectory) {
     // 0.015 degrees at 40 m, and the 2 mm steps of the ranges.
     ASSERT_LT((positions[i] - truth).norm(), 0.012) << i;
   }
+  // Half of the trajectory, and the other half without a quarter of the whole.
+  EXPECT_TRUE(read_cloud_system(cloud).notes.empty());
+  const std::vector<scan::StampedPose>& poses = flight.reported.poses();
+  const double end_s = poses.back().time_s;
+  const auto only = [&](const auto& kept) {
+    std::vector<scan::StampedPose> some;
+    std::ranges::copy_if(poses, std::back_inserter(some), kept);
+    scan::write_tum(tum, scan::moved(scan::Trajectory(some), kUtm));
+  };
+  only([&](const scan::StampedPose& pose) { return pose.time_s <= end_s / 2; });
+  const auto until_half = std::ranges::count_if(
+      points, [&](const scan::LabelledPoint& point) { return point.time <= end_s / 2 + 0.1; });
+  const std::vector<Eigen::Vector3d> half = positions_of(cloud);
+  EXPECT_NEAR(static_cast<double>(half.size()), static_cast<double>(until_half),
+              0.01 * static_cast<double>(points.size()));
+  EXPECT_EQ(read_positions(cloud, [](auto) {}).not_finite, points.size() - half.size());
+  std::vector<scan::StampedPose> late = poses;
+  for (std::size_t i = late.size() / 2; i < late.size(); ++i) late[i].time_s += 2;
+  scan::write_tum(tum, scan::moved(scan::Trajectory(late), kUtm));
+  EXPECT_THAT(read_cloud_system(cloud).notes, Contains(HasSubstr("has no pose for 2.0 s")));
+  scan::write_tum(tum, scan::moved(flight.reported, kUtm));
   cloud.crs = "EPSG:32617";
   EXPECT_EQ(read_cloud_system(cloud).crs, "EPSG:32617");
   cloud.crs = "EPSG:4326";

@@ -167,8 +167,10 @@ class Reader {
 
   void take(const DataPacket& packet, UtcTime captured) {
     if (packet.product != sensor_.packets->product) {
-      file_.fail(fmt::format("product 0x{:02X} is not the 0x{:02X} of sensor {}; give --sensor",
-                             packet.product, sensor_.packets->product, sensor_.name));
+      file_.fail(
+          fmt::format("product 0x{:02X} is not the 0x{:02X} of sensor {}; --sensor names "
+                      "the sensor that was flown",
+                      packet.product, sensor_.packets->product, sensor_.name));
     }
     if (packet.past_hour_us >= kHour_us) file_.fail("its time is beyond the hour");
     const std::int64_t elapsed_us = clock_.elapsed_us(packet.past_hour_us, captured);

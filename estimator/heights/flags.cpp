@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "heights/internal/flags.h"
+#include "heights/flags.h"
 
 #include <algorithm>
 
 namespace plotscan::heights {
+
+bool is_unsure(const Height& mean, const FlagOptions& options) {
+  return mean.standard_error_m > options.largest_error_m;
+}
 
 std::vector<std::string> flags_of(const PlotEvidence& evidence,
                                   const std::map<std::string, Height>& heights,
@@ -24,8 +28,7 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
         "canopy is too low to measure");
   raise(evidence.novelty > 1, "plants unlike those the calibration knows");
   const auto mean = heights.find("mean");
-  raise(mean != heights.end() && mean->second.standard_error_m > options.largest_error_m,
-        "heights are unsure by centimetres");
+  raise(mean != heights.end() && is_unsure(mean->second, options), kUnsureHeights);
   return flags;
 }
 

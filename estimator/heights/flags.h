@@ -32,6 +32,11 @@ struct FlagOptions {
   double largest_error_m = 0.025;         // standard error of the mean: +-5 cm at 95 %
 };
 
+inline constexpr const char* kUnsureHeights = "heights are unsure by centimetres";
+
+// Whether that flag is raised on a plot of this mean height.
+bool is_unsure(const Height& mean, const FlagOptions& options = {});
+
 // Why the plot's heights should not be trusted; empty when they may be.
 std::vector<std::string> flags_of(const PlotEvidence& evidence,
                                   const std::map<std::string, Height>& heights,
