@@ -27,11 +27,13 @@ void make_page(const Program& program, ReportArguments& arguments) {
                   {"plots", summary.plots},
                   {"points_read", summary.read},
                   {"points_shown", summary.shown},
+                  {"notes", summary.notes},
                   {"bytes", bytes}});
   program.say(
       fmt::format("{}: {} plots, {:.2f} of {:.2f} million points, {:.1f} MB", options.html.string(),
                   summary.plots, 1e-6 * static_cast<double>(summary.shown),
                   1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes)));
+  for (const std::string& note : summary.notes) program.say("note       " + note);
   if (!options.cloud) program.say("With --cloud it shows the points, too.");
   program.say("Open it in a browser; it needs no network.");
 }

@@ -27,12 +27,14 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
                   {"points_read", summary.read},
                   {"points_shown", summary.shown},
                   {"plots", summary.plots},
+                  {"notes", summary.notes},
                   {"bytes", bytes},
                   {"seconds", elapsed.count()}});
   program.say(fmt::format("{}: {:.2f} of {:.2f} million points, {:.1f} MB, made in {:.1f} s",
                           options.html.string(), 1e-6 * static_cast<double>(summary.shown),
                           1e-6 * static_cast<double>(summary.read),
                           1e-6 * static_cast<double>(bytes), elapsed.count()));
+  for (const std::string& note : summary.notes) program.say("note       " + note);
   program.say("Open it in a browser; it needs no network.");
 }
 

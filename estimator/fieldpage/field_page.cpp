@@ -100,7 +100,8 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   file.commit();
   return {.plots = field.plots.size(),
           .read = field.cloud ? field.cloud->read : 0,
-          .shown = field.cloud ? field.cloud->points.size() : 0};
+          .shown = field.cloud ? field.cloud->points.size() : 0,
+          .notes = field.notes};
 }
 
 }  // namespace plotscan::fieldpage

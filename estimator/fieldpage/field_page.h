@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/cloud_files.h"
 #include "core/progress.h"
@@ -24,6 +26,7 @@ struct PageSummary {
   std::size_t plots = 0;
   std::uint64_t read = 0;   // points of the cloud
   std::uint64_t shown = 0;  // of these
+  std::vector<std::string> notes = {};  // what the reader of the page is told
 };
 
 // Writes one HTML page of an estimate: plots, heights, ground and, where they are given, the

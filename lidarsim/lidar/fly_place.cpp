@@ -7,6 +7,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "farm/farm.h"
 #include "gazebo/read_world.h"
 #include "lidar/internal/drone_flight.h"
@@ -54,6 +55,9 @@ PlaceScan noted(PlaceScan scanned, const FlyOptions& options) {
 
 PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceOptions& options,
                     const ProgressReport& progress) {
+  const std::string extension = lower_extension(file);
+  if (extension == ".yaml" || extension == ".yml")
+    throw InputError(file, "describes a farm; make the farm first (farmgen generate)");
   require_wind_acts(options.flight, false);
   const gazebo::StaticWorld world =
       gazebo::read_world(file, {.resource_paths = options.resource_paths});

@@ -97,11 +97,12 @@ PageSummary write_scan_page(const PageOptions& options, const ProgressReport& pr
   report(kFitted);
   if (!field.ground)
     field.notes.emplace_back("No ground could be fitted: heights count from the lowest point.");
-  const PageSummary summary{
+  PageSummary summary{
       .read = scan.cloud.read, .shown = scan.cloud.points.size(), .plots = field.plots.size()};
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
   report::note_cloud_elsewhere(field, field.name);
+  summary.notes = field.notes;
   nlohmann::json document = {{"kind", "scan"}, {"title", "Scan " + field.name}};
   document["fields"] = nlohmann::json::array();
   document["fields"].push_back(report::packed_field(field));

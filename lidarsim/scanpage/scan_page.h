@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "record/open_source.h"
@@ -27,6 +29,7 @@ struct PageSummary {
   std::uint64_t read = 0;   // points of the scan
   std::uint64_t shown = 0;  // those of `read` that are shown
   std::size_t plots = 0;
+  std::vector<std::string> notes = {};  // what the reader of the page is told
 };
 
 // Writes one HTML page of a scan: its points in three dimensions over the ground that is fitted to
