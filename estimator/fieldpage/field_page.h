@@ -24,8 +24,8 @@ struct PageOptions {
 
 struct PageSummary {
   std::size_t plots = 0;
-  std::uint64_t read = 0;   // points of the cloud
-  std::uint64_t shown = 0;  // of these
+  std::uint64_t read = 0;               // points of the cloud
+  std::uint64_t shown = 0;              // of these
   std::vector<std::string> notes = {};  // what the reader of the page is told
 };
 

@@ -63,6 +63,8 @@ struct PlotField {
   std::string why_none = {};  // why there are no plots here; "" when there are
   // The layout that the canopy shows more clearly than the user's; "" where there is none.
   std::string rival = {};
+  // Why these would be no plots if the user had not told their layout; "" where they would be.
+  std::string doubt = {};
   double others_m2 = 0;  // of canopy without gaps beside the plots, such as another crop: left out
   // Of the plots, or of what was taken for them and refused.
   std::optional<FieldFit> fit = std::nullopt;

@@ -138,6 +138,9 @@ void add_plots(const plots::PlotField& trial, int number,
     if (!trial.rival.empty())
       found.back().flags.push_back("the canopy shows " + trial.rival + " more clearly");
     if (!doubt.empty()) found.back().flags.push_back(doubt);
+    if (!trial.doubt.empty())
+      found.back().flags.push_back("taken for a plot only as the layout is told (" + trial.doubt +
+                                   ")");
     if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
   }
 }

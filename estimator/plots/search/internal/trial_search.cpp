@@ -125,18 +125,47 @@ std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layou
   return plots;
 }
 
-// "3 rows of 10 plots of 1.48 x 3.99 m".
-std::string text_of(const Layout& layout) {
+// A layout's plots as users count them: rows follow each other along the longer side.
+struct Counted {
+  int rows = 0, columns = 0;
+  double width_m = 0, length_m = 0;
+};
+
+Counted counted(const Layout& layout) {
   std::size_t columns = 0;
   for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
-  std::size_t rows = layout.rows.size();
   const double cell_m = layout.view.cell_m();
-  double length_m = layout.r_shape.size * cell_m, width_m = layout.c_shape.size * cell_m;
-  if (length_m < width_m) {
-    std::swap(length_m, width_m);
-    std::swap(rows, columns);
+  Counted plots{.rows = static_cast<int>(layout.rows.size()),
+                .columns = static_cast<int>(columns),
+                .width_m = layout.c_shape.size * cell_m,
+                .length_m = layout.r_shape.size * cell_m};
+  if (plots.length_m < plots.width_m) {
+    std::swap(plots.length_m, plots.width_m);
+    std::swap(plots.rows, plots.columns);
   }
-  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", rows, columns, width_m, length_m);
+  return plots;
+}
+
+// "3 rows of 10 plots of 1.48 x 3.99 m".
+std::string text_of(const Layout& layout) {
+  const Counted plots = counted(layout);
+  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", plots.rows, plots.columns,
+                     plots.width_m, plots.length_m);
+}
+
+// Whether what the canopy shows is what the user tells. Leaves make plots look up to a fifth wider.
+bool is_as_told(const Layout& layout, const Hints& hints) {
+  constexpr double kMostOff = 0.2;
+  const Counted plots = counted(layout);
+  const auto is = [](int shown, const std::optional<int>& told) {
+    return shown == told.value_or(shown);
+  };
+  const auto is_near = [](double shown_m, const std::optional<double>& told_m) {
+    return !told_m || std::abs(shown_m - *told_m) <= kMostOff * *told_m;
+  };
+  return is(plots.rows, hints.rows) && is(plots.columns, hints.columns) &&
+         is(plots.rows * plots.columns, hints.plots) && is_near(plots.width_m, hints.width_m) &&
+         is_near(plots.length_m, hints.length_m);
 }
 
 // A layout, and another that the canopy shows more clearly than the user's, if there is one.
@@ -149,6 +178,7 @@ Choice choose_layout(const CanopyRaster& canopy, Hints hints, LineModel model) {
   constexpr double kMoreClearly = 1.1;
   if (!hints.tell_layout()) return {best_layout(canopy, hints, model)};
   Layout shown = best_layout(canopy);
+  if (model != LineModel::touching && is_as_told(shown, hints)) return {std::move(shown)};
   // Where plots touch, their length lies along the rows of the crop.
   if (model == LineModel::touching && !hints.heading_rad)
     hints.heading_rad = heading_of_rows(shown);
@@ -171,11 +201,32 @@ bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
   return rows && width * layout.view.cell_m() < rows->spacing_m;
 }
 
+// Why these are not the plots that the user told; "" where they are. A box may be told larger than
+// the steps, a number may not make it so.
+std::string not_told_because(const TrialLayout& layout, const FieldSigns& signs,
+                             const Hints& hints) {
+  constexpr double kOverlap_m = 0.05;  // a cell of the raster
+  const auto other = [](int shown, const std::optional<int>& told, const char* lines) {
+    return told && *told != shown ? fmt::format("the canopy shows {} {} of plots, not the {} told",
+                                                shown, lines, *told)
+                                  : "";
+  };
+  if (std::string rows = other(layout.rows(), hints.rows, "rows"); !rows.empty()) return rows;
+  if (std::string columns = other(layout.columns(), hints.columns, "columns"); !columns.empty())
+    return columns;
+  return !hints.width_m && !hints.length_m && signs.least_gap_m < -kOverlap_m
+             ? "plots of the number told would overlap here"
+             : "";
+}
+
 // Why what looks like plots is none; "" where it may be plots. What the user told is taken as true,
 // but that plots touch is not told.
-std::string refused_because(const FieldSigns& signs, const Hints& hints, LineModel model) {
-  if (model == LineModel::touching) return no_touching_plots_because(signs);
-  return hints.tell_layout() ? "" : no_plots_because(signs);
+std::string refused_because(const TrialLayout& layout, const FieldSigns& signs, const Hints& hints,
+                            LineModel model) {
+  if (!hints.tell_layout()) return no_plots_because(signs);
+  std::string why = not_told_because(layout, signs, hints);
+  if (why.empty() && model == LineModel::touching) return no_touching_plots_because(signs);
+  return why;
 }
 
 // Counts what is higher, tall plots too.
@@ -211,9 +262,12 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence_in_outline);
   lattice.view.raster = &cover;
-  Look look{no_plots(refused_because(signs, hints, model))};
-  look.field.fit = fit_of(lattice, rows);
+  FieldFit fit = fit_of(lattice, rows);
+  Look look{no_plots(refused_because(fit.layout, signs, hints, model))};
+  look.field.fit = std::move(fit);
   look.field.signs = signs;
+  if (hints.tell_layout() && model != LineModel::touching)
+    look.field.doubt = no_plots_because(signs);
   if (rival && !are_rows(*rival, rows)) look.field.rival = text_of(*rival);
   look.explained = held_share(with_gaps(lattice));
   if (!look.field.why_none.empty()) {
@@ -264,6 +318,16 @@ bool holds_most(const Look& look) {
   return look.evidence > 0 && look.field.signs->held_share > kMost;
 }
 
+// Whether many plots show with gaps between them: they do not touch.
+bool shows_gaps(const Look& look) {
+  constexpr std::size_t kMany = 9;
+  constexpr double kMostInGaps = 0.8, kLeastSeen_m = 0.1;
+  if (look.evidence == 0 || look.field.plots.size() < kMany) return false;
+  const FieldSigns& signs = *look.field.signs;
+  return signs.gap_cover < kMostInGaps && signs.least_gap_m > kLeastSeen_m &&
+         no_plots_because(signs).empty();
+}
+
 // Whether the plots and their gaps are all that stands there.
 bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
 
@@ -309,6 +373,27 @@ class TrialSearch {
   std::optional<Look> best_;
 };
 
+Looks look_as_told(const ScannedField& scanned) {
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(LineModel::free_ends);
+  const std::vector<Look> at_all = search.looks();
+  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
+  search.look_beside_closed_canopy();
+  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
+  if (scanned.hints.tell_sides() && !explains_all(search.best()) && !shows_gaps(search.best()))
+    search.look_in_every_canopy(LineModel::touching);
+  return {at_all, search.best()};
+}
+
+// Whether plots that show without the user's numbers are of these numbers.
+bool is_of_numbers(const Look& look, const Hints& hints) {
+  if (look.evidence == 0) return false;
+  const TrialLayout& layout = look.field.fit->layout;
+  return layout.rows() == hints.rows.value_or(layout.rows()) &&
+         layout.columns() == hints.columns.value_or(layout.columns()) &&
+         (!hints.plots || std::ssize(layout.places) == *hints.plots);
+}
+
 }  // namespace
 
 double expected_plots(const Look& look) {
@@ -333,15 +418,15 @@ Look look_twice(const ScannedField& scanned) {
 }
 
 Looks look_in_all_ways(const ScannedField& scanned) {
-  TrialSearch search(scanned);
-  search.look_in_every_canopy(LineModel::free_ends);
-  const std::vector<Look> at_all = search.looks();
-  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
-  search.look_beside_closed_canopy();
-  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
-  if (scanned.hints.tell_sides() && !explains_all(search.best()))
-    search.look_in_every_canopy(LineModel::touching);
-  return {at_all, search.best()};
+  const Hints& hints = scanned.hints;
+  Looks looks = look_as_told(scanned);
+  if (looks.best.evidence > 0 || !hints.tell_layout() || hints.width_m || hints.length_m)
+    return looks;
+  // Numbers say nothing of what else stands here; without them the plots may show.
+  const Hints without_numbers{.heading_rad = hints.heading_rad};
+  Looks shown = look_as_told(
+      {scanned.points, scanned.noise_m, without_numbers, scanned.threads, scanned.ground_error});
+  return is_of_numbers(shown.best, hints) ? shown : looks;
 }
 
 }  // namespace plotscan::plots

@@ -30,6 +30,49 @@ TEST(FindPlots, FindsPlotsOfOuterRowsThatAreShorter) {
   }
 }
 
+// A trial of 3 x 6 plots and strips of 4 m of the same crop along two of its sides, a metre from
+// it.
+std::vector<PlotBox> between_guards(const Trial& trial) {
+  std::vector<PlotBox> boxes = trial.boxes();
+  for (const double side : {-1, 1}) {
+    PlotBox guard{.width_m = 4, .length_m = 13.6, .heading_rad = trial.heading_rad};
+    guard.center = side * (5.5 + 1 + 2) * guard.width_axis();
+    boxes.push_back(guard);
+  }
+  return boxes;
+}
+
+TEST(FindPlots, FindsPlotsBetweenGuardStrips) {
+  const Trial trial;
+  const std::vector<Eigen::Vector3f> points = cloud_over(between_guards(trial));
+  const PlotField field = find_plots(points, 0.02, {}, 2);
+  expect_those(trial.boxes(), field);
+  ASSERT_TRUE(field.signs.has_value());
+  EXPECT_LT(field.signs->held_share, 0.6);
+  EXPECT_LE(field.plots.front().confidence, 0.5);
+  for (const Hints& hints :
+       {Hints{.rows = 3, .columns = 6}, Hints{.columns = 6}, Hints{.plots = 18},
+        Hints{.width_m = 1.5, .length_m = 4}, Hints{.width_m = 1.5, .rows = 3, .columns = 6}})
+    expect_those(trial.boxes(), find_plots(points, 0.02, hints, 2));
+}
+
+// Numbers that the field does not have: refused, or found with what speaks against them.
+TEST(FindPlots, FindsNoOtherNumbersThanThoseTold) {
+  const std::vector<Eigen::Vector3f> points = cloud_over(Trial{}.boxes());
+  for (const int told : {2, 4, 5, 7}) {
+    for (const bool are_rows : {true, false}) {
+      const Hints hints = are_rows ? Hints{.rows = told} : Hints{.columns = told};
+      const PlotField field = find_plots(points, 0.02, hints, 2);
+      if (!field.why_none.empty()) continue;
+      const TrialLayout& layout = field.fit->layout;
+      EXPECT_EQ(are_rows ? layout.rows() : layout.columns(), told);
+      EXPECT_NE(field.rival + field.doubt, "")
+          << layout.rows() << " rows of " << layout.columns() << " plots of " << layout.width_m
+          << " x " << layout.length_m << " m";
+    }
+  }
+}
+
 // A task of the raster gets none but points that are left out.
 TEST(FindPlots, FindsPlotsBesideALargeRoof) {
   std::vector<Eigen::Vector3f> points;

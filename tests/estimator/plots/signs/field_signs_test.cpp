@@ -176,6 +176,35 @@ TEST(FieldSigns, RefuseATornSheet) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// Signs of a trial in a survey of 4 ha, and of one that photogrammetry smoothed.
+TEST(FieldSigns, LetClearPlotsBePlotsWhateverStandsAround) {
+  FieldSigns signs{.plots = 24,
+                   .held_share = 0.02,
+                   .filled_share = 1,
+                   .squareness = 1.9,
+                   .straightness = 3.47,
+                   .roughness = 0.14,
+                   .unevenness = 0.03,
+                   .mean_unevenness = 0.01,
+                   .aspect = 3.85,
+                   .least_gap_m = 0.37,
+                   .gap_cover = 0.24,
+                   .evidence = 64};
+  EXPECT_EQ(no_plots_because(signs), "");
+  EXPECT_NEAR(field_confidence(signs), 0.5, 1e-9);
+  signs.plots = 6;
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("holds 2 % of the canopy"));
+  signs.plots = 24;
+  signs.squareness = 1.3;
+  EXPECT_NE(no_plots_because(signs), "");
+  signs.squareness = 3.4;
+  signs.held_share = 0.98;
+  signs.roughness = 0.0805;
+  EXPECT_EQ(no_plots_because(signs), "");
+  signs.evidence = 12;
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("photogrammetry"));
+}
+
 // Of plots with too few returns the roughness is not known; the other signs decide.
 TEST(FieldSigns, DecideWithoutRoughness) {
   FieldSigns signs{.plots = 5,
