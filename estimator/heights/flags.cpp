@@ -28,7 +28,7 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
         "canopy is too low to measure");
   raise(evidence.novelty > 1, "plants unlike those the calibration knows");
   const auto mean = heights.find("mean");
-  raise(mean != heights.end() && is_unsure(mean->second, options), kUnsureHeights);
+  raise(mean != heights.end() && is_unsure(mean->second, options), kUnsureMean);
   return flags;
 }
 

@@ -32,7 +32,7 @@ struct FlagOptions {
   double largest_error_m = 0.025;         // standard error of the mean: +-5 cm at 95 %
 };
 
-inline constexpr const char* kUnsureHeights = "heights are unsure by centimetres";
+inline constexpr const char* kUnsureMean = "mean height is unsure by centimetres";
 
 // Whether that flag is raised on a plot of this mean height.
 bool is_unsure(const Height& mean, const FlagOptions& options = {});

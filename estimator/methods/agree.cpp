@@ -59,8 +59,8 @@ void set(const Height& height, const std::string& name, PlotEstimate& plot) {
   plot.heights_m[name] = height.value_m;
   plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
   if (name != "mean") return;
-  std::erase(plot.flags, heights::kUnsureHeights);
-  if (heights::is_unsure(height)) plot.flags.emplace_back(heights::kUnsureHeights);
+  std::erase(plot.flags, heights::kUnsureMean);
+  if (heights::is_unsure(height)) plot.flags.emplace_back(heights::kUnsureMean);
 }
 
 // A height in another unit, or with a digit too many, would move all others. Nobody's plants are

@@ -76,7 +76,7 @@ TEST(Agree, FlagsAreThoseOfTheNewErrors) {
   Estimate estimate{.method = "lattice"};
   add_plots(0, 20, estimate);
   for (estimate::PlotEstimate& plot : estimate.plots)
-    plot.flags = {"too few returns", "heights are unsure by centimetres"};
+    plot.flags = {"too few returns", "mean height is unsure by centimetres"};
   for (estimate::PlotEstimate& plot : estimate.plots) plot.errors["mean"] = {0.03, 0.74, 0.86};
   Estimate scattered = estimate;
   agree_with(measured_in(1, 12, "height_mean_m", 0.8), estimate);
@@ -86,7 +86,7 @@ TEST(Agree, FlagsAreThoseOfTheNewErrors) {
   for (std::uint64_t id = 1; id <= 6; ++id) uneven.plots_m[id]["height_mean_m"] = 1;
   agree_with(uneven, scattered);
   EXPECT_THAT(scattered.plots[0].flags,
-              ElementsAre("too few returns", "heights are unsure by centimetres"));
+              ElementsAre("too few returns", "mean height is unsure by centimetres"));
 }
 
 // Another trial has another crop, whose error is another one.

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/core.h>
 #include <tbb/task_arena.h>
 
 #include "plots/canopy/canopy_raster.h"
@@ -16,6 +15,7 @@
 #include "plots/lattice/outline.h"
 #include "plots/layout/layout.h"
 #include "plots/search/internal/heading.h"
+#include "plots/search/internal/told_layout.h"
 #include "plots/search/internal/trial_area.h"
 #include "plots/signs/field_signs.h"
 #include "plots/signs/sown_rows.h"
@@ -125,49 +125,6 @@ std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layou
   return plots;
 }
 
-// A layout's plots as users count them: rows follow each other along the longer side.
-struct Counted {
-  int rows = 0, columns = 0;
-  double width_m = 0, length_m = 0;
-};
-
-Counted counted(const Layout& layout) {
-  std::size_t columns = 0;
-  for (const Row& row : layout.rows) columns = std::max(columns, row.plots.size());
-  const double cell_m = layout.view.cell_m();
-  Counted plots{.rows = static_cast<int>(layout.rows.size()),
-                .columns = static_cast<int>(columns),
-                .width_m = layout.c_shape.size * cell_m,
-                .length_m = layout.r_shape.size * cell_m};
-  if (plots.length_m < plots.width_m) {
-    std::swap(plots.length_m, plots.width_m);
-    std::swap(plots.rows, plots.columns);
-  }
-  return plots;
-}
-
-// "3 rows of 10 plots of 1.48 x 3.99 m".
-std::string text_of(const Layout& layout) {
-  const Counted plots = counted(layout);
-  return fmt::format("{} rows of {} plots of {:.2f} x {:.2f} m", plots.rows, plots.columns,
-                     plots.width_m, plots.length_m);
-}
-
-// Whether what the canopy shows is what the user tells. Leaves make plots look up to a fifth wider.
-bool is_as_told(const Layout& layout, const Hints& hints) {
-  constexpr double kMostOff = 0.2;
-  const Counted plots = counted(layout);
-  const auto is = [](int shown, const std::optional<int>& told) {
-    return shown == told.value_or(shown);
-  };
-  const auto is_near = [](double shown_m, const std::optional<double>& told_m) {
-    return !told_m || std::abs(shown_m - *told_m) <= kMostOff * *told_m;
-  };
-  return is(plots.rows, hints.rows) && is(plots.columns, hints.columns) &&
-         is(plots.rows * plots.columns, hints.plots) && is_near(plots.width_m, hints.width_m) &&
-         is_near(plots.length_m, hints.length_m);
-}
-
 // A layout, and another that the canopy shows more clearly than the user's, if there is one.
 struct Choice {
   Layout layout;
@@ -199,24 +156,6 @@ std::string no_layout(const Hints& hints, const std::optional<Layout>& rival) {
 bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
   const int width = std::min(layout.r_shape.size, layout.c_shape.size);
   return rows && width * layout.view.cell_m() < rows->spacing_m;
-}
-
-// Why these are not the plots that the user told; "" where they are. A box may be told larger than
-// the steps, a number may not make it so.
-std::string not_told_because(const TrialLayout& layout, const FieldSigns& signs,
-                             const Hints& hints) {
-  constexpr double kOverlap_m = 0.05;  // a cell of the raster
-  const auto other = [](int shown, const std::optional<int>& told, const char* lines) {
-    return told && *told != shown ? fmt::format("the canopy shows {} {} of plots, not the {} told",
-                                                shown, lines, *told)
-                                  : "";
-  };
-  if (std::string rows = other(layout.rows(), hints.rows, "rows"); !rows.empty()) return rows;
-  if (std::string columns = other(layout.columns(), hints.columns, "columns"); !columns.empty())
-    return columns;
-  return !hints.width_m && !hints.length_m && signs.least_gap_m < -kOverlap_m
-             ? "plots of the number told would overlap here"
-             : "";
 }
 
 // Why what looks like plots is none; "" where it may be plots. What the user told is taken as true,
@@ -385,15 +324,6 @@ Looks look_as_told(const ScannedField& scanned) {
   return {at_all, search.best()};
 }
 
-// Whether plots that show without the user's numbers are of these numbers.
-bool is_of_numbers(const Look& look, const Hints& hints) {
-  if (look.evidence == 0) return false;
-  const TrialLayout& layout = look.field.fit->layout;
-  return layout.rows() == hints.rows.value_or(layout.rows()) &&
-         layout.columns() == hints.columns.value_or(layout.columns()) &&
-         (!hints.plots || std::ssize(layout.places) == *hints.plots);
-}
-
 }  // namespace
 
 double expected_plots(const Look& look) {
@@ -426,7 +356,8 @@ Looks look_in_all_ways(const ScannedField& scanned) {
   const Hints without_numbers{.heading_rad = hints.heading_rad};
   Looks shown = look_as_told(
       {scanned.points, scanned.noise_m, without_numbers, scanned.threads, scanned.ground_error});
-  return is_of_numbers(shown.best, hints) ? shown : looks;
+  const bool as_told = shown.best.evidence > 0 && is_as_told(shown.best.field.fit->layout, hints);
+  return as_told ? shown : looks;
 }
 
 }  // namespace plotscan::plots
