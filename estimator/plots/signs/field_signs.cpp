@@ -55,8 +55,9 @@ constexpr double kLeastConfidence = 0.1;
 
 // So many rectangles of this squareness and evidence, and more, are plots whatever else stands
 // there: a trial in another crop, or in a survey of a whole farm, holds little of the canopy, and
-// photogrammetry smooths it. Trials so: squareness 1.9 to 3.4, 30 nats and more (12 fields); what
-// is no field of plots: up to 1.0, few pieces of sheets 1.45. Such plots are half as sure.
+// photogrammetry smooths it. Trials so: squareness 1.9 to 3.4, 30 nats and more (7 clouds of
+// another generator); what is no field of plots: up to 1.2, fewer pieces of sheets 1.45. Such plots
+// are half as sure.
 constexpr std::size_t kClearPlots = 9;
 constexpr double kSquare = 1.3, kClearlySquare = 1.7;
 constexpr double kClearEvidence = 12, kVeryClearEvidence = 24;
@@ -96,9 +97,7 @@ std::string unclear_because(const FieldSigns& signs, const Clearness& clearness)
     return fmt::format("what may be plots holds {:.0f} % of the canopy here",
                        100 * signs.held_share);
   if (clearness.roughness < others)
-    return "what may be plots is nearly as smooth as roofs are: photogrammetry and filters smooth "
-           "a "
-           "canopy";
+    return "what may be plots is nearly as smooth as roofs are (photogrammetry smooths a canopy)";
   return "canopy lies here, but not in plots of one size at equal steps";
 }
 

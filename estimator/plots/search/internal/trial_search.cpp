@@ -312,7 +312,7 @@ class TrialSearch {
   std::optional<Look> best_;
 };
 
-Looks look_as_told(const ScannedField& scanned) {
+Looks look_by_hints(const ScannedField& scanned) {
   TrialSearch search(scanned);
   search.look_in_every_canopy(LineModel::free_ends);
   const std::vector<Look> at_all = search.looks();
@@ -349,12 +349,12 @@ Look look_twice(const ScannedField& scanned) {
 
 Looks look_in_all_ways(const ScannedField& scanned) {
   const Hints& hints = scanned.hints;
-  Looks looks = look_as_told(scanned);
+  Looks looks = look_by_hints(scanned);
   if (looks.best.evidence > 0 || !hints.tell_layout() || hints.width_m || hints.length_m)
     return looks;
   // Numbers say nothing of what else stands here; without them the plots may show.
   const Hints without_numbers{.heading_rad = hints.heading_rad};
-  Looks shown = look_as_told(
+  Looks shown = look_by_hints(
       {scanned.points, scanned.noise_m, without_numbers, scanned.threads, scanned.ground_error});
   const bool as_told = shown.best.evidence > 0 && is_as_told(shown.best.field.fit->layout, hints);
   return as_told ? shown : looks;
