@@ -56,6 +56,20 @@ TEST(FindPlots, FindsPlotsBetweenGuardStrips) {
     expect_those(trial.boxes(), find_plots(points, 0.02, hints, 2));
 }
 
+// A guard plot of 0.9 m at both ends of each row: the numbers are those of the others.
+TEST(FindPlots, NumbersTellPlotsFromGuardPlots) {
+  const Trial trial;
+  std::vector<PlotBox> boxes = trial.boxes();
+  for (const std::size_t i : {0, 5, 6, 11, 12, 17}) {
+    PlotBox guard = boxes[i];
+    guard.width_m = 0.9;
+    guard.center += (i % 6 == 0 ? -1 : 1) * (0.75 + trial.gap_m + 0.45) * guard.width_axis();
+    boxes.push_back(guard);
+  }
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  expect_those(trial.boxes(), find_plots(points, 0.02, {.rows = 3, .columns = 6}, 2));
+}
+
 // Numbers that the field does not have: refused, or found with what speaks against them.
 TEST(FindPlots, FindsNoOtherNumbersThanThoseTold) {
   const std::vector<Eigen::Vector3f> points = cloud_over(Trial{}.boxes());

@@ -22,7 +22,7 @@ using Standing = std::function<double(double x, double y, RandomStream& random)>
 // The same thing on every place of a lattice of 5 x 5 m steps, turned by 20 degrees, on 30 x 30 m.
 // What stands farther than half_m along the lattice's second axis is cut off.
 PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5,
-                   double half_m = 11) {
+                   double half_m = 11, const Hints& hints = {}) {
   constexpr double kTurn_rad = 0.35, kHalf_m = 15, kScatter_m = 0.02;
   std::vector<Eigen::Vector3f> points;
   for (std::uint64_t i = 0; i < 300000; ++i) {
@@ -36,7 +36,7 @@ PlotField field_of(const Standing& standing, double step_x_m = 5, double step_y_
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
                         static_cast<float>(height + kScatter_m * random.normal()));
   }
-  return find_plots(points, kScatter_m, {}, 2);
+  return find_plots(points, kScatter_m, hints, 2);
 }
 
 std::string why_none_of(const Standing& standing, double step_x_m = 5, double step_y_m = 5) {
@@ -63,6 +63,17 @@ TEST(FieldSigns, TellCrowns) {
                 return std::hypot(x, y) < 1.6 ? random.uniform(0, 3) : 0;
               }),
               ::testing::HasSubstr("round crowns"));
+}
+
+// What is told is not refused; that it would be is said.
+TEST(FieldSigns, DoubtWhatIsTold) {
+  const Standing crowns = [](double x, double y, RandomStream& random) {
+    return std::hypot(x, y) < 1.6 ? random.uniform(0, 3) : 0;
+  };
+  const PlotField told = field_of(crowns, 5, 5, 12, {.width_m = 3, .length_m = 3});
+  EXPECT_FALSE(told.plots.empty());
+  EXPECT_THAT(told.doubt, ::testing::HasSubstr("round crowns"));
+  EXPECT_EQ(field_of(kPlots, 5, 5, 12, {.width_m = 2, .length_m = 4}).doubt, "");
 }
 
 TEST(FieldSigns, TellRoofs) {
