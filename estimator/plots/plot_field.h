@@ -18,6 +18,8 @@ struct FoundPlot {
   PlotBoxError box_error = {};
   double confidence = 0;  // 0 to 1
   bool cut_off = false;   // the box reaches over the edge of what was scanned
+  // The canopy of its row or column does not end at one side of the boxes (plot_edges.h).
+  bool without_edge = false;
 };
 
 // Signs that distinguish a field of plots from an orchard, parked cars, bushes or a room.

@@ -142,6 +142,9 @@ void add_plots(const plots::PlotField& trial, int number,
       found.back().flags.push_back("taken for a plot only as the layout is told (" + trial.doubt +
                                    ")");
     if (plot.cut_off) found.back().flags.emplace_back("reaches over the edge of the scanned area");
+    if (plot.without_edge)
+      found.back().flags.emplace_back(
+          "canopy does not end at one of its sides (a guard plot, or another crop beside it)");
   }
 }
 

@@ -17,8 +17,8 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kLeastSide_m = 0.3, kMostSide_m = 25;  // of a plot
-constexpr double kLeastRow_m = 0.2;                     // of a drill row's leaves
+constexpr double kLeastSide_m = 0.3, kMostSide_m = 100;  // of a plot; strips of farms
+constexpr double kLeastRow_m = 0.2;                      // of a drill row's leaves
 // Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
 // tenth.
 constexpr double kMostSpacing_m = 1.12;

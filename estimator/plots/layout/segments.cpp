@@ -128,15 +128,13 @@ double least_gap_cost(std::span<const ProfileSums> profiles, const BandShape& sh
   return misfit;
 }
 
-// Lets the i-th start follow the one with which the bands up to it cost least, or none. The gap
-// before it, and so the search, is rarely longer than a band.
-void follow_cheapest(std::span<const ProfileSums> profiles, const BandShape& shape, int least_gap,
-                     std::vector<Start>& starts, std::size_t i) {
-  Start& start = starts[i];
+// Lets a start follow the one of `others`, which all end before it, with which the bands up to it
+// cost least, or none. The gap before it, and so the search, is rarely longer than a band.
+void follow_cheapest(std::span<const ProfileSums> profiles, const BandShape& shape,
+                     std::span<const Start> others, Start& start) {
   start.cost = gap_cost(profiles, shape, nullptr, &start);
-  for (std::size_t k = i; k-- > 0;) {
-    const Start& other = starts[k];
-    if (start.begin - other.begin - shape.size < least_gap) continue;
+  for (std::size_t k = others.size(); k-- > 0;) {
+    const Start& other = others[k];
     if (other.least + least_gap_cost(profiles, shape, other, start) > start.cost) return;
     if (other.cost > start.cost) continue;
     const double cost = other.cost + gap_cost(profiles, shape, &other, &start);
@@ -157,10 +155,12 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
   if (shape.size < 2 * shape.blur + 1) return none;
   std::vector<Start> starts = starts_on(profiles, shape);
   const double band_price = price * parameters_of_band(profiles.size());
-  least_gap = std::max(least_gap, 2 * shape.blur + 1);
+  const int least_step = shape.size + std::max(least_gap, 2 * shape.blur + 1);
+  std::size_t others = 0;  // that end before the start
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    follow_cheapest(profiles, shape, least_gap, starts, i);
     Start& start = starts[i];
+    while (starts[others].begin + least_step <= start.begin) ++others;
+    follow_cheapest(profiles, shape, std::span(starts).first(others), start);
     start.cost += start.misfit + band_price;
     start.least = i > 0 ? std::min(starts[i - 1].least, start.cost) : start.cost;
   }

@@ -2,6 +2,7 @@
 #include "plots/lattice/internal/place_canopy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,6 +17,14 @@ constexpr double kReach_m = 0.2;     // beyond a plot's sides
 constexpr double kMoveStep_m = 0.1;  // of sides that are moved, chosen
 constexpr double kMostMoved = 0.5;   // of a plot's shorter side: half of it stays in its place
 
+std::array<double, 2> contrasts_across_r(const RowView& view, const CellBox& box) {
+  const auto [r0, r1, c0, c1] = box;
+  const int reach = static_cast<int>(std::lround(kReach_m / view.cell_m()));
+  const int inset = (c1 - c0) / 8, ca = c0 + inset, cb = c1 - inset;
+  return {view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb),
+          view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb)};
+}
+
 }  // namespace
 
 double inner_cover(const Lattice& lattice, const Place& place) {
@@ -24,18 +33,15 @@ double inner_cover(const Lattice& lattice, const Place& place) {
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
 
+std::array<double, 2> r_contrasts_of(const Lattice& lattice, const Place& place) {
+  return contrasts_across_r(lattice.view, cells_about(lattice, place, 0));
+}
+
 SideContrast contrast_of(const Lattice& lattice, const Place& place) {
   const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
-  const int r_inset = (r1 - r0) / 8, c_inset = (c1 - c0) / 8;
-  const int ra = r0 + r_inset, rb = r1 - r_inset, ca = c0 + c_inset, cb = c1 - c_inset;
-  const RowView& view = lattice.view;
-  return {.r = (view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb) +
-                view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb)) /
-               2,
-          .c = (view.cover(ra, rb, c0, c0 + reach) - view.cover(ra, rb, c0 - reach, c0) +
-                view.cover(ra, rb, c1 - reach, c1) - view.cover(ra, rb, c1, c1 + reach)) /
-               2};
+  const auto r = contrasts_across_r(lattice.view, {r0, r1, c0, c1});
+  const auto c = contrasts_across_r(lattice.view.turned(), {c0, c1, r0, r1});
+  return {.r = (r[0] + r[1]) / 2, .c = (c[0] + c[1]) / 2};
 }
 
 SideContrast rise_of(const Lattice& lattice, const Place& place) {

@@ -4,6 +4,7 @@
 // Private to the library: the canopy at a place of a lattice.
 
 #include <algorithm>
+#include <array>
 
 #include "plots/lattice/lattice.h"
 
@@ -22,6 +23,9 @@ struct SideContrast {
   double least() const { return std::min(r, c); }
 };
 SideContrast contrast_of(const Lattice& lattice, const Place& place);
+
+// The same of either side across r, before and after the plot.
+std::array<double, 2> r_contrasts_of(const Lattice& lattice, const Place& place);
 
 // Mean cover within the plot, off its edges, less that beyond its sides.
 SideContrast rise_of(const Lattice& lattice, const Place& place);

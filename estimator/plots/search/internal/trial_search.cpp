@@ -13,6 +13,7 @@
 #include "plots/lattice/box_errors.h"
 #include "plots/lattice/lattice.h"
 #include "plots/lattice/outline.h"
+#include "plots/lattice/plot_edges.h"
 #include "plots/layout/layout.h"
 #include "plots/search/internal/heading.h"
 #include "plots/search/internal/told_layout.h"
@@ -33,19 +34,6 @@ constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
 constexpr int kSizeRounds = 2;  // of size and centres in turn
 
 PlotField no_plots(std::string why) { return {.why_none = std::move(why)}; }
-
-// Whether the ground beyond one of a plot's sides was not scanned.
-bool is_cut_off(const Lattice& lattice, const Place& place) {
-  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
-  const auto share = [&](int ra, int rb, int ca, int cb) {
-    return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
-  };
-  const double least = kLeastShare * share(r0, r1, c0, c1);
-  return share(r0 - beyond, r0, c0, c1) < least || share(r1, r1 + beyond, c0, c1) < least ||
-         share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
-}
 
 // The same plots, each with half of the gaps beside it.
 Lattice with_gaps(Lattice lattice) {
@@ -109,6 +97,7 @@ std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layou
                                 double field_confidence, const Hints& hints) {
   std::vector<FoundPlot> plots;
   const PlotBoxError error = box_error(lattice, hints);
+  const std::vector<bool> edgeless = without_edge(lattice);
   for (std::size_t i = 0; i < lattice.places.size(); ++i) {
     const Place& place = lattice.places[i];
     const double clearness = std::clamp(0.5 * (place.share + place.contrast), 0.0, 1.0);
@@ -117,7 +106,8 @@ std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layou
                      .box = layout.box(layout.places[i]),
                      .box_error = error,
                      .confidence = field_confidence * clearness,
-                     .cut_off = is_cut_off(lattice, place)});
+                     .cut_off = is_cut_off(lattice, place),
+                     .without_edge = edgeless[i]});
   }
   // Whichever axis the search took for that of the rows.
   std::ranges::sort(plots, {},

@@ -40,6 +40,17 @@ TEST(FitAxis, FindsBandsOfOneSize) {
     EXPECT_NEAR(fit.begins.front()[i], 20 + 40 * static_cast<int>(i), 1);
 }
 
+// Strips of a farm, 36 m long.
+TEST(FitAxis, FindsBandsOfAnyLength) {
+  const CanopyRaster raster = raster_of(120, 2, [](double a_m, double b_m) {
+    return std::fmod(a_m - 3 + 38, 38) < 36 && a_m > 3 && a_m < 116 ? (b_m < 1 ? 0.9 : 0.8) : 0.05;
+  });
+  const AxisFit fit = fit_axis(line_along(raster), true);
+  ASSERT_EQ(fit.begins.size(), 1U);
+  ASSERT_EQ(fit.begins.front().size(), 3U);
+  EXPECT_NEAR(fit.shape.size, 36 / 0.05, 8);
+}
+
 // Each of two rows has its own begins where they are not shared.
 TEST(FitAxis, FindsEachRowsOwnBands) {
   const CanopyRaster raster = raster_of(12, 4, [](double a_m, double b_m) {
