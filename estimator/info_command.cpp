@@ -15,7 +15,8 @@ namespace {
 void say_points(const Program& program, const scan::CloudFacts& facts) {
   std::string left_out;
   if (facts.not_finite > 0)
-    left_out += fmt::format(", {} more have no finite place", facts.not_finite);
+    left_out += fmt::format(", {} more have no place (not finite, or no pose at their time)",
+                            facts.not_finite);
   if (facts.marked > 0) left_out += fmt::format(", {} marked as withheld or noise", facts.marked);
   program.say("format     " + facts.format);
   program.say(fmt::format("points     {}{}", facts.points, left_out));

@@ -60,6 +60,7 @@ record::Source source_of(std::span<const Point> points, const WriteCloudOptions&
       std::ranges::transform(part, std::back_inserter(piece), inner);
       sink(piece);
     }
+    return scan::CloudSummary{.points = points.size()};
   };
   return source;
 }

@@ -40,12 +40,20 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
   program.result({{"file", arguments.out},
                   {"points", summary.points},
                   {"poses", summary.poses},
+                  {"without_place", summary.without_place},
+                  {"notes", summary.notes},
                   {"bytes", bytes},
                   {"seconds", elapsed.count()}});
   const bool poses = summary.poses > 0;
   program.say(fmt::format("{}: {} {}, {:.1f} MB", arguments.out,
                           poses ? summary.poses : summary.points, poses ? "poses" : "points",
                           1e-6 * static_cast<double>(bytes)));
+  if (summary.without_place > 0)
+    program.say(
+        fmt::format("note: {} more points have no place: they are not finite, or no pose "
+                    "or transform covers their time",
+                    summary.without_place));
+  for (const std::string& note : summary.notes) program.say("note: " + note);
 }
 
 void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
@@ -58,7 +66,9 @@ void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
           "--sensor", arguments.flight.sensor,
           "of a bare cloud or a pcap: a shipped sensor's name or the file of your own"),
       convert.add_option("--spin", arguments.flight.spin_hz,
-                         "of a bare cloud: turns of the sensor a second; by default its own"),
+                         "of a bare cloud or a pcap: turns of the sensor a second; by default its "
+                         "own, or what the "
+                         "packets show"),
       convert
           .add_option(
               "--mount", arguments.mount_deg,

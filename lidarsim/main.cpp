@@ -58,11 +58,13 @@ void report(const Program& program, const Arguments& arguments, const lidar::Pla
                   1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
 }
 
-void require_swaying(const CLI::App& fly, const lidar::FlyOptions& options) {
-  if (options.wind_acts_on != "drone") return;
+void require_swaying(const CLI::App& fly, const lidar::FlyOptions& options, bool is_farm) {
+  if (is_farm && options.wind_acts_on != "drone") return;
   for (const std::string flag : {"--sway", "--sway-frequency", "--sway-swing"}) {
     if (fly.count(flag) > 0)
-      throw InputError(flag + " is of plants, and --wind-acts-on drone leaves them at rest");
+      throw InputError(flag + (is_farm
+                                   ? " is of plants, and --wind-acts-on drone leaves them at rest"
+                                   : " is of a farm's plants; those of an SDF world stand still"));
   }
 }
 
@@ -75,7 +77,7 @@ void require_drift(const CLI::App& fly, const std::string& time,
 }
 
 // Throws InputError on options that would change nothing beside the others.
-void require_effect(const CLI::App& fly, const lidar::FlyOptions& options) {
+void require_effect(const CLI::App& fly, const lidar::FlyOptions& options, bool is_farm) {
   if (fly.count("--spacing") > 0 && options.pattern == "single")
     throw InputError("--spacing is between neighbouring strips; --pattern single flies only one");
   const CLI::Option& wind = *fly.get_option("--wind");
@@ -83,14 +85,15 @@ void require_effect(const CLI::App& fly, const lidar::FlyOptions& options) {
     if (option->get_group() == wind.get_group() && option->count() > 0 && wind.count() == 0)
       throw InputError(option->get_name() + " tells of a wind, and --wind gives none");
   }
-  require_swaying(fly, options);
+  require_swaying(fly, options, is_farm);
   require_drift(fly, "--position-drift-time", {"--position-drift", "--height-drift"});
   require_drift(fly, "--attitude-drift-time", {"--tilt-drift", "--heading-drift"});
 }
 
 void run_fly(const Program& program, Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  require_effect(*arguments.fly, arguments.options.flight);
+  require_effect(*arguments.fly, arguments.options.flight,
+                 std::filesystem::is_directory(arguments.place));
   arguments.place = found_file(arguments.place, "worlds");
   lidar::FlyOptions& options = arguments.options.flight;
   options.seed = program.common().seed;

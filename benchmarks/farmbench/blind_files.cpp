@@ -26,7 +26,7 @@ record::Source inside(record::Source source, const cloud::Area& area) {
   const Eigen::Vector3d origin_m = source.info.origin_m;
   source.stream = [stream = source.stream, area, origin_m](const scan::PointSink& sink) {
     std::vector<scan::LabelledPoint> kept;
-    stream([&](std::span<const scan::LabelledPoint> points) {
+    return stream([&](std::span<const scan::LabelledPoint> points) {
       kept.clear();
       std::ranges::copy_if(points, std::back_inserter(kept), [&](const scan::LabelledPoint& point) {
         const double x = origin_m.x() + static_cast<double>(point.x);

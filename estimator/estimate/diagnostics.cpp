@@ -13,7 +13,7 @@ struct Reason {
 };
 
 constexpr std::array<Reason, 8> kReasons = {
-    {{Unused::not_finite, "not_finite", "without a finite place"},
+    {{Unused::not_finite, "not_finite", "without a place"},
      {Unused::marked, "marked", "withheld or noise"},
      {Unused::left_out, "left_out", "of classes left out"},
      {Unused::outside, "outside", "outside the field"},

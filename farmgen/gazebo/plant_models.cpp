@@ -23,7 +23,12 @@ constexpr int kPlantNormals = 64;
 constexpr int kGroundNormals = 1024;
 
 // Gazebo Classic leaves out what is seen from behind, and has no means to say otherwise. Gazebo Sim
-// has, in <material>, but not for a mesh with several materials.
+// has, in <material>, but not for a mesh with several materials. <material> takes the place of the
+// mesh's own, and has no mask: holes in leaves would be closed.
+bool has_sim_material(Gazebo gazebo, const mesh::Material& material) {
+  return gazebo == Gazebo::sim && material.mask == nullptr;
+}
+
 bool needs_back_faces(const Surface& surface, bool double_sided_material) {
   return !surface.closed && !double_sided_material;
 }
@@ -90,7 +95,7 @@ MergedMesh write_merged_mesh(const ModelFolder& models, const std::string& model
   write_mtl(folder / (stem + ".mtl"),
             {mtl_entry(surfaces, material, "../../" + home + "/materials/textures/")});
   obj.use_material(surfaces.names[material]);
-  const bool double_sided_material = models.gazebo == Gazebo::sim;
+  const bool double_sided_material = has_sim_material(models.gazebo, surfaces.materials[material]);
   for (const farm::Plant* plant : group.plants) {
     const Eigen::Affine3d link_from_plant =
         Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
@@ -175,7 +180,7 @@ class MergedModelWriter {
     const std::string uri = mesh_uri(groups.name, mesh.file);
     xml.open("visual", name);
     sdfxml::write_mesh_geometry(xml, uri);
-    if (options_.gazebo == Gazebo::sim)
+    if (has_sim_material(options_.gazebo, surfaces_.materials[mesh.material]))
       write_sim_material(xml, surfaces_.materials[mesh.material].colour, image_uri(mesh.material));
     write_class(xml, groups.label);
     xml.close();

@@ -34,14 +34,15 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
     }
   }
   const double outside = overhang(box, corner);
-  throw InputError(
-      source, "plots: a corner of plot " + std::to_string(plot.id) + " at (" + metres(corner.x()) +
-                  ", " + metres(corner.y()) + ") lies " +
-                  (outside > 0 ? metres(outside) + " " : "") + "off the terrain, which spans x " +
-                  metres(box.min().x()) + " to " + metres(box.max().x()) + ", y " +
-                  metres(box.min().y()) + " to " + metres(box.max().y()) +
-                  "; these plots need a square terrain of side " + metres(2 * needed_half_side) +
-                  ", or fewer, smaller or differently placed plots");
+  throw InputError(source, "plots: a corner of plot " + std::to_string(plot.id) + " at (" +
+                               metres(corner.x()) + ", " + metres(corner.y()) + ") lies " +
+                               (outside > 0 ? metres(outside) + " " : "") +
+                               "off the terrain, which spans x " + metres(box.min().x()) + " to " +
+                               metres(box.max().x()) + ", y " + metres(box.min().y()) + " to " +
+                               metres(box.max().y()) +
+                               "; these plots need a square terrain of side " +
+                               metres(std::ceil(200 * needed_half_side) / 100) +
+                               ", or fewer, smaller or differently placed plots");
 }
 
 // Between the centres of neighbours, along the grid's own axes.

@@ -6,7 +6,7 @@
 namespace plotscan {
 namespace fs = std::filesystem;
 OutputFile::OutputFile(const fs::path& final_path, bool replace)
-    : final_(fs::absolute(final_path)), temporary_(partial_path(final_)) {
+    : final_(behind_link(fs::absolute(final_path))), temporary_(partial_path(final_)) {
   if (!final_path.has_filename()) throw InputError(final_path, "is no name of a file");
   std::error_code ignored;
   if (fs::is_directory(final_, ignored)) throw InputError(final_path, "is a folder");

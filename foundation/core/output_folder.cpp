@@ -90,7 +90,7 @@ void require_apart(const fs::path& output, std::span<const fs::path> inputs) {
 
 OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::string& command,
                            std::span<const fs::path> inputs)
-    : final_(without_trailing_slash(final_path)),
+    : final_(behind_link(without_trailing_slash(final_path))),
       command_(command),
       temporary_(partial_path(final_)) {
   require_apart(final_path, inputs);

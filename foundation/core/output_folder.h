@@ -10,8 +10,8 @@
 
 namespace plotscan {
 
-// An output folder that appears whole or not at all: it is written beside its final place and
-// renamed by commit(). Without commit() it leaves nothing behind.
+// An output folder that appears whole or not at all: it is written beside its final place (where a
+// link leads) and renamed by commit(). Without commit() it leaves nothing behind.
 class OutputFolder {
  public:
   // `inputs`: files and folders that the command reads; a folder's manifest.json stands for the

@@ -107,6 +107,13 @@ std::filesystem::path partial_path(const std::filesystem::path& final_path) {
          ("." + final_path.stem().string() + own_mark() + final_path.extension().string());
 }
 
+std::filesystem::path behind_link(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  return error ? path : target;
+}
+
 std::filesystem::path shown_path(const std::filesystem::path& path) {
   if (path.string().find(own_mark()) == std::string::npos) return path;
   std::filesystem::path shown;

@@ -31,6 +31,9 @@ class TemporaryPath {
 // it, with its extension.
 std::filesystem::path partial_path(const std::filesystem::path& final_path);
 
+// Where a link leads; other paths stay.
+std::filesystem::path behind_link(const std::filesystem::path& path);
+
 // The inverse of partial_path, for a partial path of this process and what lies in it; other paths
 // stay. Errors name files this way: a writer knows only the partial path, the user only the final
 // one.

@@ -2,6 +2,7 @@
 #include "core/utc_time.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <regex>
@@ -13,8 +14,16 @@ namespace {
 
 using namespace std::chrono;
 
-constexpr seconds kLeapSeconds{18};
 constexpr UtcTime kGpsEpoch = sys_days{1980y / January / 6};
+
+// From each of these days on, UTC is a second more behind GPS time (IERS, Bulletin C; the last one
+// known is that of 2017).
+constexpr std::array<sys_days, 18> kLeapSeconds = {
+    1981y / July / 1,    1982y / July / 1,    1983y / July / 1,    1985y / July / 1,
+    1988y / January / 1, 1990y / January / 1, 1991y / January / 1, 1992y / July / 1,
+    1993y / July / 1,    1994y / July / 1,    1996y / January / 1, 1997y / July / 1,
+    1999y / January / 1, 2006y / January / 1, 2009y / January / 1, 2012y / July / 1,
+    2015y / July / 1,    2017y / January / 1};
 
 int whole(const std::ssub_match& digits) {
   int value = 0;
@@ -67,7 +76,16 @@ UtcTime later(UtcTime time, double seconds) {
 }
 
 double gps_seconds(UtcTime time) {
-  return 1e-6 * static_cast<double>((time - kGpsEpoch + kLeapSeconds).count());
+  const seconds leap(std::ranges::upper_bound(kLeapSeconds, floor<days>(time)) -
+                     kLeapSeconds.begin());
+  return 1e-6 * static_cast<double>((time - kGpsEpoch + leap).count());
+}
+
+UtcTime utc_of_gps(double gps_s) {
+  // The leap seconds until the instant, found from below: GPS time is ahead of UTC.
+  const UtcTime ahead = later(kGpsEpoch, gps_s);
+  UtcTime time = later(ahead, gps_s - gps_seconds(ahead));
+  return later(time, gps_s - gps_seconds(time));
 }
 
 }  // namespace plotscan

@@ -19,8 +19,10 @@ std::string format_utc(UtcTime time);
 // The instant so many seconds later (finite, at most 1e11 either way), to the nearest microsecond.
 UtcTime later(UtcTime time, double seconds);
 
-// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: UTC plus 18 leap seconds, exact since
-// 2017 (it was 17 from July 2015, 16 from July 2012).
+// Seconds of GPS time since its epoch, 1980-01-06T00:00:00Z: those of UTC and the leap seconds
+// until then, of which 18 are known.
 double gps_seconds(UtcTime time);
+// The instant of a GPS time; within a leap second, which UTC does not count, the second after it.
+UtcTime utc_of_gps(double gps_s);
 
 }  // namespace plotscan

@@ -26,7 +26,8 @@ void require_wind_acts(const FlyOptions& options, bool plants_sway) {
   throw InputError("--wind " + format_number(options.wind.mean_m_s) +
                    " moves nothing here: " + drone + ", and " +
                    (plants_sway ? "--wind-acts-on drone leaves the plants at rest"
-                                : "only a farm's plants sway, not those of an SDF world"));
+                                : "no plants sway: an SDF world's stand still, as do a farm's "
+                                  "with --sway 0"));
 }
 
 void require_no_resource_paths(const FlyPlaceOptions& options, const fs::path& farm) {
@@ -49,7 +50,8 @@ std::string empty_note(const FlyOptions& options) {
 }
 
 PlaceScan noted(PlaceScan scanned, const FlyOptions& options) {
-  if (scanned.summary.points == 0) scanned.notes.push_back(empty_note(options));
+  if (scanned.summary.points == 0 && scanned.summary.shots > 0)
+    scanned.notes.push_back(empty_note(options));
   return scanned;
 }
 
@@ -75,8 +77,9 @@ PlaceScan fly_place(const fs::path& place, const fs::path& scan_folder, FlyPlace
                     const ProgressReport& progress) {
   if (!fs::is_directory(place)) return fly_world(place, scan_folder, options, progress);
   require_no_resource_paths(options, place);
-  require_wind_acts(options.flight, true);
   const farm::Farm farm = farmfolder::read_farm(place);
+  require_wind_acts(options.flight,
+                    !farm.plants.empty() && options.flight.sway.lean_deg_at_5m_s > 0);
   // The farm's manifest holds the hashes of its other files.
   options.flight.inputs = {place / "manifest.json"};
   return noted({fly(farm, scan_folder, options.flight, options.replace, progress), {}},

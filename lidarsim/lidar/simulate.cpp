@@ -181,7 +181,7 @@ class Simulator {
   void add_point(std::uint64_t shot, const Ray& axis, const Return& seen, double noise_m,
                  std::vector<scan::LabelledPoint>& points) const {
     const double range = measured_range(seen.range_m + noise_m);
-    if (range < sensor_.min_range_m || range > sensor_.max_range_m) return;
+    if (range <= 0 || range < sensor_.min_range_m || range > sensor_.max_range_m) return;
     const std::uint64_t sequence = shot / shots_.fired.lasers();
     const std::size_t laser = shot % shots_.fired.lasers();
     const Eigen::Vector3f position = axis.origin_m + static_cast<float>(range) * axis.direction;
@@ -197,7 +197,8 @@ class Simulator {
                       .plant = surface.plant});
   }
 
-  // The range that the sensor reports, quantised; 0 if noise puts it behind the sensor.
+  // The range that the sensor reports, quantised; 0, which is no return, if noise puts it behind
+  // the sensor.
   double measured_range(double range_m) const {
     if (range_m <= 0) return 0;
     if (sensor_.range_step_m == 0) return range_m;

@@ -2,12 +2,16 @@
 #include "record/convert.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
+#include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/text.h"
 #include "record/scan_folder.h"
+#include "scan/las_crs.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::record {
@@ -26,8 +30,12 @@ std::string writable_extensions() {
   return joined(extensions, ", ");
 }
 
+SourceOptions source_options(const ConvertOptions& options) {
+  return {.flight = options.flight, .topic = options.topic};
+}
+
 Source open(const fs::path& in, const ConvertOptions& options) {
-  return open_source(in, {.flight = options.flight, .topic = options.topic});
+  return open_source(in, source_options(options));
 }
 
 ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& out) {
@@ -41,8 +49,16 @@ ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& o
 
 // Reads a trajectory file, or the reported trajectory of a scan folder or a recording.
 scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options) {
-  if (fs::is_directory(in)) return read_flight_record(in).reported;
-  if (is_trajectory(in)) return scan::read_trajectory(in);
+  if (!options.write.encoding.empty() || !options.write.crs.empty())
+    throw InputError("--encoding and --crs are for clouds, and a trajectory is written");
+  if (fs::is_directory(in)) return scan_flight(in, source_options(options)).reported;
+  if (is_trajectory(in)) {
+    if (options.flight || !options.topic.empty())
+      throw InputError(in,
+                       "is a trajectory; --trajectory, --sensor, --spin, --mount, --start and "
+                       "--topic are for clouds and recordings");
+    return scan::read_trajectory(in);
+  }
   const Source source = open(in, options);
   if (source.flight) return scan::moved(source.flight->reported, source.info.origin_m);
   if (source.trajectory) return *source.trajectory;
@@ -73,6 +89,14 @@ void require_options(const Format& format, const fs::path& out, const WriteOptio
     throw InputError(out, "--crs \"" + options.crs + "\" must be local or utm");
 }
 
+// What a file of the format cannot state.
+std::optional<std::string> units_note(const Source& source, const Format& format) {
+  const auto unit_m = scan::units_of_wkt(source.info.crs_wkt).horizontal_m;
+  if (format.has_crs || !unit_m || *unit_m == 1) return std::nullopt;
+  return "its coordinates stay in " + unit_name(*unit_m) + ", which a " + format.name +
+         " does not state; say --units where it is read";
+}
+
 }  // namespace
 
 void require_writable(const Source& source, const fs::path& out, const WriteOptions& options) {
@@ -93,13 +117,14 @@ ConvertSummary write_points(const Source& source, const fs::path& out, const Wri
                             const ProgressReport& progress) {
   ConvertSummary summary;
   const auto writer = writable_format(out).create(out, source, options);
-  source.stream([&](std::span<const scan::LabelledPoint> points) {
+  const auto write = [&](std::span<const scan::LabelledPoint> points) {
     writer->write(points);
     summary.points += points.size();
     if (progress && source.info.points > 0)
       progress(std::min(
           1.0, static_cast<double>(summary.points) / static_cast<double>(source.info.points)));
-  });
+  };
+  summary.without_place = source.stream(write).not_finite;
   writer->close();
   return summary;
 }
@@ -125,6 +150,8 @@ ConvertSummary convert_within(const fs::path& in, const fs::path& out,
     const Source source = open(in, options);
     require_writable(source, out, options.write);
     summary = write_points(source, file.path(), options.write, progress);
+    summary.notes = source.notes;
+    if (const auto note = units_note(source, writable_format(out))) summary.notes.push_back(*note);
   }
   file.commit();
   return summary;

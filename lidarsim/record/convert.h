@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "record/formats.h"
@@ -22,6 +23,9 @@ struct ConvertOptions {
 struct ConvertSummary {
   std::uint64_t points = 0;  // written
   std::uint64_t poses = 0;   // poses written, if `out` is a trajectory
+  // Points left out: not finite, or no pose or transform covers their time.
+  std::uint64_t without_place = 0;
+  std::vector<std::string> notes = {};  // what the user should know of `in`
 };
 
 // Converts `in` (a scan folder, cloud, recording or trajectory) to the file `out`, in the format of

@@ -18,10 +18,11 @@ using std::filesystem::path;
 // Opens a cloud; its format is recognised by its content.
 Source open_cloud(const path& file, const ReadOptions& options) {
   const scan::CloudInfo info = scan::read_cloud_info(file);
-  return {.path = file,
-          .info = info,
-          .flight = options.flight,
-          .stream = [=](const scan::PointSink& sink) { scan::read_points(file, info, sink); }};
+  return {
+      .path = file,
+      .info = info,
+      .flight = options.flight,
+      .stream = [=](const scan::PointSink& sink) { return scan::read_points(file, info, sink); }};
 }
 
 scan::CloudWriteOptions cloud_options(const Source& source, const WriteOptions& options) {
@@ -52,13 +53,15 @@ Source open_ros(const path& file, const ReadOptions& options) {
                    .fields = recorded->fields()},
           .flight = options.flight,
           .trajectory = recorded->trajectory(),
-          .stream = [recorded](const scan::PointSink& sink) { recorded->stream(sink); }};
+          .stream = [recorded](const scan::PointSink& sink) { return recorded->stream(sink); },
+          .notes = recorded->notes()};
 }
 
 // Only a scan folder knows how the drone truly moved, and has points that are shots of the flight.
 std::unique_ptr<scan::PointWriter> create_ros(const Source& source,
                                               const RosRecorder::CreateFile& create) {
-  RosRecorderOptions options{.packets = std::filesystem::is_directory(source.path)};
+  RosRecorderOptions options{.packets = std::filesystem::is_directory(source.path),
+                             .origin_m = source.info.origin_m};
   if (options.packets) options.motion = scan::read_trajectory(source.path / "trajectory.csv");
   return std::make_unique<RosRecorder>(*source.flight, options, create);
 }

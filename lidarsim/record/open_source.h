@@ -32,6 +32,10 @@ struct SourceOptions {
   std::string topic = {};  // the topic of the clouds in a bag or MCAP file, if it has several
 };
 
+// The flight of a scan folder. Throws InputError on a broken folder, and on options, as it says all
+// of it by itself.
+FlightRecord scan_flight(const std::filesystem::path& folder, const SourceOptions& options);
+
 // Opens a scan folder, a cloud or a recording, and reads what comes before its points. If its
 // flight is known, the points' times count from the trajectory's first pose. Recordings are
 // recognised by their extension, clouds by their content. Throws InputError on broken input, and on

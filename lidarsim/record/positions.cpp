@@ -41,19 +41,16 @@ bool are_recordings(const CloudFiles& cloud) {
 
 // Opens a recording so that its points are placed in the world.
 Source open_recording(const fs::path& file, const RecordingOptions& told) {
-  if (find_format(file)->has_topics) {
-    if (told.trajectory || told.sensor || told.mount_rpy_deg)
-      throw InputError(
-          file, "holds its own poses (/tf); --trajectory, --sensor and --mount are for pcap");
-    return open_source(file, {.topic = told.topic});
-  }
-  if (!told.trajectory) {
+  if (!find_format(file)->has_topics && !told.trajectory) {
     throw InputError(file,
                      "does not say where the sensor was; give --trajectory FILE (TUM text or "
                      "trajectory.csv), and --mount where it is not that of lidarsim fly");
   }
-  FlightOptions flight{.trajectory = told.trajectory, .sensor = told.sensor};
-  if (told.mount_rpy_deg) flight.mount_rpy_deg = *told.mount_rpy_deg;
+  std::optional<FlightOptions> flight;
+  if (told.trajectory || told.sensor || told.mount_rpy_deg) {
+    flight = {.trajectory = told.trajectory, .sensor = told.sensor};
+    if (told.mount_rpy_deg) flight->mount_rpy_deg = *told.mount_rpy_deg;
+  }
   return open_source(file, {.flight = flight, .topic = told.topic});
 }
 
@@ -71,40 +68,13 @@ std::optional<Eigen::Vector3d> first_place(const Source& source) {
   return std::nullopt;
 }
 
-// Says where the trajectory has no poses for long; "" where it has no such gap.
-std::string gap_note(const Source& source, const scan::Trajectory& trajectory) {
-  constexpr double kLong_s = 1, kManySteps = 10;
-  const std::vector<scan::StampedPose>& poses = trajectory.poses();
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    steps_s.push_back(poses[i].time_s - poses[i - 1].time_s);
-  if (steps_s.empty()) return "";
-  const auto longest = std::ranges::max_element(steps_s);
-  const double gap_s = *longest;
-  const double from_s = poses[static_cast<std::size_t>(longest - steps_s.begin())].time_s;
-  if (gap_s < std::max(kLong_s, kManySteps * quantile(std::move(steps_s), 0.5))) return "";
-  return fmt::format(
-      "the trajectory of {} has no pose for {:.1f} s, {:.1f} s after its first: the sensor is "
-      "taken "
-      "to move straight there",
-      source.path.filename().string(), gap_s, from_s - poses.front().time_s);
-}
-
-// What should be known of the source's flight.
-std::string flight_note(const Source& source) {
-  if (source.flight) return gap_note(source, source.flight->reported);
-  if (source.trajectory) return gap_note(source, *source.trajectory);
-  return "no transform of " + source.path.filename().string() +
-         " moves its clouds: they are taken to stand still in the world";
-}
-
 // The one coordinate system of all sources; the user's word is checked against each of them.
 scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& sources) {
   scan::CloudSystem system;
   std::vector<std::string> notes;
   for (const Source& source : sources) {
     system = scan::told_system(cloud, source.path, first_place(source));
-    if (std::string note = flight_note(source); !note.empty()) notes.push_back(std::move(note));
+    notes.insert(notes.end(), source.notes.begin(), source.notes.end());
   }
   system.notes.insert(system.notes.end(), notes.begin(), notes.end());
   return system;
@@ -115,35 +85,24 @@ void require_no_classes(const CloudFiles& cloud) {
   throw InputError(cloud.files.front(), "is a recording: its points have no classes");
 }
 
-// Whether the trajectory has ended when a point was measured: nothing says where the sensor was.
-bool is_after(const Source& source, double time_s) {
-  constexpr double kTolerance_s = 0.1;
-  return source.flight && time_s > source.flight->reported.end_s() + kTolerance_s;
-}
-
 // Streams the source's positions in metres to `sink`. `take` first gets each point and its position
 // in the file's units. Returns the number of points that could not be placed.
 using Take = std::function<void(const scan::LabelledPoint&, const Eigen::Vector3d& position)>;
 std::uint64_t stream(const Source& source, const scan::CloudSystem& system,
                      const scan::PositionSink& sink, const Take& take) {
-  std::uint64_t placed = 0, after = 0;
   std::vector<Eigen::Vector3d> positions;
-  source.stream([&](std::span<const scan::LabelledPoint> points) {
-    positions.clear();
-    for (const scan::LabelledPoint& point : points) {
-      if (is_after(source, point.time)) {
-        ++after;
-        continue;
-      }
-      const Eigen::Vector3d position =
-          source.info.origin_m + Eigen::Vector3d(point.x, point.y, point.z);
-      positions.push_back(system.metres_of(position));
-      take(point, position);
-    }
-    placed += positions.size();
-    if (!positions.empty()) sink(positions);
-  });
-  return std::max(source.info.points, placed + after) - placed;
+  return source
+      .stream([&](std::span<const scan::LabelledPoint> points) {
+        positions.clear();
+        for (const scan::LabelledPoint& point : points) {
+          const Eigen::Vector3d position =
+              source.info.origin_m + Eigen::Vector3d(point.x, point.y, point.z);
+          positions.push_back(system.metres_of(position));
+          take(point, position);
+        }
+        sink(positions);
+      })
+      .not_finite;
 }
 
 void take_time(const Source& source, double time_s, scan::CloudFacts& facts) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scan/field_names.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 
@@ -34,7 +35,7 @@ struct Columns {
     add(returned, {"returnnumber"});
     add(classified, {"classification"});
     if (layout.is_las) add(withheld, {std::string(las::kWithheld)});
-    add(time, time_names());
+    add(time, plain_names_of("time"));
   }
 };
 

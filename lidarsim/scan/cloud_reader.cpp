@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "core/text.h"
+#include "scan/field_names.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/foreign_file.h"
 #include "scan/internal/las_format.h"
@@ -81,15 +82,6 @@ CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file
       return read_text_header(file);
   }
   throw std::logic_error("unknown format of a cloud");
-}
-
-// "ReturnNumber", "return_number" and CloudCompare's "scalar_ReturnNumber" are one name.
-std::string plain_name(const std::string& name) {
-  std::string plain;
-  for (const char c : name)
-    if (c != '_') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::string_view kPrefix = "scalar";
-  return plain.starts_with(kPrefix) ? plain.substr(kPrefix.size()) : plain;
 }
 
 // Decides by marks and class whether a point is kept.
@@ -190,11 +182,6 @@ void CloudLayout::append(ScalarField field) {
 const ScalarField* CloudLayout::find(std::string_view name) const {
   const auto found = std::ranges::find(fields, name, &ScalarField::name);
   return found == fields.end() ? nullptr : &*found;
-}
-
-const std::vector<std::string>& time_names() {
-  static const std::vector<std::string> names = {"time", "timestamp", "gpstime", "t"};
-  return names;
 }
 
 double time_unit_s(const ScalarField& time) { return time.kind == 'F' ? 1 : 1e-9; }

@@ -51,7 +51,7 @@ std::string ply_header(std::uint64_t points, const Fields& fields, bool ascii) {
   for (const auto& [name, kind, size] : fields)
     properties += "property " + ply_type(kind, size) + ' ' + name + '\n';
   return padded(std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") + " 1.0\n",
-                "comment Plotscan, metres and seconds",
+                "comment Plotscan",
                 "element vertex " + std::to_string(points) + '\n' + properties + "end_header\n");
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "scan/field_names.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
@@ -48,48 +49,40 @@ PointClass class_of_asprs(double number) {
 }
 
 struct KnownField {
-  std::string name;                  // in Plotscan's PCD and PLY files
-  std::vector<std::string> aliases;  // names for find_field
+  std::string name;  // in Plotscan's PCD and PLY files
   Put put;
 };
 
 const std::vector<KnownField>& known_fields() {
   static const std::vector<KnownField> fields = {
       {"intensity",
-       {"intensity", "reflectivity"},
        [](LabelledPoint& p, double v) {
          p.intensity = static_cast<float>(v);
          return std::isfinite(p.intensity);
        }},
-      {"ring",
-       {"ring", "laserid", "channel"},
-       [](LabelledPoint& p, double v) { return assign_whole(p.ring, v); }},
-      {"time", time_names(),
+      {"ring", [](LabelledPoint& p, double v) { return assign_whole(p.ring, v); }},
+      {"time",
        [](LabelledPoint& p, double v) {
          p.time = v;
          return std::isfinite(v);
        }},
       {"return_number",
-       {"returnnumber"},
        [](LabelledPoint& p, double v) { return assign_whole(p.return_number, v); }},
-      {"return_count",
-       {"returncount", "numberofreturns"},
-       [](LabelledPoint& p, double v) { return assign_whole(p.return_count, v); }},
+      {"return_count", [](LabelledPoint& p, double v) { return assign_whole(p.return_count, v); }},
       {"class",
-       {"class", "label"},
        [](LabelledPoint& p, double v) {
          p.label = class_of(v);
          return true;
        }},
-      {"plot", {"plot"}, [](LabelledPoint& p, double v) { return assign_whole(p.plot, v); }},
-      {"plant", {"plant"}, [](LabelledPoint& p, double v) { return assign_whole(p.plant, v); }},
+      {"plot", [](LabelledPoint& p, double v) { return assign_whole(p.plot, v); }},
+      {"plant", [](LabelledPoint& p, double v) { return assign_whole(p.plant, v); }},
   };
   return fields;
 }
 
 // Replaces the field "class" in files that do not have it.
 const KnownField& asprs_class() {
-  static const KnownField field = {"class", {"classification"}, [](LabelledPoint& p, double v) {
+  static const KnownField field = {"class", [](LabelledPoint& p, double v) {
                                      p.label = class_of_asprs(v);
                                      return true;
                                    }};
@@ -116,10 +109,10 @@ Selection select(const CloudLayout& layout) {
   for (const char* axis : {"x", "y", "z"}) selection.fields.push_back(*layout.find(axis));
   for (const KnownField& named : known_fields()) {
     const KnownField* known = &named;
-    const ScalarField* field = find_field(layout, named.aliases);
+    const ScalarField* field = find_field(layout, plain_names_of(named.name));
     if (field == nullptr && named.name == "class") {
       known = &asprs_class();
-      field = find_field(layout, known->aliases);
+      field = find_field(layout, {"classification"});
     }
     if (field == nullptr) continue;
     selection.fields.push_back(*field);
@@ -193,11 +186,10 @@ std::string crs_wkt_of(const CloudLayout& layout) {
 }  // namespace
 
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s) {
-  const UtcTime epoch = *parse_utc("1980-01-06T00:00:00Z");
-  const double second_s = adjusted_s + las::kGpsTimeAdjustment_s - gps_seconds(epoch);
+  const double gps_s = adjusted_s + las::kGpsTimeAdjustment_s;
   constexpr double kCentury_s = 3.2e9;
-  if (!(second_s >= 0 && second_s < kCentury_s)) return std::nullopt;
-  return later(epoch, second_s);
+  if (!(gps_s >= 0 && gps_s < kCentury_s)) return std::nullopt;
+  return utc_of_gps(gps_s);
 }
 
 Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m) {

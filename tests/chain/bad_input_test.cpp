@@ -128,6 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"lidarsim fly not_a_farm -o out --sway 3", "--sway tells of a wind"},
         BadCommand{"lidarsim fly not_a_farm -o out --wind 2 --wind-acts-on drone --sway 3",
                    "--sway is of plants, and --wind-acts-on drone leaves them at rest"},
+        BadCommand{"lidarsim fly world.sdf -o out --wind 2 --sway 3",
+                   "--sway is of a farm's plants; those of an SDF world stand still"},
         BadCommand{"lidarsim fly not_a_farm -o out --position-drift-time 5 --position-noise 1",
                    "--position-drift-time is of a drift, and none is given: --position-drift, "},
         BadCommand{"lidarsim fly not_a_farm -o out --attitude-drift-time 5 --height-drift 1",

@@ -71,6 +71,30 @@ TEST(OutputFolder, ReplacesItsOwnWhenCommitted) {
   EXPECT_EQ(entries(folder.path()), 1u);
 }
 
+// A link is written through: the folder that it leads to is the output, as for a copy.
+TEST(OutputFolder, LiesWhereALinkLeads) {
+  const testing::TemporaryFolder folder;
+  folder.write("disk/ours/manifest.json", kManifest);
+  fs::create_directory_symlink(folder.path() / "disk/ours", folder.path() / "link");
+  OutputFolder replaced(folder.path() / "link", true, "farmgen generate");
+  std::ofstream(replaced.path() / "new") << "x";
+  replaced.commit();
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link"));
+  EXPECT_TRUE(fs::exists(folder.path() / "disk/ours/new"));
+  EXPECT_FALSE(fs::exists(folder.path() / "disk/ours/manifest.json"));
+}
+
+TEST(OutputFile, LiesWhereALinkLeads) {
+  const testing::TemporaryFolder folder;
+  folder.write("disk/cloud.pcd", "old");
+  fs::create_symlink(folder.path() / "disk/cloud.pcd", folder.path() / "link.pcd");
+  OutputFile file(folder.path() / "link.pcd", true);
+  std::ofstream(file.path()) << "new";
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "link.pcd"));
+  EXPECT_EQ(read_text(folder.path() / "disk/cloud.pcd"), "new");
+}
+
 std::string with_outputs(const std::string& outputs) {
   return R"({"plotscan": "0.1.0", "command": "farmgen generate", "outputs": [)" + outputs + "]}";
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "planting/internal/weeds.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <vector>
 
 #include "planting/plot_layout.h"
 #include "terrain/extent.h"
@@ -30,14 +33,22 @@ struct Field {
   }
 };
 
-// The rectangle about all plots with its margin; without plots the one about the terrain.
+// The rectangle about all plots with its margin, turned as the plots of the trial with which it is
+// smallest; without plots the one about the terrain.
 Field field_of(const std::vector<farm::Plot>& plots, const terrain::Terrain& terrain,
                double margin_m) {
   if (plots.empty()) return {.box = terrain::outline_of(terrain)};
-  const Eigen::Rotation2Dd world_from_field(plots.front().box.heading_rad);
-  const Eigen::AlignedBox2d box = extent_of(plots, &farm::Plot::box, world_from_field.inverse());
+  std::set<double> headings_rad;
+  for (const farm::Plot& plot : plots) headings_rad.insert(plot.box.heading_rad);
+  std::vector<Field> fields;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
-  return {world_from_field, Eigen::AlignedBox2d(box.min() - margin, box.max() + margin)};
+  for (const double heading_rad : headings_rad) {
+    const Eigen::Rotation2Dd world_from_field(heading_rad);
+    const Eigen::AlignedBox2d box = extent_of(plots, &farm::Plot::box, world_from_field.inverse());
+    fields.push_back(
+        {world_from_field, Eigen::AlignedBox2d(box.min() - margin, box.max() + margin)});
+  }
+  return *std::ranges::min_element(fields, {}, &Field::area_m2);
 }
 
 std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& field,

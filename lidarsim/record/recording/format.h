@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "record/recording/flight_record.h"
+#include "scan/cloud_reader.h"
 #include "scan/point.h"
 #include "scan/point_reader.h"
 
@@ -21,8 +22,11 @@ struct Source {
   std::optional<FlightRecord> flight;  // positions count from info.origin_m, like the points
   // The body's trajectory in the world frame and the points' time, if the file itself holds one.
   std::optional<scan::Trajectory> trajectory = {};
-  // Streams the points in the order of firing; may be called once.
-  std::function<void(const scan::PointSink&)> stream = {};
+  // Streams the points in the order of firing; may be called once. Returns how many were passed on,
+  // and how many have no place in the world: they are not finite, or no pose or transform covers
+  // their time.
+  std::function<scan::CloudSummary(const scan::PointSink&)> stream = {};
+  std::vector<std::string> notes = {};  // what the user should know of it
 };
 
 // How a file is read.
@@ -31,6 +35,7 @@ struct ReadOptions {
   // not self-contained.
   std::optional<FlightRecord> flight = {};
   bool sensor_told = true;  // whether the user chose flight.sensor; false: a default
+  bool spin_told = true;    // the same of flight.spin_hz
   std::string topic = {};   // of clouds in a bag or MCAP file; empty: RosPoints chooses
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -41,7 +42,7 @@ void take_cloud(const ros::PointCloud2& cloud, CloudTopic& topic) {
   topic.points += std::uint64_t{cloud.width} * cloud.height;
   try {
     const CloudPoints points(cloud);
-    topic.fields = points.fields();
+    if (topic.fields.empty() || points.size() > 0) topic.fields = points.fields();
     if (!topic.first_m) topic.first_m = first_finite(points);
   } catch (const InputError& error) {  // another topic may be wanted
     topic.error = error.what();
@@ -122,6 +123,13 @@ RosPoints::RosPoints(const std::filesystem::path& file, const std::string& topic
 
 UtcTime RosPoints::start() const {
   return UtcTime(std::chrono::microseconds(start_.ns / kMicrosecond_ns));
+}
+
+std::vector<std::string> RosPoints::notes() const {
+  if (std::ranges::count(fields_, "time") > 0 || !trajectory()) return {};
+  return {"the clouds of " + topic_ +
+          " have no times of their points (time, t, timestamp; seconds, or nanoseconds as whole "
+          "numbers): each point is placed where the sensor was at its cloud's stamp"};
 }
 
 scan::CloudSummary RosPoints::stream(const scan::PointSink& sink) const {

@@ -36,6 +36,8 @@ class RosPoints {
   std::uint64_t points() const { return points_; }
   // The names of LabelledPoint's fields that the clouds have.
   const std::vector<std::string>& fields() const { return fields_; }
+  // What the user should know: that points have no times of their own.
+  std::vector<std::string> notes() const;
 
   // The origin that points count from: scan::origin_near the body's first position, or the first
   // point of clouds that stand still.

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include <fmt/core.h>
+
+#include "core/error.h"
 #include "record/ros/internal/cloud.h"
 #include "record/ros/internal/inertial.h"
 
@@ -50,12 +53,24 @@ std::vector<double> pose_times(const scan::Trajectory& trajectory) {
   return times_s;
 }
 
+// Messages are written as time goes on; the points of a turn of the sensor are one message.
+void require_in_order(double time_s, double sweep_begin_s) {
+  constexpr double kRounding_s = 1e-6;
+  // Only the first turn may begin before the flight does.
+  if (sweep_begin_s == 0 || time_s >= sweep_begin_s - kRounding_s) return;
+  throw InputError(fmt::format(
+      "a point was measured {:.6f} s after the flight's start, and one before it {:.6f} s or more; "
+      "a recording needs the cloud in the order of time (sort it by time first)",
+      time_s, sweep_begin_s));
+}
+
 }  // namespace
 
 RosRecorder::RosRecorder(const FlightRecord& flight, const RosRecorderOptions& options,
                          const CreateFile& create)
     : flight_(flight),
       motion_(options.motion.value_or(flight.reported)),
+      origin_m_(options.origin_m),
       topics_{.clock = topic("/clock", ros::Clock::kType),
               .mounts = topic("/tf_static", ros::TFMessage::kType, true),
               .poses = topic("/tf", ros::TFMessage::kType),
@@ -93,13 +108,14 @@ void RosRecorder::write(std::span<const scan::LabelledPoint> points) {
     require_flown(flight_, point.time);
     if (encoder_) encoder_->write({&point, 1});
     while (point.time >= static_cast<double>(sweeps_done_ + 1) * sweep_interval_s_) end_sweep();
+    const double begin_s = static_cast<double>(sweeps_done_) * sweep_interval_s_;
+    require_in_order(point.time, begin_s);
     // The position as seen from the sensor at that instant: motion within the sweep is not
     // corrected.
     const Eigen::Isometry3d body_from_world =
         flight_.reported.world_from_body(start_s_ + point.time).inverse();
     const Eigen::Vector3d position =
         lidar_from_body * (body_from_world * Eigen::Vector3d(point.x, point.y, point.z));
-    const double begin_s = static_cast<double>(sweeps_done_) * sweep_interval_s_;
     add_point(sweep_, point, position.cast<float>(), static_cast<float>(point.time - begin_s));
   }
 }
@@ -170,6 +186,10 @@ void RosRecorder::emit_packets(double end_s) {
   put(topics_.packets, end_s, scan);
 }
 
+Eigen::Isometry3d RosRecorder::world_from_body(double time_s) const {
+  return Eigen::Translation3d(origin_m_) * flight_.reported.world_from_body(start_s_ + time_s);
+}
+
 void RosRecorder::emit_mounts() {
   const Eigen::Isometry3d same = Eigen::Isometry3d::Identity();
   ros::TFMessage message;
@@ -185,24 +205,22 @@ void RosRecorder::emit_clock(double time_s) {
 
 void RosRecorder::emit_pose(double time_s) {
   ros::TFMessage message;
-  message.transforms = {{header(time_s, kWorld), kBody,
-                         transform_of(flight_.reported.world_from_body(start_s_ + time_s))}};
+  message.transforms = {{header(time_s, kWorld), kBody, transform_of(world_from_body(time_s))}};
   put(topics_.poses, time_s, message);
 }
 
 void RosRecorder::emit_inertial(double time_s) {
   const InertialSample sample = inertial_sample(motion_, motion_.start_s() + time_s, kInertial_s);
-  const ros::Imu message{
-      .header = header(time_s, kInertial),
-      .orientation = transform_of(flight_.reported.world_from_body(start_s_ + time_s)).rotation,
-      .angular_velocity = vector_of(sample.angular_rate_rad_s),
-      .linear_acceleration = vector_of(sample.specific_force_m_s2)};
+  const ros::Imu message{.header = header(time_s, kInertial),
+                         .orientation = transform_of(world_from_body(time_s)).rotation,
+                         .angular_velocity = vector_of(sample.angular_rate_rad_s),
+                         .linear_acceleration = vector_of(sample.specific_force_m_s2)};
   put(topics_.inertial, time_s, message);
 }
 
 void RosRecorder::emit_fix(double time_s) {
-  const GeodeticPoint place = geodetic_from_world(
-      *flight_.anchor, flight_.reported.world_from_body(start_s_ + time_s).translation());
+  const GeodeticPoint place =
+      geodetic_from_world(*flight_.anchor, world_from_body(time_s).translation());
   const ros::NavSatFix message{.header = header(time_s, kReceiver),
                                .latitude = place.latitude_deg,
                                .longitude = std::remainder(place.longitude_deg, 360.0),

@@ -23,6 +23,8 @@ struct RosRecorderOptions {
   // Also record the sensor's raw packets, if it sends Velodyne's. The points must then be shots of
   // the flight (record/velodyne/encoder.h).
   bool packets = false;
+  // What the flight's poses and the points count from, in the world frame.
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
 };
 
 // Records a flight as a drone's computer would: sweeps of the sensor, poses, clock, inertial
@@ -38,8 +40,8 @@ class RosRecorder : public scan::PointWriter {
   RosRecorder(const RosRecorder&) = delete;
   RosRecorder& operator=(const RosRecorder&) = delete;
 
-  // Takes points in the order of firing, world frame. With packets, it throws InputError as
-  // VelodyneEncoder does.
+  // Takes points in the order of firing, relative to the origin. Throws InputError on one from
+  // before the sweep that is being recorded; with packets, as VelodyneEncoder does.
   void write(std::span<const scan::LabelledPoint> points) override;
   void close() override;
 
@@ -71,6 +73,8 @@ class RosRecorder : public scan::PointWriter {
   void emit_pose(double time_s);
   void emit_inertial(double time_s);
   void emit_fix(double time_s);
+  // The reported pose of the body.
+  Eigen::Isometry3d world_from_body(double time_s) const;
 
   struct Topics {
     std::size_t clock, mounts, poses, inertial, packets, points, fix;
@@ -78,6 +82,7 @@ class RosRecorder : public scan::PointWriter {
 
   FlightRecord flight_;
   scan::Trajectory motion_;
+  Eigen::Vector3d origin_m_;
   std::vector<ros::Topic> all_topics_;
   Topics topics_;
   std::unique_ptr<ros::FileWriter> file_;

@@ -130,13 +130,11 @@ CloudLayout read_cloud_header(const std::filesystem::path& file);
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 
 // The first field that is one readable number and has one of the names; earlier names take
-// precedence. Names are in lower case, without underscores and CloudCompare's "scalar_":
-// "ReturnNumber" and "scalar_return_number" are "returnnumber". nullptr when there is none.
+// precedence. Names are plain ones (field_names.h). nullptr when there is none.
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
 
-// The names for find_field of the points' times, and the unit of such a field in seconds: ROS
-// drivers write seconds (floats) or whole numbers of nanoseconds.
-const std::vector<std::string>& time_names();
+// The unit of a field of times in seconds: ROS drivers write seconds (floats) or whole numbers of
+// nanoseconds.
 double time_unit_s(const ScalarField& time);
 
 // The instant of a LAS file's adjusted GPS time; nothing outside of the century from 1980.

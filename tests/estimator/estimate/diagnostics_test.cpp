@@ -23,7 +23,7 @@ const PointAccount kAll{.read = 1127,
 TEST(PointAccount, NamesWhatBecameOfEveryPoint) {
   EXPECT_EQ(
       text_of(kAll),
-      "1127 read = 900 used + 1 without a finite place + 2 withheld or noise + 4 of classes left "
+      "1127 read = 900 used + 1 without a place + 2 withheld or noise + 4 of classes left "
       "out + 8 outside the field + 16 repeated + 32 thinned + 64 neither ground nor crop + 100 "
       "where the ground is unknown");
 }

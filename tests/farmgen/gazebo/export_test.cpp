@@ -7,14 +7,17 @@
 
 #include "farmgen/gazebo/export_example.h"
 #include "sdfxml/elements.h"
+#include "test_images.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/text_file.h"
 #include "gazebo/groups.h"
 #include "gazebo/internal/naming.h"
+#include "mesh/alpha_mask.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -128,6 +131,34 @@ TEST(Export, MergedMeshesAreTheUnionOfThePlacedPlantsByMaterial) {
       EXPECT_GT(corners, 200u) << "the comparison compared something";
     }
   }
+}
+
+// <material> takes the place of a mesh's own, and would close the holes of a leaf with a mask: its
+// mesh has both sides and the MTL's mask.
+TEST(Export, LeavesWithAMaskKeepItInGazeboSim) {
+  const ExportExample example;
+  farm::Farm farm = example.farm();
+  mesh::Material& leaf = farm.models[0].mesh.materials[0];
+  ASSERT_EQ(leaf.name, "leaf");
+  leaf.mask = std::make_shared<const mesh::AlphaMask>(
+      std::make_shared<const mesh::Image>(mesh::Image{
+          "holes.png",
+          plotscan::testing::png_of_alpha(4, 4, [](int x, int) { return x % 2 * 255; })}),
+      0.5F, "holes.png");
+  export_world(farm, example.farm_folder(), example.path() / "world",
+               {.gazebo = Gazebo::sim, .lod = Detail::scan}, {.command = "test"});
+  const fs::path model = example.path() / "world/models/plot_1";
+  EXPECT_THAT(read_text(model / "meshes/leaf.mtl"), HasSubstr("map_d "));
+  const std::string sdf = read_text(model / "model.sdf");
+  const auto visual = [&](const std::string& name) {
+    const auto begin = sdf.find("<visual name=\"" + name + "\">");
+    return sdf.substr(begin, sdf.find("</visual>", begin) - begin);
+  };
+  EXPECT_THAT(visual("leaf"), Not(HasSubstr("<material>")));
+  EXPECT_THAT(visual("stem"), HasSubstr("<double_sided>true"));
+  const auto corners = corners_in(model / "meshes/leaf.obj");
+  ASSERT_EQ(corners.size() % 6, 0U);
+  for (std::size_t i = 0; i < corners.size(); i += 6) EXPECT_EQ(corners[i], corners[i + 5]);
 }
 
 TEST(Export, RowsOfDifferentTrialsAreDifferentModels) {

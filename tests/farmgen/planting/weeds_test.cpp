@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "../example_farm.h"
+#include "../example_trials.h"
 #include "description/load_description.h"
 #include "planting/generate.h"
 #include <gmock/gmock.h>
@@ -64,6 +64,23 @@ TEST(Weeds, StandInTheWholeField) {
   }
   const double share = kPlots_m2 / kField_m2;
   EXPECT_NEAR(in_plots, 270 * share, 4 * std::sqrt(270 * share * (1 - share)));
+}
+
+// Trials of other headings: the rectangle does not depend on which comes first.
+TEST(Weeds, HaveOneFieldInWhicheverOrderTrialsCome) {
+  const auto number_of = [](const std::string& trials) {
+    const TemporaryFolder folder;
+    const auto file = folder.write(
+        "two.yaml", "terrain: {side_m: 30}\ntrials:\n" + trials +
+                        "weeds: {per_m2: 1, margin_m: 0, models: [{crop: soybean, name: weed}]}\n");
+    return weeds_of(generate(description::load_description(file), 4)).size();
+  };
+  const auto trial = [](const std::string& plots, const std::string& plants) {
+    return "  - {plots: " + plots + ", plants: " + plants + "}\n";
+  };
+  const std::string turned = trial(testing::first_trial(), testing::first_plants());
+  const std::string straight = trial(testing::second_trial(), testing::second_plants());
+  EXPECT_EQ(number_of(turned + straight), number_of(straight + turned));
 }
 
 TEST(Weeds, StandInAlleysOrInPlotsAlone) {

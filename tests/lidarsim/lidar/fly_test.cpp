@@ -272,7 +272,10 @@ TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
   options.flight.wind_acts_on = "plants";
   const auto world = folder.write("world.sdf", "<sdf version='1.9'/>");
   EXPECT_THAT(message_of<InputError>([&] { fly_place(world, folder.path() / "scan", options); }),
-              HasSubstr("only a farm's plants sway"));
+              HasSubstr("no plants sway"));
+  options.flight.sway.lean_deg_at_5m_s = 0;
+  EXPECT_THAT(message_of<InputError>([&] { fly_place(place, folder.path() / "still", options); }),
+              HasSubstr("no plants sway"));
 }
 
 TEST(FlyPlace, AnEmptyScanSaysWhy) {

@@ -161,6 +161,20 @@ TEST(Simulate, RangesBeyondTheLimitsLeaveNoPoint) {
   EXPECT_GT(expected, 1000);
 }
 
+// A range of 0 is no return, as in the sensors' packets, whatever the sensor's least range.
+TEST(Simulate, NoiseBehindTheSensorLeavesNoPoint) {
+  sensor::Sensor sensor = sensor::load_sensor("vlp16");
+  sensor.min_range_m = 0;
+  const sensor::ShotPlan plan(sensor, 10, testing::spin_along_flight(),
+                              testing::hover({0, 0, 2}, 0.1));
+  const Points points = testing::simulated(flat_farm(), sensor, plan, {.range_noise_m = 1});
+  ASSERT_GT(points.size(), 10'000u);
+  for (const auto& point : points) {
+    const testing::WorldShot shot = testing::world_shot(plan, testing::shot_of(point));
+    ASSERT_GT((testing::position(point) - shot.origin).norm(), 1e-3);
+  }
+}
+
 // A shot's noise is the same whatever else is seen.
 // A drone, a head and lasers four times as slow fire the same shots: the same points, later.
 TEST(Simulate, ASlowerTimeLeavesThePointsWhereTheyAre) {

@@ -15,11 +15,14 @@
 #include "record/open_source.h"
 #include "scan/cloud_system.h"
 #include "scan/cloud_writer.h"
+#include "scan/las_crs.h"
+#include "scan/las_writer.h"
 
 namespace plotscan::record {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::message_of;
 using testing::TemporaryFolder;
@@ -202,6 +205,13 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"),
               HasSubstr("is a trajectory by its extension"));
   EXPECT_THAT(refusal(scan_, "out.pcd", {.flight = FlightOptions{}}), HasSubstr("by itself"));
+  EXPECT_THAT(refusal(scan_, "out.tum", {.flight = FlightOptions{}}), HasSubstr("by itself"));
+  EXPECT_THAT(refusal(scan_, "out.tum", {.topic = "/x"}), HasSubstr("no topics"));
+  EXPECT_THAT(refusal(scan_, "out.tum", {.write = {.crs = "utm"}}), HasSubstr("are for clouds"));
+  EXPECT_THAT(refusal(scan_, "out.csv", {.write = {.encoding = "ascii"}}),
+              HasSubstr("are for clouds"));
+  EXPECT_THAT(refusal(scan_ / "poses.csv", "out.tum", {.flight = FlightOptions{}}),
+              HasSubstr("poses.csv: is a trajectory"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.pcd", {.flight = FlightOptions{}}),
               HasSubstr("only with --trajectory"));
   for (const fs::path& in : {scan_, scan_ / "cloud.pcd"}) {
@@ -222,6 +232,91 @@ TEST_F(Convert, ABareCloudTakesItsFlightFromTheOptions) {
   wrong = flight;
   wrong.start_utc = "noon";
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.pcd", {.flight = wrong}), HasSubstr("--start"));
+  for (const double roll_deg : {std::nan(""), 361.0}) {
+    wrong = flight;
+    wrong.mount_rpy_deg.x() = roll_deg;
+    EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.bag", {.flight = wrong}), HasSubstr("--mount"));
+  }
+}
+
+// What a recording says by itself is not told.
+TEST_F(Convert, ARecordingSaysMuchByItself) {
+  const fs::path bag = folder_.path() / "flight.bag", pcap = folder_.path() / "flight.pcap";
+  convert(scan_, bag, {});
+  FlightOptions flight{.trajectory = scan_ / "poses.csv"};
+  EXPECT_THAT(refusal(bag, "out.pcd", {.flight = flight}), HasSubstr("its own poses (/tf)"));
+  if (find_format(pcap) == nullptr) return;
+  convert(scan_, pcap, {});
+  flight.start_utc = "2020-01-01T00:00:00Z";
+  EXPECT_THAT(refusal(pcap, "out.las", {.flight = flight}),
+              HasSubstr("says by itself when it was recorded"));
+}
+
+// A map in UTM: the poses that a recording holds lie in it, too.
+TEST_F(Convert, ARecordingOfAMapHasItsPlaces) {
+  const Eigen::Vector3d place(544'000, 4'117'000, 600);
+  const fs::path map = folder_.path() / "map.pcd";
+  scan::PcdWriter writer(map, {.origin_m = place});
+  writer.write(points_of(scan_ / "cloud.pcd"));
+  writer.close();
+  const fs::path poses = folder_.path() / "map.tum";
+  scan::write_tum(poses, scan::moved(scan::read_trajectory(scan_ / "poses.csv"), place));
+  const auto first_place = [](const fs::path& file) {
+    const Source source = open_source(file, {});
+    std::optional<Eigen::Vector3d> first;
+    source.stream([&](auto piece) {
+      if (!first) first = Eigen::Vector3d(piece[0].x, piece[0].y, piece[0].z);
+    });
+    return Eigen::Vector3d(source.info.origin_m + first.value());
+  };
+  for (const char* name : {"map.bag", "map.mcap"}) {
+    const fs::path recording = folder_.path() / name;
+    convert(map, recording, {.flight = FlightOptions{.trajectory = poses}});
+    EXPECT_LT((first_place(recording) - first_place(map)).norm(), 1e-3) << name;
+  }
+}
+
+TEST_F(Convert, ACloudThatIsNotInTheOrderOfTimeIsNoRecording) {
+  std::vector<scan::LabelledPoint> points = points_of(scan_ / "cloud.pcd");
+  std::ranges::reverse(points);
+  const fs::path reversed = folder_.path() / "reversed.pcd";
+  scan::PcdWriter writer(reversed, scan::CloudWriteOptions{});
+  writer.write(points);
+  writer.close();
+  EXPECT_THAT(
+      refusal(reversed, "out.mcap", {.flight = FlightOptions{.trajectory = scan_ / "poses.csv"}}),
+      HasSubstr("needs the cloud in the order of time"));
+}
+
+// Nothing says where the sensor was after the trajectory's end.
+TEST_F(Convert, APcapEndsWithItsTrajectory) {
+  const fs::path pcap = folder_.path() / "flight.pcap", out = folder_.path() / "half.pcd";
+  if (find_format(pcap) == nullptr) GTEST_SKIP() << "built without libpcap";
+  convert(scan_, pcap, {});
+  std::vector<scan::StampedPose> poses = scan::read_trajectory(scan_ / "poses.csv").poses();
+  const double half_s = poses.back().time_s / 2;
+  std::erase_if(poses, [&](const scan::StampedPose& pose) { return pose.time_s > half_s; });
+  scan::write_tum(folder_.path() / "half.tum", scan::Trajectory(poses));
+  const ConvertSummary summary =
+      convert(pcap, out, {.flight = FlightOptions{.trajectory = folder_.path() / "half.tum"}});
+  EXPECT_GT(summary.without_place, 0U);
+  EXPECT_EQ(summary.points + summary.without_place, points_of(scan_ / "cloud.pcd").size());
+  for (const scan::LabelledPoint& point : points_of(out)) EXPECT_LE(point.time, half_s + 0.11);
+}
+
+// Turns are told by the packets' azimuths: a cloud a turn.
+TEST_F(Convert, APcapTellsTheSpin) {
+  const fs::path pcap = folder_.path() / "flight.pcap", spun = folder_.path() / "spun";
+  if (find_format(pcap) == nullptr) GTEST_SKIP() << "built without libpcap";
+  for (const double spin_hz : {7.5, 20.0}) {
+    lidar::FlyOptions options;
+    options.spin_hz = spin_hz;
+    lidar::fly(testing::small_farm(), spun, options, true);
+    convert(spun, pcap, {.replace = true});
+    const Source source =
+        open_source(pcap, {.flight = FlightOptions{.trajectory = spun / "poses.csv"}});
+    EXPECT_NEAR(source.flight->spin_hz, spin_hz, spin_hz == 20 ? 0 : 0.05);
+  }
 }
 
 // A cloud whose clock does not begin with the flight, with a trajectory of the same clock: the
@@ -273,6 +368,20 @@ TEST_F(Convert, LasToLasKeepsTheUnits) {
 }
 
 // Its time is told by the file, and --start tells it better.
+TEST_F(Convert, AFormatWithoutUnitsIsNoted) {
+  const fs::path feet = folder_.path() / "feet.las", metres = folder_.path() / "metres.las";
+  scan::LasOptions options;
+  options.crs_wkt = scan::coded_crs_wkt(0, {.horizontal_m = 1200.0 / 3937});
+  scan::LasWriter writer(feet, options);
+  writer.write(points_of(scan_ / "cloud.pcd"));
+  writer.close();
+  EXPECT_THAT(convert(feet, folder_.path() / "out.ply", {}).notes,
+              ElementsAre(HasSubstr("US survey feet")));
+  EXPECT_TRUE(convert(feet, folder_.path() / "out.las", {}).notes.empty());
+  convert(scan_, metres, {});
+  EXPECT_TRUE(convert(metres, folder_.path() / "metres.ply", {}).notes.empty());
+}
+
 TEST_F(Convert, ALasWithATrajectoryKeepsItsTime) {
   const fs::path las = folder_.path() / "cloud.las";
   lidar::fly(testing::small_farm(), folder_.path() / "may", {.start_utc = "2025-05-04T03:02:01Z"},

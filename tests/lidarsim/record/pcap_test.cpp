@@ -44,7 +44,7 @@ struct ReadPcap {
 ReadPcap read(const std::filesystem::path& file, const std::optional<Placement>& placement = {}) {
   ReadPcap result;
   result.summary =
-      read_pcap(file, sensor_of_product(read_pcap_info(file).product, file), placement,
+      read_pcap(file, sensor_of_product(read_pcap_info(file).first.product, file), placement,
                 [&](std::span<const scan::LabelledPoint> piece) {
                   result.points.insert(result.points.end(), piece.begin(), piece.end());
                 });
@@ -361,6 +361,28 @@ TEST(PcapFile, FramesThatWereCutAreRefused) {
 TEST(PcapFile, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
   EXPECT_THROW(write_pcap("/dev/full", hovering("vlp16", 0.5), {}), std::runtime_error);
+}
+
+// The same datagram after each kind of header (tcpdump.org/linktypes.html).
+TEST(Ethernet, DatagramsAreFoundOnEveryLink) {
+  const std::vector<std::uint8_t> payload = {1, 2, 3, 4, 5};
+  const std::vector<std::uint8_t> ethernet = broadcast_frame(2368, payload);
+  const std::vector<std::uint8_t> ip(ethernet.begin() + 14, ethernet.end());
+  const auto after = [&](std::vector<std::uint8_t> header) {
+    header.insert(header.end(), ip.begin(), ip.end());
+    return header;
+  };
+  std::vector<std::uint8_t> cooked(16), cooked_2(20);
+  cooked[14] = cooked_2[0] = 0x08;  // IPv4
+  for (const auto& [kind, frame] : {std::pair(FrameKind::ip, ip),
+                                    {FrameKind::linux_cooked, after(cooked)},
+                                    {FrameKind::linux_cooked_2, after(cooked_2)}}) {
+    const auto udp = udp_datagram(kind, frame);
+    ASSERT_TRUE(udp);
+    EXPECT_EQ(std::vector(udp->payload.begin(), udp->payload.end()), payload);
+    for (std::size_t size = 0; size < frame.size(); ++size)
+      EXPECT_FALSE(udp_datagram(kind, std::span(frame).first(size)));
+  }
 }
 
 TEST(Ethernet, DatagramsAreFoundThroughVlanTags) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
 #include "lidarsim/record/ros_flight.h"
@@ -181,6 +182,79 @@ TEST_P(RosFiles, FilesWithoutCloudsAreRefused) {
   writer->close();
   EXPECT_THAT(message_of<InputError>([&] { RosPoints{file("none")}; }),
               HasSubstr("holds no clouds"));
+}
+
+// A cloud of one point, with a field of times beside x, y and z.
+template <class Number>
+ros::PointCloud2 timed_cloud(const std::string& name, std::uint8_t datatype, Number time) {
+  ros::PointCloud2 cloud{.header = {.stamp = {1'780'000'000'500'000'000}, .frame_id = "lidar"}};
+  std::vector<std::uint8_t> bytes(12);
+  for (std::uint32_t axis = 0; axis < 3; ++axis)
+    cloud.point_fields.push_back({.name = std::string(1, static_cast<char>('x' + axis)),
+                                  .offset = 4 * axis,
+                                  .datatype = ros::PointField::kFloat32,
+                                  .count = 1});
+  cloud.point_fields.push_back({.name = name, .offset = 12, .datatype = datatype, .count = 1});
+  bytes.resize(12 + sizeof time);
+  std::memcpy(bytes.data() + 12, &time, sizeof time);
+  cloud.width = cloud.height = 1;
+  cloud.point_step = cloud.row_step = static_cast<std::uint32_t>(bytes.size());
+  cloud.data = std::move(bytes);
+  return cloud;
+}
+
+// The fields of velodyne_pointcloud, Ouster, Hesai and Robosense, Livox, and other ways of counting
+// a quarter of a second after the cloud's stamp.
+TEST(CloudPoints, TimesAreReadAsDriversWriteThem) {
+  using ros::PointField;
+  const auto time_of = [](const ros::PointCloud2& cloud) {
+    const CloudPoints points(cloud);
+    EXPECT_THAT(points.fields(), ::testing::Contains("time"));
+    return points.point(0).time;
+  };
+  EXPECT_NEAR(time_of(timed_cloud("time", PointField::kFloat32, 0.25F)), 0.25, 1e-9);
+  EXPECT_NEAR(time_of(timed_cloud("t", PointField::kUint32, 250'000'000U)), 0.25, 1e-9);
+  EXPECT_NEAR(time_of(timed_cloud("time", PointField::kUint32, 250'000'000U)), 0.25, 1e-9);
+  EXPECT_NEAR(time_of(timed_cloud("Time", PointField::kFloat64, -0.25)), -0.25, 1e-9);
+  EXPECT_NEAR(time_of(timed_cloud("timestamp", PointField::kFloat64, 1'780'000'000.75)), 0.25,
+              1e-6);
+  EXPECT_NEAR(time_of(timed_cloud("timestamp", PointField::kFloat64, 1.78000000075e15)), 0.25,
+              1e-6);
+  EXPECT_NEAR(time_of(timed_cloud("timestamp", PointField::kFloat64, 1.78000000075e18)), 0.25,
+              1e-6);
+}
+
+TEST(CloudPoints, TimesOfAnotherClockAreNone) {
+  const ros::PointCloud2 cloud = timed_cloud("time", ros::PointField::kFloat64, 86'400.0);
+  const CloudPoints points(cloud);
+  EXPECT_THAT(points.fields(), ::testing::ElementsAre("x", "y", "z"));
+  EXPECT_EQ(points.point(0).time, 0);
+}
+
+// The sensor moves, and nothing says when each point was measured.
+TEST_P(RosFiles, CloudsWithoutTimesAreNoted) {
+  const auto written = [&](const ros::PointCloud2& cloud) {
+    auto writer =
+        testing::create_file(file("timed"), {{.name = "/tf", .type = ros::TFMessage::kType},
+                                             {.name = "/points", .type = ros::PointCloud2::kType}});
+    const std::int64_t stamp_ns = cloud.header.stamp.ns;
+    ros::TFMessage moves;
+    for (const int second : {-1, 1}) {
+      ros::TransformStamped pose;
+      pose.header = {.stamp = {stamp_ns + second * 1'000'000'000LL}, .frame_id = "map"};
+      pose.child_frame_id = "lidar";
+      pose.transform.translation = {1.0 * second, 0, 0};
+      pose.transform.rotation = {0, 0, 0, 1};
+      moves.transforms.push_back(pose);
+    }
+    writer->write(0, {stamp_ns - 1'000'000'000}, ros::encode(writer->version(), moves));
+    writer->write(1, {stamp_ns}, ros::encode(writer->version(), cloud));
+    writer->close();
+    return RosPoints(file("timed")).notes();
+  };
+  EXPECT_TRUE(written(timed_cloud("time", ros::PointField::kFloat32, 0.25F)).empty());
+  EXPECT_THAT(written(timed_cloud("when", ros::PointField::kFloat32, 0.25F)),
+              ::testing::ElementsAre(HasSubstr("have no times of their points")));
 }
 
 // A camera's or a detector's cloud beside the sensor's.

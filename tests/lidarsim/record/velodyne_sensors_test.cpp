@@ -26,7 +26,7 @@ struct Shipped {
 // Points of a recording in the lidar frame, as its first packet names the sensor.
 std::vector<scan::LabelledPoint> decoded(const std::filesystem::path& file) {
   std::vector<scan::LabelledPoint> points;
-  read_pcap(file, sensor_of_product(read_pcap_info(file).product, file), {},
+  read_pcap(file, sensor_of_product(read_pcap_info(file).first.product, file), {},
             [&](auto piece) { points.insert(points.end(), piece.begin(), piece.end()); });
   return points;
 }
@@ -66,7 +66,7 @@ TEST_P(VelodyneSensors, RecordingsReadBackAsTheCloudWasMeasured) {
   ASSERT_GT(scan.points.size(), 20'000U);
   const auto file = scan.folder.path() / "flight.pcap";
   convert(scan.folder.path() / "scan", file, {});
-  EXPECT_EQ(read_pcap_info(file).product, shipped.product);
+  EXPECT_EQ(read_pcap_info(file).first.product, shipped.product);
   EXPECT_EQ(sensor_of_product(shipped.product, file).name, shipped.name);
   EXPECT_EQ(scan.flight.sensor.packets->distance_step_m, shipped.distance_step_m);
   const std::size_t sequences = scan.flight.placed().sequences();
@@ -91,7 +91,7 @@ TEST_P(VelodyneSensors, DualReturnsOfAFlightComeBack) {
   ASSERT_GT(seconds, 100);
   const auto file = scan.folder.path() / "flight.pcap";
   convert(scan.folder.path() / "scan", file, {});
-  EXPECT_EQ(read_pcap_info(file).mode, ReturnMode::dual);
+  EXPECT_EQ(read_pcap_info(file).first.mode, ReturnMode::dual);
   expect_measured(scan, decoded(file));
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "scan/field_names.h"
 
 namespace plotscan::record {
 namespace {
@@ -39,9 +40,27 @@ double read_as(const std::uint8_t* bytes) {
   return static_cast<double>(value);
 }
 
-const PointField* find_field(const ros::PointCloud2& cloud, const char* name) {
+const PointField* find_exactly(const ros::PointCloud2& cloud, const char* name) {
   const auto found = std::ranges::find(cloud.point_fields, name, &PointField::name);
   return found == cloud.point_fields.end() ? nullptr : &*found;
+}
+
+// The first field that has one of the names by which drivers call a field of LabelledPoint.
+const PointField* find_field(const ros::PointCloud2& cloud, const char* name) {
+  if (const PointField* ours = find_exactly(cloud, name)) return ours;
+  for (const std::string& plain : scan::plain_names_of(name))
+    for (const PointField& field : cloud.point_fields)
+      if (scan::plain_name(field.name) == plain) return &field;
+  return nullptr;
+}
+
+// Labels are ours alone: other programs' mean something else.
+const PointField* find_label(const ros::PointCloud2& cloud, const char* name) {
+  return find_exactly(cloud, name);
+}
+
+bool is_whole(std::uint8_t datatype) {
+  return datatype != PointField::kFloat32 && datatype != PointField::kFloat64;
 }
 
 }  // namespace
@@ -88,38 +107,59 @@ void add_point(ros::PointCloud2& cloud, const scan::LabelledPoint& point,
 CloudPoints::CloudPoints(const ros::PointCloud2& cloud) : cloud_(cloud) {
   if (cloud.is_bigendian) throw InputError("a cloud is big-endian; little-endian ones are read");
   for (const char* axis : {"x", "y", "z"})
-    if (!find_field(cloud, axis)) throw InputError("a cloud has no fields x, y and z");
+    if (!find_exactly(cloud, axis)) throw InputError("a cloud has no fields x, y and z");
   const std::uint64_t step = cloud.point_step;
   if (cloud.width > 0 && cloud.height > 0 &&
       (step == 0 || step * cloud.width > cloud.row_step ||
        std::uint64_t{cloud.row_step} * cloud.height > cloud.data.size()))
     throw InputError("a cloud's sizes do not fit its data");
   size_ = std::size_t{cloud.width} * cloud.height;
-  x_ = field("x");
-  y_ = field("y");
-  z_ = field("z");
-  intensity_ = field("intensity");
-  ring_ = field("ring");
-  time_ = field("time");
-  time_ns_ = field("t");
-  return_number_ = field("return_number");
-  return_count_ = field("return_count");
-  class_ = field("class");
-  plot_ = field("plot");
-  plant_ = field("plant");
+  x_ = field(find_exactly(cloud, "x"));
+  y_ = field(find_exactly(cloud, "y"));
+  z_ = field(find_exactly(cloud, "z"));
+  intensity_ = field(find_field(cloud, "intensity"));
+  ring_ = field(find_field(cloud, "ring"));
+  time_ = field(find_field(cloud, "time"));
+  return_number_ = field(find_field(cloud, "return_number"));
+  return_count_ = field(find_field(cloud, "return_count"));
+  class_ = field(find_label(cloud, "class"));
+  plot_ = field(find_label(cloud, "plot"));
+  plant_ = field(find_label(cloud, "plant"));
+  if (time_) clock_ = clock_of(*time_);
+}
+
+// What a driver writes lies within seconds of the cloud's stamp.
+std::optional<CloudPoints::Clock> CloudPoints::clock_of(const Field& time) const {
+  constexpr double kNear_s = 10;
+  const double stamp_s = 1e-9 * static_cast<double>(cloud_.header.stamp.ns);
+  const double unit_s = is_whole(time.datatype) ? 1e-9 : 1;
+  const std::vector<Clock> clocks = {{unit_s, 0}, {1, stamp_s}, {1e-6, stamp_s}, {1e-9, stamp_s}};
+  if (size_ == 0) return clocks.front();
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double read = number(bytes_of(i), time);
+    for (const Clock& clock : clocks)
+      if (std::abs(clock.since_stamp_s(read)) <= kNear_s) return clock;
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> CloudPoints::fields() const {
   std::vector<std::string> names = {"x", "y", "z"};
-  for (const char* name :
-       {"intensity", "ring", "return_number", "return_count", "class", "plot", "plant"})
-    if (find_field(cloud_, name) != nullptr) names.emplace_back(name);
-  if (time_ || time_ns_) names.emplace_back("time");
+  const auto add = [&](const std::optional<Field>& field, const char* name) {
+    if (field) names.emplace_back(name);
+  };
+  add(intensity_, "intensity");
+  add(ring_, "ring");
+  add(return_number_, "return_number");
+  add(return_count_, "return_count");
+  add(class_, "class");
+  add(plot_, "plot");
+  add(plant_, "plant");
+  if (clock_) names.emplace_back("time");
   return names;
 }
 
-std::optional<CloudPoints::Field> CloudPoints::field(const char* name) const {
-  const PointField* found = find_field(cloud_, name);
+std::optional<CloudPoints::Field> CloudPoints::field(const ros::PointField* found) const {
   if (found == nullptr) return std::nullopt;
   if (std::uint64_t{found->offset} + size_of(found->datatype) > cloud_.point_step)
     throw InputError("a cloud's field " + found->name + " lies outside of its points");
@@ -181,8 +221,7 @@ scan::LabelledPoint CloudPoints::point(std::size_t index) const {
   set(point.intensity, at, intensity_);
   if (!std::isfinite(point.intensity)) point.intensity = 0;
   set(point.ring, at, ring_);
-  set(point.time, at, time_);
-  if (!time_ && time_ns_) point.time = 1e-9 * number(at, *time_ns_);
+  if (clock_) point.time = clock_->since_stamp_s(number(at, *time_));
   set(point.return_number, at, return_number_);
   set(point.return_count, at, return_count_);
   std::uint8_t label = 0;

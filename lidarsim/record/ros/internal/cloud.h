@@ -35,8 +35,9 @@ class CloudPoints {
   // A point's position in the cloud's frame, as exact as the cloud has it.
   Eigen::Vector3d position_m(std::size_t index) const;
   // A point in the cloud's frame. Members that the cloud lacks keep their defaults; `time` is in
-  // seconds since the cloud's stamp, from the field `time` (seconds) or `t` (nanoseconds,
-  // Ouster's).
+  // seconds since the cloud's stamp. Drivers write seconds (velodyne_pointcloud) or whole numbers
+  // of nanoseconds (Ouster) since the stamp, or seconds, micro- or nanoseconds since 1970 (Hesai,
+  // Robosense, Livox): whichever puts the first such point within seconds of the cloud's stamp.
   scan::LabelledPoint point(std::size_t index) const;
 
  private:
@@ -44,7 +45,15 @@ class CloudPoints {
     std::size_t offset = 0;
     std::uint8_t datatype = 0;
   };
-  std::optional<Field> field(const char* name) const;
+  // How the cloud counts its points' times.
+  struct Clock {
+    double unit_s = 1;
+    double stamp_s = 0;  // of the cloud, on that clock
+
+    double since_stamp_s(double time) const { return unit_s * time - stamp_s; }
+  };
+  std::optional<Field> field(const ros::PointField* found) const;
+  std::optional<Clock> clock_of(const Field& time) const;
   const std::uint8_t* bytes_of(std::size_t index) const;
   double number(const std::uint8_t* point, const Field& field) const;
   template <class Value>
@@ -52,8 +61,9 @@ class CloudPoints {
 
   const ros::PointCloud2& cloud_;
   std::size_t size_ = 0;
-  std::optional<Field> x_, y_, z_, intensity_, ring_, time_, time_ns_, return_number_,
-      return_count_, class_, plot_, plant_;
+  std::optional<Field> x_, y_, z_, intensity_, ring_, time_, return_number_, return_count_, class_,
+      plot_, plant_;
+  std::optional<Clock> clock_;  // absent: the cloud has no times that are understood
 };
 
 }  // namespace plotscan::record

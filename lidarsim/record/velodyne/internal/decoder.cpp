@@ -13,7 +13,27 @@ namespace {
 
 constexpr double kAzimuthStep_rad = 2 * kPi / kAzimuthSteps;
 
+// In dual mode two blocks describe the same shots.
+std::size_t blocks_of_shots(const DataPacket& packet) {
+  return packet.mode == ReturnMode::dual ? 2 : 1;
+}
+
+// From the first firing of a block to that of the next.
+double block_time_s(const sensor::Sensor& sensor) {
+  return sensor.sequence_s * static_cast<double>(kBlockReturns / sensor.lasers.size());
+}
+
 }  // namespace
+
+double spin_hz(const DataPacket& packet, const sensor::Sensor& sensor) {
+  constexpr double kRounded = 0.01;
+  const std::size_t stride = blocks_of_shots(packet), last = kPacketBlocks - stride;
+  const int steps = packet.blocks[last].azimuth - packet.blocks[0].azimuth;
+  const double turns = (steps < 0 ? steps + kAzimuthSteps : steps) / double{kAzimuthSteps};
+  const double measured_hz = turns / (static_cast<double>(last / stride) * block_time_s(sensor));
+  const double whole_hz = std::round(measured_hz);
+  return std::abs(measured_hz - whole_hz) < kRounded * whole_hz ? whole_hz : measured_hz;
+}
 
 VelodyneDecoder::VelodyneDecoder(const sensor::Sensor& sensor, std::optional<Placement> placement)
     : sensor_(sensor), placement_(std::move(placement)) {
@@ -50,9 +70,8 @@ void VelodyneDecoder::decode(const DataPacket& packet, double time_s,
                              std::vector<scan::LabelledPoint>& points) {
   const std::size_t lasers = sensor_.lasers.size();
   const bool is_dual = packet.mode == ReturnMode::dual;
-  const std::size_t stride = is_dual ? 2 : 1;
-  const std::size_t sequences = kBlockReturns / lasers;  // in a block
-  const double block_s = sensor_.sequence_s * static_cast<double>(sequences);
+  const std::size_t stride = blocks_of_shots(packet);
+  const double block_s = block_time_s(sensor_);
   for (std::size_t block = 0; block < kPacketBlocks; block += stride) {
     const std::size_t turn = block / stride;
     const PacketBlock& last = packet.blocks[block];

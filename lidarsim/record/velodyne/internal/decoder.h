@@ -19,6 +19,11 @@ struct Placement {
   Eigen::Isometry3d body_from_lidar;
 };
 
+// Turns of the head a second while the sensor sent the packet. Azimuths are in steps of 0.01
+// degrees, so it is known to a few parts in a thousand: where that is a whole number (the sensors
+// are set in steps of 60 turns a minute), the whole number.
+double spin_hz(const DataPacket& packet, const sensor::Sensor& sensor);
+
 // Turns data packets into points. A return's point follows from the azimuth, interpolated between
 // blocks as the manual says (section 9.5), the laser's own direction and origin, and the time of
 // the shot.

@@ -12,6 +12,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kEthernetSize = 14;
 constexpr std::size_t kCookedSize = 16;
+constexpr std::size_t kCooked2Size = 20;
 constexpr std::size_t kIpSize = 20;
 constexpr std::size_t kUdpSize = 8;
 constexpr std::uint16_t kIpv4 = 0x0800;
@@ -41,12 +42,26 @@ void put_checksum(std::vector<std::uint8_t>& bytes, std::size_t at, std::uint32_
   bytes[at + 1] = static_cast<std::uint8_t>(~sum);
 }
 
+// A link's header: its size, and where in it the protocol of what follows stands.
+struct LinkHeader {
+  std::size_t size = 0;
+  std::size_t type_at = 0;
+};
+
+// LINKTYPE_ETHERNET, LINKTYPE_LINUX_SLL and LINKTYPE_LINUX_SLL2 of tcpdump.org/linktypes.html.
+LinkHeader link_header(FrameKind kind) {
+  if (kind == FrameKind::linux_cooked) return {kCookedSize, kCookedSize - 2};
+  if (kind == FrameKind::linux_cooked_2) return {kCooked2Size, 0};
+  return {kEthernetSize, kEthernetSize - 2};
+}
+
 // The frame from its IPv4 packet on; nothing if it carries none.
 std::optional<Bytes> ip_packet(FrameKind kind, Bytes frame) {
   if (kind == FrameKind::ip) return frame;
-  std::size_t at = kind == FrameKind::ethernet ? kEthernetSize : kCookedSize;
+  const LinkHeader link = link_header(kind);
+  std::size_t at = link.size;
   if (frame.size() < at) return std::nullopt;
-  std::uint16_t type = big16_at(frame, at - 2);
+  std::uint16_t type = big16_at(frame, link.type_at);
   while ((type == kVlan || type == kServiceVlan) && frame.size() >= at + 4) {
     type = big16_at(frame, at + 2);
     at += 4;

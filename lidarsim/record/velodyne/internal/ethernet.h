@@ -25,7 +25,7 @@ struct UdpDatagram {
 };
 
 // The outermost protocol of a recording's frames.
-enum class FrameKind { ethernet, linux_cooked, ip };
+enum class FrameKind { ethernet, linux_cooked, linux_cooked_2, ip };
 
 // The whole UDP datagram in a frame; VLAN tags (IEEE 802.1Q) are skipped. Nothing if there is none:
 // another protocol, a fragment, or fewer bytes than UDP's header promises.

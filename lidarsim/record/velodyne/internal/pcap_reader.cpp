@@ -73,12 +73,19 @@ class DatagramFile {
         return FrameKind::ethernet;
       case DLT_LINUX_SLL:
         return FrameKind::linux_cooked;
+      case DLT_LINUX_SLL2:
+        return FrameKind::linux_cooked_2;
       case DLT_RAW:
+      case DLT_IPV4:
         return FrameKind::ip;
       default:
         break;
     }
-    throw InputError(path_, "was recorded on neither Ethernet nor IP");
+    const char* link = pcap_datalink_val_to_description(pcap_datalink(pcap_.get()));
+    throw InputError(
+        path_, fmt::format("was recorded on a link of type {} ({}); Ethernet, Linux cooked and raw "
+                           "IPv4 are read",
+                           pcap_datalink(pcap_.get()), link != nullptr ? link : "unknown"));
   }
 
   // libpcap converts the file's time stamps to microseconds.
@@ -209,9 +216,7 @@ PcapInfo read_pcap_info(const std::filesystem::path& path) {
   while (const auto datagram = file.next()) {
     const auto packet = decode_data_packet(datagram->udp.payload);
     if (!packet) continue;
-    return {.product = packet->product,
-            .mode = packet->mode,
-            .start = start_of(packet->past_hour_us, datagram->captured)};
+    return {.first = *packet, .start = start_of(packet->past_hour_us, datagram->captured)};
   }
   fail_empty(path);
 }

@@ -15,8 +15,7 @@ namespace plotscan::record {
 
 // What the first data packet of a recording states.
 struct PcapInfo {
-  std::uint8_t product = 0;
-  ReturnMode mode = ReturnMode::strongest;
+  DataPacket first;
   // When its first firing was, which is time 0 of the points. The packet states the time past the
   // hour, the recorder's clock the hour. If the two clocks differ by more than a minute, the
   // recorder's time counts: a sensor without GPS counts from when it was switched on.
