@@ -19,7 +19,9 @@ Scores outer(const score::Scores& scores) {
               .extra = boxes.extra,
               .iou_mean = boxes.iou_mean,
               .center_rmse_m = boxes.center_rmse_m,
-              .heading_rmse_deg = degrees(boxes.heading_rmse_rad)};
+              .heading_rmse_deg = degrees(boxes.heading_rmse_rad),
+              .heights = {},
+              .notes = scores.notes};
   for (const score::HeightScore& height : scores.heights) {
     made.heights.push_back({.height = height.height,
                             .truth = height.truth,
@@ -34,20 +36,26 @@ Scores outer(const score::Scores& scores) {
   return made;
 }
 
+score::ScoreOptions inner(double min_iou, const std::string& id) {
+  score::ScoreOptions options{.min_iou = min_iou};
+  if (!id.empty()) options.id = id;
+  return options;
+}
+
 }  // namespace
 
 Scores score_estimate(const std::filesystem::path& estimate, const std::filesystem::path& truth,
-                      double min_iou) {
+                      double min_iou, const std::string& id) {
   return boundary::guarded([&] {
     return outer(score::run(
-        {.estimate = estimate, .truth = truth, .output = {}, .score = {.min_iou = min_iou}}));
+        {.estimate = estimate, .truth = truth, .output = {}, .score = inner(min_iou, id)}));
   });
 }
 
 Scores score_estimate(const FieldEstimate& estimate, const std::filesystem::path& truth,
-                      double min_iou) {
+                      double min_iou, const std::string& id) {
   return boundary::guarded([&] {
-    return outer(score::score_against(truth, boundary::inner(estimate), {.min_iou = min_iou}));
+    return outer(score::score_against(truth, boundary::inner(estimate), inner(min_iou, id)));
   });
 }
 

@@ -83,14 +83,14 @@ void bind_score(py::module_& module) {
       .def_readonly("iou_mean", &Scores::iou_mean)
       .def_readonly("center_rmse_m", &Scores::center_rmse_m)
       .def_readonly("heading_rmse_deg", &Scores::heading_rmse_deg)
-      .def_readonly("heights", &Scores::heights);
+      .def_readonly("heights", &Scores::heights)
+      .def_readonly("notes", &Scores::notes);
   module.def("score_estimate",
-             [](const FieldEstimate& estimate, const fs::path& truth, double min_iou) {
-               return score_estimate(estimate, truth, min_iou);
-             });
-  module.def("score_estimate", [](const fs::path& estimate, const fs::path& truth, double min_iou) {
-    return score_estimate(estimate, truth, min_iou);
-  });
+             [](const FieldEstimate& estimate, const fs::path& truth, double min_iou,
+                const std::string& id) { return score_estimate(estimate, truth, min_iou, id); });
+  module.def("score_estimate",
+             [](const fs::path& estimate, const fs::path& truth, double min_iou,
+                const std::string& id) { return score_estimate(estimate, truth, min_iou, id); });
 }
 
 }  // namespace

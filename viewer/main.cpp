@@ -158,10 +158,13 @@ void declare_picture(Program& program, PictureArguments& arguments) {
                       [&] { draw(program, arguments); });
   picture.add_option("FARM", arguments.farm, "farm folder, from farmgen generate")->required();
   picture.add_option("-o,--output", arguments.png, "the PNG to write")->required();
-  picture.add_option("--scan", arguments.scan,
-                     "scan folder, PCD or PLY: drawn beside the farm, coloured by height");
-  picture.add_option("--plots", arguments.plots,
-                     "estimate folder or GeoJSON: its boxes are drawn on the scan");
+  CLI::Option* scan =
+      picture.add_option("--scan", arguments.scan,
+                         "scan folder, PCD or PLY: drawn beside the farm, coloured by height");
+  picture
+      .add_option("--plots", arguments.plots,
+                  "estimate folder or GeoJSON: its boxes are drawn on the scan")
+      ->needs(scan);
   add_view_options(picture, arguments.options);
   picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");
 }

@@ -135,7 +135,7 @@ CommandMethod command_method(const std::string& name, const std::string& command
   if (names_place(method.words, "out") == as_table)
     throw InputError(std::string("the command names ") + (as_table ? "two outputs" : "no output") +
                      "; it must name one: {out} (GeoJSON) or {out_csv}");
-  if (takes_boxes(method)) method.name += " true-boxes";
+  if (takes_boxes(method)) method.name += kTrueBoxes;
   return method;
 }
 

@@ -19,8 +19,6 @@
 namespace plotscan::farmbench {
 namespace {
 
-constexpr std::string_view kTrueBoxes = " true-boxes";
-
 std::vector<PlotBox> true_boxes(const Field& field) {
   std::vector<PlotBox> boxes;
   for (const score::TruePlot& plot : field.plots) boxes.push_back(plot.box);
@@ -143,7 +141,8 @@ Method method_named(const std::string& name) {
   std::istringstream words(name);
   std::string base;
   words >> base;
-  const bool in_true_boxes = name.starts_with(base + std::string(kTrueBoxes));
+  const std::string boxed = base + std::string(kTrueBoxes);
+  const bool in_true_boxes = name == boxed || name.starts_with(boxed + " ");
   if (in_true_boxes) words.ignore(static_cast<std::streamsize>(kTrueBoxes.size()));
   if (base == "lattice")
     return lattice_method(name, in_true_boxes, with_words(methods::lattice::settings(), words));

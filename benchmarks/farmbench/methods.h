@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cloud/cloud_map.h"
@@ -15,6 +16,9 @@
 #include "score/score.h"
 
 namespace plotscan::farmbench {
+
+// Ends the names of methods that measure in the true boxes.
+inline constexpr std::string_view kTrueBoxes = " true-boxes";
 
 // One scanned field as the methods get it. Each method uses only a part of it; its name or
 // docs/benchmark.md says which.

@@ -153,10 +153,11 @@ void remove_left_work(const fs::path& output, const std::vector<FarmTask>& tasks
 PlanSummary plan(const RunOptions& options) {
   require_own_folder(options.output, kRunCommand);
   const Suite suite = suite_of(options);
+  require_results_of(options.output, suite.name);
   require_entries(options.output, suite.methods);
   make_result_folders(options.output);
   const std::size_t farms = suite.cases.size() * suite.seeds.size();
-  write_run_manifest(options, farms, false);
+  write_run_manifest(options, suite.name, farms, false);
   write_changed(options.output / "tasks.csv", tasks_csv(suite));
   write_changed(plan_file(options.output), plan_json(options).dump(1) + "\n");
   fs::create_directories(options.output / "plan");

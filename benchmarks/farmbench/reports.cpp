@@ -18,16 +18,30 @@
 namespace plotscan::farmbench {
 namespace {
 
+// "30 of 30, 2 without": plots found, of these the ones without this height.
+std::string found_of(const TableRow& row) {
+  const std::string without = row.without > 0 ? fmt::format(", {} without", row.without) : "";
+  return fmt::format("{} of {}", row.found, row.plots) + without;
+}
+
+// Whether a row has a place among others: RMSE is that of the plots that a method has measured, and
+// one that leaves the harder ones out, or boxes out of the air in, is no better for it.
+bool has_place(const TableRow& row) {
+  constexpr double kMost = 0.95;
+  const auto measured = static_cast<double>(row.found - row.without);
+  return measured >= kMost * static_cast<double>(row.plots) && !(row.precision < kMost);
+}
+
+// A row without a place has rank 0.
 std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::string& published) {
   std::string line;
   for (const std::string& cell :
-       {std::to_string(rank), row.method,
+       {rank > 0 ? std::to_string(rank) : "", row.method,
         with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m), published,
         number("{:+.2f}", 100 * row.bias_m), centimetres(row.mae_m), number("{:.3f}", row.r2),
         centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-        number("{:.2f}", row.within.rho), fmt::format("{} of {}", row.found, row.plots),
-        std::to_string(row.extra), number("{:.3f}", row.iou_median),
-        number("{:.2f}", row.seconds)}) {
+        number("{:.2f}", row.within.rho), found_of(row), std::to_string(row.extra),
+        number("{:.3f}", row.iou_median), number("{:.2f}", row.seconds)}) {
     line += "| " + cell + " ";
   }
   return line + "|";
@@ -101,11 +115,14 @@ std::string own_truths(const std::vector<TableRow>& rows) {
 
 // Plots found, heights named after truths; for each truth and case, the methods by RMSE.
 std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& table) {
-  std::string text = "# Suite " + result.suite +
-                     "\n\nRMSE, bias and MAE in cm over the plots found; 95 % bootstrap intervals "
-                     "over farms. Bias a farm: rms of the farms' own biases; within farms: rms of "
-                     "the errors less their farm's. All columns and truths are in table.csv.\n" +
-                     plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
+  std::string text =
+      "# Suite " + result.suite +
+      "\n\nRMSE, bias and MAE in cm over the plots found; 95 % bootstrap intervals "
+      "over farms. Bias a farm: rms of the farms' own biases; within farms: rms of "
+      "the errors less their farm's. Methods that measured fewer than 95 % of the plots, "
+      "or more than 5 % of whose plots are none, have no place. All columns and "
+      "truths are in table.csv.\n" +
+      plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
   const std::vector<std::string> failures = failure_lines(result);
   if (!failures.empty()) text += "\n## Methods that gave up\n\n";
   for (const std::string& failure : failures) text += "- " + failure + "\n";
@@ -123,6 +140,7 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
       if (rows.empty()) continue;
       // NaN, a method without any height, comes last.
       std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
+        if (has_place(a) != has_place(b)) return has_place(a);
         return a.rmse_m < b.rmse_m || (std::isnan(b.rmse_m) && !std::isnan(a.rmse_m));
       });
       text +=
@@ -132,7 +150,9 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
           "extra | IoU median | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- "
           "| --- | --- | --- | --- | --- |\n";
       for (std::size_t i = 0; i < rows.size(); ++i)
-        text += leaderboard_line(i + 1, rows[i], published_cm(result, rows[i])) + "\n";
+        text += leaderboard_line(has_place(rows[i]) ? i + 1 : 0, rows[i],
+                                 published_cm(result, rows[i])) +
+                "\n";
     }
   }
   return text;
@@ -163,7 +183,8 @@ std::string summary_line(const SuiteResult& result, const TableRow& row, bool fi
   return name_columns(first_of_method ? row.method : "", row.case_name, widths) +
          fmt::format(" {:21} {:>7} {:>6}",
                      with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                     number("{:+.2f}", 100 * row.bias_m), published_cm(result, row));
+                     number("{:+.2f}", 100 * row.bias_m), published_cm(result, row)) +
+         (row.without > 0 ? fmt::format("  {} plots without", row.without) : "");
 }
 
 std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {

@@ -29,6 +29,16 @@ namespace {
 
 using nlohmann::json;
 
+// What decides the results, besides the suite's file. A secret is not told.
+json options_json(const RunOptions& options, const std::string& suite) {
+  json told = {{"suite", suite},
+               {"methods", options.methods},
+               {"entered", options.entered},
+               {"secret", options.secret.has_value()}};
+  if (options.seeds) told["seeds"] = *options.seeds;
+  return told;
+}
+
 void require_sound(const RunOptions& options) {
   if (options.jobs < 1 || options.jobs > 1024)
     throw InputError("the number of jobs is " + std::to_string(options.jobs) + "; it is 1 to 1024");
@@ -71,9 +81,20 @@ class NewFolder {
 
 }  // namespace
 
-void write_run_manifest(const RunOptions& options, std::size_t farms, bool finished) {
+void require_results_of(const fs::path& output, const std::string& suite) {
+  if (!fs::exists(output / "manifest.json")) return;
+  const json manifest = read_manifest(output);
+  const std::string held = manifest.value("options", json::object()).value("suite", suite);
+  if (held != suite)
+    throw InputError(output, "holds the results of suite " + held + ", and this is suite " + suite +
+                                 "; choose another folder");
+}
+
+void write_run_manifest(const RunOptions& options, const std::string& suite, std::size_t farms,
+                        bool finished) {
   write_manifest(options.output, {.command = kRunCommand,
                                   .seed = options.seed,
+                                  .options = options_json(options, suite),
                                   .inputs = {options.suite},
                                   .results = {{"farms", farms}, {"finished", finished}}});
 }
@@ -90,7 +111,7 @@ RunSummary write_results(const RunOptions& options, const Suite& suite,
   summary.table = make_table(summary.result, options.seed);
   write_json(options.output / "results.json", to_json(summary.result));
   write_reports(options.output, summary.result, summary.table);
-  write_run_manifest(options, tasks.size(), finished);
+  write_run_manifest(options, suite.name, tasks.size(), finished);
   return summary;
 }
 
@@ -98,6 +119,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
                const FarmReport& finished) {
   require_sound(options);
   const Suite suite = suite_of(options);
+  require_results_of(options.output, suite.name);
   require_entries(options.output, suite.methods);
   std::vector<FarmTask> tasks = farm_tasks(suite, options);
   const auto resumed =
@@ -105,7 +127,7 @@ RunSummary run(const RunOptions& options, const ProgressReport& progress,
   require_places(options, tasks);
   const NewFolder folder(options.output);
   make_result_folders(options.output);
-  write_run_manifest(options, tasks.size(), false);
+  write_run_manifest(options, suite.name, tasks.size(), false);
   run_tasks(tasks, suite, options, progress, finished);
   RunSummary summary = write_results(options, suite, std::move(tasks));
   summary.resumed = static_cast<std::size_t>(resumed);

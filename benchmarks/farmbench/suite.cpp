@@ -170,7 +170,7 @@ std::vector<std::string> read_truths(const YamlSection& root) {
 bool has_row(const Suite& suite, const std::string& row) {
   for (const std::string& name : suite.methods) {
     if (std::ranges::find(suite.commands, name, &CommandMethod::name) != suite.commands.end()) {
-      if (row.starts_with(name.substr(0, name.find(' ')))) return true;
+      if (row.starts_with(name.substr(0, name.find(' ')) + "/")) return true;
     } else {
       const std::vector<MethodHeight> heights = method_named(name).heights;
       if (std::ranges::find(heights, row, &MethodHeight::row) != heights.end()) return true;

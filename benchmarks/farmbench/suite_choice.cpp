@@ -86,4 +86,8 @@ std::vector<BlindField> blind_fields(const Suite& suite, const SuiteChoice& choi
   return sorted;
 }
 
+std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256) {
+  return sha256_of(code + farm_sha256);
+}
+
 }  // namespace plotscan::farmbench

@@ -69,7 +69,8 @@ SquaredErrors summed(const std::vector<SquaredErrors>& farms) {
 // Four decimals, a hundred times finer than any of the figures is accurate. What could not be
 // computed is an empty field.
 std::string field_of(double value) {
-  return std::isnan(value) ? "" : format_number(std::round(value * 1e4) / 1e4);
+  const double rounded = std::round(value * 1e4) / 1e4;
+  return std::isnan(value) ? "" : format_number(rounded == 0 ? 0 : rounded);  // no "-0"
 }
 
 // A column of table.csv.
@@ -90,6 +91,7 @@ constexpr std::array kColumns = {
     Column{"found", [](Row row) { return std::to_string(row.found); }},
     Column{"missed", [](Row row) { return std::to_string(row.missed); }},
     Column{"extra", [](Row row) { return std::to_string(row.extra); }},
+    Column{"without", [](Row row) { return std::to_string(row.without); }},
     Column{"recall", [](Row row) { return field_of(row.recall); }},
     Column{"precision", [](Row row) { return field_of(row.precision); }},
     Column{"iou_mean", [](Row row) { return field_of(row.iou_mean); }},

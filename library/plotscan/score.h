@@ -34,18 +34,22 @@ struct Scores {
   double center_rmse_m = 0;
   double heading_rmse_deg = 0;
   std::vector<HeightScore> heights = {};  // every height against every truth
+  std::vector<std::string> notes = {};    // why there is less than was asked for, a sentence each
   std::string json = {};                  // scores.json as the program writes it
 };
 
 // What `estimator score` does: an estimate folder, or a GeoJSON file of plots with heights, against
 // a farm folder, a GeoJSON file of true ones, or a table of measured heights (docs/benchmark.md). A
-// plot is found where the boxes' intersection over union is at least min_iou, over 0 and at most 1.
-// Throws BadInput on bad input.
+// plot is found where the boxes' intersection over union is at least min_iou, over 0 and at most 1;
+// for a table, where its id is in the column `id` ("": as docs/benchmark.md says). Throws BadInput
+// on bad input.
 PLOTSCAN_API Scores score_estimate(const std::filesystem::path& estimate,
-                                   const std::filesystem::path& truth, double min_iou = 0.5);
+                                   const std::filesystem::path& truth, double min_iou = 0.5,
+                                   const std::string& id = "");
 
 // The same of an estimate held in memory.
 PLOTSCAN_API Scores score_estimate(const FieldEstimate& estimate,
-                                   const std::filesystem::path& truth, double min_iou = 0.5);
+                                   const std::filesystem::path& truth, double min_iou = 0.5,
+                                   const std::string& id = "");
 
 }  // namespace plotscan

@@ -296,16 +296,19 @@ def estimate_files(
     return _plotscan.estimate_files(_several(clouds), folder, options, progress)
 
 
-def score_estimate(estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou: float = 0.5) -> Scores:
+def score_estimate(
+    estimate: Union[FieldEstimate, Path], truth: Path, *, min_iou: float = 0.5, id: Optional[str] = None
+) -> Scores:
     """Compare an estimate with the truth, as `estimator score` does.
 
     estimate: what `estimate_field` or `estimate_files` returned, an estimate folder, or a GeoJSON file.
     truth: a farm folder, a GeoJSON file of plots with heights, or a table (.csv) of measured ones (docs/benchmark.md).
     min_iou: least intersection over union for a plot to count as found, over 0 and at most 1.
+    id: the column of a table that names the plots.
 
-    Errors are estimate minus truth, metres; what cannot be computed is NaN. Raises BadInput on bad input.
+    `notes` of the scores say why there is less than was asked for. Errors are estimate minus truth, metres; what cannot be computed is NaN. Raises BadInput on bad input.
     """
-    return _plotscan.score_estimate(estimate, truth, min_iou)
+    return _plotscan.score_estimate(estimate, truth, min_iou, id or "")
 
 
 def plot_table(plots: Sequence[Plot]) -> Dict[str, numpy.ndarray]:

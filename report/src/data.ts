@@ -133,7 +133,7 @@ export interface Suite {
   published?: { source: string; methods: string[] };
   baseline?: string; // the case that the others are compared with
   truths: string[]; // that are shown first
-  farms: { case: string; seed: number; plots: number }[];
+  farms: { case: string; seed: number; plot_numbers: (number | string)[] }[];
   plots: Record<string, (number | null)[]>; // the truths, by attribute; farm after farm
   series: Series[];
   table: TableRow[];

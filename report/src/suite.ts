@@ -18,11 +18,11 @@ export function groupsOf(suite: Suite, row: string, truth: string): Group[] {
   const groups = new Map<string, Pair[]>(suite.cases.map(({ name }) => [name, []]));
   let at = 0;
   suite.farms.forEach((farm, number) => {
-    for (let i = 0; i < farm.plots; ++i, ++at) {
+    for (let i = 0; i < farm.plot_numbers.length; ++i, ++at) {
       const estimate = series?.values[at];
       const known = suite.plots[truth]?.[at];
       if (estimate !== null && estimate !== undefined && known !== null && known !== undefined)
-        groups.get(farm.case)?.push({ estimate, truth: known, farm: number, label: `farm ${farm.seed}, plot ${i + 1}` });
+        groups.get(farm.case)?.push({ estimate, truth: known, farm: number, label: `farm ${farm.seed}, plot ${farm.plot_numbers[i]}` });
     }
   });
   return [...groups].map(([name, pairs]) => ({ name, pairs }));
@@ -60,6 +60,7 @@ const text = (title: string, key: string): Column<TableRow> => ({ title, value: 
 function heightColumns(suite: Suite): Column<TableRow>[] {
   const columns: Column<TableRow>[] = [
     text("method", "method"), text("case", "case"), plain("plots", "plots", 0), plain("found", "found", 0),
+    plain("without", "without", 0, "found plots without this height"),
     { ...cmColumn("RMSE", "rmse_m"), shown: (row) => fixed(100 * number(row, "rmse_m"), 2) },
     { title: "95 % interval", unit: "cm", hint: "bootstrap over farms", value: (row) => 100 * number(row, "rmse_low_m"),
       shown: (row) => Number.isFinite(number(row, "rmse_low_m")) ? `${fixed(100 * number(row, "rmse_low_m"), 2)} – ${fixed(100 * number(row, "rmse_high_m"), 2)}` : "" },
@@ -116,7 +117,7 @@ export class SuiteView {
         this.choose(truth);
         this.update();
       }),
-      select("Error bars", [{ value: "interval", label: "95 % interval (bootstrap over farms)" }, { value: "error", label: "standard error (jackknife over farms)" }], this.spread, (spread) => {
+      select("Error bars", [{ value: "interval", label: "95 % interval (bootstrap over farms)" }, { value: "error", label: "standard error (jackknife)" }], this.spread, (spread) => {
         this.spread = spread as "interval" | "error";
         this.update();
       }));
@@ -189,12 +190,18 @@ export class SuiteView {
     return same ? `${counts[0]} farm${counts[0] === 1 ? "" : "s"} a case` : `${this.suite.farms.length} farms`;
   }
 
+  // What the plots of one farm share shows only where a case has several.
+  private jackknife(): string {
+    const several = this.suite.cases.every(({ name }) => this.suite.farms.filter((farm) => farm.case === name).length > 1);
+    return `standard errors by the jackknife over ${several ? "farms" : "plots where a case has one farm (they lack what its plots share), else over farms"}`;
+  }
+
   private rmseFigure() {
     const bars = this.spread === "interval" ? this.intervalBars() : rmseBars(this.methods);
     const published: Record<string, number | undefined> = {};
     if (this.suite.published && this.chosen.some((method) => this.suite.published!.methods.includes(method)))
       for (const { name, published_rmse_cm } of this.suite.cases) published[name] = published_rmse_cm === undefined ? undefined : published_rmse_cm / 100;
-    const how = this.spread === "interval" ? "95 % intervals by the bootstrap over farms" : "standard errors by the jackknife over farms";
+    const how = this.spread === "interval" ? "95 % intervals by the bootstrap over farms" : this.jackknife();
     return {
       title: `Error against the ${truthName(this.truth)}`,
       note: `Root mean square error over the plots found, ${this.farms()}; bars: ${how}. n: plots.` +
@@ -220,7 +227,7 @@ export class SuiteView {
     const bars = withinBars(this.methods);
     return {
       title: "What is left within fields",
-      note: "Root mean square of the errors less their farm's mean error: how well a method tells a field's plots apart; bars: standard errors by the jackknife over farms. Dotted: the best single number for each field; a method above it has measured the field, not its plots.",
+      note: `Root mean square of the errors less their farm's mean error: how well a method tells a field's plots apart; bars: ${this.jackknife()}. Dotted: the best single number for each field; a method above it has measured the field, not its plots.`,
       draw: (theme: Theme, narrow: boolean) => drawBars("Error within fields", "error within farms, cm", bars, theme, narrow, { references: references(this.methods) }),
       csv: () => barsCsv(bars, "within"),
     };

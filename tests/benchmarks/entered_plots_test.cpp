@@ -60,6 +60,25 @@ TEST(EnteredPlots, ATableMayHaveBoxesHeightsAndIntervals) {
   EXPECT_EQ(read.plots.plots[1].heights_m, (std::map<std::string, double>{{"canopy_p95", 0.6}}));
 }
 
+// pandas makes a column with gaps one of floats.
+TEST(EnteredPlots, ANumberMayBeWrittenAsAFloat) {
+  const TemporaryFolder folder;
+  const Read read =
+      read_file(folder, "a.csv", "plot_number,height_p99_m\n7.0,0.5\nV1.0,0.6\n10,0.6\n");
+  EXPECT_EQ(read.problems, "");
+  ASSERT_EQ(read.plots.plots.size(), 3U);
+  EXPECT_EQ(read.plots.plots[0].id, PlotId(7));
+  EXPECT_EQ(read.plots.plots[1].id.text(), "V1.0");
+  EXPECT_EQ(read.plots.plots[2].id, PlotId(10));
+}
+
+TEST(EnteredPlots, AStandardErrorIsNotNegative) {
+  const TemporaryFolder folder;
+  const Read read =
+      read_file(folder, "a.csv", "plot_number,height_p99_m,se_height_p99_m\n7,0.5,-5\n");
+  EXPECT_THAT(read.problems, HasSubstr("a standard error is not negative"));
+}
+
 TEST(EnteredPlots, BoxesAloneAndHeightsAloneWillDo) {
   const TemporaryFolder folder;
   const Read boxes =

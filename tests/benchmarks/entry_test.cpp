@@ -8,10 +8,12 @@
 #include "benchmarks/blind_suite.h"
 #include "methods/lattice/lattice.h"
 #include "temporary_folder.h"
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "farmbench/entries.h"
 #include "farmbench/entry/sha256.h"
@@ -166,6 +168,43 @@ TEST_F(Scoring, HeightsInGivenBoxesHaveRowsOfTheirOwn) {
   EXPECT_EQ(missing.found, 0U);
   EXPECT_EQ(missing.missed, 4U);
   EXPECT_TRUE(fs::exists(folder_.path() / "results" / "report.html"));
+}
+
+// Whoever hands the true boxes in has found nothing, whether the boxes are named or repeated.
+TEST_F(Scoring, TheTrueBoxesAreNoFind) {
+  write("submission.json", kStatement);
+  const BlindField& field = fields_[0];
+  const fs::path work = folder_.path() / "work";
+  fs::create_directories(work);
+  const FarmPlace place{field.suite_case, field.seed, work, 1};
+  make_farm(place);
+  std::string rows = "center_x_m,center_y_m,width_m,length_m,heading_deg,height_p99_m\n";
+  std::string shifted = rows;
+  for (const score::TruePlot& plot : standing_plots(place)) {
+    const PlotBox& box = plot.box;
+    const std::string rest =
+        fmt::format("{},{},{},0.8\n", box.width_m, box.length_m, degrees(box.heading_rad));
+    rows += fmt::format("{},{},", box.center.x(), box.center.y()) + rest;
+    shifted += fmt::format("{},{},", box.center.x() + 0.02, box.center.y()) + rest;
+  }
+  ScoreSubmissionOptions alone = options();
+  alone.output.reset();
+  write(field.code + ".csv", rows);
+  EXPECT_EQ(score_submission(alone).result.methods, std::vector<std::string>{"mine true-boxes"});
+  write(field.code + ".csv", shifted);
+  EXPECT_EQ(score_submission(alone).result.methods, std::vector<std::string>{"mine"});
+  json fields = json::array();
+  for (const BlindField& each : fields_) {
+    const fs::path made = folder_.path() / each.code;
+    fs::create_directories(made);
+    make_farm({each.suite_case, each.seed, made, 1});
+    fields.push_back(
+        {{"field", each.code},
+         {"farm_sha256", told_farm_sha256(each.code, sha256_of_folder(made / "farm" / "truth"))},
+         {"sha256", json::object()}});
+  }
+  write("task.json", json{{"boxes_given", true}, {"fields", fields}}.dump());
+  EXPECT_EQ(score_submission(alone).result.methods, std::vector<std::string>{"mine true-boxes"});
 }
 
 TEST_F(Scoring, BoxesWithoutHeightsAreScoredAsBoxes) {

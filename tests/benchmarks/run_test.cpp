@@ -13,9 +13,11 @@
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/manifest.h"
 #include "core/statistics.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/internal/farm_queue.h"
+#include "farmbench/plan.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::farmbench {
@@ -303,6 +305,30 @@ TEST(RunSuite, RefusesAFolderOfSomebodyElse) {
   EXPECT_FALSE(fs::exists(folder.path() / "new"));
   EXPECT_THAT(message_of<InputError>([&] { report(folder.path(), 1); }),
               HasSubstr("results.json: no such file"));
+}
+
+// Suites share the names of cases: one's farms would take the other's place.
+TEST(RunSuite, RefusesAFolderOfAnotherSuite) {
+  const TemporaryFolder folder;
+  RunOptions options = smoke_options(folder.path() / "results");
+  options.seeds = 1;
+  options.methods = {"one-number"};
+  run(options);
+  const nlohmann::json told = read_manifest(options.output)["options"];
+  EXPECT_EQ(told["suite"], "smoke");
+  EXPECT_EQ(told["methods"], nlohmann::json({"one-number"}));
+  EXPECT_EQ(told["seeds"], 1);
+  EXPECT_EQ(told["secret"], false);
+  const std::string table = read_text(options.output / "table.csv");
+  std::string other = read_text(kSmoke);
+  other.replace(other.find("name: smoke"), 11, "name: other");
+  for (std::size_t at = 0; (at = other.find("../../", at)) != std::string::npos;)
+    other.replace(at, 6, std::string(PLOTSCAN_SOURCE_DIR) + "/");
+  options.suite = folder.write("other.yaml", other);
+  const char* refusal = "holds the results of suite smoke, and this is suite other";
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr(refusal));
+  EXPECT_THAT(message_of<InputError>([&] { plan(options); }), HasSubstr(refusal));
+  EXPECT_EQ(read_text(options.output / "table.csv"), table);
 }
 
 TEST(RunQueue, DoesEveryPieceOnceAndReportsTheMean) {

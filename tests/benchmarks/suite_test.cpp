@@ -243,6 +243,9 @@ INSTANTIATE_TEST_SUITE_P(
                  ":6: truths name height_max_m twice"},
         BadSuite{kSound + "published: {source: us, methods: [oracle]}\n",
                  ":6: published.methods name \"oracle\", which is no row"},
+        BadSuite{kSound + "methods: [{name: my, command: 'true {cloud} {out}'}]\n"
+                          "published: {source: us, methods: [mylongname/p99]}\n",
+                 ":7: published.methods name \"mylongname/p99\", which is no row"},
         BadSuite{with(".yaml}", ".yaml, published_rmse_cm: 6}"),
                  ":3: cases.0.published_rmse_cm is shown nowhere: the suite must say whose it is"},
         BadSuite{kSound + "published: {source: us, methods: [oracle-ground]}\n",

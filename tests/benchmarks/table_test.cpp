@@ -191,6 +191,7 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
                                             "found",
                                             "missed",
                                             "extra",
+                                            "without",
                                             "recall",
                                             "precision",
                                             "iou_mean",
@@ -222,8 +223,8 @@ TEST(TableCsv, HasTheColumnsOthersReadIt) {
   EXPECT_EQ(header, expected);
   std::vector<std::string> rmses;
   read_csv(file, columns, {}, [&](const CsvRow& row) {
-    rmses.emplace_back(row.text(16));
-    EXPECT_EQ(row.text(29), "");  // this method gives no intervals
+    rmses.emplace_back(row.text(17));
+    EXPECT_EQ(row.text(30), "");  // this method gives no intervals
   });
   EXPECT_THAT(rmses, ::testing::ElementsAre("3.3166", ""));
 }
@@ -292,6 +293,37 @@ TEST(WriteReports, AMethodWithoutACaseLeavesItsColumnToNoOther) {
                                HasSubstr("\n| b | - | 3.00 (-) |\n")));
 }
 
+// One measures the plot that it is sure of, the other all of them.
+TEST(WriteReports, AMethodThatLeavesPlotsOutHasNoPlace) {
+  const testing::TemporaryFolder folder;
+  SuiteResult result = small_result();
+  result.cases = {{"a", {}}};
+  result.methods = result.entered = {"sure", "whole"};
+  result.farms = {farm("a", 1, 3, {plot(1.0, 0.03, 0.9), plot(1.2, -0.03, 0.8)})};
+  MethodResult whole = result.farms.front().methods.front();
+  whole.method = "whole";
+  whole.score.extra.clear();
+  MethodResult sure = whole;
+  sure.method = "sure";
+  sure.score.plots[0].found->heights_m["p99"] = 1.001;
+  sure.score.plots[1].found->heights_m.clear();
+  result.farms.front().methods = {sure, whole};
+  const std::vector<TableRow> table = make_table(result, 1);
+  write_reports(folder.path(), result, table);
+  const std::string board = read_text(folder.path() / "leaderboard.md");
+  const auto first = board.find("\n| 1 | whole/p99 | 3.00"),
+             second = board.find("\n|  | sure/p99 | 0.10");
+  EXPECT_NE(first, std::string::npos) << board;
+  EXPECT_NE(second, std::string::npos) << board;
+  EXPECT_LT(first, second);
+  EXPECT_THAT(board, HasSubstr("| 2 of 2, 1 without |"));
+  EXPECT_THAT(read_text(folder.path() / "table.csv"),
+              HasSubstr(",sure/p99,height_max_m,1,2,2,0,0,1,"));
+  const nlohmann::json row = suite_document(result, table)["table"][0];
+  EXPECT_EQ(row["method"], "sure/p99");
+  EXPECT_EQ(row["without"], 1);
+}
+
 TEST(SummaryLines, FitATerminalAndShowThePublishedFigure) {
   const SuiteResult result = small_result();
   const auto lines = summary_lines(result, make_table(result, 1));
@@ -340,7 +372,7 @@ TEST(SuiteDocument, HoldsEveryPlotsTruthAndEstimate) {
   std::size_t at = 0;
   double squares = 0, found = 0;
   for (const auto& farm : document["farms"]) {
-    for (std::size_t i = 0; i < farm["plots"]; ++i, ++at) {
+    for (std::size_t i = 0; i < farm["plot_numbers"].size(); ++i, ++at) {
       if (farm["case"] != "a" || series["values"][at].is_null()) continue;
       squares += std::pow(series["values"][at].get<double>() - truths[at].get<double>(), 2);
       ++found;

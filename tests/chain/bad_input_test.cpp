@@ -206,6 +206,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"field_method empty.pcd absent.csv heights.csv", "empty.pcd: holds no points"},
         BadCommand{"field_method one.pcd absent.csv heights.csv", "absent.csv"},
         BadCommand{"plotview picture not_a_farm -o p.png", "not_a_farm"},
+        BadCommand{"plotview picture not_a_farm -o p.png --plots estimate",
+                   "--plots requires --scan"},
         BadCommand{"plotview field index.ply absent -o p.png", "absent: is no estimate folder"},
         BadCommand{"plotview field index.ply not_a_farm -o p.png", "plots.geojson"},
         BadCommand{"plotview field index.ply groundless -o p.png", "ground.asc"},

@@ -2,6 +2,7 @@
 // Every option of the library does what the program's does: the same bytes, the manifest's account
 // of the options among them.
 #include <cmath>
+#include <fstream>
 #include <memory>
 
 #include "chain/programs.h"
@@ -209,6 +210,21 @@ TEST_F(LibraryOptions, OfScoresAreTheLeastOverlap) {
     EXPECT_EQ(strict.missed, 9u);
     EXPECT_EQ(strict.extra, 9u);
   }
+}
+
+// A table of measured heights names its plots by the column that is told.
+TEST_F(LibraryOptions, OfScoresNameATablesPlots) {
+  const FieldEstimate field = estimate_field(read_cloud(cloud()).positions());
+  std::ofstream(path("hand.csv")) << "barcode,height_mean_m\n1,0.5\n2,0.6\n";
+  const Scores scores = score_estimate(field, path("hand.csv"), 0.5, "barcode");
+  EXPECT_EQ(scores.found, 2u);
+  EXPECT_THROW(score_estimate(field, path("hand.csv")), BadInput);
+  std::ofstream(path("apart.geojson"))
+      << R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": )"
+         R"({"plot_number": 1, "height_mean_m": 0.5}, "geometry": {"type": "Polygon", )"
+         R"("coordinates": [[[900, 900], [904, 900], [904, 901], [900, 901], [900, 900]]]}}]})";
+  EXPECT_THAT(score_estimate(field, path("apart.geojson")).notes,
+              ::testing::ElementsAre(HasSubstr("lie apart from the true ones")));
 }
 
 }  // namespace

@@ -78,8 +78,9 @@ class Arguments(unittest.TestCase):
         self.assertEqual(sent("estimate_settings"), ("lattice",))
 
     def test_of_scores(self):
-        self.assertEqual(sent("score_estimate", "estimate", "farm", min_iou=0.7), ("estimate", "farm", 0.7))
-        self.assertEqual(sent("score_estimate", "estimate", "farm"), ("estimate", "farm", 0.5))
+        self.assertEqual(sent("score_estimate", "estimate", "farm", min_iou=0.7), ("estimate", "farm", 0.7, ""))
+        self.assertEqual(sent("score_estimate", "estimate", "farm"), ("estimate", "farm", 0.5, ""))
+        self.assertEqual(sent("score_estimate", "estimate", "t.csv", id="barcode"), ("estimate", "t.csv", 0.5, "barcode"))
 
 
 if __name__ == "__main__":

@@ -41,6 +41,9 @@ void read_interval(const EnteredRow& row, const std::string& height, estimate::P
   const auto standard = number_in(row, estimate::property_of(height, estimate::kError), problems);
   const auto low = number_in(row, estimate::property_of(height, estimate::kLow), problems);
   const auto high = number_in(row, estimate::property_of(height, estimate::kHigh), problems);
+  if (standard && !(*standard >= 0))
+    problems.add(row.place, "a standard error is not negative, and that of " +
+                                estimate::property_of(height) + " is");
   if (!low && !high) return;
   if (!low || !high || *low > *high) {
     problems.add(row.place, "the interval of " + estimate::property_of(height) +

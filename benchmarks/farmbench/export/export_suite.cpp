@@ -47,10 +47,11 @@ json export_field(const BlindField& field, const ExportOptions& options, const f
   json hashes = json::object();
   for (const auto& entry : fs::directory_iterator(folder))
     hashes[entry.path().filename().string()] = sha256_of_file(entry.path());
-  json told = {{"field", field.code},
-               {"points", points},
-               {"farm_sha256", sha256_of_folder(work / "farm" / "truth")},
-               {"sha256", hashes}};
+  json told = {
+      {"field", field.code},
+      {"points", points},
+      {"farm_sha256", told_farm_sha256(field.code, sha256_of_folder(work / "farm" / "truth"))},
+      {"sha256", hashes}};
   fs::remove_all(work);
   return told;
 }
@@ -87,7 +88,10 @@ ExportSummary export_suite(const ExportOptions& options, const ProgressReport& p
   }
   write_json(folder.path() / "task.json", task);
   write_text(folder.path() / "TASK.md", task_sheet(task));
-  write_manifest(folder.path(), {.command = kExportCommand, .options = {{"suite", suite.name}}});
+  write_manifest(folder.path(), {.command = kExportCommand,
+                                 .options = {{"suite", suite.name},
+                                             {"boxes", options.parts.boxes},
+                                             {"seeds", suite.seeds.size()}}});
   set_file_times(folder.path());
   folder.commit();
   return summary;

@@ -71,7 +71,11 @@ void make_result_folders(const std::filesystem::path& output);
 
 // The folder's manifest.json. It is there from the start of a run, so that no other folder can be
 // taken for a results folder.
-void write_run_manifest(const RunOptions& options, std::size_t farms, bool finished);
+void write_run_manifest(const RunOptions& options, const std::string& suite, std::size_t farms,
+                        bool finished);
+
+// Throws InputError where the folder holds the results of another suite.
+void require_results_of(const std::filesystem::path& output, const std::string& suite);
 
 // Writes output/results.json, the reports and manifest.json from the farms that have results.
 RunSummary write_results(const RunOptions& options, const Suite& suite,

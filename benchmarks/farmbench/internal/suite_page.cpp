@@ -37,6 +37,7 @@ json packed(const TableRow& row) {
           {"found", row.found},
           {"missed", row.missed},
           {"extra", row.extra},
+          {"without", row.without},
           {"recall", or_null(row.recall)},
           {"precision", or_null(row.precision)},
           {"iou_mean", or_null(row.iou_mean)},
@@ -116,8 +117,10 @@ json cases_of(const SuiteResult& result) {
 json farms_of(const SuiteResult& result) {
   json farms = json::array();
   for (const FarmResult& farm : result.farms) {
+    json numbers = json::array();
+    for (const score::PlotScore& plot : plots_of(farm)) numbers.push_back(plot.truth.id.json());
     farms.push_back(
-        {{"case", farm.case_name}, {"seed", farm.seed}, {"plots", plots_of(farm).size()}});
+        {{"case", farm.case_name}, {"seed", farm.seed}, {"plot_numbers", std::move(numbers)}});
   }
   return farms;
 }

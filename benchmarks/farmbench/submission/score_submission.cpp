@@ -13,6 +13,8 @@
 #include "core/temporary_path.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
+#include "farmbench/internal/farm_task.h"
+#include "farmbench/methods.h"
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
 #include "farmbench/text_file.h"
@@ -52,7 +54,7 @@ void require_same_farm(const Submission& submission, const std::string& code,
                        const FieldTruth& truth, Problems& problems) {
   if (submission.task.is_null()) return;
   const json told = told_of(submission, code);
-  if (told.is_null() || told["farm_sha256"] != truth.farm_sha256)
+  if (told.is_null() || told["farm_sha256"] != told_farm_sha256(code, truth.farm_sha256))
     problems.add("task.json",
                  "is of other farms: field " + code + " is not there, or has another farm_sha256");
 }
@@ -66,16 +68,15 @@ std::string cloud_sha256(const Submission& submission, const std::string& code) 
   return "";
 }
 
-EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submission& submission,
-                   const std::string& method) {
+EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submission& submission) {
   EnteredFarm farm{.case_name = field.suite_case.name,
                    .seed = field.seed,
                    .field = field.code,
                    .farm_sha256 = truth.farm_sha256,
                    .cloud_sha256 = cloud_sha256(submission, field.code),
                    .file_sha256 = "",
-                   .result = {.method = method, .failure = {}, .score = {}}};
-  estimate::Estimate estimate{.method = method};
+                   .result = {.method = submission.method, .failure = {}, .score = {}}};
+  estimate::Estimate estimate{.method = submission.method};
   const auto entered = submission.fields.find(field.code);
   if (entered == submission.fields.end()) {
     farm.result.failure = "no file was handed in";
@@ -85,6 +86,21 @@ EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submi
   }
   farm.result.score = score::score_field(truth.plots, estimate);
   return farm;
+}
+
+// Whether the plots that were found stand in the true boxes: no method finds these to a ten
+// thousandth.
+bool in_true_boxes(const std::vector<EnteredFarm>& farms) {
+  constexpr double kTheSame = 0.9999;  // intersection over union
+  std::size_t found = 0;
+  for (const EnteredFarm& farm : farms) {
+    for (const score::PlotScore& plot : farm.result.score.plots) {
+      if (!plot.found) continue;
+      if (plot.found->iou < kTheSame) return false;
+      ++found;
+    }
+  }
+  return found > 0;
 }
 
 // Where farms are made again.
@@ -115,13 +131,15 @@ Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
     if (progress) progress(static_cast<double>(truths.size()) / static_cast<double>(fields.size()));
   }
   problems.raise(options.submission);
-  Entry entry{.method = submission.method + (submission.in_given_boxes() ? " true-boxes" : ""),
+  Entry entry{.method = submission.method,
               .suite = suite.name,
               .program_sha256 = submission.program_sha256,
               .scorer_sha256 = sha256_of_file("/proc/self/exe"),
               .farms = {}};
   for (std::size_t i = 0; i < fields.size(); ++i)
-    entry.farms.push_back(scored(fields[i], truths[i], submission, entry.method));
+    entry.farms.push_back(scored(fields[i], truths[i], submission));
+  if (submission.in_given_boxes() || in_true_boxes(entry.farms)) entry.method += kTrueBoxes;
+  for (EnteredFarm& farm : entry.farms) farm.result.method = entry.method;
   return entry;
 }
 
@@ -178,10 +196,16 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
   const fs::path& output = *options.output;
   add_entries(output, result, entry);
   json results = {{"farms", result.farms.size()}, {"finished", false}};
-  if (fs::exists(output / "manifest.json")) results = read_manifest(output)["results"];
+  json of_run = {{"suite", result.suite}};
+  if (fs::exists(output / "manifest.json")) {
+    const json earlier = read_manifest(output);
+    results = earlier["results"];
+    of_run = earlier["options"];
+  }
   fs::create_directories(output);
   const Manifest manifest{.command = kRunCommand,
                           .seed = options.seed,
+                          .options = std::move(of_run),
                           .inputs = {options.suite.file},
                           .results = std::move(results)};
   write_manifest(output, manifest);

@@ -148,10 +148,10 @@ test("a suite: soon interactive, a farm of each case, figures, tables that sort"
     const rmse = rows[0].indexOf("rmse_cm");
     const row = rows.find(([, of, method, truth]) => of === "one" && method === "oracle-ground" && truth === "height_max_m");
     const cells = page.locator("#tables .table").first().locator("tbody tr", { hasText: "oracle-ground" }).filter({ hasText: "one" }).locator("td");
-    assert.equal(Number((await cells.nth(4).textContent()).replace("−", "-")).toFixed(2), Number(row[rmse]).toFixed(2));
+    assert.equal(Number((await cells.nth(5).textContent()).replace("−", "-")).toFixed(2), Number(row[rmse]).toFixed(2));
     const table = page.locator("#tables .table").first();
     await table.locator("th button", { hasText: "RMSE" }).click();
-    const values = await table.locator("tbody td:nth-child(5)").allTextContents();
+    const values = await table.locator("tbody td:nth-child(6)").allTextContents();
     const numbers = values.filter((value) => value !== "–").map(Number);
     assert.deepEqual(numbers, [...numbers].sort((a, b) => b - a));
     await page.locator("#figures select").first().selectOption("height_mean_m");

@@ -95,10 +95,13 @@ json entered_flags(const std::string& cell) {
   return flags;
 }
 
+// "7" is the number 7, and so is "7.0", as tables have it in which some plot has no number.
 json id_of(const std::string& cell) {
-  const bool is_number = cell.find_first_not_of("0123456789") == std::string::npos &&
-                         cell.size() < 19 && (cell.size() == 1 || cell.front() != '0');
-  return is_number ? json(std::stoull(cell)) : json(cell);
+  const std::string digits = cell.ends_with(".0") ? cell.substr(0, cell.size() - 2) : cell;
+  const bool is_number = !digits.empty() &&
+                         digits.find_first_not_of("0123456789") == std::string::npos &&
+                         digits.size() < 19 && (digits.size() == 1 || digits.front() != '0');
+  return is_number ? json(std::stoull(digits)) : json(cell);
 }
 
 json cell_of(const std::string& column, const std::string& cell, const std::string& place,

@@ -70,7 +70,9 @@ void read_task(const fs::path& file, Submission& submission, Problems& problems)
 }  // namespace
 
 bool Submission::in_given_boxes() const {
-  return std::ranges::any_of(fields, [](const auto& field) { return !field.second.boxes_stated; });
+  const bool were_given = task.is_object() && task.value("boxes_given", json(false)) == true;
+  return were_given ||
+         std::ranges::any_of(fields, [](const auto& field) { return !field.second.boxes_stated; });
 }
 
 Submission read_submission(const fs::path& folder, const std::vector<BlindField>& fields,

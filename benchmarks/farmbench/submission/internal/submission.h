@@ -22,7 +22,7 @@ struct Submission {
   nlohmann::json task = nlohmann::json();          // its copy of task.json, null without one
   std::map<std::string, EnteredPlots> fields;      // by code; those that have a file
   std::map<std::string, std::string> file_sha256;  // by code
-  // Whether any field's plots stand in the given boxes.
+  // Whether boxes were given, or any field's plots stand in given ones.
   bool in_given_boxes() const;
 };
 
