@@ -129,8 +129,8 @@ void say_summary(const Program& program, const farm::Farm& made, const farm::Far
 }
 
 farm::Farm generate_from(const Program& program, const Arguments& arguments) {
-  const planting::FarmDescription description =
-      description::load_description(found_file(arguments.input, "worlds"), arguments.assignments);
+  const planting::FarmDescription description = description::load_description(
+      found_or_shipped(arguments.input, "worlds"), arguments.assignments);
   const CommonOptions& common = program.common();
   return planting::generate(
       description, common.seed_given ? common.seed : description.seed.value_or(common.seed));
@@ -146,7 +146,7 @@ void run_generate(const Program& program, const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   const CommonOptions& common = program.common();
   const farm::Farm made =
-      lidar::make_farm(found_file(arguments.input, "worlds"), arguments.output,
+      lidar::make_farm(found_or_shipped(arguments.input, "worlds"), arguments.output,
                        {.overrides = arguments.assignments,
                         .seed = common.seed_given ? std::optional(common.seed) : std::nullopt,
                         .threads = common.threads,

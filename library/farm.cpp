@@ -31,7 +31,7 @@ FarmSummary generate_farm(const std::filesystem::path& description,
                           const std::filesystem::path& folder, const FarmOptions& options,
                           const Progress& progress) {
   return boundary::guarded([&] {
-    return outer(lidar::make_farm(found_file(description, "worlds"), folder,
+    return outer(lidar::make_farm(found_or_shipped(description, "worlds"), folder,
                                   {.overrides = options.set,
                                    .seed = options.seed,
                                    .threads = boundary::threads_of(options.threads),

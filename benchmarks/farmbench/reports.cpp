@@ -10,6 +10,7 @@
 #include "farmbench/format.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"
+#include "farmbench/internal/markdown.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/internal/sweep_table.h"
@@ -33,84 +34,94 @@ bool has_place(const TableRow& row) {
 }
 
 // A row without a place has rank 0.
-std::string leaderboard_line(std::size_t rank, const TableRow& row, const std::string& published) {
-  std::string line;
-  for (const std::string& cell :
-       {rank > 0 ? std::to_string(rank) : "", row.method,
-        with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m), published,
-        number("{:+.2f}", 100 * row.bias_m), centimetres(row.mae_m), number("{:.3f}", row.r2),
-        centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-        number("{:.2f}", row.within.rho), found_of(row), std::to_string(row.extra),
-        number("{:.3f}", row.iou_median), number("{:.2f}", row.seconds)}) {
-    line += "| " + cell + " ";
-  }
-  return line + "|";
+Cells leaderboard_cells(std::size_t rank, const TableRow& row, const std::string& published) {
+  return {rank > 0 ? std::to_string(rank) : "",
+          row.method,
+          with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+          published,
+          number("{:+.2f}", 100 * row.bias_m),
+          centimetres(row.mae_m),
+          number("{:.3f}", row.r2),
+          centimetres(row.within.within_m),
+          number("{:.2f}", row.within.r2),
+          number("{:.2f}", row.within.rho),
+          found_of(row),
+          std::to_string(row.extra),
+          number("{:.3f}", row.iou_median),
+          number("{:.2f}", row.seconds)};
 }
 
 // A row a case, a column a method: RMSE, and how much that is more than the baseline's.
 std::string changes_by_case(const SuiteResult& result, const std::vector<TableRow>& rows) {
-  std::string head = "| case |";
-  std::string rule = "\n| --- |";
   const std::vector<std::string> methods = methods_of(rows);
-  for (const std::string& method : methods) {
-    head += " " + method + " |";
-    rule += " --- |";
-  }
-  std::string text = head + rule + "\n";
+  Cells heads = {"case"};
+  heads.insert(heads.end(), methods.begin(), methods.end());
+  std::vector<Cells> lines;
   for (const CaseInfo& info : result.cases) {
-    text += "| " + info.name + " |";
+    Cells cells = {info.name};
     for (const std::string& method : methods) {
       const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
         return candidate.method == method && candidate.case_name == info.name;
       });
-      text += " " + (row == rows.end() ? "-" : centimetres(row->rmse_m));
+      cells.push_back(row == rows.end() ? "-" : centimetres(row->rmse_m));
       if (row != rows.end() && info.name != *result.baseline)
-        text += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
-      text += " |";
+        cells.back() += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
     }
-    text += "\n";
+    lines.push_back(std::move(cells));
   }
-  return text;
-}
-
-std::string markdown_row(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& cell : cells) line += "| " + cell + " ";
-  return line + "|\n";
+  return markdown_table(heads, lines);
 }
 
 std::string plots_found(const std::vector<TableRow>& rows) {
-  std::string text =
-      "\n## Plots found\n\n| method | case | plots | found | missed | extra | recall | precision | "
-      "IoU mean | IoU least | centre, cm rms | heading, deg rms |\n| --- | --- | --- | --- | --- | "
-      "--- | --- | --- | --- | --- | --- | --- |\n";
+  std::vector<Cells> lines;
   for (const TableRow& row : rows) {
-    text += markdown_row({row.method, row.case_name, std::to_string(row.plots),
-                          std::to_string(row.found), std::to_string(row.missed),
-                          std::to_string(row.extra), number("{:.4f}", row.recall),
-                          number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
-                          number("{:.3f}", row.iou_min), centimetres(row.center_rmse_m),
-                          number("{:.3f}", degrees(row.heading_rmse_rad))});
+    lines.push_back({row.method, row.case_name, std::to_string(row.plots),
+                     std::to_string(row.found), std::to_string(row.missed),
+                     std::to_string(row.extra), number("{:.4f}", row.recall),
+                     number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
+                     number("{:.3f}", row.iou_min), centimetres(row.center_rmse_m),
+                     number("{:.3f}", degrees(row.heading_rmse_rad))});
   }
-  return text;
+  return "\n## Plots found\n\n" +
+         markdown_table(
+             {"method", "case", "plots", "found", "missed", "extra", "recall", "precision",
+              "IoU mean", "IoU least", "centre, cm rms", "heading, deg rms"},
+             lines);
 }
 
 std::string own_truths(const std::vector<TableRow>& rows) {
   if (rows.empty()) return "";
-  std::string text =
-      "\n## Each height against the truth it is named after\n\n| method | truth | case | RMSE "
-      "[95 %] | bias | bias a farm | within farms | R2 within | rho within | truths in its 95 % "
-      "intervals | flagged plots | over 5 cm without a flag |\n| --- | --- | --- | --- | --- | --- "
-      "| --- | --- | --- | --- | --- | --- |\n";
+  std::vector<Cells> lines;
   for (const TableRow& row : rows) {
-    text += markdown_row({row.method, row.truth, row.case_name,
-                          with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                          number("{:+.2f}", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
-                          centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-                          number("{:.2f}", row.within.rho), percent(row.coverage95),
-                          std::to_string(row.flagged), unflagged(row)});
+    lines.push_back({row.method, row.truth, row.case_name,
+                     with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+                     number("{:+.2f}", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
+                     centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
+                     number("{:.2f}", row.within.rho), percent(row.coverage95),
+                     std::to_string(row.flagged), unflagged(row)});
   }
-  return text;
+  return "\n## Each height against the truth it is named after\n\n" +
+         markdown_table({"method", "truth", "case", "RMSE [95 %]", "bias", "bias a farm",
+                         "within farms", "R2 within", "rho within", "truths in its 95 % intervals",
+                         "flagged plots", "over 5 cm without a flag"},
+                        lines);
+}
+
+// The methods of a case against a truth, the best first.
+std::string ranking(const SuiteResult& result, std::vector<TableRow> rows) {
+  // NaN, a method without any height, comes last.
+  std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
+    if (has_place(a) != has_place(b)) return has_place(a);
+    return a.rmse_m < b.rmse_m || (std::isnan(b.rmse_m) && !std::isnan(a.rmse_m));
+  });
+  std::vector<Cells> lines;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    lines.push_back(
+        leaderboard_cells(has_place(rows[i]) ? i + 1 : 0, rows[i], published_cm(result, rows[i])));
+  return markdown_table(
+      {"", "method", "RMSE [95 %]", "published", "bias", "MAE", "R2", "within farms", "R2 within",
+       "rho within", "found", "extra", "IoU median", "seconds"},
+      lines);
 }
 
 // Plots found, heights named after truths; for each truth and case, the methods by RMSE.
@@ -138,21 +149,7 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
         return row.truth == truth && row.case_name == info.name && row.shown;
       });
       if (rows.empty()) continue;
-      // NaN, a method without any height, comes last.
-      std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
-        if (has_place(a) != has_place(b)) return has_place(a);
-        return a.rmse_m < b.rmse_m || (std::isnan(b.rmse_m) && !std::isnan(a.rmse_m));
-      });
-      text +=
-          "\n## " + info.name + ", truth " + truth +
-          "\n\n| | method | RMSE [95 %] | published | bias | MAE | R2 | within farms | R2 within | "
-          "rho within | found | "
-          "extra | IoU median | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- "
-          "| --- | --- | --- | --- | --- |\n";
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        text += leaderboard_line(has_place(rows[i]) ? i + 1 : 0, rows[i],
-                                 published_cm(result, rows[i])) +
-                "\n";
+      text += "\n## " + info.name + ", truth " + truth + "\n\n" + ranking(result, std::move(rows));
     }
   }
   return text;

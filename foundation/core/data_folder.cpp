@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/data_folder.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <dlfcn.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -55,6 +59,18 @@ std::optional<fs::path> known_folder() {
   return installed;
 }
 
+// A name without a folder and an extension is meant as that of something shipped.
+void require_no_mere_name(const fs::path& name, const fs::path& room) {
+  std::error_code ignored;
+  if (name.has_parent_path() || name.has_extension() || fs::exists(name, ignored)) return;
+  std::vector<std::string> shipped;
+  for (const auto& entry : fs::directory_iterator(room, ignored))
+    if (entry.path().extension() == ".yaml") shipped.push_back(entry.path().stem().string());
+  std::ranges::sort(shipped);
+  if (!shipped.empty())
+    throw InputError(name, "no such file, and none of the shipped ones: " + joined(shipped, ", "));
+}
+
 }  // namespace
 
 fs::path data_folder() {
@@ -77,6 +93,12 @@ fs::path found_file(const fs::path& name, const fs::path& room) {
     }
   }
   return name;
+}
+
+fs::path found_or_shipped(const fs::path& name, const fs::path& room) {
+  const fs::path file = found_file(name, room);
+  if (const auto folder = known_folder()) require_no_mere_name(file, *folder / room);
+  return file;
 }
 
 }  // namespace plotscan

@@ -20,4 +20,8 @@ std::filesystem::path data_folder();
 std::filesystem::path found_file(const std::filesystem::path& name,
                                  const std::filesystem::path& room);
 
+// The same, for names of what `room` ships. Throws InputError, naming these, on one that is none.
+std::filesystem::path found_or_shipped(const std::filesystem::path& name,
+                                       const std::filesystem::path& room);
+
 }  // namespace plotscan

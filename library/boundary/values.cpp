@@ -2,9 +2,11 @@
 #include "boundary/values.h"
 
 #include <algorithm>
+#include <string>
 #include <thread>
 
 #include "core/angle.h"
+#include "core/error.h"
 
 namespace plotscan::boundary {
 
@@ -40,6 +42,9 @@ BoxError outer(const PlotBoxError& error) {
 }
 
 int threads_of(int threads) {
+  if (threads < 0)
+    throw InputError("threads is " + std::to_string(threads) +
+                     "; it is 0 (one for each processor) or more");
   if (threads != 0) return threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

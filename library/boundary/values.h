@@ -13,7 +13,7 @@ Box outer(const PlotBox& box);
 PlotBoxError inner(const BoxError& error);
 BoxError outer(const PlotBoxError& error);
 
-// The number of threads to use: for 0, that of the processors.
+// The number of threads to use: for 0, that of the processors. Throws InputError below 0.
 int threads_of(int threads);
 
 }  // namespace plotscan::boundary

@@ -80,9 +80,11 @@ std::string gap_note(const fs::path& file, const scan::Trajectory& trajectory) {
 }
 
 // What should be known of how the sensor of a recording moved.
-std::string motion_note(const Source& source) {
+std::string motion_note(const Source& source, bool has_transforms) {
   if (source.flight) return gap_note(source.path, source.flight->reported);
   if (source.trajectory) return gap_note(source.path, *source.trajectory);
+  if (!has_transforms)
+    return "without --trajectory each point lies in the sensor's own frame at its instant";
   return "no transform of " + source.path.filename().string() +
          " moves its clouds: they are taken to stand still in the world";
 }
@@ -183,7 +185,7 @@ Source open_source(const fs::path& in, const SourceOptions& options) {
                         options.flight && options.flight->start_utc.has_value());
   if (format->is_recording) {
     end_with_trajectory(source);
-    if (std::string note = motion_note(source); !note.empty())
+    if (std::string note = motion_note(source, format->has_topics); !note.empty())
       source.notes.push_back(std::move(note));
   }
   return source;

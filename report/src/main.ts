@@ -23,18 +23,35 @@ function fieldsSection(report: Report): HTMLElement {
   const section = h("section", { id: "fields", "aria-label": "Fields" });
   if (report.kind === "suite") section.append(h("h2", {}, "One farm of each case"));
   if (report.fields.length > 1) {
-    const tabs = report.fields.map((field, i) => {
-      const tab = h("button", { type: "button", role: "tab", "aria-selected": i === 0 ? "true" : "false", click: () => {
-        tabs.forEach((other) => other.setAttribute("aria-selected", other === tab ? "true" : "false"));
-        open(i);
-      } }, field.name);
-      return tab;
-    });
-    section.append(h("div", { class: "tabs", role: "tablist" }, ...tabs));
+    section.append(tabList(report.fields.map(({ name }) => name), place, open));
   }
   section.append(place);
   open(0);
   return section;
+}
+
+// Tabs of one panel: the arrow keys go from one to the next (WAI-ARIA Authoring Practices, tabs).
+function tabList(names: string[], panel: HTMLElement, open: (i: number) => void): HTMLElement {
+  panel.id = "panel";
+  panel.setAttribute("role", "tabpanel");
+  const choose = (chosen: number): void => {
+    tabs.forEach((tab, i) => {
+      tab.setAttribute("aria-selected", i === chosen ? "true" : "false");
+      tab.tabIndex = i === chosen ? 0 : -1;
+    });
+    open(chosen);
+  };
+  const tabs = names.map((name, i) => h("button", {
+    type: "button", role: "tab", "aria-controls": panel.id, "aria-selected": i === 0 ? "true" : "false", tabindex: i === 0 ? "0" : "-1",
+    click: () => choose(i),
+    keydown: (event: Event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[(event as KeyboardEvent).key];
+      if (step === undefined) return;
+      const next = (i + step + tabs.length) % tabs.length;
+      choose(next);
+      tabs[next].focus();
+    } }, name));
+  return h("div", { class: "tabs", role: "tablist" }, ...tabs);
 }
 
 function sections(report: Report): HTMLElement[] {

@@ -216,6 +216,7 @@ TEST_F(Scoring, BoxesWithoutHeightsAreScoredAsBoxes) {
   EXPECT_EQ(row.found, 0U);
   EXPECT_EQ(row.extra, 1U);
   EXPECT_TRUE(std::isnan(row.rmse_m));
+  EXPECT_EQ(scored.apart, std::vector<std::string>{fields_[0].code});
 }
 
 TEST_F(Scoring, RefusesAllThatIsWrongAtOnceAndWritesNothing) {

@@ -5,7 +5,10 @@
 #include <filesystem>
 
 #include "temporary_folder.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/error.h"
 
 namespace plotscan {
 namespace {
@@ -49,6 +52,15 @@ TEST_F(NamedFile, IsTheUsersOwnWhereThereIsOne) {
 TEST_F(NamedFile, IsNoFolder) {
   fs::create_directories("paper");
   EXPECT_EQ(found("paper"), suite_);
+}
+
+// A mere name is that of something shipped; a path is opened, and says itself what is wrong.
+TEST_F(NamedFile, ThatIsNoneIsToldWhatIsShipped) {
+  const auto shipped = [](const char* name) { return found_or_shipped(name, "benchmarks/suites"); };
+  EXPECT_EQ(shipped("paper"), suite_);
+  EXPECT_THAT(testing::message_of<InputError>([&] { shipped("papre"); }),
+              ::testing::HasSubstr("papre: no such file, and none of the shipped ones: paper"));
+  for (const char* path : {"papre.yaml", "mine/papre"}) EXPECT_EQ(shipped(path), path);
 }
 
 }  // namespace

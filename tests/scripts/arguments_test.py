@@ -6,6 +6,7 @@ usage: arguments_test.py SCRIPTS_FOLDER
 """
 import importlib.machinery
 import importlib.util
+import math
 import pathlib
 import subprocess
 import sys
@@ -19,6 +20,13 @@ sys.dont_write_bytecode = True
 
 def called(script, *arguments):
     return subprocess.run([SCRIPTS / script, *arguments], capture_output=True, text=True, check=False, timeout=60)
+
+
+def module_of(script):
+    loader = importlib.machinery.SourceFileLoader(script, str(SCRIPTS / script))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(script, loader))
+    loader.exec_module(module)
+    return module
 
 
 class Arguments(unittest.TestCase):
@@ -37,9 +45,7 @@ class Arguments(unittest.TestCase):
             self.assertIn(argument, refused.stderr)
 
     def test_the_page_of_some_suites_says_which(self):
-        loader = importlib.machinery.SourceFileLoader("results", str(SCRIPTS / "results"))
-        results = importlib.util.module_from_spec(importlib.util.spec_from_loader("results", loader))
-        loader.exec_module(results)
+        results = module_of("results")
         row = {"plots": 1, "found": 1, "extra": 0, "iou_mean": 1, "rmse_m": None, "coverage95": None}
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder, "results.md")
@@ -48,6 +54,18 @@ class Arguments(unittest.TestCase):
                  mock.patch.object(sys, "argv", ["results", "--seeds", "2", "--output", str(page), "paper", "steep"]):
                 results.main()
             self.assertIn("Made by `scripts/results --seeds 2 paper steep` at abc.", page.read_text())
+
+    def test_the_leaderboard_draws_seeds(self):
+        board = module_of("leaderboard")
+        one_seed = [[1.0, 2.0], [3.0], []]
+        self.assertTrue(all(math.isnan(end) for end in board.bootstrap(one_seed, [1, 1, 2])))
+        # Two farms of a seed are drawn together: nothing but one seed's two farms, the other's, or all three.
+        low, high = board.bootstrap([[1.0], [1.0], [4.0]], [1, 1, 2])
+        self.assertEqual((low, high), (1.0, 4.0))
+        better, worse = [{1: 1.0}, {1: 1.0}], [{1: 2.0}, {1: 3.0}]
+        self.assertTrue(board.is_better(better, worse, [1, 2]))
+        self.assertFalse(board.is_better(worse, better, [1, 2]))
+        self.assertFalse(board.is_better(better, worse, [1, 1]))
 
 
 if __name__ == "__main__":

@@ -12,12 +12,11 @@
 #include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/failures.h"
+#include "farmbench/internal/markdown.h"
 #include "farmbench/internal/method_rows.h"
 
 namespace plotscan::farmbench {
 namespace {
-
-using Cells = std::vector<std::string>;
 
 // The name of the rows of the height that the sweep asks about.
 std::string asked_row(const SuiteResult& result) {
@@ -112,8 +111,6 @@ Cells told_heads(const SuiteResult& result) {
   return heads;
 }
 
-std::string markdown_line(const Cells& cells) { return "| " + joined(cells, " | ") + " |\n"; }
-
 }  // namespace
 
 std::vector<FlightCost> flight_costs(const SuiteResult& result) {
@@ -189,9 +186,9 @@ std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow
   std::string text = "# Sweep " + result.suite + "\n\n" + about(result) +
                      ", with 95 % bootstrap intervals over farms.\n\n";
   if (const std::string said = answer(result, rows); !said.empty()) text += said + "\n\n";
-  const Cells heads = told_heads(result);
-  text += markdown_line(heads) + markdown_line(Cells(heads.size(), "---"));
-  for (const TableRow& row : rows) text += markdown_line(told(result, row));
+  std::vector<Cells> lines;
+  for (const TableRow& row : rows) lines.push_back(told(result, row));
+  text += markdown_table(told_heads(result), lines);
   const std::vector<std::string> failures = failure_lines(result);
   if (!failures.empty()) text += "\nGave up:\n\n";
   for (const std::string& failure : failures) text += "- " + failure + "\n";

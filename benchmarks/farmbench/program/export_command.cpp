@@ -14,7 +14,7 @@ namespace plotscan {
 namespace {
 
 void run_export(const Program& program, farmbench::ExportOptions options) {
-  options.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  options.suite.file = found_or_shipped(options.suite.file, "benchmarks/suites");
   options.threads = program.common().threads;
   const farmbench::ExportSummary summary =
       farmbench::export_suite(options, program.progress(options.suite.file.stem().string()));
@@ -41,7 +41,7 @@ void run_dataset(const Program& program, const farmbench::ExportOptions& options
       .replace = options.replace,
       .command = dataset_command(options.suite.file.string(), options),
       .threads = program.common().threads};
-  dataset.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  dataset.suite.file = found_or_shipped(options.suite.file, "benchmarks/suites");
   const farmbench::DatasetSummary summary =
       farmbench::export_dataset(dataset, program.progress(dataset.suite.file.stem().string()));
   program.result({{"output", options.output.string()},

@@ -22,7 +22,7 @@ namespace {
 std::string own_build() { return file_hash("/proc/self/exe"); }
 
 void run_plan(const Program& program, farmbench::RunOptions options) {
-  options.suite = found_file(options.suite, "benchmarks/suites");
+  options.suite = found_or_shipped(options.suite, "benchmarks/suites");
   options.build = own_build();
   const farmbench::PlanSummary planned = farmbench::plan(options);
   program.result({{"output", options.output.string()},

@@ -36,7 +36,7 @@ void say_summary(const Program& program, const farmbench::RunSummary& summary,
 }
 
 void run_suite(const Program& program, farmbench::RunOptions options) {
-  options.suite = found_file(options.suite, "benchmarks/suites");
+  options.suite = found_or_shipped(options.suite, "benchmarks/suites");
   options.threads = program.common().threads;
   options.seed = program.common().seed;
   options.build = file_hash("/proc/self/exe");
@@ -58,7 +58,7 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
 }
 
 void run_sweep(const Program& program, farmbench::RunOptions options) {
-  options.suite = found_file(options.suite, "benchmarks/suites");
+  options.suite = found_or_shipped(options.suite, "benchmarks/suites");
   if (!farmbench::load_suite(options.suite).sweep)
     throw InputError(options.suite, "has no axes: it is a suite; farmbench run runs it");
   run_suite(program, std::move(options));

@@ -14,7 +14,7 @@ namespace plotscan {
 namespace {
 
 void run_score(const Program& program, farmbench::ScoreSubmissionOptions options) {
-  options.suite.file = found_file(options.suite.file, "benchmarks/suites");
+  options.suite.file = found_or_shipped(options.suite.file, "benchmarks/suites");
   options.threads = program.common().threads;
   options.seed = program.common().seed;
   const farmbench::ScoredSubmission scored =
@@ -23,14 +23,19 @@ void run_score(const Program& program, farmbench::ScoreSubmissionOptions options
     program.say(line);
   if (!scored.missing.empty())
     program.say("Fields without a file: " + joined(scored.missing, ", "));
+  if (!scored.apart.empty())
+    program.say("In " + joined(scored.apart, ", ") +
+                " all plots lie apart from the true ones: are both in the clouds' coordinates?");
   if (options.output) {
     program.say("Added to table.csv, results.json, leaderboard.md in " + options.output->string());
     program.say("To look at: " + (*options.output / "report.html").string());
   }
   nlohmann::json rows = nlohmann::json::array();
   for (const farmbench::TableRow& row : scored.table) rows.push_back(farmbench::to_json(row));
-  program.result(
-      {{"method", scored.result.methods.front()}, {"missing", scored.missing}, {"table", rows}});
+  program.result({{"method", scored.result.methods.front()},
+                  {"missing", scored.missing},
+                  {"apart", scored.apart},
+                  {"table", rows}});
 }
 
 }  // namespace

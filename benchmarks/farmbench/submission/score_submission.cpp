@@ -113,9 +113,10 @@ fs::path work_folder() {
   return folder / (".farmbench-score-" + std::to_string(getpid()));
 }
 
-// Scores of a submission that is sound; throws where it is not.
+// Scores of a submission that is sound; throws where it is not. `apart` gets the fields all of
+// whose plots lie apart from the true ones.
 Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
-                   const ProgressReport& progress) {
+                   const ProgressReport& progress, std::vector<std::string>& apart) {
   const std::vector<BlindField> fields = blind_fields(suite, options.suite);
   Problems problems;
   Submission submission = read_submission(options.submission, fields, problems);
@@ -125,8 +126,12 @@ Entry score_fields(const ScoreSubmissionOptions& options, const Suite& suite,
   for (const BlindField& field : fields) {
     truths.push_back(truth_of(field, work.path(), options.threads));
     const auto entered = submission.fields.find(field.code);
-    if (entered != submission.fields.end())
+    if (entered != submission.fields.end()) {
       take_boxes(entered->second, truths.back().plots, problems);
+      if (score::lie_apart(truths.back().plots,
+                           {.method = submission.method, .plots = entered->second.plots}))
+        apart.push_back(field.code);
+    }
     require_same_farm(submission, field.code, truths.back(), problems);
     if (progress) progress(static_cast<double>(truths.size()) / static_cast<double>(fields.size()));
   }
@@ -245,12 +250,15 @@ ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
     require_apart(*options.output, {{options.submission}});
     earlier = earlier_results(*options.output, suite);
   }
-  const Entry entry = score_fields(options, suite, progress);
+  std::vector<std::string> apart;
+  const Entry entry = score_fields(options, suite, progress, apart);
   if (earlier) {
     require_addable(entry, *earlier, options);
     add_to_results(options, entry, std::move(*earlier));
   }
-  return alone(entry, suite, options.seed);
+  ScoredSubmission scored = alone(entry, suite, options.seed);
+  scored.apart = std::move(apart);
+  return scored;
 }
 
 }  // namespace plotscan::farmbench

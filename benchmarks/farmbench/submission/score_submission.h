@@ -27,6 +27,7 @@ struct ScoredSubmission {
   SuiteResult result;  // of the submission alone
   std::vector<TableRow> table;
   std::vector<std::string> missing;  // fields without a file: nothing of them was found
+  std::vector<std::string> apart;    // fields all of whose plots lie apart from the true ones
 };
 
 // Makes the suite's farms again, without flying them, scores the submission as run_farm scores a

@@ -247,6 +247,8 @@ TEST_F(Convert, ARecordingSaysMuchByItself) {
   EXPECT_THAT(refusal(bag, "out.pcd", {.flight = flight}), HasSubstr("its own poses (/tf)"));
   if (find_format(pcap) == nullptr) return;
   convert(scan_, pcap, {});
+  EXPECT_THAT(convert(pcap, folder_.path() / "own.pcd", {}).notes,
+              ElementsAre(HasSubstr("without --trajectory")));
   flight.start_utc = "2020-01-01T00:00:00Z";
   EXPECT_THAT(refusal(pcap, "out.las", {.flight = flight}),
               HasSubstr("says by itself when it was recorded"));
