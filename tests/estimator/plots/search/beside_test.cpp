@@ -157,6 +157,24 @@ TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
   EXPECT_NEAR(field.others_m2, 24 * 14, 24);
 }
 
+// In the middle of 40 x 40 m of the same crop, a path of a metre around.
+TEST(FindPlots, FindsPlotsInTheMiddleOfACrop) {
+  const std::vector<PlotBox> boxes = Trial{.heading_rad = 0}.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  const auto in_clearing = [](double x, double y) { return std::abs(x) < 8 && std::abs(y) < 6.5; };
+  std::erase_if(points, [&](const Eigen::Vector3f& p) { return !in_clearing(p.x(), p.y()); });
+  for (std::uint64_t i = 0; i < 900000; ++i) {
+    RandomStream random(9, random_purpose("test/bulk"), i);
+    const double x = random.uniform(-20, 20), y = random.uniform(-20, 20);
+    if (in_clearing(x, y)) continue;
+    const double height_m = random.uniform() < 0.95 ? random.uniform(0.5, 0.8) : 0;
+    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
+                        static_cast<float>(height_m + 0.02 * random.normal()));
+  }
+  for (const Hints& hints : {Hints{}, Hints{.rows = 3, .columns = 6}})
+    expect_those(boxes, find_plots(points, 0.02, hints, 2));
+}
+
 // Plots with narrow gaps, 0.2 m beside the same crop without plots: on squares of a metre the crop
 // goes on through them.
 TEST(FindPlots, FindsPlotsWithNarrowGapsBesideACropWithoutPlots) {
