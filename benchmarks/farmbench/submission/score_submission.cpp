@@ -13,7 +13,6 @@
 #include "core/temporary_path.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/farm_scan.h"
-#include "farmbench/internal/farm_task.h"
 #include "farmbench/methods.h"
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
