@@ -20,17 +20,19 @@ std::size_t blocks_of_shots(const DataPacket& packet) {
 
 // From the first firing of a block to that of the next.
 double block_time_s(const sensor::Sensor& sensor) {
-  return sensor.sequence_s * static_cast<double>(kBlockReturns / sensor.lasers.size());
+  const std::size_t sequences = kBlockReturns / sensor.lasers.size();
+  return sensor.sequence_s * static_cast<double>(sequences);
 }
 
 }  // namespace
 
 double spin_hz(const DataPacket& packet, const sensor::Sensor& sensor) {
   constexpr double kRounded = 0.01;
-  const std::size_t stride = blocks_of_shots(packet), last = kPacketBlocks - stride;
-  const int steps = packet.blocks[last].azimuth - packet.blocks[0].azimuth;
-  const double turns = (steps < 0 ? steps + kAzimuthSteps : steps) / double{kAzimuthSteps};
-  const double measured_hz = turns / (static_cast<double>(last / stride) * block_time_s(sensor));
+  const std::size_t stride = blocks_of_shots(packet);
+  const std::size_t steps = kPacketBlocks / stride - 1;  // from block to block
+  const int turned = packet.blocks[steps * stride].azimuth - packet.blocks[0].azimuth;
+  const double turns = (turned < 0 ? turned + kAzimuthSteps : turned) / double{kAzimuthSteps};
+  const double measured_hz = turns / (static_cast<double>(steps) * block_time_s(sensor));
   const double whole_hz = std::round(measured_hz);
   return std::abs(measured_hz - whole_hz) < kRounded * whole_hz ? whole_hz : measured_hz;
 }
