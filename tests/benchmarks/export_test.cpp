@@ -160,7 +160,7 @@ TEST_F(Export, NeitherNamesNorTimesNorManifestTellTheOrder) {
   const json manifest = json::parse(read_text(options_.output / "manifest.json"));
   EXPECT_EQ(manifest["seed"], 0);
   EXPECT_EQ(manifest["inputs"], json::array());
-  EXPECT_EQ(manifest["options"], json({{"suite", "blindsuite"}}));
+  EXPECT_EQ(manifest["options"], json({{"suite", "blindsuite"}, {"boxes", false}, {"seeds", 1}}));
   EXPECT_EQ(manifest["results"], json::object());
 }
 

@@ -218,7 +218,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"plotview plants tall.obj -o tall.obj", "tall.obj: is the input"},
         BadCommand{"plotview plants tall.obj -o p.jpg", "p.jpg: does not end in .png"},
         BadCommand{"plotview field index.ply estimate -o index.las", "does not end in .png"},
-        BadCommand{"plotview picture not_a_farm --plots estimate -o estimate/plots.geojson",
+        BadCommand{"plotview picture not_a_farm --scan index.ply --plots estimate -o "
+                   "estimate/plots.geojson",
                    "plots.geojson: lies in the input"},
         BadCommand{"plotview plot index.ply groundless --plot 1 -o p.png", "ground.asc"},
         BadCommand{"plotview plot index.ply estimate --plot 2 -o p.png", "no plot 2"},
