@@ -34,6 +34,13 @@ std::vector<scan::LabelledPoint> points_of(const fs::path& file) {
   return points;
 }
 
+void write_pcd(const fs::path& file, const std::vector<scan::LabelledPoint>& points,
+               const scan::CloudWriteOptions& options = {}) {
+  scan::PcdWriter writer(file, options);
+  writer.write(points);
+  writer.close();
+}
+
 struct Recorded {
   std::optional<UtcTime> start;
   std::vector<scan::LabelledPoint> points;
@@ -258,9 +265,7 @@ TEST_F(Convert, ARecordingSaysMuchByItself) {
 TEST_F(Convert, ARecordingOfAMapHasItsPlaces) {
   const Eigen::Vector3d place(544'000, 4'117'000, 600);
   const fs::path map = folder_.path() / "map.pcd";
-  scan::PcdWriter writer(map, {.origin_m = place});
-  writer.write(points_of(scan_ / "cloud.pcd"));
-  writer.close();
+  write_pcd(map, points_of(scan_ / "cloud.pcd"), {.origin_m = place});
   const fs::path poses = folder_.path() / "map.tum";
   scan::write_tum(poses, scan::moved(scan::read_trajectory(scan_ / "poses.csv"), place));
   const auto first_place = [](const fs::path& file) {
@@ -282,9 +287,7 @@ TEST_F(Convert, ACloudThatIsNotInTheOrderOfTimeIsNoRecording) {
   std::vector<scan::LabelledPoint> points = points_of(scan_ / "cloud.pcd");
   std::ranges::reverse(points);
   const fs::path reversed = folder_.path() / "reversed.pcd";
-  scan::PcdWriter writer(reversed, scan::CloudWriteOptions{});
-  writer.write(points);
-  writer.close();
+  write_pcd(reversed, points);
   EXPECT_THAT(
       refusal(reversed, "out.mcap", {.flight = FlightOptions{.trajectory = scan_ / "poses.csv"}}),
       HasSubstr("needs the cloud in the order of time"));
@@ -328,9 +331,7 @@ TEST_F(Convert, ABareCloudAndItsTrajectoryMayCountFromAnyTime) {
   const fs::path later = folder_.path() / "later.pcd";
   std::vector<scan::LabelledPoint> points = points_of(scan_ / "cloud.pcd");
   for (scan::LabelledPoint& point : points) point.time += begin_s;
-  scan::PcdWriter writer(later, scan::CloudWriteOptions{});
-  writer.write(points);
-  writer.close();
+  write_pcd(later, points);
   scan::write_tum(folder_.path() / "later.tum",
                   scan::delayed(scan::read_trajectory(scan_ / "poses.csv"), begin_s));
   const FlightOptions flight{.trajectory = folder_.path() / "later.tum",
