@@ -38,11 +38,14 @@ class CsvRow {
   const std::vector<std::string_view>& fields_;
 };
 
-// A comma-separated table with a header line, without quoted fields; lines that begin with '#' and
-// empty lines are skipped. Calls `row` for each line. Its fields are in the order of `columns`,
-// then of `optional_columns` ("" where the table lacks them), whatever their order in the file.
-// Throws InputError on a missing file or column, an unknown column, or a line with another number
-// of fields.
+// Tables are read as spreadsheets save them: a header line, fields between commas, or semicolons or
+// tabs where the header has these and no comma, quotes as in RFC 4180. Blanks around fields and
+// empty lines are skipped. InputError on a missing or empty file, a column without a name or named
+// twice, a line with another number of fields, or an open quote.
+
+// Calls `row` for each line of a table. Its fields are in the order of `columns`, then of
+// `optional_columns` ("" where the table lacks them), whatever their order in the file. Lines that
+// begin with '#' are skipped. Throws InputError on a missing or unknown column too.
 void read_csv(const std::filesystem::path& file, const std::vector<std::string>& columns,
               const std::vector<std::string>& optional_columns,
               const std::function<void(const CsvRow&)>& row);
@@ -57,10 +60,6 @@ struct CsvTable {
   std::vector<Line> lines = {};
 };
 
-// Reads a table as spreadsheets save it: a header line, fields between commas, or semicolons or
-// tabs where the header has these and no comma, quotes as in RFC 4180. Blanks around fields and
-// empty lines are skipped. Throws InputError on a missing or empty file, a column without a name or
-// named twice, a line with another number of fields, or an open quote.
 CsvTable read_csv_table(const std::filesystem::path& file);
 
 }  // namespace plotscan

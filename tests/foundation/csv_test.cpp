@@ -41,11 +41,28 @@ TEST(Csv, SaysWhichFileLineAndColumnIsWrong) {
   EXPECT_EQ(message("a,n\nx\n"), file + ":2: has 1 fields; the header names 2");
   EXPECT_EQ(message("a,b\n"), file + ":1: column \"n\" is missing");
   EXPECT_EQ(message("a,n,z\n"), file + ":1: unknown column \"z\"; known are a,n");
-  EXPECT_EQ(message("a,n,a\n"), file + ":1: column \"a\" is there twice");
+  EXPECT_EQ(message("a,n,a\n"),
+            file + ":1: column 3 is called \"a\"; every column has a name of its own");
   EXPECT_EQ(message("\xef\xbb\xbf"
                     "a,n\nx,10\n"),
             file + ":2: n \"10\" is not in [0, 9]");
   EXPECT_EQ(message(""), file + ": is empty; the header line a,n is expected");
+  EXPECT_EQ(message("# a,n"), file + ": is empty; the header line a,n is expected");
+}
+
+TEST(Csv, ReadsColumnsAsSpreadsheetsSaveThem) {
+  const testing::TemporaryFolder folder;
+  for (const char* text :
+       {"# by hand\n\"a\",b\n\"x, y\",2\n", "a;b\n\n# one\nx, y;2\n", "a\tb\r\nx, y\t 2\r\n#"}) {
+    std::string names;
+    double sum = 0;
+    read_csv(folder.write("t.csv", text), {"a", "b"}, {}, [&](const CsvRow& row) {
+      names += row.text(0);
+      sum += row.number(1);
+    });
+    EXPECT_EQ(names, "x, y") << text;
+    EXPECT_EQ(sum, 2) << text;
+  }
 }
 
 TEST(Csv, RefusesNumbersThatAreNotFinite) {
