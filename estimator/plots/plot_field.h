@@ -34,6 +34,8 @@ struct FieldSigns {
   double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
   double mean_unevenness = 0;  // the same of the plots' mean
   double aspect = 0;           // length of a plot over its width and that width's standard error
+  double pitch_m = 0;          // from one plot to the next along their width; 0: no other
+  double passage = 0;          // gap between these, over the width
   double least_gap_m = 0;      // between plots, along their length or their width
   double gap_cover = 0;        // at most, of the gaps over that of the plots beside (gap_cover.h)
   // For a plot, over a canopy of one level in the plots' outline: Schwarz's criterion, nats.

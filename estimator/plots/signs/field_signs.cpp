@@ -26,9 +26,11 @@ constexpr double kNear_m = 1.5;              // of a plot, where surfaces are lo
 constexpr double kMostSurface = 0.1;         // walls and roofs: 0.14 and more; crops up to 0.02
 constexpr double kLeastRoughness = 0.08;     // tables: up to 0.02; cars: from 0.03
 constexpr double kRoughnessOfCrops = 0.115;  // and more; a torn sheet: 0.09
-// Length of a plot over its width: plots are sown and harvested one by one, longer ones are rows of
-// a crop. Plots of drawn trials: up to 9.0; vine rows, whole or in equal parts: 10.7 and more.
+// Length of a plot over its width: longer ones may be rows. Plots of drawn trials: up to 9.0; vine
+// rows, whole or in equal parts: 10.7 and more. But rows of a crop are not wider than this from one
+// to the next, and rows of vines and trees leave room to pass, at least this of their own width.
 constexpr double kMostAspect = 10;
+constexpr double kMostPitchOfRows_m = 1.2, kLeastPassage = 0.5;
 constexpr double kLeastGapSeen_m = 0.05;  // a cell of the raster: no less is seen
 // Plots whose leaves close their gaps: up to 0.94, most 0.6; pieces of vine rows: 0.965 and more.
 constexpr double kMostGapCover = 0.95;
@@ -121,6 +123,10 @@ double least_aspect(const Lattice& lattice) {
   return length_m / (width_m + box_error(lattice, {}).width_m);
 }
 
+const Side& across(const Lattice& lattice) {
+  return lattice.r.size_m < lattice.c.size_m ? lattice.r : lattice.c;
+}
+
 double filled_share(const Lattice& lattice) {
   std::map<int, std::pair<int, int>> ends;  // by row: first and last column
   for (const Place& place : lattice.places) {
@@ -190,6 +196,12 @@ std::vector<Eigen::Vector2d> centres_of(const Lattice& lattice) {
   return centres;
 }
 
+// Whether plots so long are rows of a crop, of vines or of trees.
+bool are_rows(const FieldSigns& signs) {
+  const bool sown_beside = signs.pitch_m > kMostPitchOfRows_m && signs.passage < kLeastPassage;
+  return signs.aspect > kMostAspect && !sown_beside;
+}
+
 }  // namespace
 
 double held_share(const Lattice& lattice) {
@@ -214,6 +226,8 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
           .unevenness = unevenness_of(lattice, pieces),
           .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
           .aspect = least_aspect(lattice),
+          .pitch_m = across(lattice).pitch_m,
+          .passage = across(lattice).pitch_m / across(lattice).size_m - 1,
           .least_gap_m = least_gap_m(lattice),
           .gap_cover = gap_cover(lattice),
           .evidence = evidence / static_cast<double>(lattice.places.size())};
@@ -222,8 +236,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
-  if (signs.aspect > kMostAspect || signs.least_gap_m < kLeastGapSeen_m ||
-      signs.gap_cover > kMostGapCover)
+  if (are_rows(signs) || signs.least_gap_m < kLeastGapSeen_m || signs.gap_cover > kMostGapCover)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;
   const bool square = signs.squareness >= (few ? kLeastSquarenessOfFew : kLeastSquareness);

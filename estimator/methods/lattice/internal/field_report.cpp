@@ -72,6 +72,8 @@ json signs_json(const plots::FieldSigns& signs) {
           {"squareness", signs.squareness},
           {"straightness", signs.straightness},
           {"aspect", signs.aspect},
+          {"pitch_m", signs.pitch_m},
+          {"passage", signs.passage},
           {"roughness", signs.roughness},
           {"unevenness", signs.unevenness},
           {"mean_unevenness", signs.mean_unevenness},

@@ -257,6 +257,21 @@ TEST(FieldSigns, AllowPlotsThatTouch) {
   EXPECT_THAT(no_touching_plots_because(signs), ::testing::HasSubstr("rows of a crop"));
 }
 
+// Plots of a drill and a combine, 1.5 x 18 m, are as long as rows, but lie as plots do.
+TEST(FieldSigns, TellLongPlotsFromRows) {
+  const auto rows_of = [](double width_m, double pitch_m) {
+    const PlotField field = field_of(
+        [&](double x, double y, RandomStream& random) {
+          return in_box(x, y, width_m, 18) ? random.uniform(0, 1) : 0;
+        },
+        pitch_m, 19, 9.5);
+    return field.plots.empty() ? field.why_none : "";
+  };
+  EXPECT_EQ(rows_of(1.5, 2), "");
+  EXPECT_THAT(rows_of(0.6, 0.9), ::testing::HasSubstr("rows of a crop"));
+  EXPECT_THAT(rows_of(1.5, 3), ::testing::HasSubstr("rows of a crop"));
+}
+
 TEST(FieldSigns, TellLongRows) {
   EXPECT_NE(why_none_of(
                 [](double x, double, RandomStream& random) {
