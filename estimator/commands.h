@@ -11,4 +11,9 @@ void declare_info(Program& program);
 void declare_score(Program& program);
 void declare_report(Program& program);
 
+// The option --id of those that take a table of measured heights.
+inline constexpr const char* kIdOfMeasured =
+    "column of that table with the plots' ids (default: plot_number, plot_id or another usual "
+    "name)";
+
 }  // namespace plotscan

@@ -56,6 +56,7 @@ void declare_report(Program& program) {
       "--truth", options.truth,
       "farm folder, a GeoJSON file of plots with numbers height_<name>_m, metres, or a "
       "table (.csv) of heights that were measured in the field: errors are shown");
+  report.add_option("--id", options.id, kIdOfMeasured)->needs("--truth");
   declare_shown_cloud(report, shared->cloud);
   report.add_option("--points", options.points, "points on the page, at most")
       ->capture_default_str()

@@ -122,9 +122,7 @@ void declare_score(Program& program) {
                   "table (.csv) of heights that were measured in the field: ids, and columns such "
                   "as height_mean_cm")
       ->required();
-  score.add_option("--id", options.score.id,
-                   "column of that table with the plots' ids (default: plot_number, plot_id or "
-                   "another usual name)");
+  score.add_option("--id", options.score.id, kIdOfMeasured);
   score.add_option("-o,--output", output,
                    "folder to write scores.json and plots.csv to (default: write nothing)");
   score.add_option("--min-iou", options.score.min_iou,

@@ -17,6 +17,7 @@ std::string search_key(const methods::lattice::Options& options) {
   for (const PlotBox& box : options.boxes)
     key["boxes"].push_back(
         {box.center.x(), box.center.y(), box.width_m, box.length_m, box.heading_rad});
+  key["trials"] = options.trials;
   return key.dump();
 }
 

@@ -25,6 +25,12 @@ std::vector<PlotBox> true_boxes(const Field& field) {
   return boxes;
 }
 
+std::vector<int> true_trials(const Field& field) {
+  std::vector<int> trials;
+  for (const score::TruePlot& plot : field.plots) trials.push_back(plot.trial);
+  return trials;
+}
+
 estimate::Estimate oracle_ground(const Field& field) {
   return score::oracle_ground(field.map, field.plots, field.terrain);
 }
@@ -69,7 +75,10 @@ Method lattice_method(const std::string& name, bool in_true_boxes,
       .name = name, .heights = rows_of(name, height_names()), .estimate = [=](const Field& field) {
         methods::lattice::Options own = options;
         own.threads = field.threads;
-        if (in_true_boxes) own.boxes = true_boxes(field);
+        if (in_true_boxes) {
+          own.boxes = true_boxes(field);
+          own.trials = true_trials(field);
+        }
         return methods::lattice::measure_field(field.found.with(own), own);
       }};
 }

@@ -51,7 +51,7 @@ void require_area(const Area& area, const std::string& option) {
   const bool finite = std::ranges::all_of(area, [](double value) { return std::isfinite(value); });
   if (!finite || area[0] >= area[2] || area[1] >= area[3]) {
     throw InputError(option + " " + text_of(area) +
-                     " is no rectangle; it is x0,y0,x1,y1 in metres with x0 < x1 and y0 < y1");
+                     " is no rectangle; it is x0,y0,x1,y1 with x0 < x1 and y0 < y1");
   }
   if (is_too_long(area)) throw InputError(option + " " + text_of(area) + kTooLong);
 }
@@ -94,7 +94,9 @@ CloudMap read_map(const CloudFiles& cloud, const std::optional<NamedArea>& area,
   }
   if (progress) progress(0.2);
   CloudMap map(field.area);
-  record::read_positions(cloud, [&](auto points) { map.add(points); });
+  const scan::CloudSummary read =
+      record::read_positions(cloud, [&](auto points) { map.add(points); });
+  map.note({.not_finite = read.not_finite, .left_out = read.left_out});
   if (map.points().empty()) {
     throw InputError(cloud.name() + ": none of its " + std::to_string(map.points_read()) +
                      " points lies in the " + field.name + " " + text_of(field.area));

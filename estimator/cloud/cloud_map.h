@@ -45,12 +45,20 @@ class CloudMap {
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
   // How many points add() was given.
   std::size_t points_read() const { return points_read_; }
+  // Points of the cloud that add() was not given.
+  struct NotGiven {
+    std::size_t not_finite = 0;
+    std::size_t left_out = 0;  // of a class that CloudFiles excludes
+  };
+  void note(const NotGiven& not_given) { not_given_ = not_given; }
+  const NotGiven& not_given() const { return not_given_; }
 
  private:
   Area area_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3f> points_;
   std::size_t points_read_ = 0;
+  NotGiven not_given_;
 };
 
 // The part of a cloud to read, and its name in messages.

@@ -62,9 +62,18 @@ std::string degrees_hint(const Area& area, std::span<const TileCount> tiles) {
       std::ranges::all_of(area, [](double value) { return std::abs(value) <= kMost; });
   const bool in_metres = std::ranges::any_of(
       tiles, [](const TileCount& count) { return std::abs(count.tile.x) > kMost; });
-  return may_be_degrees && in_metres
-             ? "; if it is in longitude and latitude, --crs says in which system the cloud is"
-             : "";
+  return may_be_degrees && in_metres ? "; if it is in longitude and latitude: for a map of plots "
+                                       "--crs says in which system "
+                                       "the cloud is, and a crop box is in metres of UTM"
+                                     : "";
+}
+
+// Points a square metre in the area, or in the whole field; 0 without points.
+double density_of(const TileStore& store, const std::optional<Area>& area) {
+  std::vector<TileCount> counts = store.tile_counts();
+  if (area)
+    std::erase_if(counts, [&](const TileCount& count) { return !overlap(count.tile, *area); });
+  return counts.empty() ? 0 : field_density(counts).median;
 }
 
 // Drops the points outside the area: a tile at its edge reaches beyond it.
@@ -84,23 +93,21 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   Stage stage("field");
   FieldCloud field;
   std::optional<FieldHull> hull;
-  std::vector<TileCount> tile_counts = store.tile_counts();
+  const std::vector<TileCount> tile_counts = store.tile_counts();
   std::string seen = extent_text(tile_counts);
   if (options.area) {
     field.area = *options.area;
     require_area(field.area, options.area_name);
     seen += degrees_hint(field.area, tile_counts);
-    std::erase_if(tile_counts,
-                  [&](const TileCount& count) { return !overlap(count.tile, field.area); });
   } else {
     require_places(tile_counts, name);
     hull = find_field(tile_counts);
     field.area = hull->bounds();
     require_scanned_area(field.area, name);
   }
-  if (!tile_counts.empty()) field.density_m2 = field_density(tile_counts).median;
   TiledKeys tiles =
       store.take([&](Tile tile) { return hull ? hull->holds(tile) : overlap(tile, field.area); });
+  field.density_m2 = density_of(store, options.area);
   const TileStore::Counts& counts = store.counts();
   field.counts = {.read = counts.added,
                   .outside = counts.unwanted + counts.out_of_range,

@@ -160,18 +160,21 @@ void TileStore::merge(const std::vector<Slot>& order) {
 
 std::vector<TileCount> TileStore::tile_counts() const {
   std::vector<TileCount> counts;
-  for (const TileState& state : tiles_) counts.push_back({state.tile, state.added});
+  for (const TileState& state : tiles_)
+    counts.push_back({state.tile, state.added - (taken_ ? state.repeated : 0)});
   std::ranges::sort(counts, {}, &TileCount::tile);
   return counts;
 }
 
 TiledKeys TileStore::take(const std::function<bool(Tile)>& wanted) {
+  taken_ = true;
   std::vector<Slot> order;
   for (const Slot slot : all_slots()) {
     if (wanted(tiles_[slot].tile)) {
       order.push_back(slot);
     } else {
       counts_.unwanted += tiles_[slot].added;
+      tiles_[slot].repeated = 0;
     }
   }
   std::ranges::sort(order, {}, [&](Slot slot) { return tiles_[slot].tile; });

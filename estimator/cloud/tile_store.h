@@ -57,7 +57,8 @@ class TileStore {
   explicit TileStore(const TileStoreOptions& options);
 
   void add(std::span<const Eigen::Vector3d> points);  // frame of any kind, z up, metres
-  // The number of points added to each tile, in the tiles' order.
+  // The number of points added to each tile, in the tiles' order; after take(), without those of
+  // tiles taken that repeat others.
   std::vector<TileCount> tile_counts() const;
   // Hands over the tiles that `wanted` accepts. Can be called once; after it nothing can be added.
   TiledKeys take(const std::function<bool(Tile)>& wanted);
@@ -102,6 +103,7 @@ class TileStore {
   std::uint32_t last_block_ = 0;
 
   std::vector<TileState> tiles_;  // by slot
+  bool taken_ = false;
   std::unique_ptr<std::uint64_t[]>
       kept_;  // slot after slot of kept_order_, each sorted and thinned
   std::vector<Slot> kept_order_;

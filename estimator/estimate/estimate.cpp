@@ -235,9 +235,13 @@ Estimate read_estimate(const fs::path& path) {
   return estimate;
 }
 
+int trial_of(const PlotFeature& feature) {
+  return integer_of(feature.properties, "trial_number", 0);
+}
+
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number) {
   PlotEstimate plot{.id = id_of(feature, number),
-                    .trial = integer_of(feature.properties, "trial_number", 0),
+                    .trial = trial_of(feature),
                     .row = integer_of(feature.properties, "row_number", 0),
                     .column = integer_of(feature.properties, "col_number", 0),
                     .box = feature.box,

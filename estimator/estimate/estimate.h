@@ -90,6 +90,9 @@ Estimate read_estimate(const std::filesystem::path& path);
 // the map's values for measured ones.
 nlohmann::json given_attributes(const PlotFeature& feature);
 
+// The feature's property trial_number, a whole number; 0 without one.
+int trial_of(const PlotFeature& feature);
+
 // The plot that one feature of a plots.geojson describes; `number` is its place in the file, from
 // 1.
 PlotEstimate plot_of(const PlotFeature& feature, std::size_t number);

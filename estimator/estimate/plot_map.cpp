@@ -124,6 +124,21 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
   return named;
 }
 
+namespace {
+
+// Plots are measured in cells of centimetres all over, so their area is what they cost.
+void require_plot_size(const fs::path& file, const PlotMap& map) {
+  for (std::size_t i = 0; i < map.plots.size(); ++i) {
+    const PlotBox& box = map.plots[i].box;
+    if (box.area_m2() <= kMostPlot_m2) continue;
+    throw InputError(file, fmt::format("plot {} is {:.0f} x {:.0f} m; a plot has up to {:.0f} m2: "
+                                       "is this the field's outline?",
+                                       map.ids[i].text(), box.width_m, box.length_m, kMostPlot_m2));
+  }
+}
+
+}  // namespace
+
 PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property) {
   PlacedPlots placed = is_vector_map(file)
@@ -137,6 +152,7 @@ PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_
   } else {
     for (std::size_t i = 0; i < map.plots.size(); ++i) map.ids.emplace_back(i + 1);
   }
+  require_plot_size(file, map);
   return map;
 }
 
@@ -146,6 +162,7 @@ void take_names(const PlotMap& map, Estimate& estimate) {
   for (std::size_t i = 0; i < map.plots.size(); ++i) {
     const PlotEstimate named = plot_of(map.plots[i], i + 1);
     estimate.plots[i].id = map.ids[i];
+    estimate.plots[i].trial = named.trial;
     estimate.plots[i].row = named.row;
     estimate.plots[i].column = named.column;
     estimate.plots[i].attributes = given_attributes(map.plots[i]);

@@ -22,13 +22,15 @@ struct PlotMap {
   bool from_degrees = false;  // the file has longitude and latitude, which were converted
 };
 
+inline constexpr double kMostPlot_m2 = 10000;  // of a given plot
+
 // Reads a map of plots (GeoJSON, GeoPackage or shapefile) over a cloud in the coordinate system
 // `crs`, `unit_m` metres to one unit of it: in these units, or in longitude and latitude where that
 // is UTM's in metres (read_plot_features). The ids are those of the property `id_property`; without
 // it of the first of plot_number, plot_id, plot_name, observationUnitName, observationunit_name,
 // name and id that the plots have; "id" may be a member of the feature as well. Throws InputError
-// as read_plot_features does, on a file without plots, where some plots have an id and others none,
-// and where two have the same: the message names them.
+// as read_plot_features does, on a file without plots or with one over kMostPlot_m2, where some
+// plots have an id and others none, and where two have the same: the message names them.
 PlotMap read_plot_map(const std::filesystem::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property = std::nullopt);
 
@@ -50,8 +52,8 @@ struct NamedPlaces {
 NamedPlaces read_named_places(const std::filesystem::path& file,
                               const std::optional<std::string>& id_property = std::nullopt);
 
-// Gives an estimate that was measured in the map's boxes, in their order, the map's ids, rows,
-// columns and attributes.
+// Gives an estimate that was measured in the map's boxes, in their order, the map's ids, trials,
+// rows, columns and attributes.
 void take_names(const PlotMap& map, Estimate& estimate);
 
 }  // namespace plotscan::estimate

@@ -59,10 +59,10 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
 }
 
 // A farm's truth, a map of true plots, or a table of measured heights.
-void add_truth(report::ShownField& field, const estimate::Estimate& estimate,
-               const fs::path& truth) {
-  if (score::is_measured_table(truth)) {
-    const std::size_t shown = show_measured(field, score::read_measured(truth, estimate));
+void add_truth(report::ShownField& field, const estimate::Estimate& estimate, const fs::path& truth,
+               const std::optional<std::string>& id) {
+  if (score::is_measured_table(truth, id)) {
+    const std::size_t shown = show_measured(field, score::read_measured(truth, estimate, id));
     field.facts.push_back({"plots measured by hand", std::to_string(shown)});
     return;
   }
@@ -91,7 +91,7 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
     field.notes.push_back(estimate.diagnostics.why_no_plots);
   show_estimate(field, estimate);
   show_working(field, estimate);
-  if (options.truth) add_truth(field, estimate, *options.truth);
+  if (options.truth) add_truth(field, estimate, *options.truth, options.id);
   if (options.cloud) show_cloud(field, options, estimate.units, progress);
   nlohmann::json document = {{"kind", "estimate"}, {"title", "Plots of " + field.name}};
   document["fields"] = nlohmann::json::array();

@@ -17,6 +17,7 @@ struct PageOptions {
   std::filesystem::path html;
   // A farm folder, a GeoJSON file of plots with heights, or a table of measured ones.
   std::optional<std::filesystem::path> truth = {};
+  std::optional<std::string> id = {};    // column of that table with the plots' ids
   std::optional<CloudFiles> cloud = {};  // that was measured; files as cloud_files_of takes them
   std::size_t points = 3'000'000;        // at most, 1 to report::kMostPoints
   bool replace = false;                  // an existing page

@@ -177,7 +177,8 @@ constexpr double kLeastSpread_m = 0.01;
 // What the ground is found from.
 struct LowReturns {
   Columns columns;
-  double noise_m = 0;   // sigma of the heights about bare ground
+  double noise_m = 0;  // sigma of the heights about bare ground
+  double noise_seen_m = 0;
   double spread_m = 0;  // the same about a bilinear patch of it
   Field excess_m = {};  // noise_excess_m of each node
 };
@@ -191,12 +192,13 @@ LowReturns low_returns(std::span<const Eigen::Vector3f> points, const SurfaceOpt
   Field excess_m = noise_excess_m(columns.grid, blocks, std::max(found_m, spread_m));
   return {.columns = low_part(std::move(columns), static_cast<float>(0.4 + 6 * spread_m)),
           .noise_m = noise_m,
+          .noise_seen_m = found_m,
           .spread_m = spread_m,
           .excess_m = std::move(excess_m)};
 }
 
 Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& options) {
-  auto [low, noise_m, spread_m, excess_m] = low_returns(points, options);
+  auto [low, noise_m, noise_seen_m, spread_m, excess_m] = low_returns(points, options);
   Steps steps(options.progress);
   const Grid grid = low.grid;
   const BasePlane base = low.base;
@@ -211,6 +213,7 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
                   .layers_m = std::move(excess_m),
                   .seen = std::vector<std::uint8_t>(grid.nodes()),
                   .noise_m = noise_m,
+                  .noise_seen_m = noise_seen_m,
                   .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
   steps.done();
   surface.sd_m = spread_of(grid, surface.errors);

@@ -39,8 +39,9 @@ struct Surface {
   // any. It is no part of sd_m, which tells where the ground is hidden. 0: one layer, or unknown.
   std::vector<float> layers_m = {};
   std::vector<std::uint8_t> seen = {};  // 1: from ground returns at the node; 0: interpolated
-  double noise_m = 0;                   // sigma of the returns' heights about bare ground
-  ErrorDraws errors = {};               // what the standard errors come from
+  double noise_m = 0;       // sigma of the returns' heights about bare ground, stated or seen
+  double noise_seen_m = 0;  // the same as the returns show it
+  ErrorDraws errors = {};   // what the standard errors come from
 
   // Height, and its standard error, at a place (x, y), metres. NaN outside the grid, and where a
   // node of the cell is NaN.

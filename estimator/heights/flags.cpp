@@ -9,6 +9,12 @@ bool is_unsure(const Height& mean, const FlagOptions& options) {
   return mean.standard_error_m > options.largest_error_m;
 }
 
+bool is_bare(const PlotEvidence& evidence, const FlagOptions& options) {
+  return evidence.returns > 0 &&
+         evidence.top_m <
+             std::max(options.least_top_m, options.least_top_sigmas * evidence.noise_m);
+}
+
 std::vector<std::string> flags_of(const PlotEvidence& evidence,
                                   const std::map<std::string, Height>& heights,
                                   const FlagOptions& options) {
@@ -24,8 +30,7 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
   raise(evidence.ground.reached_share < options.least_ground_share, "no ground within reach");
   raise(evidence.ground.worst_error_m > options.largest_ground_error_m,
         "ground is unsure by centimetres");
-  raise(evidence.top_m < std::max(options.least_top_m, options.least_top_sigmas * evidence.noise_m),
-        "canopy is too low to measure");
+  raise(is_bare(evidence, options), "canopy is too low to measure");
   raise(evidence.novelty > 1, "plants unlike those the calibration knows");
   const auto mean = heights.find("mean");
   raise(mean != heights.end() && is_unsure(mean->second, options), kUnsureMean);

@@ -37,6 +37,9 @@ inline constexpr const char* kUnsureMean = "mean height is unsure by centimetres
 // Whether that flag is raised on a plot of this mean height.
 bool is_unsure(const Height& mean, const FlagOptions& options = {});
 
+// Whether returns show that there is no crop to measure.
+bool is_bare(const PlotEvidence& evidence, const FlagOptions& options = {});
+
 // Why the plot's heights should not be trusted; empty when they may be.
 std::vector<std::string> flags_of(const PlotEvidence& evidence,
                                   const std::map<std::string, Height>& heights,

@@ -50,6 +50,7 @@ SeenPlot see(const PlotPoints& plot, const ground::Surface& surface) {
                              .top_m = canopy.features.top_m,
                              .noise_m = noise_m,
                              .ground = known.ground}};
+  seen.canopy.bare = is_bare(seen.evidence);
   seen.canopy.ground_error_m = known.ground.standard_error_m;
   for (const auto& [name, quantile] : canopy_quantiles()) {
     seen.canopy.quantiles_m[name] = canopy.profile.quantile(quantile.area_share);

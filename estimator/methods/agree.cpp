@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ namespace {
 
 using estimate::PlotEstimate;
 using heights::Height;
+constexpr const char* kOutOfOrder =
+    "heights are out of order: only those measured by hand were moved";
+
 using Pairs = std::vector<heights::MeasuredPair>;
 
 std::set<std::string> measured_names(const estimate::MeasuredHeights& measured) {
@@ -94,6 +98,20 @@ std::map<int, Pairs> pairs_by_trial(const estimate::MeasuredHeights& measured,
   return pairs;
 }
 
+// Whether the heights are in the order that they have by definition.
+bool in_order(const PlotEstimate& plot) {
+  const auto at = [&](const char* name) {
+    const auto found = plot.heights_m.find(name);
+    return found == plot.heights_m.end() ? std::nullopt : std::optional(found->second);
+  };
+  const auto below = [&](const char* low, const char* high) {
+    const std::optional<double> lower = at(low), higher = at(high);
+    return !lower || !higher || *lower <= *higher;
+  };
+  return below("mean", "max") && below("p50", "p90") && below("p90", "p95") &&
+         below("p95", "p99") && below("p99", "max") && below("canopy_p95", "canopy_p99");
+}
+
 }  // namespace
 
 void agree_with(const estimate::MeasuredHeights& measured, estimate::Estimate& estimate) {
@@ -117,6 +135,8 @@ void agree_with(const estimate::MeasuredHeights& measured, estimate::Estimate& e
                                .residual_m = agreement.residual_m});
     }
   }
+  for (PlotEstimate& plot : estimate.plots)
+    if (!in_order(plot)) plot.flags.emplace_back(kOutOfOrder);
   if (given.heights.empty())
     throw InputError(measured.file,
                      fmt::format("has too few measured plots that are in the estimate: at least {} "

@@ -78,6 +78,10 @@ Options completed(Options options, const RunOptions& run, const std::vector<Plot
   options.threads = run.threads;
   options.boxes.clear();
   for (const PlotFeature& feature : boxes) options.boxes.push_back(feature.box);
+  if constexpr (requires { options.trials; }) {
+    options.trials.clear();
+    for (const PlotFeature& feature : boxes) options.trials.push_back(estimate::trial_of(feature));
+  }
   if constexpr (requires { options.seed; }) options.seed = run.seed;
   return options;
 }

@@ -10,10 +10,13 @@
 namespace plotscan::score {
 namespace fs = std::filesystem;
 
-bool is_measured_table(const fs::path& truth) {
+bool is_measured_table(const fs::path& truth, const std::optional<std::string>& id_column) {
   constexpr std::array<const char*, 3> kTables = {".csv", ".tsv", ".txt"};
-  return !fs::is_directory(truth) &&
-         std::ranges::find(kTables, lower_extension(truth)) != kTables.end();
+  const bool is_table = !fs::is_directory(truth) &&
+                        std::ranges::find(kTables, lower_extension(truth)) != kTables.end();
+  if (id_column && !is_table)
+    throw InputError("--id names a column of a table of measured heights, and the truth is none");
+  return is_table;
 }
 
 MeasuredPlots read_measured(const fs::path& table, const estimate::Estimate& estimate,

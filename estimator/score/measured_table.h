@@ -18,8 +18,10 @@ struct MeasuredPlots {
   std::vector<PlotId> not_found = {};  // measured, and not in the estimate
 };
 
-// Whether a truth is a table of heights: a file .csv, .tsv or .txt.
-bool is_measured_table(const std::filesystem::path& truth);
+// Whether a truth is a table of heights: a file .csv, .tsv or .txt. Throws InputError if it is none
+// and `id_column` names a column of one.
+bool is_measured_table(const std::filesystem::path& truth,
+                       const std::optional<std::string>& id_column = std::nullopt);
 
 // Reads a table as estimate::read_measured_heights does. Throws InputError as that does, and where
 // no plot of the table is in the estimate.

@@ -72,11 +72,7 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
 
 Scores score_against(const fs::path& truth, const estimate::Estimate& estimate,
                      const ScoreOptions& options) {
-  if (!is_measured_table(truth)) {
-    if (options.id)
-      throw InputError("--id names a column of a table of measured heights, and the truth is none");
-    return score(read_truth(truth), estimate, options);
-  }
+  if (!is_measured_table(truth, options.id)) return score(read_truth(truth), estimate, options);
   const MeasuredPlots measured = read_measured(truth, estimate, options.id);
   Scores scores = score(measured.plots, estimate, options);
   scores.table = {.id_column = measured.id_column, .not_found = measured.not_found};

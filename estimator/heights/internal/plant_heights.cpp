@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/statistics.h"
 
@@ -61,10 +62,30 @@ CropEvidence crop_evidence(const CalibratedModels& models, const Eigen::VectorXd
           .given = crop.has_value()};
 }
 
-double middle_top_m(std::span<const PlotCanopy> field) {
+// The plots that show the field's crop: all, if all are bare.
+std::vector<const PlotCanopy*> with_crop(std::span<const PlotCanopy> field) {
+  const bool all = std::ranges::all_of(field, &PlotCanopy::bare);
+  std::vector<const PlotCanopy*> plots;
+  for (const PlotCanopy& plot : field)
+    if (all || !plot.bare) plots.push_back(&plot);
+  return plots;
+}
+
+// The crop of a field: medians over its plots.
+struct FieldCanopy {
+  Eigen::VectorXd scaled;  // features
+  double top_m = 0;
+};
+
+FieldCanopy field_canopy(std::span<const PlotCanopy> field, const Calibration& calibration) {
+  std::vector<Eigen::VectorXd> features;
   std::vector<double> tops;
-  for (const PlotCanopy& plot : field) tops.push_back(plot.top_m);
-  return quantile(tops, 0.5);
+  for (const PlotCanopy* plot : with_crop(field)) {
+    features.push_back(plot->features);
+    tops.push_back(plot->top_m);
+  }
+  return {.scaled = calibration.scaled(field_features(features)),
+          .top_m = quantile(std::move(tops), 0.5)};
 }
 
 }  // namespace
@@ -103,16 +124,14 @@ FieldPlants calibrated_heights(std::span<const PlotCanopy> field, const Calibrat
   const Calibration& calibration = models.calibration;
   FieldPlants plants{.plots = std::vector<PlantHeights>(field.size())};
   if (field.empty()) return plants;
-  std::vector<Eigen::VectorXd> features;
-  for (const PlotCanopy& plot : field) features.push_back(plot.features);
-  const Eigen::VectorXd middle = calibration.scaled(field_features(features));
-  const CropEvidence crops = crop_evidence(models, middle, crop);
+  const FieldCanopy middle = field_canopy(field, calibration);
+  const CropEvidence crops = crop_evidence(models, middle.scaled, crop);
   for (std::size_t i = 0; i < calibration.crops.size(); ++i)
     plants.crops[calibration.crops[i]] = crops.probabilities(static_cast<Eigen::Index>(i));
-  const FieldRatios ratios = models.ratios.at(middle, middle_top_m(field), crops);
+  const FieldRatios ratios = models.ratios.at(middle.scaled, middle.top_m, crops);
   for (std::size_t i = 0; i < field.size(); ++i) {
     const Eigen::VectorXd scaled = calibration.scaled(field[i].features);
-    const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle);
+    const Eigen::VectorXd values = ratios.values + calibration.within * (scaled - middle.scaled);
     Eigen::VectorXd sds = ratios.field_sds.cwiseAbs2() + ratios.within_sds.cwiseAbs2();
     PlantHeights& plot = plants.plots[i];
     plot.novelty = models.ratios.novelty(scaled, crops.probabilities);

@@ -17,6 +17,7 @@ namespace plotscan::heights {
 // What a plot's returns show.
 struct PlotCanopy {
   double top_m = 0;          // height that 1 % of the area exceeds, without noise
+  bool bare = false;         // no crop: it says nothing of the field's
   Eigen::VectorXd features;  // by feature_names()
   std::map<std::string, double> quantiles_m = {};  // what stands for a height without calibration
   std::map<std::string, double> sampling_m = {};   // their standard errors, of so few returns

@@ -212,9 +212,11 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
   estimate::Estimate estimate{.method = "dhami2020"};
   const Cloud voxels = voxel_filter(map.points(), options.voxel_m);  // IV-A
   estimate.diagnostics.points = {
-      .read = map.points_read(),
+      .read = map.points_read() + map.not_given().not_finite + map.not_given().left_out,
       .in_area = map.points().size(),
-      .unused = {{estimate::Unused::outside, map.points_read() - map.points().size()}},
+      .unused = {{estimate::Unused::not_finite, map.not_given().not_finite},
+                 {estimate::Unused::left_out, map.not_given().left_out},
+                 {estimate::Unused::outside, map.points_read() - map.points().size()}},
       .area_m = map.area()};
   estimate.diagnostics.of_method["voxels"] = voxels.size();
   if (progress) progress(0.6);

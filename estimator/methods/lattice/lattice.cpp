@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -148,6 +149,11 @@ void add_plots(const plots::PlotField& trial, int number,
   }
 }
 
+void add_note(std::string note, estimate::Diagnostics& diagnostics) {
+  if (!diagnostics.notes) diagnostics.notes.emplace();
+  diagnostics.notes->push_back(std::move(note));
+}
+
 // The heading that was told is that of the longer side, and both are searched.
 void note_heading(const plots::PlotField& trial, const Options& options,
                   estimate::Diagnostics& diagnostics) {
@@ -155,22 +161,21 @@ void note_heading(const plots::PlotField& trial, const Options& options,
   const double heading_rad = trial.plots.front().box.heading_rad;
   const double off_rad = std::remainder(heading_rad - radians(*options.heading_deg), kPi);
   if (std::abs(off_rad) < kPi / 4) return;
-  if (!diagnostics.notes) diagnostics.notes.emplace();
-  diagnostics.notes->push_back(
-      fmt::format("the plots are longer along {:.0f} degrees than along --heading {:g}",
-                  heading_rad / kDegrees, *options.heading_deg));
+  add_note(fmt::format("the plots are longer along {:.0f} degrees than along --heading {:g}",
+                       heading_rad / kDegrees, *options.heading_deg),
+           diagnostics);
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              const ground::Surface& surface, const Options& options,
                                              estimate::Diagnostics& diagnostics) {
-  if (!options.boxes.empty()) return estimate::given_plots(options.boxes, cloud.origin);
+  if (!options.boxes.empty())
+    return estimate::given_plots(options.boxes, cloud.origin, options.trials);
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
     diagnostics.why_no_plots = too_few("plots");
     return {};
   }
-  constexpr double kMostNoise_m = 0.3;  // no sensor's: no ground was found
   if (surface.noise_m > kMostNoise_m) {
     diagnostics.why_no_plots = fmt::format(
         "heights scatter by {:.1f} m about the lowest: no ground that plots could stand on (z has "
@@ -203,7 +208,13 @@ void take(const heights::PlotHeights& measured, estimate::PlotEstimate& plot) {
   plot.flags.insert(plot.flags.end(), measured.flags.begin(), measured.flags.end());
 }
 
-// Trials are measured one by one, as each has a crop of its own. Plots come trial by trial.
+std::map<int, std::vector<std::size_t>> by_trial(const std::vector<estimate::PlotEstimate>& plots) {
+  std::map<int, std::vector<std::size_t>> trials;
+  for (std::size_t i = 0; i < plots.size(); ++i) trials[plots[i].trial].push_back(i);
+  return trials;
+}
+
+// Trials are measured one by one, as each has a crop of its own.
 void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
              const ground::Surface& surface, const Options& options,
              estimate::Diagnostics& diagnostics) {
@@ -212,14 +223,13 @@ void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
   boxes.reserve(plots.size());
   for (const estimate::PlotEstimate& plot : plots) boxes.push_back(plot.box);
   const std::vector<Points> inside = cloud::points_in_boxes(heights, boxes);
-  for (std::size_t first = 0; first < plots.size();) {
+  for (const auto& [trial, members] : by_trial(plots)) {
     std::vector<heights::PlotPoints> clouds;
-    for (std::size_t i = first; i < plots.size() && plots[i].trial == plots[first].trial; ++i)
-      clouds.push_back({boxes[i], inside[i]});
+    for (const std::size_t i : members) clouds.push_back({boxes[i], inside[i]});
     const heights::FieldHeights measured = heights::measure_heights(
         clouds, surface,
         {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
-    for (const heights::PlotHeights& plot : measured.plots) take(plot, plots[first++]);
+    for (std::size_t k = 0; k < members.size(); ++k) take(measured.plots[k], plots[members[k]]);
     if (!measured.crops.empty()) diagnostics.crops.push_back(measured.crops);
   }
 }
@@ -268,6 +278,16 @@ void require_extent(const Points& points) {
       "are longitude and latitude, else --units");
 }
 
+// Canopy is what stands higher than the noise: where that is said to be less than it is, bare
+// ground looks like canopy.
+void note_noise(const ground::Surface& surface, const Options& options,
+                estimate::Diagnostics& diagnostics) {
+  if (!options.noise_m || surface.noise_m > surface.noise_seen_m / 2) return;
+  add_note(fmt::format("heights of bare ground scatter by {:.1f} cm, over twice what --noise says",
+                       100 * surface.noise_seen_m),
+           diagnostics);
+}
+
 // What the user should know of the steps in which the cloud counts, if anything.
 void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnostics) {
   cloud::CoordinateSteps steps;
@@ -277,7 +297,7 @@ void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnosti
     steps.add(one);
   }
   std::string note = cloud::step_note(steps.steps_m(), cloud.density_m2);
-  if (!note.empty()) diagnostics.notes = {std::move(note)};
+  if (!note.empty()) add_note(std::move(note), diagnostics);
 }
 
 estimate::GroundFacts facts_of(const ground::Surface& surface) {
@@ -315,6 +335,7 @@ FoundField found_in(cloud::FieldCloud cloud, const Options& options,
   estimate.diagnostics.density_per_m2 = cloud.density_m2;
   tell_work(cloud, options);
   ground::Surface surface = ground_of(cloud, options, progress);
+  note_noise(surface, options, estimate.diagnostics);
   Points heights = above_ground(std::move(cloud.points), surface, options.threads);
   estimate.diagnostics.points = account_of(cloud, heights.size());
   if (heights.size() < kLeastOfGround)
@@ -332,6 +353,8 @@ void require_sound(const Options& options) {
   if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
   require_settings(settings(), options);
   require_in_range("threads", options.threads, {1, kMostThreads});
+  if (options.crop && !options.calibrated)
+    throw InputError("a crop is for the calibration, which is left out: give one or the other");
   if (options.plot_width_m && options.plot_length_m &&
       *options.plot_width_m > *options.plot_length_m) {
     throw InputError("plot_width_m " + format_number(*options.plot_width_m) +

@@ -18,6 +18,8 @@
 
 namespace plotscan::methods::lattice {
 
+inline constexpr double kMostNoise_m = 0.3;  // sigma of heights: no sensor's is larger
+
 // Options of the lattice method, all optional. Their ranges are in settings.cpp.
 struct Options {
   std::optional<cloud::Area> crop_box = {};  // use only the points in here
@@ -28,8 +30,9 @@ struct Options {
   std::optional<int> columns = {};           // of plots; along the width
   std::optional<int> plots = {};             // how many there are
   std::vector<PlotBox> boxes = {};           // given boxes: no detection, heights only
-  std::optional<double> noise_m = {};        // sigma of the points' heights, else estimated
-  bool calibrated = true;                    // plants' heights from the canopy's (docs/methods.md)
+  std::vector<int> trials = {};  // of the given boxes, each with a crop of its own; none: one trial
+  std::optional<double> noise_m = {};    // sigma of the points' heights, else estimated
+  bool calibrated = true;                // plants' heights from the canopy's (docs/methods.md)
   std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
   std::optional<std::string> crop = {};  // one of heights::crop_names(), else from the canopy
   int threads = 1;

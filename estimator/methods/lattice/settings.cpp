@@ -57,7 +57,7 @@ const std::vector<MethodSetting<Options>>& settings() {
       {.key = "noise_m",
        .flag = "--noise",
        .help = "sigma of the points' heights (metres; default: estimated from bare ground)",
-       .value = Optional{{0, 0.5}, member<&Options::noise_m>}},
+       .value = Optional{{0, kMostNoise_m}, member<&Options::noise_m>}},
       {.key = "ground_classes",
        .flag = "--ground-class",
        .help = "only points of these ASPRS classes may be ground, separated by commas; 2 is ground "

@@ -80,6 +80,14 @@ TEST(ReadMap, FindsTheDenselyScannedField) {
   EXPECT_EQ(map.points().size(), 6u * 4u * 20u + 8u * 6u - 6u * 4u);
 }
 
+TEST(ReadMap, SaysWhatTheMapWasNotGiven) {
+  const plotscan::testing::TemporaryFolder folder;
+  const auto file = folder.write("cloud.pcd", pcd_of("1 2 3\n4 nan 6\n70 80 9\n", 3));
+  const CloudMap map = read_map(file, NamedArea{{0, 0, 10, 10}});
+  EXPECT_EQ(map.points_read(), 2u);
+  EXPECT_EQ(map.not_given().not_finite, 1u);
+}
+
 TEST(ReadMap, ReadsACropBoxFromAFile) {
   const plotscan::testing::TemporaryFolder folder;
   const auto file = folder.write("cloud.pcd", pcd_of("1 2 3\n4 5 6\n70 80 9\n", 3));

@@ -97,6 +97,14 @@ TEST(FieldCloud, SaysWhatBecameOfEachPoint) {
   EXPECT_EQ(field.points.size(), 2000u);
 }
 
+TEST(FieldCloud, HasTheSameDensityIfEveryPointIsThereTwice) {
+  WorldPoints points = field_points(20000, {0, 0, 0});
+  const double once_m2 = field_of(points, {}).density_m2;
+  EXPECT_GT(once_m2, 1);
+  points.insert(points.end(), points.begin(), points.begin() + 20000);
+  EXPECT_EQ(field_of(points, {}).density_m2, once_m2);
+}
+
 TEST(FieldCloud, TakesTheCropBoxToThePoint) {
   const WorldPoints points = field_points(20000, {0, 0, 0});
   const Area area{-3.25, -2.5, 4.125, 1.75};
@@ -140,7 +148,8 @@ TEST(FieldCloud, HintsAtDegreesBesideAMapGrid) {
   };
   const Eigen::Vector3d utm_m(553000, 4116000, 600);
   const Area degrees = {-80.4, 37.2, -80.3, 37.3};
-  EXPECT_THAT(message(utm_m, degrees), HasSubstr("longitude and latitude, --crs"));
+  EXPECT_THAT(message(utm_m, degrees),
+              HasSubstr("longitude and latitude: for a map of plots --crs"));
   EXPECT_THAT(message({0, 0, 0}, degrees), Not(HasSubstr("longitude")));
   EXPECT_THAT(message(utm_m, {553500, 4116000, 553600, 4116100}), Not(HasSubstr("longitude")));
 }

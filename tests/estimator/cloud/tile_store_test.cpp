@@ -139,6 +139,15 @@ TEST(TileStore, HandsOverWhatIsWanted) {
   EXPECT_EQ(store.counts().unwanted, 1u);
 }
 
+TEST(TileStore, CountsNoPointOfATileTwiceOnceItIsTaken) {
+  TileStore store({});
+  store.add(WorldPoints{{0.5, 0.5, 0}, {1.5, 0.5, 0}, {0.5, 0.5, 0}, {1.5, 0.5, 0}});
+  EXPECT_EQ(store.tile_counts()[0].points, 2u);
+  store.take([](Tile tile) { return tile.x <= 0; });
+  EXPECT_EQ(store.tile_counts()[0].points, 1u);
+  EXPECT_EQ(store.tile_counts()[1].points, 2u);
+}
+
 // In a crowded cell, the points kept have the distribution of all: their mean height is that of
 // the cell within four of its standard errors.
 TEST(TileStore, KeepsAFairSample) {

@@ -70,6 +70,17 @@ TEST_F(FieldPage, ShowsMeasuredHeightsBesideTheirPlotsAlone) {
   EXPECT_TRUE(field.value("true_boxes", nlohmann::json::array()).empty());
 }
 
+TEST_F(FieldPage, FindsMeasuredPlotsByTheNamedColumn) {
+  const fs::path table = folder_.write("ruler.csv", "parcel,height_max_cm\n2,55\n");
+  write_estimate_page({.estimate = estimate_, .html = html_, .truth = table, .id = "parcel"});
+  EXPECT_NEAR(field_of(html_)["plots"][1]["truths"]["height_max_m"].get<double>(), 0.55, 1e-6);
+  EXPECT_THROW(write_estimate_page({.estimate = estimate_,
+                                    .html = folder_.path() / "other.html",
+                                    .truth = truth_,
+                                    .id = "parcel"}),
+               InputError);
+}
+
 TEST_F(FieldPage, SaysWhichPlotsAreFoundExtraAndMissed) {
   write_estimate_page({.estimate = estimate_, .html = html_, .truth = truth_});
   const nlohmann::json field = field_of(html_);

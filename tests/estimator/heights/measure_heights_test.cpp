@@ -104,6 +104,23 @@ TEST(MeasureHeights, FlagsAPlotWithoutReturns) {
   const std::vector<PlotHeights> plots = field.measured();
   EXPECT_THAT(plots[2].heights, IsEmpty());
   EXPECT_THAT(plots[2].flags, Contains("too few returns"));
+  EXPECT_THAT(plots[2].flags, Not(Contains("canopy is too low to measure")));
+}
+
+// Most of the plots failed: the others are measured as if these were not there.
+TEST(MeasureHeights, PlotsWithoutACropMoveNoOthers) {
+  Field field = domes(7);
+  Field bare = field;
+  for (std::size_t i = 3; i < 7; ++i)
+    for (Eigen::Vector3f& point : bare.returns[i]) point.z() *= 0.001F;
+  field.boxes.resize(3);
+  field.returns.resize(3);
+  const std::vector<PlotHeights> alone = field.measured(), among = bare.measured();
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const auto& [name, height] : alone[i].heights)
+      EXPECT_EQ(among[i].heights.at(name).value_m, height.value_m) << name;
+  }
+  EXPECT_THAT(among[3].flags, Contains("canopy is too low to measure"));
 }
 
 TEST(MeasureHeights, FlagsAPlotThatTheSurveyCuts) {

@@ -13,8 +13,10 @@ namespace {
 using estimate::Estimate;
 using estimate::MeasuredHeights;
 using plotscan::testing::message_of;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Plots 1 to `count` of a trial, each 0.8 m in its mean and 1 m in its greatest height.
 void add_plots(int trial, std::uint64_t count, Estimate& estimate) {
@@ -87,6 +89,17 @@ TEST(Agree, FlagsAreThoseOfTheNewErrors) {
   agree_with(uneven, scattered);
   EXPECT_THAT(scattered.plots[0].flags,
               ElementsAre("too few returns", "mean height is unsure by centimetres"));
+}
+
+TEST(Agree, FlagsHeightsThatAreOutOfOrderThen) {
+  Estimate estimate{.method = "lattice"};
+  add_plots(0, 8, estimate);
+  Estimate higher = estimate;
+  agree_with(measured_in(1, 8, "height_mean_m", 0.9), estimate);
+  EXPECT_THAT(estimate.plots[0].flags, Not(Contains(HasSubstr("out of order"))));
+  agree_with(measured_in(1, 8, "height_mean_m", 1.2), higher);
+  EXPECT_GT(higher.plots[0].heights_m.at("mean"), 1);
+  EXPECT_THAT(higher.plots[0].flags, Contains(HasSubstr("out of order")));
 }
 
 // Another trial has another crop, whose error is another one.

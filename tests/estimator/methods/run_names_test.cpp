@@ -54,6 +54,43 @@ TEST(Run, KeepsTheNamesOfGivenPlots) {
   EXPECT_EQ(estimate::read_estimate(options.output).plots[1].id, 8000000000123u);
 }
 
+// As if each trial had a map of its own: its crop is not the other's.
+TEST(Run, MeasuresTheTrialsOfAMapOneByOne) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.method = "lattice";
+  options.crop_box = kFarm.area();
+  options.replace = true;
+  const auto heights_of = [&](const std::vector<int>& trials, const std::vector<int>& columns) {
+    std::vector<PlotFeature> plots;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      plots.push_back({.box = kFarm.box(0, columns[i])});
+      if (!trials.empty()) plots.back().properties["trial_number"] = trials[i];
+    }
+    options.boxes = folder.path() / "map.geojson";
+    write_plot_features(*options.boxes, plots);
+    std::vector<double> heights_m;
+    for (const estimate::PlotEstimate& plot : run(options).plots)
+      heights_m.push_back(plot.heights_m.at("mean"));
+    return heights_m;
+  };
+  const std::vector<double> of_trials = heights_of({2, 1, 2, 1}, {0, 1, 2, 3});
+  EXPECT_EQ(properties_of(options, 0)["trial_number"], 2);
+  const std::vector<double> first = heights_of({}, {0, 2}), pooled = heights_of({}, {0, 1, 2, 3});
+  EXPECT_NE(of_trials, pooled);
+  EXPECT_EQ(of_trials[0], first[0]);
+}
+
+TEST(Run, RefusesTheOutlineOfAFieldAsAPlot) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.boxes = folder.path() / "map.geojson";
+  write_plot_features(*options.boxes, {{.box = {.width_m = 120, .length_m = 150},
+                                        .properties = {{"name", "north"}}}});
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }),
+              HasSubstr("map.geojson: plot north is 120 x 150 m; a plot has up to 10000 m2"));
+}
+
 TEST(Run, GivesTheMapBackWithHeightsAdded) {
   const TemporaryFolder folder;
   const nlohmann::json first = {{"plot_id", "A-12"},   {"cultivar", "Rock, \"early\""},

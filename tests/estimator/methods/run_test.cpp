@@ -108,6 +108,25 @@ TEST(Run, SaysOfARoughGroundThatItMayHideCanopy) {
               Not(HasSubstr("scatter by")));
 }
 
+TEST(Run, NotesANoiseThatTheGroundDoesNotHave) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.method = "lattice";
+  options.cloud = write_cloud(folder.path() / "rough.pcd", scattered(100000, 20, 0.1));
+  options.lattice.noise_m = 0.01;
+  EXPECT_THAT(run(options).diagnostics.notes.value(),
+              ElementsAre(HasSubstr("heights of bare ground scatter by ")));
+}
+
+TEST(Run, RefusesACropForACalibrationThatIsLeftOut) {
+  const TemporaryFolder folder;
+  RunOptions options = small_run(folder, kFarm);
+  options.method = "lattice";
+  options.lattice.crop = "wheat";
+  options.lattice.calibrated = false;
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("one or the other"));
+}
+
 TEST(Run, TakesAScanFolderAndGivesTheSameBytes) {
   const TemporaryFolder folder;
   RunOptions options = small_run(folder, kFarm);
