@@ -157,7 +157,7 @@ void test_places(Lattice& lattice) {
   std::vector<double> covers, contrasts;
   for (Place& place : lattice.places) {
     place.share = inner_cover(lattice, place);
-    place.contrast = contrast_of(lattice, place).mean();
+    place.contrast = mean_at_gaps(lattice, contrast_of(lattice, place));
     if (!place.full) continue;
     covers.push_back(place.share);
     contrasts.push_back(place.contrast);

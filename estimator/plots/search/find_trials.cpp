@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "plots/search/internal/told_layout.h"
 #include "plots/search/internal/trial_area.h"
 #include "plots/search/internal/trials_beside.h"
 
@@ -60,15 +61,11 @@ double from_south_west_m(const SeenTrial& trial) {
   return sum.sum() / static_cast<double>(trial.area.size());
 }
 
-}  // namespace
-
-std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, double noise_m,
-                                   const Hints& hints, int threads,
-                                   const GroundError& ground_error) {
-  const ScannedField field{points, noise_m, hints, threads, ground_error};
+// The trials of a field of which no layout is told.
+std::vector<PlotField> trials_shown(const ScannedField& field) {
   const Looks looks = look_in_all_ways(field);
   const Look& one = looks.best;
-  if (is_all(looks) || hints.tell_layout()) return {one.field};
+  if (is_all(looks)) return {one.field};
   std::vector<SeenTrial> trials = trials_beside(field, looks);
   if (!explain_more(trials, one)) return {one.field};
   std::ranges::sort(trials, {}, from_south_west_m);
@@ -76,6 +73,48 @@ std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, doub
   fields.reserve(trials.size());
   for (SeenTrial& trial : trials) fields.push_back(std::move(trial.look.field));
   return fields;
+}
+
+// Whether nothing speaks against plots that are of the layout told.
+bool is_clear(const PlotField& told) {
+  return !told.plots.empty() && told.rival.empty() && told.doubt.empty();
+}
+
+// Those of the hints that are left without the sides, the numbers, or both.
+std::vector<Hints> fewer_hints(const Hints& all) {
+  std::vector<Hints> fewer = {{.heading_rad = all.heading_rad}};
+  if (!(all.width_m || all.length_m) || !(all.rows || all.columns || all.plots)) return fewer;
+  Hints numbers = all, sides = all;
+  numbers.width_m = numbers.length_m = std::nullopt;
+  sides.rows = sides.columns = sides.plots = std::nullopt;
+  fewer.insert(fewer.end(), {numbers, sides});
+  return fewer;
+}
+
+// The trial of which the user told the layout. Its numbers and sides say nothing of what else
+// stands on the field: where plots do not show with all of them, they may with fewer, and agree
+// with all.
+PlotField trial_told(const ScannedField& field) {
+  PlotField told = look_in_all_ways(field).best.field;
+  if (is_clear(told)) return told;
+  for (const Hints& hints : fewer_hints(field.hints)) {
+    const ScannedField less{field.points, field.noise_m, hints, field.threads, field.ground_error};
+    for (const PlotField& shown :
+         hints.tell_layout() ? std::vector{look_in_all_ways(less).best.field} : trials_shown(less))
+      if (!shown.plots.empty() && shown.rival.empty() && is_as_told(shown.fit->layout, field.hints))
+        return with_sides(shown, field.hints);
+  }
+  return told;
+}
+
+}  // namespace
+
+std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, double noise_m,
+                                   const Hints& hints, int threads,
+                                   const GroundError& ground_error) {
+  const ScannedField field{points, noise_m, hints, threads, ground_error};
+  if (hints.tell_layout()) return {trial_told(field)};
+  return trials_shown(field);
 }
 
 }  // namespace plotscan::plots

@@ -49,17 +49,17 @@ using Sown = std::function<bool(const PlotBox& box, const Eigen::Vector2d& from_
 
 inline bool everywhere(const PlotBox&, const Eigen::Vector2d&) { return true; }
 
-// Returns spread evenly over a square; of those in a box where plants stand, three of four are from
-// its canopy.
+// Returns spread evenly over a rectangle; of those in a box where plants stand, three of four are
+// from its canopy.
 inline std::vector<Eigen::Vector3f> cloud_over(const std::vector<PlotBox>& boxes,
-                                               const Sown& sown = everywhere) {
+                                               const Sown& sown = everywhere, double half_x_m = 12,
+                                               double half_y_m = 12) {
   constexpr int kPoints = 400000;
-  constexpr double kHalf_m = 12;
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < kPoints; ++i) {
     RandomStream random(7, random_purpose("test/point"), static_cast<std::uint64_t>(i));
-    const Eigen::Vector2d place(random.uniform(-kHalf_m, kHalf_m),
-                                random.uniform(-kHalf_m, kHalf_m));
+    const Eigen::Vector2d place(random.uniform(-half_x_m, half_x_m),
+                                random.uniform(-half_y_m, half_y_m));
     double height = 0.02 * random.normal();
     for (const PlotBox& box : boxes) {
       if (!box.contains(place) || !sown(box, box.box_from_world(place))) continue;

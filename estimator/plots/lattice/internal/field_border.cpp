@@ -28,16 +28,20 @@ class ClearPlots {
       if (place.full && place.contrast >= kLeastBorderContrast)
         at_.emplace(place.row, place.column);
   }
+  // On either side; the nearest place but one counts too, as two neighbours may be out of line.
   bool stand_beside_in_row(const Place& place) const {
-    return at_.contains({place.row, place.column - 1}) &&
-           at_.contains({place.row, place.column + 1});
+    return stands_along(place, 0, -1) && stands_along(place, 0, 1);
   }
   bool stand_beside_in_column(const Place& place) const {
-    return at_.contains({place.row - 1, place.column}) &&
-           at_.contains({place.row + 1, place.column});
+    return stands_along(place, -1, 0) && stands_along(place, 1, 0);
   }
 
  private:
+  bool stands_along(const Place& place, int rows, int columns) const {
+    return at_.contains({place.row + rows, place.column + columns}) ||
+           at_.contains({place.row + 2 * rows, place.column + 2 * columns});
+  }
+
   std::set<std::pair<int, int>> at_;
 };
 
@@ -98,7 +102,8 @@ double usual_plots_of_row(const Lattice& lattice) {
 bool shows_a_plot(const Lattice& lattice, const UsualPlot& usual, Place& place) {
   const SideContrast contrast = contrast_of(lattice, place);
   place.share = inner_cover(lattice, place) / std::max(1e-6, usual.cover);
-  place.contrast = contrast.mean() / std::max(1e-6, usual.contrast.mean());
+  place.contrast =
+      mean_at_gaps(lattice, contrast) / std::max(1e-6, mean_at_gaps(lattice, usual.contrast));
   return place.share >= kLeastBorderCover &&
          contrast.r >= kLeastBorderContrast * usual.contrast.r &&
          contrast.c >= kLeastBorderContrast * usual.contrast.c;

@@ -44,6 +44,11 @@ SideContrast contrast_of(const Lattice& lattice, const Place& place) {
   return {.r = (r[0] + r[1]) / 2, .c = (c[0] + c[1]) / 2};
 }
 
+double mean_at_gaps(const Lattice& lattice, const SideContrast& contrast) {
+  if (lattice.r.touching_m.has_value() == lattice.c.touching_m.has_value()) return contrast.mean();
+  return lattice.r.touching_m ? contrast.c : contrast.r;
+}
+
 SideContrast rise_of(const Lattice& lattice, const Place& place) {
   const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
   const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));

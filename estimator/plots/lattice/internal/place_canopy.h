@@ -24,6 +24,10 @@ struct SideContrast {
 };
 SideContrast contrast_of(const Lattice& lattice, const Place& place);
 
+// The mean contrast of the sides that have gaps beside them: sides at which plots touch show none.
+// Of all sides, where plots touch along both axes.
+double mean_at_gaps(const Lattice& lattice, const SideContrast& contrast);
+
 // The same of either side across r, before and after the plot.
 std::array<double, 2> r_contrasts_of(const Lattice& lattice, const Place& place);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -33,7 +34,31 @@ Counted counted(const Layout& layout) {
   return plots;
 }
 
+// Of the widest row: rows that begin at places of their own have other first columns.
+int columns_of(const TrialLayout& layout) {
+  std::map<int, std::pair<int, int>> ends;  // by row: first and last column
+  for (const TrialPlace& place : layout.places) {
+    auto& [first, last] = ends.try_emplace(place.row, place.column, place.column).first->second;
+    first = std::min(first, place.column);
+    last = std::max(last, place.column);
+  }
+  int columns = 0;
+  for (const auto& [row, end] : ends) columns = std::max(columns, end.second - end.first + 1);
+  return columns;
+}
+
 bool is_told(int shown, const std::optional<int>& told) { return shown == told.value_or(shown); }
+
+bool is_near(double shown_m, const std::optional<double>& told_m) {
+  constexpr double kMostOff = 0.2;
+  return !told_m || std::abs(shown_m - *told_m) <= kMostOff * *told_m;
+}
+
+// Many state the step from plot to plot as a plot's side, gap and all.
+bool may_be(double shown_m, double pitch_m, const std::optional<double>& told_m) {
+  constexpr double kMostOffPitch = 0.02;  // steps are regular, and told to centimetres
+  return is_near(shown_m, told_m) || std::abs(*told_m - pitch_m) <= kMostOffPitch * pitch_m;
+}
 
 }  // namespace
 
@@ -44,19 +69,30 @@ std::string text_of(const Layout& layout) {
 }
 
 bool is_as_told(const Layout& layout, const Hints& hints) {
-  constexpr double kMostOff = 0.2;
   const Counted plots = counted(layout);
-  const auto is_near = [](double shown_m, const std::optional<double>& told_m) {
-    return !told_m || std::abs(shown_m - *told_m) <= kMostOff * *told_m;
-  };
   return is_told(plots.rows, hints.rows) && is_told(plots.columns, hints.columns) &&
          is_told(plots.rows * plots.columns, hints.plots) &&
          is_near(plots.width_m, hints.width_m) && is_near(plots.length_m, hints.length_m);
 }
 
 bool is_as_told(const TrialLayout& layout, const Hints& hints) {
-  return is_told(layout.rows(), hints.rows) && is_told(layout.columns(), hints.columns) &&
-         is_told(static_cast<int>(std::ssize(layout.places)), hints.plots);
+  return is_told(layout.rows(), hints.rows) && is_told(columns_of(layout), hints.columns) &&
+         is_told(static_cast<int>(std::ssize(layout.places)), hints.plots) &&
+         may_be(layout.width_m, layout.column_pitch_m, hints.width_m) &&
+         may_be(layout.length_m, layout.row_pitch_m, hints.length_m);
+}
+
+PlotField with_sides(PlotField field, const Hints& hints) {
+  TrialLayout& layout = field.fit->layout;
+  layout.width_m = hints.width_m.value_or(layout.width_m);
+  layout.length_m = hints.length_m.value_or(layout.length_m);
+  for (FoundPlot& plot : field.plots) {
+    plot.box.width_m = layout.width_m;
+    plot.box.length_m = layout.length_m;
+    if (hints.width_m) plot.box_error.width_m = 0;
+    if (hints.length_m) plot.box_error.length_m = 0;
+  }
+  return field;
 }
 
 std::string not_told_because(const TrialLayout& layout, const FieldSigns& signs,
@@ -68,7 +104,7 @@ std::string not_told_because(const TrialLayout& layout, const FieldSigns& signs,
                                   : "";
   };
   if (std::string rows = other(layout.rows(), hints.rows, "rows"); !rows.empty()) return rows;
-  if (std::string columns = other(layout.columns(), hints.columns, "columns"); !columns.empty())
+  if (std::string columns = other(columns_of(layout), hints.columns, "columns"); !columns.empty())
     return columns;
   return !hints.width_m && !hints.length_m && signs.least_gap_m < -kOverlap_m
              ? "plots of the number told would overlap here"

@@ -17,8 +17,11 @@ std::string text_of(const Layout& layout);
 
 // Whether what the canopy shows is what the user tells. Leaves make plots look up to a fifth wider.
 bool is_as_told(const Layout& layout, const Hints& hints);
-// The same of plots that were found; of the numbers alone.
+// The same of plots that were found.
 bool is_as_told(const TrialLayout& layout, const Hints& hints);
+
+// Plots that were found without the sides told, with these.
+PlotField with_sides(PlotField field, const Hints& hints);
 
 // Why these are not the plots that the user told; "" where they are. A box may be told larger than
 // the steps, a number may not make it so.

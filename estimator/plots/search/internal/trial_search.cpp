@@ -302,18 +302,6 @@ class TrialSearch {
   std::optional<Look> best_;
 };
 
-Looks look_by_hints(const ScannedField& scanned) {
-  TrialSearch search(scanned);
-  search.look_in_every_canopy(LineModel::free_ends);
-  const std::vector<Look> at_all = search.looks();
-  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
-  search.look_beside_closed_canopy();
-  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
-  if (scanned.hints.tell_sides() && !explains_all(search.best()) && !shows_gaps(search.best()))
-    search.look_in_every_canopy(LineModel::touching);
-  return {at_all, search.best()};
-}
-
 }  // namespace
 
 double expected_plots(const Look& look) {
@@ -338,16 +326,17 @@ Look look_twice(const ScannedField& scanned) {
 }
 
 Looks look_in_all_ways(const ScannedField& scanned) {
-  const Hints& hints = scanned.hints;
-  Looks looks = look_by_hints(scanned);
-  if (looks.best.evidence > 0 || !hints.tell_layout() || hints.width_m || hints.length_m)
-    return looks;
-  // Numbers say nothing of what else stands here; without them the plots may show.
-  const Hints without_numbers{.heading_rad = hints.heading_rad};
-  Looks shown = look_by_hints(
-      {scanned.points, scanned.noise_m, without_numbers, scanned.threads, scanned.ground_error});
-  const bool as_told = shown.best.evidence > 0 && is_as_told(shown.best.field.fit->layout, hints);
-  return as_told ? shown : looks;
+  TrialSearch search(scanned);
+  search.look_in_every_canopy(LineModel::free_ends);
+  const std::vector<Look> at_all = search.looks();
+  if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
+  search.look_beside_closed_canopy();
+  // Plots with gaps in them, as of wheels, are explained better as many things beside the field.
+  const bool told = scanned.hints.tell_sides() && !explains_all(search.best());
+  if (told || search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
+  if (scanned.hints.tell_sides() && !explains_all(search.best()) && !shows_gaps(search.best()))
+    search.look_in_every_canopy(LineModel::touching);
+  return {at_all, search.best()};
 }
 
 }  // namespace plotscan::plots

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
+
+#include "plots/lattice/internal/place_canopy.h"
 
 namespace plotscan::plots {
 namespace {
@@ -35,6 +38,19 @@ Lattice lattice_of_first(const TrialLayout& trial, int rows, const CanopyRaster&
 
 std::ptrdiff_t plots_of(const Lattice& lattice) {
   return std::ranges::count_if(lattice.places, &Place::full);
+}
+
+// Sides at which plots touch lie in the crop, or in the gap between two of its rows.
+TEST(MeanAtGaps, IsThatOfTheSidesWithGapsBesideThem) {
+  Lattice lattice;
+  const SideContrast contrast{.r = 0.8, .c = -0.2};
+  EXPECT_DOUBLE_EQ(mean_at_gaps(lattice, contrast), 0.3);
+  lattice.c.touching_m = 1.5;
+  EXPECT_EQ(mean_at_gaps(lattice, contrast), 0.8);
+  std::swap(lattice.r.touching_m, lattice.c.touching_m);
+  EXPECT_EQ(mean_at_gaps(lattice, contrast), -0.2);
+  lattice.c.touching_m = 4;
+  EXPECT_DOUBLE_EQ(mean_at_gaps(lattice, contrast), 0.3);
 }
 
 TEST(GoOnBeyond, FindsTheRowsAndColumnsThatFollow) {
@@ -80,6 +96,19 @@ TEST(LeaveOutBeside, KeepsLodgedPlotsThatStandBetweenOthers) {
   leave_out_beside(lattice);
   for (const Place& place : lattice.places)
     EXPECT_EQ(place.full, place.row != 0 || place.column != 4) << place.row << ' ' << place.column;
+}
+
+// Two neighbours that lie half a metre out of line have no edges where the lattice has its own.
+TEST(LeaveOutBeside, KeepsTwoNeighboursBetweenOthers) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster raster = canopy_of(trial);
+  Lattice lattice = lattice_of(trial, raster);
+  for (Place& place : lattice.places) {
+    place.share = 1;
+    place.contrast = place.row == 2 && (place.column == 2 || place.column == 3) ? 0.1 : 1;
+  }
+  leave_out_beside(lattice);
+  EXPECT_EQ(plots_of(lattice), std::ssize(trial.places));
 }
 
 // As a closed crop is sometimes seen: steps from row to row that are less than a plot.

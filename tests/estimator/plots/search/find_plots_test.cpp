@@ -177,6 +177,38 @@ TEST(FindPlots, TakesTheNumbersThatAreKnown) {
   EXPECT_NE(found({.plots = 7}).why_none, "");
 }
 
+// Wheels went across the plots: pieces of these show, unless the plots' length is known.
+TEST(FindPlots, FindsPlotsOfKnownSidesThatWheelsCrossed) {
+  std::vector<PlotBox> boxes = Trial{.row_gap_m = 10, .heading_rad = 0}.boxes();
+  for (PlotBox& box : boxes) box.length_m = 12;
+  const Sown beside_tracks = [](const PlotBox&, const Eigen::Vector2d& from_center) {
+    return std::abs(from_center.x() + 2) > 0.18 && std::abs(from_center.x() + 0.2) > 0.18;
+  };
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes, beside_tracks, 24, 8);
+  EXPECT_NE(find_plots(points, 0.02, {}, 2).plots.size(), 18U);
+  expect_those(boxes, find_plots(points, 0.02, {.width_m = 1.5, .length_m = 12}, 2));
+}
+
+// Plots of one drill row, of which the step from plot to plot is told as the width.
+TEST(FindPlots, TakesTheStepForTheWidthIfThatIsTold) {
+  std::vector<PlotBox> boxes = Trial{.gap_m = 0.4, .width_m = 0.5}.boxes();
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  for (PlotBox& box : boxes) {
+    box.width_m = 0.9;
+    box.length_m = 3.7;
+  }
+  expect_those(boxes, find_plots(points, 0.02, {.width_m = 0.9, .length_m = 3.7}, 2));
+  const Hints all{.width_m = 0.9, .length_m = 3.7, .rows = 3, .columns = 6};
+  expect_those(boxes, find_plots(points, 0.02, all, 2));
+}
+
+// Every other row begins half a step farther on.
+TEST(FindPlots, CountsTheColumnsOfTheWidestRow) {
+  const Trial trial{.offsets_m = {0, 0.95, 0}};
+  expect_those(trial.boxes(),
+               find_plots(cloud_over(trial.boxes()), 0.02, {.rows = 3, .columns = 6}, 2));
+}
+
 // What contradicts the canopy is taken all the same, and said.
 TEST(FindPlots, SaysWhatTheCanopyShowsMoreClearlyThanWhatWasTold) {
   const std::vector<Eigen::Vector3f> points = cloud_over(Trial{}.boxes());

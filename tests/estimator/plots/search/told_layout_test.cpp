@@ -19,6 +19,37 @@ TEST(ToldLayout, IsOneOfTheNumbersTold) {
     EXPECT_FALSE(is_as_told(trial, hints));
 }
 
+// Plots of 1.5 x 3 m that follow each other by 1.9 and 3.8 m.
+TEST(ToldLayout, IsOneOfTheSidesOrOfTheStepsTold) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  for (const Hints& hints : {Hints{.width_m = 1.3, .length_m = 3.1}, Hints{.width_m = 1.9},
+                             Hints{.width_m = 1.9, .length_m = 3.8}})
+    EXPECT_TRUE(is_as_told(trial, hints)) << hints.width_m.value();
+  for (const Hints& hints : {Hints{.width_m = 1.1}, Hints{.width_m = 2}, Hints{.length_m = 4.5}})
+    EXPECT_FALSE(is_as_told(trial, hints));
+}
+
+// The second row begins half a step farther on: its columns are 2 to 6.
+TEST(ToldLayout, HasTheColumnsOfItsWidestRow) {
+  TrialLayout trial = known_trial({0, 0.95, 0});
+  for (TrialPlace& place : trial.places) place.column += place.row == 2 ? 1 : 0;
+  EXPECT_TRUE(is_as_told(trial, {.rows = 3, .columns = 5}));
+  EXPECT_EQ(not_told_because(trial, {.least_gap_m = 0.4}, {.columns = 5}), "");
+  EXPECT_FALSE(is_as_told(trial, {.columns = 6}));
+}
+
+TEST(ToldLayout, GivesFoundPlotsTheSidesTold) {
+  PlotField field{.plots = {{.box = {.center = {3, 2}, .width_m = 1.4, .length_m = 3.1}}}};
+  field.plots[0].box_error = {.along_m = 0.1, .width_m = 0.1, .length_m = 0.1};
+  field.fit.emplace().layout = known_trial({0});
+  const PlotField told = with_sides(field, {.width_m = 1.9});
+  EXPECT_EQ(told.fit->layout.width_m, 1.9);
+  EXPECT_EQ(told.plots[0].box.width_m, 1.9);
+  EXPECT_EQ(told.plots[0].box.length_m, 3);
+  EXPECT_EQ(told.plots[0].box_error.width_m, 0);
+  EXPECT_EQ(told.plots[0].box_error.length_m, 0.1);
+}
+
 TEST(ToldLayout, IsRefusedWithOtherNumbers) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const FieldSigns signs{.least_gap_m = 0.4};
