@@ -51,8 +51,7 @@ std::unique_ptr<fs::path> LibraryOptions::folder_;
 TEST_F(LibraryOptions, OfEstimatesAreTheProgramsHints) {
   run_program("estimator run " + cloud().string() +
               " -o hints_theirs --crop-box=-9,-8,9,8 --heading 91 --plot-width 1.5 --plot-length 4 "
-              "--rows 3 --columns 3 --crop soybean --noise 0.02 --ground-class 0,1,2 "
-              "--no-calibration --units m "
+              "--rows 3 --columns 3 --crop soybean --noise 0.02 --ground-class 0,1,2 --units m "
               "--leave-out-class 5,6 --seed 9 --csv theirs.csv");
   EstimateFilesOptions options{.units = "m", .leave_out_classes = {5, 6}, .seed = 9};
   options.csv = path("ours.csv");
@@ -60,8 +59,7 @@ TEST_F(LibraryOptions, OfEstimatesAreTheProgramsHints) {
   options.field.settings = {{"heading_deg", 91.0},  {"plot_width_m", 1.5},
                             {"plot_length_m", 4.0}, {"rows", 3.0},
                             {"columns", 3.0},       {"crop", "soybean"},
-                            {"noise_m", 0.02},      {"ground_classes", std::vector{0.0, 1.0, 2.0}},
-                            {"calibrated", false}};
+                            {"noise_m", 0.02},      {"ground_classes", std::vector{0.0, 1.0, 2.0}}};
   EXPECT_EQ(estimate_files({cloud()}, path("hints_ours"), options).plots.size(), 9u);
   expect_same("hints_ours", "hints_theirs");
   expect_same("ours.csv", "theirs.csv");
@@ -76,8 +74,10 @@ TEST_F(LibraryOptions, OfEstimatesAreTheProgramsHints) {
 TEST_F(LibraryOptions, OfEstimatesAreTheProgramsMapsAndMethods) {
   const std::string map = path("farm/truth/plots.geojson");
   run_program("estimator run " + cloud().string() + " -o map_theirs --boxes " + map +
-              " --id plot_number");
-  estimate_files({cloud()}, path("map_ours"), {.boxes = map, .id = "plot_number"});
+              " --id plot_number --no-calibration");
+  EstimateFilesOptions in_boxes{.boxes = map, .id = "plot_number"};
+  in_boxes.field.settings = {{"calibrated", false}};
+  estimate_files({cloud()}, path("map_ours"), in_boxes);
   expect_same("map_ours", "map_theirs");
   std::ofstream ruler(path("ruler.csv"));
   ruler << "plot_number,height_mean_cm\n";

@@ -331,11 +331,12 @@ Looks look_in_all_ways(const ScannedField& scanned) {
   const std::vector<Look> at_all = search.looks();
   if (!search.found_canopy() || holds_most(search.best())) return {at_all, search.best()};
   search.look_beside_closed_canopy();
-  // Plots with gaps in them, as of wheels, are explained better as many things beside the field.
-  const bool told = scanned.hints.tell_sides() && !explains_all(search.best());
-  if (told || search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
-  if (scanned.hints.tell_sides() && !explains_all(search.best()) && !shows_gaps(search.best()))
-    search.look_in_every_canopy(LineModel::touching);
+  if (search.best().evidence == 0) search.look_in_every_canopy(LineModel::even_ends);
+  // Plots of the sides told may touch. Or there are gaps in them too, as of wheels: pieces of
+  // plots look like many things beside the field then.
+  if (scanned.hints.tell_sides() && !explains_all(search.best()))
+    search.look_in_every_canopy(shows_gaps(search.best()) ? LineModel::even_ends
+                                                          : LineModel::touching);
   return {at_all, search.best()};
 }
 
