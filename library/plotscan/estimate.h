@@ -27,7 +27,8 @@ struct EstimateOptions {
   // Use only the points in here: x0, y0, x1, y1, in the cloud's units; else the densely scanned
   // field is found.
   std::optional<std::array<double, 4>> crop_box = {};
-  std::vector<Box> boxes = {};                        // given plots: heights only, none is searched
+  // Given plots, all of one crop: heights only, none is searched.
+  std::vector<Box> boxes = {};
   std::map<std::string, SettingValue> settings = {};  // of the method, by their keys
   int threads = 0;  // 0: one for each processor; results are the same
 };

@@ -12,6 +12,7 @@
 #include "cloud/points_in_boxes.h"
 #include "cloud/surroundings.h"
 #include "methods/lattice/internal/field_report.h"
+#include "methods/lattice/internal/layout_doubts.h"
 #include "methods/lattice/settings.h"
 #include "methods/lattice/work_estimate.h"
 #include <Eigen/Geometry>
@@ -114,20 +115,11 @@ std::string why_none(const std::string& by_plots, double density_m2, double nois
   return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
 }
 
-// Blocks of plots that touch look like plots whose rows run across them: those of a plot run along
-// its length, and are few. "" where it is no such block.
-std::string doubt_of_rows(const std::optional<plots::FieldFit>& fit) {
-  constexpr int kMostOfPlot = 6;  // the most rows that plots are usually sown in; chosen
-  if (!fit || !fit->sown_rows) return "";
-  const plots::SownRows& sown = *fit->sown_rows;
-  if (!sown.across || sown.rows <= kMostOfPlot) return "";
-  return fmt::format("{} rows of the crop run across it, as of several plots side by side",
-                     sown.rows);
-}
-
-void add_plots(const plots::PlotField& trial, int number,
+void add_plots(const plots::PlotField& trial, int number, const Options& options,
                std::vector<estimate::PlotEstimate>& found) {
-  const std::string doubt = doubt_of_rows(trial.fit);
+  const bool told = hints_of(options).tell_layout();
+  const std::vector<std::string> doubts =
+      trial.fit ? doubts_of(*trial.fit, told) : std::vector<std::string>();
   for (const plots::FoundPlot& plot : trial.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
                      .trial = number,
@@ -138,7 +130,7 @@ void add_plots(const plots::PlotField& trial, int number,
     found.back().confidence = plot.confidence;
     if (!trial.rival.empty())
       found.back().flags.push_back("the canopy shows " + trial.rival + " more clearly");
-    if (!doubt.empty()) found.back().flags.push_back(doubt);
+    found.back().flags.insert(found.back().flags.end(), doubts.begin(), doubts.end());
     if (!trial.doubt.empty())
       found.back().flags.push_back("taken for a plot only as the layout is told (" + trial.doubt +
                                    ")");
@@ -194,7 +186,7 @@ std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, con
         why_none(trials.front().why_none, cloud.density_m2, surface.noise_m, options);
   std::vector<estimate::PlotEstimate> found;
   for (std::size_t i = 0; i < trials.size(); ++i)
-    add_plots(trials[i], trials.size() > 1 ? static_cast<int>(i + 1) : 0, found);
+    add_plots(trials[i], trials.size() > 1 ? static_cast<int>(i + 1) : 0, options, found);
   stage.found(std::to_string(found.size()) + " plots");
   return found;
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to the library: what else the plots of a layout may be.
+
+#include <string>
+#include <vector>
+
+#include "plots/plot_field.h"
+
+namespace plotscan::methods::lattice {
+
+// What the flags of a trial's plots say of its layout; `told` is whether the user told it.
+std::vector<std::string> doubts_of(const plots::FieldFit& fit, bool told);
+
+}  // namespace plotscan::methods::lattice
