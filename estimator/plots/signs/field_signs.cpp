@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 
 #include "core/statistics.h"
 #include "plots/lattice/box_errors.h"
+#include "plots/lattice/row_ends.h"
 #include "plots/signs/internal/gap_cover.h"
 #include "plots/signs/internal/roughness.h"
 #include "plots/signs/internal/squareness.h"
@@ -128,14 +128,8 @@ const Side& across(const Lattice& lattice) {
 }
 
 double filled_share(const Lattice& lattice) {
-  std::map<int, std::pair<int, int>> ends;  // by row: first and last column
-  for (const Place& place : lattice.places) {
-    auto& [first, last] = ends.try_emplace(place.row, place.column, place.column).first->second;
-    first = std::min(first, place.column);
-    last = std::max(last, place.column);
-  }
   double places = 0;
-  for (const auto& [row, end] : ends) places += end.second - end.first + 1;
+  for (const auto& [row, end] : row_ends(lattice.places)) places += end.second - end.first + 1;
   return static_cast<double>(lattice.places.size()) / std::max(1.0, places);
 }
 

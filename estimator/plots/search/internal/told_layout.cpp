@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/core.h>
+
+#include "plots/lattice/row_ends.h"
 
 namespace plotscan::plots {
 namespace {
@@ -36,14 +37,9 @@ Counted counted(const Layout& layout) {
 
 // Of the widest row: rows that begin at places of their own have other first columns.
 int columns_of(const TrialLayout& layout) {
-  std::map<int, std::pair<int, int>> ends;  // by row: first and last column
-  for (const TrialPlace& place : layout.places) {
-    auto& [first, last] = ends.try_emplace(place.row, place.column, place.column).first->second;
-    first = std::min(first, place.column);
-    last = std::max(last, place.column);
-  }
   int columns = 0;
-  for (const auto& [row, end] : ends) columns = std::max(columns, end.second - end.first + 1);
+  for (const auto& [row, end] : row_ends(layout.places))
+    columns = std::max(columns, end.second - end.first + 1);
   return columns;
 }
 
