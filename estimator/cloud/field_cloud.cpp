@@ -62,10 +62,10 @@ std::string degrees_hint(const Area& area, std::span<const TileCount> tiles) {
       std::ranges::all_of(area, [](double value) { return std::abs(value) <= kMost; });
   const bool in_metres = std::ranges::any_of(
       tiles, [](const TileCount& count) { return std::abs(count.tile.x) > kMost; });
-  return may_be_degrees && in_metres ? "; if it is in longitude and latitude: for a map of plots "
-                                       "--crs says in which system "
-                                       "the cloud is, and a crop box is in metres of UTM"
-                                     : "";
+  constexpr const char* kHint =
+      "; if it is in longitude and latitude: for a map of plots --crs says in which system the "
+      "cloud is, and a crop box is in metres of UTM";
+  return may_be_degrees && in_metres ? kHint : "";
 }
 
 // Points a square metre in the area, or in the whole field; 0 without points.

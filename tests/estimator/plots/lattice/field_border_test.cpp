@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
 #include "estimator/plots/known_trial.h"
@@ -81,34 +82,31 @@ TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
   }
 }
 
-// Of three rows, the middle plot of the last one and the last plot of the first one are as covered
-// as the others and show no edges, as lodged plots. Weeds may be that at a corner.
-TEST(LeaveOutBeside, KeepsLodgedPlotsThatStandBetweenOthers) {
+// What is left of three rows of five plots of which those at (row, column) show no edges.
+Lattice left_of(const std::set<std::pair<int, int>>& edgeless) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const CanopyRaster raster = canopy_of(trial);
   Lattice lattice = lattice_of(trial, raster);
   for (Place& place : lattice.places) {
     place.share = 1;
-    place.contrast = 1;
-    if ((place.row == 2 && place.column == 2) || (place.row == 0 && place.column == 4))
-      place.contrast = 0.1;
+    place.contrast = edgeless.contains({place.row, place.column}) ? 0.1 : 1;
   }
   leave_out_beside(lattice);
+  lattice.view.raster = nullptr;  // it ends here
+  return lattice;
+}
+
+// Of three rows, the middle plot of the last one and the last plot of the first one are as covered
+// as the others and show no edges, as lodged plots. Weeds may be that at a corner.
+TEST(LeaveOutBeside, KeepsLodgedPlotsThatStandBetweenOthers) {
+  const Lattice lattice = left_of({{2, 2}, {0, 4}});
   for (const Place& place : lattice.places)
     EXPECT_EQ(place.full, place.row != 0 || place.column != 4) << place.row << ' ' << place.column;
 }
 
 // Two neighbours that lie half a metre out of line have no edges where the lattice has its own.
 TEST(LeaveOutBeside, KeepsTwoNeighboursBetweenOthers) {
-  const TrialLayout trial = known_trial({0, 0, 0});
-  const CanopyRaster raster = canopy_of(trial);
-  Lattice lattice = lattice_of(trial, raster);
-  for (Place& place : lattice.places) {
-    place.share = 1;
-    place.contrast = place.row == 2 && (place.column == 2 || place.column == 3) ? 0.1 : 1;
-  }
-  leave_out_beside(lattice);
-  EXPECT_EQ(plots_of(lattice), std::ssize(trial.places));
+  EXPECT_EQ(plots_of(left_of({{2, 2}, {2, 3}})), 15);
 }
 
 // As a closed crop is sometimes seen: steps from row to row that are less than a plot.
