@@ -97,7 +97,7 @@ void run_estimate(const Program& program, const RunArguments& arguments) {
                   {"heights", summary},
                   {"diagnostics", to_json(estimate.diagnostics)},
                   {"seconds", seconds}});
-  methods::require_measured(estimate);
+  methods::require_measured(options, estimate);
 }
 
 // Which of the cloud's points and plots are measured.

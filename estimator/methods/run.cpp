@@ -228,14 +228,30 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
 
 namespace {
 
-// Advice for an estimate without plots, by what was found.
-std::string next_step(const estimate::Estimate& estimate) {
+// What may be told of the plots and was not, the most helpful first.
+std::vector<std::string> hints_left(const RunOptions& options) {
+  const lattice::Options& told = options.lattice;
+  std::vector<std::string> hints;
+  if (!told.plot_width_m && !told.plot_length_m) {
+    hints.emplace_back("give the plots' sides with --plot-width and --plot-length");
+  } else if (!told.plot_width_m || !told.plot_length_m) {
+    hints.emplace_back(told.plot_width_m ? "give --plot-length as well"
+                                         : "give --plot-width as well");
+  } else if (!told.heading_deg) {
+    hints.emplace_back("give --heading as well");
+  } else if (!told.rows || !told.columns) {
+    hints.emplace_back("give --rows and --columns as well");
+  }
+  hints.emplace_back("say where plots are with --boxes");
+  if (!options.crop_box) hints.emplace_back("cut the cloud to them with --crop-box");
+  return hints;
+}
+
+// Advice for an estimate without plots, by what was found and what was told.
+std::string next_step(const RunOptions& options, const estimate::Estimate& estimate) {
   const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
   std::vector<std::string> steps;
-  if (density_m2 >= cloud::kLeastSearched_m2) {
-    steps = {"give --plot-width where plots have no gap between them",
-             "say where plots are with --boxes", "cut the cloud to them with --crop-box"};
-  }
+  if (density_m2 >= cloud::kLeastSearched_m2) steps = hints_left(options);
   if (density_m2 < cloud::kPlotsFound_m2) steps.emplace_back("fly lower or slower for more points");
   if (!estimate.units && estimate.crs.empty())
     steps.emplace_back("give --units where coordinates are not metres");
@@ -246,7 +262,7 @@ std::string next_step(const estimate::Estimate& estimate) {
 
 }  // namespace
 
-void require_measured(const estimate::Estimate& estimate) {
+void require_measured(const RunOptions& options, const estimate::Estimate& estimate) {
   const bool measured = std::ranges::any_of(
       estimate.plots, [](const estimate::PlotEstimate& plot) { return !plot.heights_m.empty(); });
   if (measured) return;
@@ -259,7 +275,7 @@ void require_measured(const estimate::Estimate& estimate) {
                            "where points are few");
   }
   throw NothingToMeasure("no plots: " + estimate.diagnostics.why_no_plots + found + "; " +
-                         next_step(estimate));
+                         next_step(options, estimate));
 }
 
 json height_summary(const estimate::Estimate& estimate) {

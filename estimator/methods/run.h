@@ -59,8 +59,8 @@ void require_known(const std::string& method);
 estimate::Estimate run(const RunOptions& options, const ProgressReport& progress = {});
 
 // Throws NothingToMeasure where an estimate has no plots, or no height of any: the message says
-// why, how dense the cloud is, and what to do next.
-void require_measured(const estimate::Estimate& estimate);
+// why, how dense the cloud is, and what to do next that the options have not done yet.
+void require_measured(const RunOptions& options, const estimate::Estimate& estimate);
 
 // How many plots have each height, and its median, least and greatest value, metres.
 nlohmann::json height_summary(const estimate::Estimate& estimate);

@@ -75,7 +75,7 @@ TEST(Run, SaysOfPointsThatAreTooFewForAGroundWhatIsNeeded) {
   for (const auto& points :
        {std::vector<Eigen::Vector3d>(5000, {1, 2, 3}), scattered(1000, 3000, 50)}) {
     const std::string message =
-        message_of<NothingToMeasure>([&] { require_measured(estimate_of(points)); });
+        message_of<NothingToMeasure>([&] { require_measured({}, estimate_of(points)); });
     EXPECT_THAT(message, AllOf(HasSubstr("about 65 a square metre"), HasSubstr("fly lower"),
                                Not(HasSubstr("--crop-box"))));
   }
@@ -143,7 +143,7 @@ TEST(Run, KnowsWhenNothingWasMeasured) {
   estimate::Estimate estimate{.method = "lattice",
                               .diagnostics = {.density_per_m2 = 1.5, .why_no_plots = "a reason"}};
   const auto message = [&] {
-    return message_of<NothingToMeasure>([&] { require_measured(estimate); });
+    return message_of<NothingToMeasure>([&] { require_measured({}, estimate); });
   };
   EXPECT_THAT(message(), HasSubstr("no plots: a reason (1.5 points/m2); fly lower or slower"));
   EXPECT_THAT(message(), HasSubstr("--units"));
@@ -157,7 +157,29 @@ TEST(Run, KnowsWhenNothingWasMeasured) {
   estimate.plots = {{.id = 1, .box = {}}, {.id = 2, .box = {}}};
   EXPECT_THAT(message(), HasSubstr("no plot has enough points for a height (1500 points/m2)"));
   estimate.plots[1].heights_m["max"] = 0.5;
-  EXPECT_NO_THROW(require_measured(estimate));
+  EXPECT_NO_THROW(require_measured({}, estimate));
+}
+
+TEST(Run, AdvisesNothingThatWasDone) {
+  const estimate::Estimate estimate{.method = "lattice",
+                                    .diagnostics = {.density_per_m2 = 1.5e3, .why_no_plots = "a"}};
+  RunOptions options;
+  const auto message = [&] {
+    return message_of<NothingToMeasure>([&] { require_measured(options, estimate); });
+  };
+  EXPECT_THAT(message(), HasSubstr("; give the plots' sides with --plot-width and --plot-length"));
+  options.lattice.plot_width_m = 1.5;
+  EXPECT_THAT(message(), HasSubstr("; give --plot-length as well"));
+  options.lattice.plot_length_m = 4;
+  EXPECT_THAT(message(), HasSubstr("; give --heading as well"));
+  options.lattice.heading_deg = 90;
+  EXPECT_THAT(message(),
+              AllOf(HasSubstr("; give --rows and --columns as well"), HasSubstr("--crop-box")));
+  options.lattice.rows = 3;
+  options.lattice.columns = 10;
+  options.crop_box = {0, 0, 20, 20};
+  EXPECT_THAT(message(),
+              AllOf(HasSubstr("; say where plots are with --boxes"), Not(HasSubstr("--crop-box"))));
 }
 
 TEST(Run, RefusesPlotsThatAreWiderThanLong) {
