@@ -42,9 +42,9 @@ void say_system(const Program& program, const scan::CloudSystem& system, bool to
 }
 
 void say_density(const Program& program, const cloud::FieldDensity& density) {
-  const cloud::Area& field = density.field;
+  const Eigen::Vector2d sides_m = cloud::sides_of(density.field);
   program.say(fmt::format("field      {:.0f} x {:.0f} m around, {:.2f} ha scanned densely",
-                          field[2] - field[0], field[3] - field[1], density.area_m2 / 1e4));
+                          sides_m.x(), sides_m.y(), density.area_m2 / 1e4));
   program.say(fmt::format(
       "density    {} points/m2 (median), {} in the thinnest 5 %, in squares of {} m",
       cloud::density_text(density.median), cloud::density_text(density.least5), density.square_m));

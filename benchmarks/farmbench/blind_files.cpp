@@ -10,6 +10,7 @@
 #include "core/plot_features.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
+#include "farmbench/internal/survey.h"
 #include "farmbench/text_file.h"
 #include "record/convert.h"
 #include "record/scan_folder.h"
@@ -23,18 +24,9 @@ namespace {
 using nlohmann::json;
 
 record::Source inside(record::Source source, const cloud::Area& area) {
-  const Eigen::Vector3d origin_m = source.info.origin_m;
-  source.stream = [stream = source.stream, area, origin_m](const scan::PointSink& sink) {
-    std::vector<scan::LabelledPoint> kept;
-    return stream([&](std::span<const scan::LabelledPoint> points) {
-      kept.clear();
-      std::ranges::copy_if(points, std::back_inserter(kept), [&](const scan::LabelledPoint& point) {
-        const double x = origin_m.x() + static_cast<double>(point.x);
-        const double y = origin_m.y() + static_cast<double>(point.y);
-        return x >= area[0] && x <= area[2] && y >= area[1] && y <= area[3];
-      });
-      sink(kept);
-    });
+  source.stream = [stream = source.stream, area,
+                   origin_m = source.info.origin_m](const scan::PointSink& sink) {
+    return stream(only_inside(area, origin_m, sink));
   };
   return source;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 
 #include "farmbench/farm_scan.h"
 #include "score/score.h"

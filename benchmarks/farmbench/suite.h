@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 
 #include "farmbench/command_method.h"
 #include "farmbench/sweep.h"

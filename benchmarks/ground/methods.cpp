@@ -25,7 +25,7 @@ using Boxes = std::vector<PlotBox>;
 std::vector<PlotGround> planes(Points points, const Boxes& boxes) {
   constexpr double kVoxel_m = 0.05, kExtend_m = 0.5, kTolerance_m = 0.05;  // the authors' settings
   Boxes longer = boxes;
-  for (PlotBox& box : longer) box.length_m += 2 * kExtend_m;
+  for (PlotBox& box : longer) box = lengthened(box, kExtend_m);
   const std::vector<Eigen::Vector3f> voxels = methods::dhami2020::voxel_filter(points, kVoxel_m);
   std::vector<PlotGround> grounds;
   for (const std::vector<Eigen::Vector3f>& inside : cloud::points_in_boxes(voxels, longer)) {

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "cloud/area.h"
 #include <Eigen/Core>
 
 #include "core/cloud_files.h"
 #include "core/progress.h"
 
 namespace plotscan::cloud {
-
-// An axis-parallel rectangle of the horizontal plane: x0, y0, x1, y1, world frame, metres.
-using Area = std::array<double, 4>;
-
-// Throws InputError naming `option` unless x0 < x1 and y0 < y1, all finite, and no side is over
-// 10 km.
-void require_area(const Area& area, const std::string& option);
-
-// The same of the area that a cloud covers; the message says what to do.
-void require_scanned_area(const Area& area, const std::string& cloud);
-
-// "x0,y0,x1,y1".
-std::string text_of(const Area& area);
 
 // The merged map inside an area, at the scans' full density. Positions are kept as float32 relative
 // to an origin in double precision (12 bytes a point, better than 0.5 mm in the largest area).

@@ -29,8 +29,8 @@ Eigen::Vector3d origin_of(const TiledKeys& tiles, const Area& area) {
   std::vector<double> z;
   for (std::size_t i = 0; i < tiles.tiles.size(); ++i)
     z.push_back(point_of(tiles.tiles[i], tiles.of(i).front(), Eigen::Vector3d::Zero()).z());
-  return {std::round((area[0] + area[2]) / 2), std::round((area[1] + area[3]) / 2),
-          std::floor(quantile(std::move(z), 0.5))};
+  const Eigen::Array2d middle = middle_of(area).array().round();
+  return {middle.x(), middle.y(), std::floor(quantile(std::move(z), 0.5))};
 }
 
 TiledPoints points_of(TiledKeys tiles, const Eigen::Vector3d& origin, int threads) {
@@ -78,11 +78,8 @@ double density_of(const TileStore& store, const std::optional<Area>& area) {
 
 // Drops the points outside the area: a tile at its edge reaches beyond it.
 void crop(FieldCloud& field) {
-  const Eigen::Array2d low(field.area[0], field.area[1]);
-  const Eigen::Array2d high(field.area[2], field.area[3]);
   const auto outside = [&](const Eigen::Vector3f& point) {
-    const Eigen::Array2d place = field.origin.head<2>() + point.head<2>().cast<double>();
-    return (place < low).any() || (place > high).any();
+    return !holds(field.area, field.origin.head<2>() + point.head<2>().cast<double>());
   };
   field.counts.outside += std::erase_if(field.points, outside);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 #include "cloud/tile_store.h"
 #include <Eigen/Core>
 

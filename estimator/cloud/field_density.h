@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 #include "cloud/tile_store.h"
 #include <Eigen/Core>
 

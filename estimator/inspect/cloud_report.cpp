@@ -16,8 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kLongestSide_m = 10000;  // as cloud::require_area has it
-constexpr double kShortestSide_m = 0.1;   // of the smallest plots
+constexpr double kShortestSide_m = 0.1;  // of the smallest plots
 constexpr std::size_t kGroundClass = 2;
 constexpr std::array<std::size_t, 2> kNoiseClasses = {7, 18};
 
@@ -39,8 +38,7 @@ void judge_extent(CloudReport& report) {
     report.obstacles.emplace_back(
         "all points lie within 10 cm of one place; give "
         "--crs EPSG:4326 if x and y are longitude and latitude");
-  const cloud::Area& field = report.density.field;
-  if (std::max(field[2] - field[0], field[3] - field[1]) > kLongestSide_m)
+  if (cloud::sides_of(report.density.field).maxCoeff() > cloud::kLongestSide_m)
     report.obstacles.emplace_back(
         "the field is over 10 km long: give a part of it (--crop-box), or --units");
 }

@@ -29,9 +29,8 @@ std::vector<PlotBox> extended_boxes(const std::vector<TruePlot>& plots,
                                     const Eigen::Vector3d& origin, double extend_m) {
   std::vector<PlotBox> boxes;
   for (const TruePlot& plot : plots) {
-    boxes.push_back(plot.box);
+    boxes.push_back(lengthened(plot.box, extend_m));
     boxes.back().center -= origin.head<2>();
-    boxes.back().length_m += 2 * extend_m;
   }
   return boxes;
 }

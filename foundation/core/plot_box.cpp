@@ -65,6 +65,11 @@ std::array<Eigen::Vector2d, 4> PlotBox::corners() const {
   return {center - l - w, center + l - w, center + l + w, center - l + w};
 }
 
+PlotBox lengthened(PlotBox box, double end_m) {
+  box.length_m += 2 * end_m;
+  return box;
+}
+
 double wrap_heading(double heading_rad) {
   const double wrapped = std::fmod(heading_rad, kPi);
   const double positive = wrapped < 0 ? wrapped + kPi : wrapped;

@@ -36,6 +36,9 @@ struct PlotBoxError {
   double heading_rad = 0;
 };
 
+// The box with each of its ends end_m farther out.
+PlotBox lengthened(PlotBox box, double end_m);
+
 // Heading brought into [0, pi).
 double wrap_heading(double heading_rad);
 // Smallest angle between two box axes, in [0, pi / 2].

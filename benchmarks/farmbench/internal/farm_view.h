@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 #include "terrain/terrain.h"
 #include <nlohmann/json.hpp>
 

@@ -32,9 +32,7 @@ constexpr double kShown_m = 4;  // around the plots, on pages
 
 // What the paper's operator drew by hand: the rectangle that holds the plots, with a margin.
 cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_m) {
-  const Eigen::AlignedBox2d extent = extent_of(plots, &score::TruePlot::box);
-  return {extent.min().x() - margin_m, extent.min().y() - margin_m, extent.max().x() + margin_m,
-          extent.max().y() + margin_m};
+  return cloud::around(extent_of(plots, &score::TruePlot::box), margin_m);
 }
 
 // What a method says of a field, and how it went.

@@ -16,10 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 bool lies_in(const cloud::Area& area, const PlotBox& box) {
-  return std::ranges::all_of(box.corners(), [&](const Eigen::Vector2d& corner) {
-    return corner.x() >= area[0] && corner.x() <= area[2] && corner.y() >= area[1] &&
-           corner.y() <= area[3];
-  });
+  return std::ranges::all_of(
+      box.corners(), [&](const Eigen::Vector2d& corner) { return cloud::holds(area, corner); });
 }
 
 }  // namespace
@@ -34,26 +32,32 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                              const fs::path& folder, const lidar::FlyOptions& flight,
                              const ProgressReport& progress) {
   lidar::Site site = lidar::site_of(farm);
-  site.areas = {{.center = {(survey[0] + survey[2]) / 2, (survey[1] + survey[3]) / 2},
-                 .width_m = survey[3] - survey[1],
-                 .length_m = survey[2] - survey[0],
+  const Eigen::Vector2d sides_m = cloud::sides_of(survey);
+  site.areas = {{.center = cloud::middle_of(survey),
+                 .width_m = sides_m.y(),
+                 .length_m = sides_m.x(),
                  .heading_rad = 0}};
   return lidar::fly(site, lidar::scene_content(farm), folder, flight, true, progress);
+}
+
+scan::PointSink only_inside(const cloud::Area& area, const Eigen::Vector3d& origin_m,
+                            scan::PointSink sink) {
+  return [=, kept = std::vector<scan::LabelledPoint>()](
+             std::span<const scan::LabelledPoint> points) mutable {
+    kept.clear();
+    std::ranges::copy_if(points, std::back_inserter(kept), [&](const scan::LabelledPoint& point) {
+      return cloud::holds(area,
+                          origin_m.head<2>() + Eigen::Vector2f(point.x, point.y).cast<double>());
+    });
+    sink(kept);
+  };
 }
 
 void crop_cloud(const fs::path& cloud, const cloud::Area& area, const fs::path& cropped) {
   const scan::CloudInfo info = scan::read_cloud_info(cloud);
   scan::PcdWriter writer(cropped, {.origin_m = info.origin_m});
-  std::vector<scan::LabelledPoint> kept;
-  scan::read_points(cloud, info, [&](std::span<const scan::LabelledPoint> points) {
-    kept.clear();
-    std::ranges::copy_if(points, std::back_inserter(kept), [&](const scan::LabelledPoint& point) {
-      const double x = info.origin_m.x() + static_cast<double>(point.x);
-      const double y = info.origin_m.y() + static_cast<double>(point.y);
-      return x >= area[0] && x <= area[2] && y >= area[1] && y <= area[3];
-    });
-    writer.write(kept);
-  });
+  scan::read_points(cloud, info,
+                    only_inside(area, info.origin_m, [&](auto points) { writer.write(points); }));
   writer.close();
 }
 

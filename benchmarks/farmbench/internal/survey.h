@@ -4,11 +4,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 
 #include "core/progress.h"
 #include "farm/farm.h"
 #include "lidar/fly.h"
+#include "scan/point.h"
 #include "score/score.h"
 
 // Surveys of a part of a field (docs/benchmark.md).
@@ -22,6 +23,10 @@ void leave_to_survey(std::vector<score::TruePlot>& plots, const cloud::Area& sur
 lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                              const std::filesystem::path& folder, const lidar::FlyOptions& flight,
                              const ProgressReport& progress);
+
+// Hands on to `sink` the points that lie in the area; their positions are relative to origin_m.
+scan::PointSink only_inside(const cloud::Area& area, const Eigen::Vector3d& origin_m,
+                            scan::PointSink sink);
 
 // Writes those points of a cloud, with all that is known of them, that lie in the area.
 void crop_cloud(const std::filesystem::path& cloud, const cloud::Area& area,

@@ -99,13 +99,9 @@ bool FieldHull::holds(Tile tile) const {
 }
 
 Area FieldHull::bounds() const {
-  Eigen::Vector2d low = corners_.front();
-  Eigen::Vector2d high = low;
-  for (const Eigen::Vector2d& corner : corners_) {
-    low = low.cwiseMin(corner);
-    high = high.cwiseMax(corner);
-  }
-  return {low.x(), low.y(), high.x(), high.y()};
+  Eigen::AlignedBox2d bounds;
+  for (const Eigen::Vector2d& corner : corners_) bounds.extend(corner);
+  return around(bounds);
 }
 
 FieldHull find_field(std::span<const TileCount> counts) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 #include "cloud/tile_store.h"
 #include <Eigen/Core>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "cloud/surroundings.h"
 #include "methods/dhami2020/internal/ground_level.h"
 #include "methods/dhami2020/internal/lattice.h"
 #include "methods/dhami2020/internal/oriented_box.h"
@@ -19,6 +18,7 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/trial_layout.h"
 #include "estimate/given_plots.h"
 
@@ -43,9 +43,7 @@ Cloud canopy_of(const Cloud& voxels, const GroundLevel& level, double min_height
 Cloud inside(const Cloud& points, const cloud::Area& area, const Eigen::Vector3d& origin) {
   Cloud kept;
   std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
-    const Eigen::Vector3d world = origin + point.cast<double>();
-    return world.x() >= area[0] && world.x() <= area[2] && world.y() >= area[1] &&
-           world.y() <= area[3];
+    return cloud::holds(area, origin.head<2>() + point.head<2>().cast<double>());
   });
   return kept;
 }
@@ -179,9 +177,17 @@ void move_by(const Eigen::Vector3d& origin, estimate::Estimate& estimate) {
   }
 }
 
-bool holds(const cloud::Area& outer, const cloud::Area& inner) {
-  return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] &&
-         inner[3] <= outer[3];
+// The part of the cloud that is read; nothing where the scanned field is to be found.
+std::optional<cloud::NamedArea> area_of(const Options& options) {
+  if (options.crop_box) return cloud::NamedArea{.area = *options.crop_box};
+  if (options.boxes.empty()) return std::nullopt;
+  std::vector<PlotBox> boxes = options.boxes;
+  for (PlotBox& box : boxes) box = lengthened(box, options.extend_m);
+  return cloud::NamedArea{.area = cloud::around(extent_of(boxes)), .name = "given boxes"};
+}
+
+bool reaches_out(const cloud::Area& inner, const cloud::Area& outer) {
+  return !cloud::holds(outer, {inner[0], inner[1]}) || !cloud::holds(outer, {inner[2], inner[3]});
 }
 
 void require_count(int count, int most, const std::string& name) {
@@ -199,7 +205,7 @@ void require_sound(const Options& options) {
   }
   if (options.crop_box) cloud::require_area(*options.crop_box, "crop box");
   if (options.learn_box) cloud::require_area(*options.learn_box, "learn box");
-  if (options.learn_box && options.crop_box && !holds(*options.crop_box, *options.learn_box)) {
+  if (options.learn_box && options.crop_box && reaches_out(*options.learn_box, *options.crop_box)) {
     throw InputError("the learn box reaches out of the crop box");
   }
   require_settings(settings(), options);
@@ -234,12 +240,7 @@ estimate::Estimate estimate_plots(const cloud::CloudMap& map, const Options& opt
 estimate::Estimate estimate_plots(const CloudFiles& cloud, const Options& options,
                                   const ProgressReport& progress) {
   require_sound(options);
-  std::optional<cloud::NamedArea> area;
-  if (options.crop_box)
-    area = {.area = *options.crop_box};
-  else if (!options.boxes.empty())
-    area = {cloud::surroundings(options.boxes, options.extend_m), "given boxes"};
-  return estimate_plots(cloud::read_map(cloud, area, progress), options, progress);
+  return estimate_plots(cloud::read_map(cloud, area_of(options), progress), options, progress);
 }
 
 }  // namespace plotscan::methods::dhami2020

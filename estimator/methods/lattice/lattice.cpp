@@ -10,7 +10,6 @@
 #include "cloud/coordinate_step.h"
 #include "cloud/field_density.h"
 #include "cloud/points_in_boxes.h"
-#include "cloud/surroundings.h"
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/internal/layout_doubts.h"
 #include "methods/lattice/settings.h"
@@ -22,6 +21,7 @@
 #include "core/csv.h"
 #include "core/each_index.h"
 #include "core/error.h"
+#include "core/extent.h"
 #include "core/stage.h"
 #include "estimate/given_plots.h"
 #include "ground/surface.h"
@@ -55,9 +55,8 @@ ground::Surface ground_of(const cloud::FieldCloud& cloud, const Options& options
 // Reports the work ahead to the caller, if it asked for that.
 void tell_work(const cloud::FieldCloud& cloud, const Options& options) {
   if (!options.tell) return;
-  const cloud::Area& area = cloud.area;
   options.tell(estimate_work({.points = cloud.counts.read,
-                              .rectangle_m2 = (area[2] - area[0]) * (area[3] - area[1]),
+                              .rectangle_m2 = cloud::sides_of(cloud.area).prod(),
                               .density_m2 = cloud.density_m2},
                              options.threads));
 }
@@ -247,9 +246,8 @@ constexpr std::size_t kLeastOfGround = 3;  // points with ground beneath them: f
 // The message for a cloud in which hardly any point has ground beneath it.
 std::string no_ground_because(const cloud::FieldCloud& cloud,
                               const estimate::PointAccount& points) {
-  const cloud::Area& area = cloud.area;
   const double kept_m2 =
-      static_cast<double>(cloud.counts.kept) / ((area[2] - area[0]) * (area[3] - area[1]));
+      static_cast<double>(cloud.counts.kept) / cloud::sides_of(cloud.area).prod();
   const std::string seen =
       " (" + text_of(points) + "; " + cloud::density_text(cloud.density_m2) + " points/m2); ";
   if (std::min(kept_m2, cloud.density_m2) < cloud::kLeastSearched_m2)
@@ -358,9 +356,7 @@ void require_sound(const Options& options) {
 cloud::FieldOptions field_options(const Options& options) {
   if (options.crop_box || options.boxes.empty())
     return {.area = options.crop_box, .threads = options.threads};
-  const cloud::Area boxes = cloud::surroundings(options.boxes, 0);
-  return {.area = cloud::Area{boxes[0] - kGroundAround_m, boxes[1] - kGroundAround_m,
-                              boxes[2] + kGroundAround_m, boxes[3] + kGroundAround_m},
+  return {.area = cloud::around(extent_of(options.boxes), kGroundAround_m),
           .area_name = "given boxes",
           .threads = options.threads};
 }

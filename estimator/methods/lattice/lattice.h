@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cloud/cloud_map.h"
+#include "cloud/area.h"
 #include "cloud/field_cloud.h"
 #include "methods/lattice/work_estimate.h"
 #include <Eigen/Core>

@@ -15,16 +15,6 @@ namespace {
 
 using Points = std::span<const Eigen::Vector3f>;
 
-std::vector<PlotBox> extended_boxes(const std::vector<estimate::PlotEstimate>& plots,
-                                    double extend_m) {
-  std::vector<PlotBox> boxes;
-  for (const estimate::PlotEstimate& plot : plots) {
-    boxes.push_back(plot.box);
-    boxes.back().length_m += 2 * extend_m;
-  }
-  return boxes;
-}
-
 std::vector<Eigen::Vector3d> in_double(const std::vector<Eigen::Vector3f>& points) {
   std::vector<Eigen::Vector3d> result;
   result.reserve(points.size());
@@ -71,7 +61,9 @@ void measure_plot(estimate::PlotEstimate& plot, const std::vector<Eigen::Vector3
 
 void measure_heights(std::vector<estimate::PlotEstimate>& plots, Points raw, Points voxels,
                      const Options& options) {
-  const std::vector<PlotBox> boxes = extended_boxes(plots, options.extend_m);
+  std::vector<PlotBox> boxes;
+  for (const estimate::PlotEstimate& plot : plots)
+    boxes.push_back(lengthened(plot.box, options.extend_m));
   const auto raw_by_plot = cloud::points_in_boxes(raw, boxes);
   const auto voxels_by_plot = cloud::points_in_boxes(voxels, boxes);
   for_each_index(plots.size(), options.threads, [&](std::size_t i) {
