@@ -41,7 +41,7 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
 }
 
 scan::PointSink only_inside(const cloud::Area& area, const Eigen::Vector3d& origin_m,
-                            scan::PointSink sink) {
+                            const scan::PointSink& sink) {
   return [=, kept = std::vector<scan::LabelledPoint>()](
              std::span<const scan::LabelledPoint> points) mutable {
     kept.clear();

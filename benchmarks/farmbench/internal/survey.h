@@ -26,7 +26,7 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
 
 // Hands on to `sink` the points that lie in the area; their positions are relative to origin_m.
 scan::PointSink only_inside(const cloud::Area& area, const Eigen::Vector3d& origin_m,
-                            scan::PointSink sink);
+                            const scan::PointSink& sink);
 
 // Writes those points of a cloud, with all that is known of them, that lie in the area.
 void crop_cloud(const std::filesystem::path& cloud, const cloud::Area& area,
