@@ -39,6 +39,8 @@ report::ShownPlot shown(const PlotFeature& plot, std::size_t place) {
   };
   result.row = whole("row_number");
   result.column = whole("col_number");
+  result.trial = whole("trial_number");
+  if (properties.contains("points")) return result;  // an estimate's heights are no truths
   for (const auto& [name, value] : properties.items()) {
     const bool is_height = name.starts_with("height_") || name.starts_with("canopy_");
     if (is_height && name.ends_with("_m") && value.is_number()) result.truths_m[name] = value;

@@ -65,6 +65,21 @@ TEST(ScanPage, HoldsPointsGroundAndPlots) {
   EXPECT_NEAR(field["ground"]["z"]["low"].get<double>(), 0, 0.01);
 }
 
+TEST(ScanPage, CallsNoEstimateTrue) {
+  const TemporaryFolder folder;
+  const fs::path cloud = folder.write("a.ply", field_ply());
+  const fs::path plots = folder.write(
+      "plots.geojson",
+      R"({"type":"FeatureCollection","coordinate_system":"local metres","features":[{"type":"Feature",
+      "properties":{"plot_number":17,"trial_number":2,"points":900,"height_max_m":0.8},"geometry":{"type":
+      "Polygon","coordinates":[[[2,2],[4,2],[4,4.5],[2,4.5],[2,2]]]}}]})");
+  const fs::path html = folder.path() / "page.html";
+  write_scan_page({.scan = cloud, .html = html, .plots = plots});
+  const nlohmann::json plot = document_of(html)["fields"][0]["plots"][0];
+  EXPECT_EQ(plot["trial"], 2);
+  EXPECT_FALSE(plot.contains("truths") && !plot["truths"].empty());
+}
+
 TEST(ScanPage, SaysWhenThePlotsLieElsewhere) {
   const TemporaryFolder folder;
   const fs::path cloud = folder.write("a.ply", field_ply());
