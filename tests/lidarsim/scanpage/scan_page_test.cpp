@@ -42,14 +42,19 @@ nlohmann::json document_of(const fs::path& html) {
   return nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
+// A map of one plot on the cloud.
+fs::path write_map(const TemporaryFolder& folder, const std::string& properties) {
+  return folder.write(
+      "plots.geojson",
+      R"({"type":"FeatureCollection","coordinate_system":"local metres","features":[{"type":"Feature",
+      "geometry":{"type":"Polygon","coordinates":[[[2,2],[4,2],[4,4.5],[2,4.5],[2,2]]]},"properties":)" +
+          properties + "}]}");
+}
+
 TEST(ScanPage, HoldsPointsGroundAndPlots) {
   const TemporaryFolder folder;
   const fs::path cloud = folder.write("a \"><img src=x>.ply", field_ply());
-  const fs::path plots = folder.write(
-      "plots.geojson",
-      R"({"type":"FeatureCollection","coordinate_system":"local metres","features":[{"type":"Feature",
-      "properties":{"plot_number":17,"height_max_m":0.8},"geometry":{"type":"Polygon","coordinates":
-      [[[2,2],[4,2],[4,4.5],[2,4.5],[2,2]]]}}]})");
+  const fs::path plots = write_map(folder, R"({"plot_number":17,"height_max_m":0.8})");
   const fs::path html = folder.path() / "page.html";
   const PageSummary summary =
       write_scan_page({.scan = cloud, .html = html, .plots = plots, .points = 10'000});
@@ -68,11 +73,7 @@ TEST(ScanPage, HoldsPointsGroundAndPlots) {
 TEST(ScanPage, CallsNoEstimateTrue) {
   const TemporaryFolder folder;
   const fs::path cloud = folder.write("a.ply", field_ply());
-  const fs::path plots = folder.write(
-      "plots.geojson",
-      R"({"type":"FeatureCollection","coordinate_system":"local metres","features":[{"type":"Feature",
-      "properties":{"plot_number":17,"trial_number":2,"points":900,"height_max_m":0.8},"geometry":{"type":
-      "Polygon","coordinates":[[[2,2],[4,2],[4,4.5],[2,4.5],[2,2]]]}}]})");
+  const fs::path plots = write_map(folder, R"({"trial_number":2,"points":900,"height_max_m":0.8})");
   const fs::path html = folder.path() / "page.html";
   write_scan_page({.scan = cloud, .html = html, .plots = plots});
   const nlohmann::json plot = document_of(html)["fields"][0]["plots"][0];
