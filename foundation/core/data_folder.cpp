@@ -52,11 +52,12 @@ std::optional<fs::path> installed_folder() {
   return std::nullopt;
 }
 
-// Where the program began: it may be replaced while it runs.
+// Where the program began, found before it runs: it may be replaced while it does.
+const std::optional<fs::path> kInstalled = installed_folder();
+
 std::optional<fs::path> known_folder() {
-  static const std::optional<fs::path> installed = installed_folder();
   if (auto told = told_folder()) return told;
-  return installed;
+  return kInstalled;
 }
 
 // A name without a folder and an extension is meant as that of something shipped.
@@ -96,7 +97,7 @@ fs::path found_file(const fs::path& name, const fs::path& room) {
 }
 
 fs::path found_or_shipped(const fs::path& name, const fs::path& room) {
-  const fs::path file = found_file(name, room);
+  fs::path file = found_file(name, room);
   if (const auto folder = known_folder()) require_no_mere_name(file, *folder / room);
   return file;
 }

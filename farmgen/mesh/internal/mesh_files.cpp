@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/internal/mesh_files.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
 #include <utility>
 
+#include <assimp/MemoryIOWrapper.h>
+
 #include "core/error.h"
+#include "core/text.h"
+#include "mesh/internal/plain_obj.h"
 
 namespace plotscan::mesh {
 namespace fs = std::filesystem;
@@ -24,12 +32,24 @@ bool is_in_folder(const fs::path& file, const fs::path& folder) {
   return !way.empty() && *way.begin() != "..";
 }
 
+// The whole file as Assimp reads it rightly, in memory; nullptr where it can't be opened.
+Assimp::IOStream* open_obj(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return nullptr;
+  const std::string plain = plain_obj(std::string(std::istreambuf_iterator<char>(in), {}));
+  auto bytes = std::make_unique<std::uint8_t[]>(plain.size());
+  std::ranges::copy(plain, bytes.get());
+  constexpr bool kOwned = true;
+  return new Assimp::MemoryIOStream(bytes.release(), plain.size(), kOwned);
+}
+
 }  // namespace
 
 MeshFiles::MeshFiles(fs::path mesh) : mesh_(std::move(mesh)), own_folder_only_(is_gltf(mesh_)) {}
 
 Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
   const std::string objection = file == mesh_.string() ? "" : this->objection(file);
+  if (objection.empty() && lower_extension(file) == ".obj") return open_obj(file);
   if (objection.empty()) return DefaultIOSystem::Open(file, mode);
   if (refused_.empty()) refused_ = "names " + std::string(file) + ", which " + objection;
   return nullptr;

@@ -138,6 +138,22 @@ TEST(MeshImport, EveryFormatMakesTheSameTetrahedron) {
       "y.dae", collada("<unit meter=\"0.0254\"/><up_axis>Y_UP</up_axis>", y_up_inches))));
 }
 
+// Assimp leaves such vertices out, and all faces have other corners then.
+TEST(MeshImport, NumbersWithoutALeadingZeroAreNumbers) {
+  const TemporaryFolder folder;
+  expect_tetrahedron(
+      import_mesh(folder.write("dots.obj",
+                               "v .0 0 -.0\nv 1 +.0 0 .5 .5 .5 # as it stands: .5\nv 0 2 .0\n"
+                               "v\t0\t.0\t3\nf 1 3 2 # base\nf 1 2 4\nf 2 3 4\nf 1 4 3")));
+  const Mesh half = import_mesh(
+      folder.write("half.obj", "v .5 0 0\nv 1 -.5 0\nv 0 0 .25\nvt .5 .5\nf 1/1 2/1 3/1\n"));
+  ASSERT_EQ(half.triangles.size(), 1U);
+  Eigen::AlignedBox3f box;
+  for (const std::uint32_t corner : half.triangles.front()) box.extend(half.vertices[corner]);
+  EXPECT_TRUE(box.min().isApprox(Eigen::Vector3f(0, -0.5F, 0)));
+  EXPECT_TRUE(box.max().isApprox(Eigen::Vector3f(1, 0, 0.25F)));
+}
+
 // As programs write symmetric parts.
 TEST(MeshImport, ANodeThatMirrorsKeepsFacesLookingOutward) {
   const TemporaryFolder folder;
