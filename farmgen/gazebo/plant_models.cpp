@@ -187,7 +187,7 @@ class MergedModelWriter {
     EntityCounts counts{.visuals = 1, .triangles = mesh.triangles};
     if (options_.collision == Collision::mesh) {
       // In SDF no two parts of a link have one name.
-      write_mesh_collision(xml, name + "_collision", uri, Eigen::Vector3d::Ones(), groups.label);
+      write_mesh_collision(xml, name + ".collision", uri, Eigen::Vector3d::Ones(), groups.label);
       ++counts.collisions;
     }
     return counts;

@@ -80,16 +80,19 @@ void require_plots_left(const FarmDescription& description, const std::vector<fa
   }
 }
 
-// Throws InputError when a plot of one trial lies over one of another. (Those of one trial do not.)
-void require_trials_apart(const FarmDescription& description,
-                          const std::vector<farm::Plot>& plots) {
-  if (description.trials.size() < 2) return;
-  const auto pair = overlapping_plots(plots);
+// Throws InputError when two plots overlap: of two trials, or of a table. (Those of one grid do
+// not.)
+void require_plots_apart(const FarmDescription& description, const std::vector<farm::Plot>& plots) {
+  const bool is_table = description.layout && description.layout->plots;
+  if (description.trials.size() < 2 && !is_table) return;
+  constexpr double kDrawn = 0.01;  // maps have rounded corners, or were drawn by hand
+  const auto pair = is_table ? overlapping_plots(plots, kDrawn) : overlapping_plots(plots);
   if (!pair) return;
-  throw InputError(description.source,
-                   fmt::format("trials: plots {} and {} overlap; another position_m, or another "
-                               "heading_deg, keeps the trials apart",
-                               pair->first, pair->second));
+  const std::string two = fmt::format("plots {} and {} overlap", pair->first, pair->second);
+  if (is_table) throw InputError(*description.layout->plots, two);
+  throw InputError(description.source, "trials: " + two +
+                                           "; another position_m, or another heading_deg, keeps "
+                                           "the trials apart");
 }
 
 std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {
@@ -163,7 +166,7 @@ farm::Farm generate(const FarmDescription& description, std::uint64_t seed) {
   std::vector<farm::Plot> plots =
       description.layout ? laid_out_plots(*description.layout, trials, seed) : planted_plots(sown);
   require_plots_left(description, plots);
-  require_trials_apart(description, plots);
+  require_plots_apart(description, plots);
   terrain::MadeTerrain ground = made_terrain(description, plots, seed);
   farm::Farm farm{.name = description.name,
                   .seed = seed,

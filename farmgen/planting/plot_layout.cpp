@@ -34,15 +34,17 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
     }
   }
   const double outside = overhang(box, corner);
-  throw InputError(source, "plots: a corner of plot " + std::to_string(plot.id) + " at (" +
-                               metres(corner.x()) + ", " + metres(corner.y()) + ") lies " +
-                               (outside > 0 ? metres(outside) + " " : "") +
-                               "off the terrain, which spans x " + metres(box.min().x()) + " to " +
-                               metres(box.max().x()) + ", y " + metres(box.min().y()) + " to " +
-                               metres(box.max().y()) +
-                               "; these plots need a square terrain of side " +
-                               metres(std::ceil(200 * needed_half_side) / 100) +
-                               ", or fewer, smaller or differently placed plots");
+  const std::string where = fmt::format("plots: a corner of plot {} at ({}, {})", plot.id,
+                                        metres(corner.x()), metres(corner.y()));
+  if (outside <= 0)
+    throw InputError(source, where + " has no terrain under it, which has a hole or an edge there");
+  throw InputError(
+      source, fmt::format("{} lies {} off the terrain, which spans x {} to {}, y {} to {}; these "
+                          "plots need a square terrain of side {}, or fewer, smaller or "
+                          "differently placed plots",
+                          where, metres(outside), metres(box.min().x()), metres(box.max().x()),
+                          metres(box.min().y()), metres(box.max().y()),
+                          metres(std::ceil(200 * needed_half_side) / 100)));
 }
 
 // Between the centres of neighbours, along the grid's own axes.
@@ -136,8 +138,8 @@ PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::si
 }
 
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
-    const std::vector<farm::Plot>& plots) {
-  constexpr double kTouching_m2 = 1e-6;
+    const std::vector<farm::Plot>& plots, double share) {
+  const auto area_m2 = [](const PlotBox& box) { return box.width_m * box.length_m; };
   if (plots.empty()) return {};
   Eigen::AlignedBox2d centers;
   for (const farm::Plot& plot : plots) centers.extend(plot.box.center);
@@ -157,7 +159,8 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
       const Eigen::Vector2d apart = sorted[j]->box.center - sorted[i]->box.center;
       if (apart[way] > reach_m) break;
       if (apart.norm() > reach_m) continue;
-      if (intersection_area(sorted[i]->box, sorted[j]->box) <= kTouching_m2) continue;
+      const auto& [a, b] = std::tie(sorted[i]->box, sorted[j]->box);
+      if (intersection_area(a, b) <= share * std::min(area_m2(a), area_m2(b))) continue;
       return std::minmax({sorted[i]->id, sorted[j]->id});
     }
   }

@@ -28,9 +28,10 @@ int trial_number(std::size_t place, std::size_t trials);
 // the seed draws, uniform in [0, 360) degrees.
 PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::size_t place = 0);
 
-// The numbers of two plots that overlap, the lower number first; nothing where no plots overlap.
+// The numbers of two plots that overlap by more than `share` of the smaller one, the lower number
+// first; nothing where no plots do.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
-    const std::vector<farm::Plot>& plots);
+    const std::vector<farm::Plot>& plots, double share = 1e-6);
 
 // Whether the plot of that number is missing: named by the description, or drawn.
 bool is_missing(const PlotGridDescription& grid, std::uint32_t number, std::uint64_t seed);

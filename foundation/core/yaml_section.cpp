@@ -202,7 +202,7 @@ void YamlSection::take_format() {
 }
 
 std::string YamlSection::path_of(const std::string& key) const {
-  return path_below(reading_->path, key);
+  return key == reading_->scalar ? reading_->path : path_below(reading_->path, key);
 }
 
 YAML::Node YamlSection::value(const std::string& key) const {
@@ -375,6 +375,7 @@ std::vector<YamlSection> YamlSection::list(const std::string& key, std::size_t l
     const YAML::Node entry = as_map(list[i], scalar_key);
     if (!entry.IsMap()) document_->fail(entry.Mark(), path, "is not a map of keys to values");
     entries.push_back({document_, entry, path});
+    if (list[i].IsScalar()) entries.back().reading_->scalar = scalar_key;
   }
   return entries;
 }

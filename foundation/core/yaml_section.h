@@ -27,6 +27,7 @@ class YamlDocument {
     YAML::Node node;
     std::string path;  // dotted, "" for the document
     std::vector<std::string> asked = {};
+    std::string scalar = {};  // the key of an entry that is a scalar, wrapped as a map
   };
 
   YamlDocument(std::filesystem::path file, std::vector<std::string> overrides)

@@ -79,31 +79,11 @@ void require_clearance(const Scene& scene, const std::vector<Eigen::Vector3d>& p
   }
 }
 
-// The height of the highest ground there, whatever grows or stands over it.
-std::optional<double> ground_below(const Scene& scene, const Eigen::Vector3d& place) {
-  constexpr float kPastSurface_m = 1e-3F;
-  constexpr float kEndless = std::numeric_limits<float>::infinity();
-  float z = scene.top_m() + 1;
-  while (z > scene.bottom_m()) {
-    const Ray ray{.origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), z},
-                  .direction = {0, 0, -1}};
-    Hit hit;
-    scene.cast({&ray, 1}, z - scene.bottom_m() + 1, {&hit, 1});
-    if (!std::isfinite(hit.range_m)) return std::nullopt;
-    if (scene.surface(hit).label == scan::PointClass::ground)
-      return static_cast<double>(z - hit.range_m);
-    const float surface_z = z - hit.range_m;
-    // Far from the origin a float's step may exceed a millimetre.
-    z = std::min(surface_z - kPastSurface_m, std::nextafter(surface_z, -kEndless));
-  }
-  return std::nullopt;
-}
-
 std::string name_of(std::size_t waypoint) { return "waypoint " + std::to_string(waypoint + 1); }
 
 flight::Waypoint placed(const Scene& scene, const flight::StatedWaypoint& stated) {
   flight::Waypoint waypoint = stated.waypoint;
-  const std::optional<double> ground_m = ground_below(scene, waypoint.position_m);
+  const std::optional<double> ground_m = ground_at(scene, waypoint.position_m);
   if (stated.altitude_m) {
     if (!ground_m) throw InputError("no ground lies below it; give z_m in place of altitude_m");
     waypoint.position_m.z() = *ground_m + *stated.altitude_m;
@@ -130,6 +110,25 @@ void require_path(const std::filesystem::path& file, const std::vector<Eigen::Ve
 }
 
 }  // namespace
+
+std::optional<double> ground_at(const Scene& scene, const Eigen::Vector3d& place) {
+  constexpr float kPastSurface_m = 1e-3F;
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  float z = scene.top_m() + 1;
+  while (z > scene.bottom_m()) {
+    const Ray ray{.origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), z},
+                  .direction = {0, 0, -1}};
+    Hit hit;
+    scene.cast({&ray, 1}, z - scene.bottom_m() + 1, {&hit, 1});
+    if (!std::isfinite(hit.range_m)) return std::nullopt;
+    if (scene.surface(hit).label == scan::PointClass::ground)
+      return static_cast<double>(z - hit.range_m);
+    const float surface_z = z - hit.range_m;
+    // Far from the origin a float's step may exceed a millimetre.
+    z = std::min(surface_z - kPastSurface_m, std::nextafter(surface_z, -kEndless));
+  }
+  return std::nullopt;
+}
 
 std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
                                          const FlightPlanOptions& options) {

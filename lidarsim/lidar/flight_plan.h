@@ -37,4 +37,8 @@ std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
 // is longer than 100 km, or anything within half a metre to its side reaches up to its height.
 std::vector<flight::Waypoint> plan_waypoints(const Scene& scene, const std::filesystem::path& file);
 
+// The height of the highest ground below or above the place, whatever grows or stands over it,
+// world frame, metres; nothing where there is none.
+std::optional<double> ground_at(const Scene& scene, const Eigen::Vector3d& place);
+
 }  // namespace plotscan::lidar

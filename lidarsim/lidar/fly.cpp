@@ -137,7 +137,8 @@ FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_f
   const SequenceRange scanned = fired_sequences(fired.sequences(), how);
   const FlySummary summary{.shots = (scanned.end - scanned.begin) * fired.lasers(),
                            .points = cloud.points(),
-                           .duration_s = flight.truth.end_s()};
+                           .duration_s = flight.truth.end_s(),
+                           .underground = options.flight ? underground(scene, flight.truth) : 0};
   record::finish_scan(output.path(), manifest_of(site, sensor, options, summary), options.formats);
   output.commit();
   return summary;

@@ -61,7 +61,8 @@ struct FlyOptions {
 struct FlySummary {
   std::uint64_t shots = 0;
   std::uint64_t points = 0;
-  double duration_s = 0;  // of the whole flight
+  double duration_s = 0;   // of the whole flight
+  double underground = 0;  // share of a given trajectory's poses that lie below the ground
 };
 
 // Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv

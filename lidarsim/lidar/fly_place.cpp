@@ -4,6 +4,7 @@
 #include <string>
 
 #include "farmfolder/read_farm.h"
+#include <fmt/core.h>
 
 #include "core/csv.h"
 #include "core/error.h"
@@ -52,6 +53,10 @@ std::string empty_note(const FlyOptions& options) {
 PlaceScan noted(PlaceScan scanned, const FlyOptions& options) {
   if (scanned.summary.points == 0 && scanned.summary.shots > 0)
     scanned.notes.push_back(empty_note(options));
+  if (scanned.summary.underground > 0)
+    scanned.notes.push_back(fmt::format(
+        "{:.1f} % of the flight lies below the ground; its heights are z of the farm's local frame",
+        100 * scanned.summary.underground));
   return scanned;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "description/internal/sections.h"
@@ -69,6 +70,9 @@ std::vector<planting::ModelDescription> read_grown_models(const YamlSection& sec
   const std::int64_t variants = section.integer("variants", 1, kMostVariants, 1);
   const std::string kind = first.crop + (first.stage.empty() ? "" : "_") + first.stage;
   const std::string name = name_at(section, "name", kind);
+  if (first.seed >
+      std::numeric_limits<std::uint64_t>::max() - static_cast<std::uint64_t>(variants - 1))
+    section.fail("variants", "need seeds after the largest there is; a smaller seed leaves some");
   std::vector<planting::ModelDescription> models;
   for (std::int64_t i = 0; i < variants; ++i) {
     planting::GrownPlant plant = first;

@@ -38,7 +38,7 @@ std::set<std::string> apply_reflectance(const std::map<std::string, float>& stat
                                         mesh::Mesh& mesh) {
   std::set<std::string> names;
   for (mesh::Material& material : mesh.materials) {
-    names.insert(material.name);
+    if (!material.name.empty()) names.insert(material.name);
     const auto found = stated.find(material.name);
     if (found != stated.end()) material.reflectance = found->second;
   }
@@ -53,9 +53,10 @@ void apply_reflectance(const ModelDescription& description, const std::filesyste
   if (model.light) apply_reflectance(description.reflectance, *model.light);
   for (const auto& [name, reflectance] : description.reflectance) {
     if (description.grown || names.contains(name)) continue;
-    throw InputError(source, "model " + model.name + ": reflectance: " + name +
-                                 " is not a material of " + description.mesh.string() +
-                                 ", which has " + joined({names.begin(), names.end()}, ", "));
+    throw InputError(source,
+                     "model " + model.name + ": reflectance: " + name + " is not a material of " +
+                         description.mesh.string() + ", which has " +
+                         (names.empty() ? "none" : joined({names.begin(), names.end()}, ", ")));
   }
 }
 

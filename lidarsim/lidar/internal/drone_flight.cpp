@@ -108,4 +108,17 @@ DroneFlight fly_drone(const Site& site, const Scene& scene, const flight::PoseEr
   return {.truth = truth, .reported = flight::reported_trajectory(truth, errors, options.seed)};
 }
 
+double underground(const Scene& scene, const scan::Trajectory& trajectory) {
+  constexpr std::size_t kMost = 1000;
+  const std::vector<scan::StampedPose>& poses = trajectory.poses();
+  const std::size_t step = (poses.size() + kMost - 1) / kMost;
+  std::size_t seen = 0;
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < poses.size(); i += step, ++seen) {
+    const std::optional<double> ground_m = ground_at(scene, poses[i].position_m);
+    if (ground_m && poses[i].position_m.z() < *ground_m) ++below;
+  }
+  return static_cast<double>(below) / static_cast<double>(seen);
+}
+
 }  // namespace plotscan::lidar

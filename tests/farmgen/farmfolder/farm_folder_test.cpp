@@ -330,6 +330,9 @@ TEST(FarmDescription, ReflectancesThatCannotBeAreRefused) {
               ::testing::AllOf(HasSubstr("f.yaml:6"), HasSubstr("reflectance.leaf")));
   EXPECT_THAT(refusal("", "mesh: m.obj, reflectance: {stem: 0.4}"),
               HasSubstr("reflectance: stem is not a material of"));
+  folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  EXPECT_THAT(refusal("", "mesh: bare.obj, reflectance: {stem: 0.4}"),
+              ::testing::EndsWith("bare.obj, which has none"));
   EXPECT_THAT(refusal("", "crop: wheat, reflectance: {pod: 0.4}"),
               ::testing::AllOf(HasSubstr("f.yaml:6"), HasSubstr("pod")));
 }

@@ -109,6 +109,25 @@ TEST(Layout, PlotsMayComeFromAGeoJson) {
   EXPECT_EQ(farm.plants[3].plot, 0u) << "as the table says";
 }
 
+TEST(Layout, PlotsOfATableLieApart) {
+  const TemporaryFolder folder;
+  folder.write("t.csv", "model,x_m,y_m,plot\nsoybean_1,1,1,\n");
+  const auto file = folder.write("f.yaml", layout_of("  plots: p.geojson\n"));
+  const auto make = [&](double step_m) {
+    std::vector<PlotFeature> features(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      features[i].box = {
+          .center = {step_m * static_cast<double>(i), 1}, .width_m = 2, .length_m = 3};
+      features[i].properties["plot_number"] = i + 1;
+    }
+    write_plot_features(folder.path() / "p.geojson", features);
+    generate(description::load_description(file), 1);
+  };
+  EXPECT_THAT(message_of<InputError>([&] { make(2.5); }),
+              HasSubstr("p.geojson: plots 1 and 2 overlap"));
+  EXPECT_NO_THROW(make(2.999)) << "plots may touch, but for rounding";
+}
+
 TEST(Layout, PlantsHaveToStandOnTheTerrainAndInPlotsThatExist) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& row) {

@@ -4,13 +4,21 @@
 #include <numbers>
 #include <set>
 
+#include "../../temporary_folder.h"
 #include "planting/plot_layout.h"
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
+#include "core/error.h"
 
 namespace plotscan::planting {
 namespace {
+
+using plotscan::testing::message_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 PlotGridDescription three_by_four() {
   return {.width_m = 2,
@@ -113,6 +121,22 @@ TEST(PlotGrid, OverlappingPlotsAreFoundAmongMany) {
   grid.gap_width_m = 0;
   grid.gap_length_m = 0;
   EXPECT_FALSE(overlapping_plots(grid_plots(grid))) << "plots may touch";
+}
+
+// Two triangles side by side, and nothing above the first one's slope.
+TEST(PlotGrid, APlotOverAHoleIsNotToldThatTheTerrainIsTooSmall) {
+  const terrain::Terrain terrain({{0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {20, 20, 0}, {20, 19, 0}},
+                                 {{0, 1, 2}, {4, 3, 2}});
+  std::vector<farm::Plot> plots(1);
+  plots[0].id = 7;
+  plots[0].box = {.center = {14, 10}, .width_m = 1, .length_m = 1};
+  const auto refusal = [&] {
+    return message_of<InputError>([&] { require_on_terrain(plots, terrain, "f.yaml"); });
+  };
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("plot 7"), HasSubstr("a hole"),
+                               Not(HasSubstr("a square terrain of side"))));
+  plots[0].box.center = {30, 5};
+  EXPECT_THAT(refusal(), HasSubstr("a square terrain of side"));
 }
 
 // The overlay that the authors of the paper laid over their field (28 steps one way, 4 the other).

@@ -19,6 +19,7 @@
 namespace plotscan::lidar {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -293,6 +294,17 @@ TEST(FlyPlace, AnEmptyScanSaysWhy) {
   options.flight.speed_m_s = 6;
   options.flight.altitude_m = 120;
   EXPECT_THAT(notes(), ElementsAre(HasSubstr("--altitude 120 is too high")));
+}
+
+TEST(FlyPlace, AFlightBelowTheGroundIsNoted) {
+  const TemporaryFolder folder;
+  const auto place = written_farm(folder);
+  FlyPlaceOptions options{
+      .flight = {.flight = folder.write("deep.tum",
+                                        "0 -1 0 5 0 0 0 1\n1 0 0 -5 0 0 0 1\n"
+                                        "2 1 0 -5 0 0 0 1\n3 2 0 -5 0 0 0 1\n")}};
+  EXPECT_THAT(fly_place(place, folder.path() / "scan", options).notes,
+              Contains(HasSubstr("75.0 % of the flight lies below the ground")));
 }
 
 TEST(FlyPlace, AFarmHoldsItsModels) {
