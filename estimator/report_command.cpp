@@ -20,7 +20,7 @@ struct ReportArguments {
 void make_page(const Program& program, ReportArguments& arguments) {
   fieldpage::PageOptions& options = arguments.options;
   if (!arguments.cloud.cloud.files.empty()) options.cloud = cloud_of(arguments.cloud);
-  const fieldpage::PageSummary summary =
+  const report::PageSummary summary =
       fieldpage::write_estimate_page(options, program.progress("making the page"));
   const auto bytes = std::filesystem::file_size(options.html);
   program.result({{"page", options.html.string()},
@@ -29,10 +29,12 @@ void make_page(const Program& program, ReportArguments& arguments) {
                   {"points_shown", summary.shown},
                   {"notes", summary.notes},
                   {"bytes", bytes}});
-  program.say(
-      fmt::format("{}: {} plots, {:.2f} of {:.2f} million points, {:.1f} MB", options.html.string(),
-                  summary.plots, 1e-6 * static_cast<double>(summary.shown),
-                  1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes)));
+  const std::string points = options.cloud ? fmt::format(" {:.2f} of {:.2f} million points,",
+                                                         1e-6 * static_cast<double>(summary.shown),
+                                                         1e-6 * static_cast<double>(summary.read))
+                                           : "";
+  program.say(fmt::format("{}: {} plots,{} {:.1f} MB", options.html.string(), summary.plots, points,
+                          1e-6 * static_cast<double>(bytes)));
   for (const std::string& note : summary.notes) program.say("note       " + note);
   if (!options.cloud) program.say("With --cloud it shows the points, too.");
   program.say("Open it in a browser; it needs no network.");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,15 +36,11 @@ std::optional<cloud::Area> area_of(const std::vector<double>& corners) {
 }
 
 estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
-  using estimate::Corner;
-  static const std::map<std::string, Corner> corners = {
-      {"sw", Corner::sw}, {"se", Corner::se}, {"nw", Corner::nw}, {"ne", Corner::ne}};
   estimate::NumberingOptions numbering = arguments.options.numbering;
-  if (!arguments.numbering.empty()) {
-    numbering.numbering =
-        arguments.numbering == "serpentine" ? PlotNumbering::serpentine : PlotNumbering::rows;
-  }
-  if (!arguments.first_corner.empty()) numbering.first_corner = corners.at(arguments.first_corner);
+  if (!arguments.numbering.empty())
+    numbering.numbering = estimate::numbering_named(arguments.numbering);
+  if (!arguments.first_corner.empty())
+    numbering.first_corner = estimate::corner_named(arguments.first_corner);
   if (!arguments.plot_names.empty()) numbering.names = arguments.plot_names;
   return numbering;
 }
@@ -137,12 +132,12 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
   run.add_option("--numbering", arguments.numbering,
                  "zigzag: every row from its first column (default); serpentine: every other row "
                  "from its last")
-      ->check(CLI::IsMember({"zigzag", "serpentine"}))
+      ->check(CLI::IsMember(estimate::numbering_names()))
       ->excludes("--boxes");
   run.add_option("--first-corner", arguments.first_corner,
                  "corner of the field with row 1 and column 1, where plots are numbered or named "
                  "(default: sw)")
-      ->check(CLI::IsMember({"sw", "se", "nw", "ne"}))
+      ->check(CLI::IsMember(estimate::corner_names()))
       ->excludes("--boxes");
   run.add_option("--plot-names", arguments.plot_names,
                  "table (CSV) with columns row, column, an id and others: plots that are found get "

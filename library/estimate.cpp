@@ -35,9 +35,22 @@ std::vector<PlotBox> inner(const std::vector<Box>& boxes) {
   return made;
 }
 
+// Throws InputError on a setting that tells where plots are, where none is searched for.
+template <class Options>
+void require_no_search(const std::map<std::string, SettingValue>& given,
+                       const std::vector<MethodSetting<Options>>& table) {
+  for (const MethodSetting<Options>& setting : table) {
+    if (setting.searches && given.contains(setting.key))
+      throw InputError(setting.key +
+                       " is of the search for plots; boxes are given, and none is "
+                       "searched for");
+  }
+}
+
 methods::lattice::Options inner(const EstimateOptions& options) {
   methods::lattice::Options made{.crop_box = options.crop_box};
   made.boxes = inner(options.boxes);
+  if (!made.boxes.empty()) require_no_search(options.settings, methods::lattice::settings());
   boundary::take("lattice", options.settings, methods::lattice::settings(), made);
   if (!made.ground_classes.empty())
     throw InputError("ground_classes is for files: points in memory have no classes");
@@ -85,24 +98,54 @@ void require_classes(const std::vector<int>& classes) {
   }
 }
 
-methods::RunOptions inner(const EstimateFilesOptions& options) {
+CloudFiles cloud_of(const EstimateFilesOptions& options) {
   require_classes(options.leave_out_classes);
-  methods::RunOptions run;
-  run.method = options.method;
-  run.boxes = options.boxes;
-  if (const auto unit_m = unit_named(options.units.value_or("")))
-    run.cloud.units = {*unit_m, *unit_m};
-  if (options.units && !run.cloud.units)
+  CloudFiles cloud;
+  if (const auto unit_m = unit_named(options.units.value_or(""))) cloud.units = {*unit_m, *unit_m};
+  if (options.units && !cloud.units)
     throw InputError("units are " + joined(unit_symbols(), ", ") + "; not \"" + *options.units +
                      "\"");
-  run.cloud.leave_out_classes = options.leave_out_classes;
+  cloud.crs = options.crs;
+  cloud.recording = {
+      .trajectory = options.trajectory, .sensor = options.sensor, .topic = options.topic};
+  if (options.mount_rpy_deg)
+    cloud.recording.mount_rpy_deg = Eigen::Vector3d(options.mount_rpy_deg->data());
+  cloud.leave_out_classes = options.leave_out_classes;
+  return cloud;
+}
+
+// Throws InputError where plots are to be numbered that have their own names.
+estimate::NumberingOptions numbering_of(const EstimateFilesOptions& options) {
+  estimate::NumberingOptions numbering{.first_number = options.first_number,
+                                       .names = options.plot_names};
+  if (options.numbering) numbering.numbering = estimate::numbering_named(*options.numbering);
+  if (options.first_corner) numbering.first_corner = estimate::corner_named(*options.first_corner);
+  if (options.boxes && numbering.any())
+    throw InputError(
+        "first_number, numbering, first_corner and plot_names are of plots that are found; boxes "
+        "have names of their own");
+  if (numbering.names && (numbering.first_number || numbering.numbering))
+    throw InputError("first_number and numbering are of plots that plot_names does not name");
+  return numbering;
+}
+
+methods::RunOptions inner(const EstimateFilesOptions& options) {
+  if (!options.field.boxes.empty())
+    throw InputError("boxes of clouds in files are a map's: give its file");
+  methods::RunOptions run;
+  run.method = options.method;
+  run.cloud = cloud_of(options);
+  run.boxes = options.boxes;
+  run.numbering = numbering_of(options);
   run.id = options.id;
   run.measured = options.measured;
   run.csv = options.csv;
   run.replace = options.replace;
   run.crop_box = options.field.crop_box;
   methods::for_each_method(run, [&](const std::string& name, const auto& settings, auto& own) {
-    if (name == run.method) boundary::take(name, options.field.settings, settings, own);
+    if (name != run.method) return;
+    if (run.boxes) require_no_search(options.field.settings, settings);
+    boundary::take(name, options.field.settings, settings, own);
   });
   run.seed = options.seed;
   run.threads = boundary::threads_of(options.field.threads);

@@ -19,7 +19,7 @@ namespace {
 void view_scan(const Program& program, scanpage::PageOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   options.threads = program.common().threads;
-  const scanpage::PageSummary summary =
+  const report::PageSummary summary =
       scanpage::write_scan_page(options, program.progress("making the page"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const auto bytes = std::filesystem::file_size(options.html);

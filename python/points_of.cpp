@@ -30,22 +30,25 @@ py::ssize_t place_of(const py::dtype& record, const char* field) {
   return found[1].cast<py::ssize_t>();
 }
 
-// Throws where the first finite point is so far from the origin that float32 counts in steps that
-// blur plots: in UTM northings in half a metre.
+// Throws where most points are so far from the origin that float32 counts in steps that blur plots:
+// in UTM northings in half a metre. A few may be strays.
 void require_near(const PointsView& relative) {
-  constexpr float kCoarsest_m = 0.05F;
+  constexpr float kCoarse_m = 1 << 19;  // from here on the steps are 6 cm and more
+  std::size_t far = 0;
+  float farthest_m = 0;
   for (std::size_t i = 0; i < relative.size(); ++i) {
     const auto [x, y, z] = relative[i];
-    if (!std::isfinite(x) || !std::isfinite(y)) continue;
-    const auto farthest = static_cast<float>(std::max(std::abs(x), std::abs(y)));
-    const float step_m = std::nextafter(farthest, INFINITY) - farthest;
-    if (step_m <= kCoarsest_m) return;
-    throw BadInput("point " + std::to_string(i) + " lies " +
-                   std::to_string(std::llround(farthest)) +
-                   " m from the origin, where float32 counts in steps of " +
-                   std::to_string(std::lround(1000 * step_m)) +
-                   " mm: give float64, or take an origin off in float64 and give it as origin_m");
+    const auto away_m = static_cast<float>(std::max(std::abs(x), std::abs(y)));
+    if (!std::isfinite(away_m) || away_m < kCoarse_m) continue;
+    farthest_m = std::max(farthest_m, away_m);
+    ++far;
   }
+  if (2 * far <= relative.size()) return;
+  const float step_m = std::nextafter(farthest_m, INFINITY) - farthest_m;
+  throw BadInput("the points lie up to " + std::to_string(std::llround(farthest_m)) +
+                 " m from the origin, where float32 counts in steps of " +
+                 std::to_string(std::lround(1000 * step_m)) +
+                 " mm: give float64, or take an origin off in float64 and give it as origin_m");
 }
 
 PointsView floats(const void* x, std::size_t points, std::size_t step,

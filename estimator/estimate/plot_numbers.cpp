@@ -7,9 +7,19 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace plotscan::estimate {
 namespace {
+
+// The place of a name among those that there are.
+std::size_t place_among(const std::vector<std::string>& names, const char* what,
+                        const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw InputError(fmt::format("{} is one of {}; not \"{}\"", what, joined(names, ", "), name));
+  return static_cast<std::size_t>(found - names.begin());
+}
 
 // A plot's place along one of the grid's axes: its row, or its column.
 using Place = int PlotEstimate::*;
@@ -90,6 +100,24 @@ void require_same_shape(const NamedPlaces& places, const std::vector<PlotEstimat
 }
 
 }  // namespace
+
+const std::vector<std::string>& corner_names() {
+  static const std::vector<std::string> names = {"sw", "se", "nw", "ne"};
+  return names;
+}
+
+const std::vector<std::string>& numbering_names() {
+  static const std::vector<std::string> names = {"zigzag", "serpentine"};
+  return names;
+}
+
+Corner corner_named(const std::string& name) {
+  return static_cast<Corner>(place_among(corner_names(), "the first corner", name));
+}
+
+PlotNumbering numbering_named(const std::string& name) {
+  return static_cast<PlotNumbering>(place_among(numbering_names(), "the numbering", name));
+}
 
 void number_plots(const NumberingOptions& options, Estimate& estimate) {
   const PlotNumbering numbering = options.numbering.value_or(PlotNumbering::rows);

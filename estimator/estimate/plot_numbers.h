@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/plot_numbering.h"
 #include "estimate/estimate.h"
@@ -15,6 +16,14 @@ namespace plotscan::estimate {
 // The corner of the field in which row 1 and column 1 meet. In a turned field it is the corner that
 // lies farthest in that direction.
 enum class Corner { sw, se, nw, ne };
+
+// Their names as users write them, in this order; of numberings too: "zigzag" is
+// PlotNumbering::rows.
+const std::vector<std::string>& corner_names();
+const std::vector<std::string>& numbering_names();
+// The corner, the numbering of that name. Throw InputError, which lists the names, on another.
+Corner corner_named(const std::string& name);
+PlotNumbering numbering_named(const std::string& name);
 
 // How to number the plots that were found; without any option they keep the numbers they have.
 struct NumberingOptions {

@@ -76,12 +76,13 @@ void add_truth(report::ShownField& field, const estimate::Estimate& estimate, co
 
 }  // namespace
 
-PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress) {
+report::PageSummary write_estimate_page(const PageOptions& options,
+                                        const ProgressReport& progress) {
   std::vector<fs::path> inputs = {options.estimate};
   if (options.truth) inputs.push_back(*options.truth);
   if (options.cloud)
     inputs.insert(inputs.end(), options.cloud->files.begin(), options.cloud->files.end());
-  require_apart(options.html, inputs);
+  report::require_page(options.html, inputs);
   OutputFile file(options.html, options.replace);
   const estimate::Estimate estimate = read(options.estimate);
   report::ShownField field{.name = report::shown_name(options.estimate)};
@@ -93,15 +94,10 @@ PageSummary write_estimate_page(const PageOptions& options, const ProgressReport
   show_working(field, estimate);
   if (options.truth) add_truth(field, estimate, *options.truth, options.id);
   if (options.cloud) show_cloud(field, options, estimate.units, progress);
-  nlohmann::json document = {{"kind", "estimate"}, {"title", "Plots of " + field.name}};
-  document["fields"] = nlohmann::json::array();
-  document["fields"].push_back(report::packed_field(field));
-  report::write_page(file.path(), std::move(document));
+  const auto summary =
+      report::write_field_page(file.path(), "estimate", "Plots of " + field.name, field);
   file.commit();
-  return {.plots = field.plots.size(),
-          .read = field.cloud ? field.cloud->read : 0,
-          .shown = field.cloud ? field.cloud->points.size() : 0,
-          .notes = field.notes};
+  return summary;
 }
 
 }  // namespace plotscan::fieldpage

@@ -9,6 +9,7 @@
 
 #include "core/cloud_files.h"
 #include "core/progress.h"
+#include "report/page.h"
 
 namespace plotscan::fieldpage {
 
@@ -23,16 +24,10 @@ struct PageOptions {
   bool replace = false;                  // an existing page
 };
 
-struct PageSummary {
-  std::size_t plots = 0;
-  std::uint64_t read = 0;               // points of the cloud
-  std::uint64_t shown = 0;              // of these
-  std::vector<std::string> notes = {};  // what the reader of the page is told
-};
-
 // Writes one HTML page of an estimate: plots, heights, ground and, where they are given, the
 // cloud's positions and the truth (docs/report.md). Throws InputError on bad input and a page that
 // exists; nothing is left behind then.
-PageSummary write_estimate_page(const PageOptions& options, const ProgressReport& progress = {});
+report::PageSummary write_estimate_page(const PageOptions& options,
+                                        const ProgressReport& progress = {});
 
 }  // namespace plotscan::fieldpage

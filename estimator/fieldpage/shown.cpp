@@ -110,7 +110,6 @@ void show_terrain(report::ShownField& field, const terrain::Terrain& terrain) {
   if (!field.ground && field.plots.empty() && field.true_boxes.empty()) return;
   report::ShownGrid grid = field.ground ? *field.ground : grid_around(field);
   grid.standard_error_m.clear();
-  grid.seen.clear();
   grid.z_m.clear();
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {

@@ -33,13 +33,16 @@ json to_json(const std::optional<Value>& value) {
 }
 
 json options_json(const estimate::NumberingOptions& options) {
-  constexpr std::array<const char*, 4> kCorners = {"sw", "se", "nw", "ne"};
-  const estimate::Corner corner = options.first_corner.value_or(estimate::Corner::sw);
-  json document = {{"first_corner", kCorners.at(static_cast<std::size_t>(corner))}};
+  const auto name_of = [](const std::vector<std::string>& names, auto place) {
+    return names.at(static_cast<std::size_t>(place));
+  };
+  const auto corner = options.first_corner.value_or(estimate::Corner::sw);
+  json document = {{"first_corner", name_of(estimate::corner_names(), corner)}};
   document["plot_names"] = options.names.has_value();
   if (options.names) return document;
   document["first_number"] = options.first_number.value_or(1);
-  document["numbering"] = options.numbering == PlotNumbering::serpentine ? "serpentine" : "zigzag";
+  document["numbering"] =
+      name_of(estimate::numbering_names(), options.numbering.value_or(PlotNumbering::rows));
   return document;
 }
 

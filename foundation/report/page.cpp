@@ -8,6 +8,8 @@
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/output_folder.h"
+#include "core/text.h"
 #include "core/text_file.h"
 #include "report/internal/packed.h"
 
@@ -80,6 +82,25 @@ void write_page(const std::filesystem::path& html, json document) {
   }
   out << std::string_view(page).substr(place + kPlace.size());
   out.close();
+}
+
+void require_page(const std::filesystem::path& html,
+                  std::span<const std::filesystem::path> inputs) {
+  require_apart(html, inputs);
+  const std::string extension = lower_extension(html);
+  if (extension != ".html" && extension != ".htm") throw InputError(html, "does not end in .html");
+}
+
+PageSummary write_field_page(const std::filesystem::path& html, const std::string& kind,
+                             const std::string& title, const ShownField& field) {
+  json document = {{"kind", kind}, {"title", title}};
+  document["fields"] = json::array();
+  document["fields"].push_back(packed_field(field));
+  write_page(html, std::move(document));
+  return {.plots = field.plots.size(),
+          .read = field.cloud ? field.cloud->read : 0,
+          .shown = field.cloud ? field.cloud->points.size() : 0,
+          .notes = field.notes};
 }
 
 }  // namespace plotscan::report

@@ -59,7 +59,6 @@ json packed(const ShownGrid& grid) {
                    {"z", packed_numbers(grid.z_m, kHeightStep_m)}};
   if (!grid.standard_error_m.empty())
     document["se"] = packed_numbers(grid.standard_error_m, kErrorStep_m);
-  if (!grid.seen.empty()) document["seen"] = packed_numbers(grid.seen, 1);
   return document;
 }
 

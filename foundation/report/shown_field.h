@@ -75,7 +75,6 @@ struct ShownGrid {
   int rows = 0;
   std::vector<float> z_m = {};
   std::vector<float> standard_error_m = {};  // empty: not known
-  std::vector<float> seen = {};              // 1 or 0; empty: not known
 };
 
 // A fact to show about a field, such as "points read: 7,735,305".

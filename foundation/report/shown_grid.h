@@ -16,8 +16,7 @@ ShownGrid shown_grid(const Surface& surface, const Eigen::Vector3d& move_m) {
                  .columns = surface.columns,
                  .rows = surface.rows,
                  .z_m = surface.z_m,
-                 .standard_error_m = surface.sd_m,
-                 .seen = {surface.seen.begin(), surface.seen.end()}};
+                 .standard_error_m = surface.sd_m};
   for (float& z_m : grid.z_m) z_m += static_cast<float>(move_m.z());
   return grid;
 }

@@ -31,7 +31,7 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-// A cloud held in memory: 40 bytes a point.
+// A cloud held in memory: 48 bytes a point.
 struct Cloud {
   std::array<double, 3> origin_m = {};   // what the points' x, y, z count from
   std::vector<Point> points = {};        // in the order of the file

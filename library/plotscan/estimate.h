@@ -60,8 +60,8 @@ struct FieldEstimate {
 // what `estimator run` does with the same points in a file. A field without plots has an estimate
 // without plots, which says why. The points stay in the caller's memory; the copy that the method
 // keeps takes 8 to 16 bytes per point (docs/library.md). Throws BadInput on options out of their
-// range, on boxes without finite sides above 0, and when no point is finite or lies in the area,
-// NothingMeasured when the points show no ground.
+// range, on boxes without finite sides above 0, on settings of the search beside boxes, and when no
+// point is finite or lies in the area, NothingMeasured when the points show no ground.
 PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
                                           const EstimateOptions& options = {},
                                           const Progress& progress = {});
@@ -69,13 +69,25 @@ PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
 // Options for estimating clouds in files into an estimate folder; `estimator run --help` explains
 // them.
 struct EstimateFilesOptions {
-  EstimateOptions field = {};      // its boxes are not used: `boxes` names their file
+  EstimateOptions field = {};      // without boxes of its own: `boxes` names their file
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
   std::optional<std::filesystem::path> boxes = {};  // a map of plots
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
   std::optional<std::string> units =
       {};  // of the coordinates, m, cm, mm, ft or us-ft; else the file's
+  std::optional<std::string> crs = {};  // of the coordinates, "EPSG:<code>"; else the file's
+  // Of recordings: a pcap's trajectory, sensor (a shipped one's name, or a file) and mount in the
+  // body's frame (roll, pitch, yaw); the topic of the clouds in a bag or MCAP.
+  std::optional<std::filesystem::path> trajectory = {};
+  std::optional<std::string> sensor = {};
+  std::optional<std::array<double, 3>> mount_rpy_deg = {};
+  std::string topic = {};
   std::vector<int> leave_out_classes = {};  // ASPRS classes, 0 to 255
+  // How the plots that are found are numbered, or a table of names by row and column.
+  std::optional<std::uint32_t> first_number = {};
+  std::optional<std::string> numbering = {};     // "zigzag" or "serpentine"
+  std::optional<std::string> first_corner = {};  // "sw", "se", "nw" or "ne"
+  std::optional<std::filesystem::path> plot_names = {};
   // A table of heights measured by hand in some plots, with which the estimate's are made to agree.
   std::optional<std::filesystem::path> measured = {};
   std::optional<std::filesystem::path> csv = {};  // a table for breeding databases as well

@@ -82,35 +82,29 @@ std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, 
 
 }  // namespace
 
-PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress) {
+report::PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress) {
   std::vector<fs::path> inputs = {options.scan};
   if (options.plots) inputs.push_back(*options.plots);
-  require_apart(options.html, inputs);
+  report::require_page(options.html, inputs);
   OutputFile file(options.html, options.replace);
-  const auto report = [&](double share) {
+  const auto tell = [&](double share) {
     if (progress) progress(share);
   };
   report::ShownField field{.name = report::shown_name(options.scan)};
   field.plots = read_plots(options.plots);
   ShownScan scan = read_shown_scan(options.scan, {.most = options.points, .source = options.source},
-                                   [&](double share) { report(kRead * share); });
+                                   [&](double share) { tell(kRead * share); });
   field.facts = facts_of(options.scan, scan.cloud);
   field.ground = fitted_ground(scan.cloud, options.threads);
-  report(kFitted);
+  tell(kFitted);
   if (!field.ground)
     field.notes.emplace_back("No ground could be fitted: heights count from the lowest point.");
-  PageSummary summary{
-      .read = scan.cloud.read, .shown = scan.cloud.points.size(), .plots = field.plots.size()};
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
   report::note_cloud_elsewhere(field, field.name);
-  summary.notes = field.notes;
-  nlohmann::json document = {{"kind", "scan"}, {"title", "Scan " + field.name}};
-  document["fields"] = nlohmann::json::array();
-  document["fields"].push_back(report::packed_field(field));
-  report::write_page(file.path(), std::move(document));
+  const auto summary = report::write_field_page(file.path(), "scan", "Scan " + field.name, field);
   file.commit();
-  report(1);
+  tell(1);
   return summary;
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/progress.h"
 #include "record/open_source.h"
-#include "report/shown_cloud.h"
+#include "report/page.h"
 
 namespace plotscan::scanpage {
 
@@ -25,16 +25,10 @@ struct PageOptions {
   bool replace = false;  // replaces an existing page
 };
 
-struct PageSummary {
-  std::uint64_t read = 0;   // points of the scan
-  std::uint64_t shown = 0;  // those of `read` that are shown
-  std::size_t plots = 0;
-  std::vector<std::string> notes = {};  // what the reader of the page is told
-};
-
 // Writes one HTML page of a scan: its points in three dimensions over the ground that is fitted to
 // them, the drone's path, and plots if they are given (docs/report.md). Throws InputError on bad
 // input and on a page that exists (unless `replace` is set), and then leaves nothing behind.
-PageSummary write_scan_page(const PageOptions& options, const ProgressReport& progress = {});
+report::PageSummary write_scan_page(const PageOptions& options,
+                                    const ProgressReport& progress = {});
 
 }  // namespace plotscan::scanpage

@@ -11,6 +11,7 @@ Long work can be interrupted with Ctrl-C, and takes `progress`, a callable that 
 
 from __future__ import annotations
 
+import json
 import os
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -72,7 +73,8 @@ def generate_farm(
     """Make a farm from its description and write its folder, as `farmgen generate` does.
 
     description: a YAML file (docs/farm-format.md), or the name of a shipped one, "paper_half".
-    set: values in place of the description's by dotted keys, {"terrain.relief_m": 0.5}.
+    set: values in place of the description's by dotted keys, {"terrain.relief_m": 0.5}; numbers, lists, maps,
+        arrays, or YAML as text.
     seed: of all that is drawn; else the description's, else 1.
     threads: 0 is one for each processor.
     replace: a farm that is there.
@@ -164,6 +166,7 @@ def write_cloud(
     and on a file that exists.
     """
     _require_points(points)
+    _require_one_origin(points, origin_m)
     crs_wkt = ""
     if isinstance(points, Cloud):
         origin_m, crs_wkt, points = points.origin_m, points.crs_wkt, points.points
@@ -216,6 +219,11 @@ def _require_points(points: Union[Cloud, numpy.ndarray]) -> None:
         )
 
 
+def _require_one_origin(points: Union[Cloud, numpy.ndarray], origin_m: Sequence[float]) -> None:
+    if isinstance(points, Cloud) and tuple(origin_m) != (0.0, 0.0, 0.0):
+        raise BadInput("origin_m is of an array; a cloud brings its own origin")
+
+
 def estimate_field(
     points: Union[Cloud, numpy.ndarray],
     *,
@@ -244,6 +252,7 @@ def estimate_field(
     Method: docs/methods.md, of this project.
     """
     _require_points(points)
+    _require_one_origin(points, origin_m)
     options = _field_options(crop_box, threads, settings)
     options.boxes = list(boxes)
     return _plotscan.estimate_field(points, options, origin_m, progress)
@@ -258,7 +267,16 @@ def estimate_files(
     boxes: Optional[Path] = None,
     id: Optional[str] = None,
     units: Optional[str] = None,
+    crs: Optional[str] = None,
+    trajectory: Optional[Path] = None,
+    sensor: Optional[str] = None,
+    mount_rpy_deg: Optional[Tuple[float, float, float]] = None,
+    topic: str = "",
     leave_out_classes: Sequence[int] = (),
+    first_number: Optional[int] = None,
+    numbering: Optional[str] = None,
+    first_corner: Optional[str] = None,
+    plot_names: Optional[Path] = None,
     measured: Optional[Path] = None,
     csv: Optional[Path] = None,
     seed: int = 1,
@@ -269,13 +287,19 @@ def estimate_files(
 ) -> FieldEstimate:
     """Read clouds as one and write the estimate folder, as `estimator run` does.
 
-    clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles; one or several.
+    clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles, recordings; one or several.
     method: "lattice", or "dhami2020", which needs `plots`.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: a map of the plots (GeoJSON, GeoPackage, shapefile): heights in its boxes, its ids and attributes kept.
     id: property of the map, and column of `measured`, that holds the plots' ids.
     units: of the coordinates, "m", "cm", "mm", "ft" or "us-ft"; else what the file states.
+    crs: of the coordinates, "EPSG:32617", UTM in metres or degrees; else what the file states.
+    trajectory, sensor, mount_rpy_deg: of a pcap: where the drone was (TUM or trajectory.csv), the sensor's name or
+        file, and its roll, pitch, yaw in the body's frame.
+    topic: of the clouds in a bag or MCAP file, where there are several.
     leave_out_classes: ASPRS classes of points to leave out.
+    first_number, numbering, first_corner: of the plots that are found: 101; "zigzag" or "serpentine"; "sw", "se", "nw" or "ne".
+    plot_names: a table of the plots' names by row and column.
     measured: a table of heights measured by hand in at least 5 plots, with which the estimate's are made to agree.
     csv: a table for breeding databases to write as well.
     settings: by the keys of `estimate_settings(method)`: plots=30, crop="maize". None is not set.
@@ -288,6 +312,15 @@ def estimate_files(
     options.boxes = boxes
     options.id = id
     options.units = units
+    options.crs = crs
+    options.trajectory = trajectory
+    options.sensor = sensor
+    options.mount_rpy_deg = mount_rpy_deg
+    options.topic = topic
+    options.first_number = first_number
+    options.numbering = numbering
+    options.first_corner = first_corner
+    options.plot_names = plot_names
     options.leave_out_classes = list(leave_out_classes)
     options.measured = measured
     options.csv = csv
@@ -339,7 +372,10 @@ def _several(names: Union[Path, Sequence[Path]]) -> List[Any]:
 
 
 def _text(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    """A value as YAML reads it: a text as it is; numbers, lists and maps as JSON writes them."""
+    if isinstance(value, str):
+        return value
+    return json.dumps(value, default=lambda other: other.tolist() if hasattr(other, "tolist") else os.fspath(other))
 
 
 def _field_options(

@@ -214,7 +214,16 @@ class EstimateFilesOptions:
     boxes: Optional[Path]
     id: Optional[str]
     units: Optional[str]
+    crs: Optional[str]
+    trajectory: Optional[Path]
+    sensor: Optional[str]
+    mount_rpy_deg: Optional[Sequence[float]]
+    topic: str
     leave_out_classes: List[int]
+    first_number: Optional[int]
+    numbering: Optional[str]
+    first_corner: Optional[str]
+    plot_names: Optional[Path]
     measured: Optional[Path]
     csv: Optional[Path]
     seed: int

@@ -17,6 +17,17 @@ export function scale(low: number, high: number, from: number, to: number): Scal
 
 export const round = (value: number): number => Math.round(value * 100) / 100;
 
+// A path's data from place to place.
+export const through = (places: [number, number][]): string => places.map(([u, v], i) => `${i ? "L" : "M"}${round(u)} ${round(v)}`).join("");
+
+// One path of dots: thousands of circles would be slow.
+export const dots = (places: [number, number][], colour: string, size: number, opacity: number): SVGPathElement =>
+  s("path", {
+    d: places.map(([u, v]) => `M${u.toFixed(1)} ${v.toFixed(1)}h0`).join(""), stroke: colour, "stroke-width": size,
+    "stroke-linecap": "round", "stroke-opacity": opacity, fill: "none" });
+
+const kLetter_px = 6.3; // a letter's width, about
+
 export const font = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 export function canvas(width: number, height: number, theme: Theme, title: string): SVGSVGElement {
@@ -98,6 +109,10 @@ export function tickTexts(low: number, high: number, options: { count?: number; 
   return values.map((value) => [value, fixed(value - (options.from ?? 0), options.digits ?? digitsOf(values))]);
 }
 
+// How far left of an upright axis its title stands: beyond the widest text at its ticks.
+export const besideTicks = (rows: [number, string][]): number =>
+  Math.max(34, 14 + kLetter_px * Math.max(0, ...rows.map(([, words]) => words.length)));
+
 let clips = 0;
 
 // A panel's frame, grid and ticks; what is drawn goes into the group.
@@ -118,8 +133,7 @@ export function frame(svg: SVGSVGElement, panel: Panel, horizontal: Axis, vertic
   svg.append(line(left, top + height, left + width, top + height, theme.soft), line(left, top, left, top + height, theme.soft));
   if (horizontal.label)
     svg.append(text(left + width / 2, top + height + 29, horizontal.label, { anchor: "middle" }));
-  const room = Math.max(34, 14 + 6.3 * Math.max(0, ...rows.map(([, words]) => words.length)));
-  if (vertical.label) svg.append(text(left - room, top + height / 2, vertical.label, { anchor: "middle", turned: true }));
+  if (vertical.label) svg.append(text(left - besideTicks(rows), top + height / 2, vertical.label, { anchor: "middle", turned: true }));
   const clip = `clip${++clips}`;
   const group = s("g", { "clip-path": `url(#${clip})` });
   svg.append(s("clipPath", { id: clip }, s("rect", { x: left - 6, y: top - 6, width: width + 12, height: height + 6 })), group);
@@ -131,9 +145,10 @@ export interface LegendEntry {
   colour: string;
   shape?: number;
   dash?: string; // of a line in place of a mark; "" is solid
+  edge?: string; // of a hollow mark
 }
 
-const entryWidth = (name: string): number => 26 + 6.3 * name.length;
+const entryWidth = (name: string): number => 26 + kLetter_px * name.length;
 
 // The height that a legend takes.
 export function legendHeight(names: { name: string }[], width: number): number {
@@ -153,14 +168,15 @@ export function legendHeight(names: { name: string }[], width: number): number {
 export function legend(svg: SVGSVGElement, names: LegendEntry[], left: number, top: number, width: number): void {
   let x = left;
   let y = top;
-  for (const { name, colour, shape, dash } of names) {
+  for (const { name, colour, shape, dash, edge } of names) {
     const size = entryWidth(name);
     if (x > left && x + size - 6 > left + width) {
       x = left;
       y += 15;
     }
-    svg.append(dash !== undefined ? line(x, y - 4, x + 12, y - 4, colour, 1.6, dash) : mark(shape ?? 1, x + 6, y - 4, 4, colour));
-    svg.append(text(x + 16, y, name));
+    const sign = dash !== undefined ? line(x, y - 4, x + 12, y - 4, colour, 1.6, dash) : mark(shape ?? 1, x + 6, y - 4, 4, colour);
+    if (edge) sign.setAttribute("stroke", edge);
+    svg.append(sign, text(x + 16, y, name));
     x += size;
   }
 }

@@ -1,4 +1,5 @@
 // What the points of a cloud are coloured by.
+import { axesOf } from "./boxes";
 import type { Colouring } from "./cloud";
 import { classColours, classNames, cividis, growth, hex, noPlot, plasma, plotColour, viridis, type Ramp, type Rgb } from "./colours";
 import type { Field } from "./data";
@@ -97,14 +98,11 @@ function byPlot(field: Field): Look {
         const reach = Math.hypot(box[2], box[3]) / 2;
         return box[0] + reach > left && box[1] + reach > south &&
           box[0] - reach < tile.high[0] + field.cloud!.origin[0] && box[1] - reach < tile.high[1] + field.cloud!.origin[1];
-      }).map(({ box, number }) => ({
-        box, number, c: Math.cos((box[4] * Math.PI) / 180), d: Math.sin((box[4] * Math.PI) / 180) }));
+      }).map(({ box, number }) => ({ box, number, axes: axesOf(box) }));
       for (let i = 0; i < tile.n; ++i) {
         const x = left + tile.step * places[4 * i];
         const y = south + tile.step * places[4 * i + 1];
-        const inside = near.find(({ box, c, d }) =>
-          Math.abs((x - box[0]) * c + (y - box[1]) * d) <= box[3] / 2 &&
-          Math.abs((y - box[1]) * c - (x - box[0]) * d) <= box[2] / 2);
+        const inside = near.find(({ box, axes }) => Math.abs(axes.along(x, y)) <= box[3] / 2 && Math.abs(axes.across(x, y)) <= box[2] / 2);
         put(i, inside ? inside.number % kBand : 255);
       }
     },

@@ -1,5 +1,5 @@
-// Colours that colour-blind readers tell apart: Okabe and Ito (Color Universal Design, 2008) for kinds,
-// viridis, cividis and plasma for amounts (matplotlib's, in the ten steps of plotly.py's sequential.py), blue over
+// Colours that colour-blind readers tell apart: Okabe and Ito (Color Universal Design, 2008) for kinds (the last is
+// Tol's indigo), viridis, cividis and plasma for amounts (matplotlib's, in the ten steps of plotly.py's sequential.py), blue over
 // grey to orange for signs, our choice.
 
 export type Rgb = [number, number, number];
@@ -11,15 +11,16 @@ export interface Theme {
   soft: string; // lesser text
   line: string; // grid lines
   kinds: string[];
+  soil: string;
 }
 
 export const light: Theme = {
   dark: false, paper: "#ffffff", ink: "#1c2128", soft: "#57606a", line: "#d8dee4",
-  kinds: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d"],
+  kinds: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d", "#332288"], soil: "#a1762f",
 };
 export const dark: Theme = {
   dark: true, paper: "#161b22", ink: "#e6edf3", soft: "#9da7b3", line: "#30363d",
-  kinds: ["#58a6dc", "#f0883e", "#2fc297", "#e29bc4", "#f2bd4a", "#9bd3f5", "#b0b8c1"],
+  kinds: ["#58a6dc", "#f0883e", "#2fc297", "#e29bc4", "#f2bd4a", "#9bd3f5", "#b0b8c1", "#a48bff"], soil: "#d6a461",
 };
 
 export const parsed = (colour: string): Rgb =>

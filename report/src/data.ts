@@ -39,7 +39,6 @@ export interface Grid {
   rows: number;
   z: PackedNumbers;
   se?: PackedNumbers;
-  seen?: PackedNumbers;
 }
 
 // Centre x, centre y, width, length (metres), heading (degrees).
@@ -56,7 +55,7 @@ export interface Plot {
   box: Box;
   heights: Record<string, Height>;
   flags: string[];
-  truths: Record<string, number>;
+  truths: Record<string, number | null>;
   state: "" | "found" | "extra";
   points?: number;
   confidence?: number;

@@ -96,11 +96,10 @@ export async function readTile(cloud: Cloud, tile: Tile): Promise<TilePoints> {
 // The heights of a grid's nodes, bilinear between them; NaN where there are none.
 export class Surface {
   private constructor(
-    readonly grid: Grid, readonly z: Float32Array, readonly se?: Float32Array, readonly seen?: Float32Array) {}
+    readonly grid: Grid, readonly z: Float32Array, readonly se?: Float32Array) {}
 
   static async of(grid: Grid): Promise<Surface> {
-    const some = (packed?: PackedNumbers) => (packed ? unpackedNumbers(packed) : undefined);
-    return new Surface(grid, await unpackedNumbers(grid.z), await some(grid.se), await some(grid.seen));
+    return new Surface(grid, await unpackedNumbers(grid.z), grid.se && (await unpackedNumbers(grid.se)));
   }
 
   height(x: number, y: number): number {
@@ -109,14 +108,6 @@ export class Surface {
 
   standardError(x: number, y: number): number {
     return this.se ? this.between(this.se, x, y) : NaN;
-  }
-
-  isSeen(x: number, y: number): boolean {
-    const { first, cell, columns, rows } = this.grid;
-    const column = Math.round((x - first[0]) / cell);
-    const row = Math.round((y - first[1]) / cell);
-    if (!this.seen || column < 0 || row < 0 || column >= columns || row >= rows) return true;
-    return this.seen[row * columns + column] === 1;
   }
 
   private between(values: Float32Array, x: number, y: number): number {

@@ -5,17 +5,17 @@ import { lookOf, modesOf, type Key, type Mode } from "./colouring";
 import type { Field, Plot } from "./data";
 import { Surface } from "./decode";
 import { button, checkbox, h, select } from "./dom";
+import { plotColumns, plotNote } from "./field_table";
+import { heightKinds, heightNames } from "./heights";
 import { drawMap, mapCsv, measured, measureNames, type Measure } from "./map";
 import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
 import type { Grounds } from "./place";
-import { drawProfile, pointsOf, profileCsv, profileHeights } from "./profile";
+import { drawProfile, groundUnder, pointsOver, profileCsv, profileHeights, profileNote } from "./profile";
 import { saveButtons } from "./save";
 import { Scene, type Layer } from "./scene";
-import { Table, type Column } from "./table";
+import { Table } from "./table";
 import { onTheme, theme } from "./theme";
-import { drawInliers, drawVoting, inliersCsv, votingCsv } from "./working";
-
-const kNoise_m = 0.03;
+import { drawInliers, drawVoting, inliersCsv, inliersNote, votingCsv } from "./working";
 
 function keyElement(key: Key): HTMLElement {
   if (key.kinds)
@@ -27,12 +27,10 @@ function keyElement(key: Key): HTMLElement {
     h("span", { class: "scale" }, fixed(low, digits), h("i", { style: `background:${css}` }), fixed(high, digits)));
 }
 
-// The heights that any plot of the field has: estimated, else true ones.
-export function heightNames(field: Field): string[] {
-  const names = new Set(field.plots.flatMap((plot) => Object.keys(plot.heights)));
-  const order = ["max", "p99", "p95", "p90", "p50", "mean", "canopy_p99", "canopy_p95"];
-  return [...names].sort((a, b) => (order.indexOf(a) + 1 || 99) - (order.indexOf(b) + 1 || 99) || a.localeCompare(b));
-}
+// A name and its numbers in each row.
+const smallTable = (titles: string[], rows: string[][]): HTMLElement =>
+  h("table", {}, h("thead", {}, h("tr", {}, ...titles.map((title) => h("th", { scope: "col" }, title)))),
+    h("tbody", {}, ...rows.map((row) => h("tr", {}, ...row.map((words, i) => h("td", { class: i ? "number" : undefined }, words))))));
 
 export class FieldView {
   readonly element = h("div", { class: "field" });
@@ -110,7 +108,7 @@ export class FieldView {
         draw: (colours, narrow) => drawVoting(options(), colours, narrow), csv: () => votingCsv(options()) })));
       if (working.planes.length > 0) this.workings.push(card(() => ({
         title: `Ground inliers of plots: ${working.method}`,
-        note: `Points within ${fixed(100 * working.planes[0].tolerance, 0)} cm of the plane that the method took for the plot's ground, seen along the plot's width: of ${counted(working.planes.length)} plots those whose ground is farthest from and nearest to a plane.`,
+        note: inliersNote(options()),
         draw: (colours, narrow) => drawInliers(options(), colours, narrow), csv: () => inliersCsv(options()) })));
     }
     const cards = this.workings.map(({ element }) => element);
@@ -122,7 +120,7 @@ export class FieldView {
   }
 
   private mapNote(): string {
-    const parts = ["North is up; coordinates are the cloud's."];
+    const parts = [this.field.cloud ? "North is up; coordinates are the cloud's." : "North is up."];
     if (this.field.plots.some((plot) => plot.flags.length > 0)) parts.push("Orange outlines: flagged plots.");
     if (this.field.true_boxes.some((plot) => !plot.found)) parts.push("Dashed: plots that were missed.");
     return `n = ${counted(this.field.plots.length)}. ${parts.join(" ")}`;
@@ -265,13 +263,13 @@ export class FieldView {
   private profileFigure() {
     const plot = this.selected ?? this.field.plots[0];
     const cloud = this.scene?.cloud;
-    const points = cloud ? pointsOf(plot, cloud.cloud, cloud.read, this.grounds) : [];
-    const options = { plot, points, grounds: this.grounds, height: this.height, noise: kNoise_m };
+    const { terrain } = this.grounds;
+    const ground = groundUnder(plot, this.field, this.grounds);
+    const points = cloud ? pointsOver(plot.box, cloud.cloud, cloud.read, (x, y) => (ground ?? terrain)?.height(x, y) ?? NaN) : [];
+    const options = { plot, points, ground, terrain, height: this.height, kinds: heightKinds(this.field) };
     return {
       title: `Plot ${plot.id} from the side`,
-      note: `Seen along the plot's width; ${counted(points.filter((point) => point.inside).length)} points of this page between its long sides. ` +
-        (this.grounds.ground ?? this.grounds.terrain ? "Lines over the ground along its middle are heights, bands their 95 % intervals." : `Lines are heights above ${points.length ? "the low end of these points" : "0"}: no ground is known.`) +
-        (this.grounds.ground ? " Brown points lie within 7.5 cm of the fitted ground." : ""),
+      note: profileNote(options),
       draw: (colours: Theme, narrow: boolean) => drawProfile(options, colours, narrow),
       csv: () => profileCsv(options),
     };
@@ -283,7 +281,7 @@ export class FieldView {
     const trial = plot.trial ? `, trial ${plot.trial}` : "";
     const place = plot.row > 0 ? `${trial}, row ${plot.row}, column ${plot.column}` : trial;
     const [, , width, length, heading] = plot.box;
-    const lines: (Node | null)[] = [
+    const lines: Node[] = [
       h("h4", {}, `Plot ${plot.id}${place}`),
       h("p", { class: "note" }, `${fixed(length, 2)} m × ${fixed(width, 2)} m, heading ${fixed(heading, 1)}°` +
         (plot.points !== undefined ? `, ${counted(plot.points)} points` : "") +
@@ -291,56 +289,28 @@ export class FieldView {
         (plot.state ? `, ${plot.state === "extra" ? "no true plot" : "found"}` : "")),
     ];
     for (const flag of plot.flags) lines.push(h("p", { class: "warning" }, flag));
-    const names = Object.keys(plot.heights).length ? Object.keys(plot.heights) : [];
+    const names = Object.keys(plot.heights);
     const first = profileHeights(plot, this.height);
     const ordered = [...first, ...names.filter((name) => !first.includes(name))];
     const truths = Object.keys(plot.truths);
+    const known = ordered.some((name) => Number.isFinite(measured(plot, "truth", name)));
     if (ordered.length > 0) {
       const told = ordered.some((name) => plot.heights[name][2] !== null);
-      const known = truths.length > 0;
-      lines.push(h("table", {}, h("thead", {}, h("tr", {}, ...["height", "m", ...(told ? ["95 % interval"] : []), ...(known ? ["truth", "error, cm"] : [])].map((title) => h("th", { scope: "col" }, title)))),
-        h("tbody", {}, ...ordered.map((name) => {
-          const [value, , low, high] = plot.heights[name];
-          const truth = plot.truths[namedTruth(name)];
-          return h("tr", {}, h("td", {}, name), h("td", { class: "number" }, fixed(value, 3)),
-            told ? h("td", { class: "number" }, low === null ? "" : `${fixed(low, 3)} – ${fixed(high, 3)}`) : null,
-            ...(known ? [h("td", { class: "number" }, fixed(truth, 3)), h("td", { class: "number" }, signed(truth === undefined ? NaN : 100 * (value - truth), 1))] : []));
-        }))));
-    } else if (truths.length > 0) {
-      lines.push(h("table", {}, h("tbody", {}, ...truths.map((name) =>
-        h("tr", {}, h("td", {}, truthName(name)), h("td", { class: "number" }, `${fixed(plot.truths[name], 3)} m`))))));
+      lines.push(smallTable(["height", "m", ...(told ? ["95 % interval"] : []), ...(known ? ["truth", "error, cm"] : [])], ordered.map((name) => {
+        const [value, , low, high] = plot.heights[name];
+        const interval = low === null ? "" : `${fixed(low, 3)} – ${fixed(high, 3)}`;
+        return [name, fixed(value, 3), ...(told ? [interval] : []),
+          ...(known ? [fixed(measured(plot, "truth", name), 3), signed(100 * measured(plot, "error", name), 1)] : [])];
+      })));
     }
-    this.details.replaceChildren(...lines.filter((line) => line !== null));
+    if (!known && truths.length > 0) lines.push(smallTable(["truth", "m"], truths.map((name) => [truthName(name), fixed(plot.truths[name], 3)])));
+    this.details.replaceChildren(...lines);
   }
 
   private plotTable(): Table<Plot> {
     const { field } = this;
-    const columns: Column<Plot>[] = [{ title: "plot", value: (plot) => (/^\d+$/.test(plot.id) ? Number(plot.id) : plot.id), shown: (plot) => plot.id }];
-    if (field.plots.some((plot) => plot.trial)) columns.push({ title: "trial", value: (plot) => plot.trial });
-    if (field.plots.some((plot) => plot.row > 0))
-      columns.push({ title: "row", value: (plot) => plot.row }, { title: "column", value: (plot) => plot.column });
-    for (const name of heightNames(field)) {
-      columns.push({ title: name, unit: "m", value: (plot) => plot.heights[name]?.[0], shown: (plot) => fixed(plot.heights[name]?.[0], 3) });
-      if (field.plots.some((plot) => (plot.heights[name]?.[2] ?? null) !== null)) columns.push({
-        title: "±", unit: "cm", hint: `half the width of ${name}'s 95 % interval`,
-        value: (plot) => 50 * measured(plot, "interval", name), shown: (plot) => fixed(50 * measured(plot, "interval", name), 1) });
-      if (field.plots.some((plot) => plot.truths[namedTruth(name)] !== undefined)) columns.push({
-        title: "error", unit: "cm", hint: `${name} minus ${truthName(namedTruth(name))}`,
-        value: (plot) => 100 * measured(plot, "error", name), shown: (plot) => signed(100 * measured(plot, "error", name), 1) });
-    }
-    if (heightNames(field).length === 0)
-      for (const truth of new Set(field.plots.flatMap((plot) => Object.keys(plot.truths))))
-        columns.push({ title: truthName(truth), unit: "m", value: (plot) => plot.truths[truth], shown: (plot) => fixed(plot.truths[truth], 3) });
-    if (field.plots.some((plot) => plot.confidence !== undefined))
-      columns.push({ title: "confidence", value: (plot) => plot.confidence, shown: (plot) => fixed(plot.confidence, 2) });
-    columns.push({ title: "length", unit: "m", value: (plot) => plot.box[3], shown: (plot) => fixed(plot.box[3], 2) },
-      { title: "width", unit: "m", value: (plot) => plot.box[2], shown: (plot) => fixed(plot.box[2], 2) });
-    if (field.plots.some((plot) => plot.state)) columns.push({ title: "is", value: (plot) => (plot.state === "extra" ? "no plot" : "a plot") });
-    if (field.plots.some((plot) => plot.flags.length)) columns.push({ title: "flags", value: (plot) => plot.flags.join("; ") });
+    const columns = plotColumns(field);
     return new Table({
-      title: `Plots of ${field.name}`, columns, rows: field.plots, key: (plot) => plot.id, pick: (plot) => this.pick(plot),
-      note: field.plots.some((plot) => plot.state === "extra" || plot.state === "found")
-        ? "Errors are estimate minus truth. ± is half the width of the 95 % interval." : "± is half the width of the 95 % interval.",
-    });
+      title: `Plots of ${field.name}`, columns, note: plotNote(columns), rows: field.plots, key: (plot) => plot.id, pick: (plot) => this.pick(plot) });
   }
 }

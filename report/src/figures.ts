@@ -12,12 +12,14 @@ export interface Group {
 }
 export interface Method {
   name: string;
+  kind: number; // of its colour and shape
   groups: Group[]; // as many as there are cases, in their order
 }
 
 export interface Bar {
   group: string;
   method: string;
+  kind: number;
   value: number; // metres, as all here
   low: number;
   high: number;
@@ -32,13 +34,12 @@ function panels(count: number, columns: number, width: number, top: number, heig
     left: gap + (i % columns) * (each + gap), top: top + pitch * Math.floor(i / columns), width: each, height }));
 }
 
-const colourOf = (theme: Theme, i: number): string => theme.kinds[i % theme.kinds.length];
-const names = (methods: Method[], theme: Theme) =>
-  methods.map((method, i) => ({ name: method.name, colour: colourOf(theme, i), shape: i }));
+const names = (methods: Method[], theme: Theme): LegendEntry[] =>
+  methods.map(({ name, kind }) => ({ name, colour: theme.kinds[kind], shape: kind }));
 
 // Lines over the bars of a case, metres.
 export interface Lines {
-  published?: Record<string, number | undefined>;
+  published?: Record<string, number>;
   references?: Record<string, number>;
 }
 
@@ -47,11 +48,12 @@ export function drawBars(
   title: string, label: string, bars: Bar[], theme: Theme, narrow: boolean, lines: Lines = {}): SVGSVGElement {
   const groups = [...new Set(bars.map((bar) => bar.group))];
   const methods = [...new Set(bars.map((bar) => bar.method))];
+  const colourOf = (method: string): string => theme.kinds[bars.find((bar) => bar.method === method)!.kind];
   const width = Math.max(360, Math.min(narrow ? 360 : 1100, 90 + groups.length * (26 * methods.length + 34)));
-  const entries: LegendEntry[] = methods.map((name, i) => ({ name, colour: colourOf(theme, i), shape: 1 }));
-  const published = Object.values(lines.published ?? {}).filter((value) => value !== undefined);
+  const entries: LegendEntry[] = methods.map((name) => ({ name, colour: colourOf(name), shape: 1 }));
+  const published = Object.values(lines.published ?? {});
   if (published.length) entries.push({ name: "published", colour: theme.ink, dash: "6 3" });
-  if (lines.references) entries.push({ name: "one number for each field", colour: theme.ink, dash: "2 2" });
+  if (Object.keys(lines.references ?? {}).length) entries.push({ name: "one number for each field", colour: theme.ink, dash: "2 2" });
   const top = 8 + legendHeight(entries, width - 54);
   const svg = canvas(width, top + 258, theme, title);
   legend(svg, entries, 46, 16, width - 54);
@@ -67,7 +69,7 @@ export function drawBars(
     const size = Math.min(30, (0.84 * each) / methods.length);
     own.forEach((bar) => {
       const k = methods.indexOf(bar.method);
-      drawBar(group, bar, { x: left + (each - size * methods.length) / 2 + size * k, size, y, colour: colourOf(theme, k), ink: theme.ink });
+      drawBar(group, bar, { x: left + (each - size * methods.length) / 2 + size * k, size, y, colour: colourOf(bar.method), ink: theme.ink });
     });
     for (const [value, dash] of [[lines.published?.[name], "6 3"], [lines.references?.[name], "2 2"]] as const)
       if (value !== undefined) group.append(line(left + 0.04 * each, y(100 * value), left + 0.96 * each, y(100 * value), theme.ink, 1.6, dash));
@@ -92,6 +94,9 @@ function drawBar(
     ...[bar.low, bar.high].map((end) => line(middle - 3, y(100 * end), middle + 3, y(100 * end), ink, 1.3)));
 }
 
+// Whether any bar has its error bar.
+export const haveEnds = (bars: Bar[]): boolean => bars.some(({ low, high }) => Number.isFinite(low) && Number.isFinite(high));
+
 export const barsCsv = (bars: Bar[], value: string): string => csv([
   ["case", "method", `${value}_cm`, "low_cm", "high_cm", "n"],
   ...bars.map((bar) => [bar.group, bar.method, 100 * bar.value, 100 * bar.low, 100 * bar.high, bar.n]),
@@ -102,7 +107,7 @@ function errorBars(methods: Method[], statistic: (pairs: Pair[]) => number): Bar
   return methods.flatMap((method) => method.groups.filter((group) => group.pairs.length > 0).map((group) => {
     const value = statistic(group.pairs);
     const se = standardError(group.pairs, statistic);
-    return { group: group.name, method: method.name, value, low: value - se, high: value + se, n: group.pairs.length };
+    return { group: group.name, method: method.name, kind: method.kind, value, low: value - se, high: value + se, n: group.pairs.length };
   }));
 }
 
@@ -123,31 +128,32 @@ export function drawHistograms(methods: Method[], theme: Theme): SVGSVGElement {
   const cases = methods[0]?.groups.map((group) => group.name) ?? [];
   const columns = Math.max(methods.length, 1);
   const width = Math.max(360, Math.min(1100, 216 * columns + 54));
-  const svg = canvas(width, 30 + 128 * cases.length + 36, theme, "Relative errors in bins of 5 %");
+  const top = 20 + legendHeight(methods, width - 54);
+  const svg = canvas(width, top + 128 * cases.length + 8, theme, "Relative errors in bins of 5 %");
+  legend(svg, names(methods, theme).map((entry) => ({ ...entry, shape: 1 })), 46, 16, width - 54);
   const all = methods.map((method) => method.groups.map((group) => relativeErrors(group.pairs)));
   const common = all.flat(2).filter((bin) => bin.share >= 0.01);
   const reach = Math.min(0.4, Math.max(0.15, ...common.flatMap((bin) => [-bin.low, bin.low + 0.05])));
   const outside = (bin: { low: number }) => bin.low < -reach - 1e-9 || bin.low + 0.05 > reach + 1e-9;
   const most = Math.max(0.1, ...all.flat(2).map((bin) => bin.share));
-  const places = panels(columns * cases.length, columns, width, 30, 100, 128);
+  const places = panels(columns * cases.length, columns, width, top, 100, 128);
+  svg.append(text(width / 2 + 19, top + 1 + 128 * cases.length, "error, % of the truth", { anchor: "middle" }));
   methods.forEach((method, k) => {
-    const { left } = places[k];
-    svg.append(mark(1, left + 5, 11, 4, colourOf(theme, k)), text(left + 13, 15, method.name, { size: 10.5 }));
     method.groups.forEach(({ name, pairs }, i) => {
       const panel = places[columns * i + k];
       const last = i === cases.length - 1;
       const { x, y, group } = frame(svg, panel,
-        { low: -100 * reach, high: 100 * reach, label: last ? "error, % of the truth" : "", count: 5, labels: last ? undefined : [] },
+        { low: -100 * reach, high: 100 * reach, label: "", count: 5, labels: last ? undefined : [] },
         { low: 0, high: Math.min(104, 105 * most), label: k === 0 ? "plots, %" : "", count: 3 }, theme);
       for (const bin of all[k][i].filter((one) => !outside(one)))
         group.append(s("rect", {
           x: round(x(100 * bin.low) + 0.5), y: round(y(100 * bin.share)), width: round(x(5) - x(0) - 1),
-          height: round(y(0) - y(100 * bin.share)), fill: colourOf(theme, k),
+          height: round(y(0) - y(100 * bin.share)), fill: theme.kinds[method.kind],
         }, s("title", {}, `${fixed(100 * bin.low, 0)} to ${fixed(100 * bin.low + 5, 0)} %: ${bin.count} plots`)));
       group.append(line(x(0), panel.top, x(0), panel.top + panel.height, theme.soft));
       const beyond = all[k][i].filter(outside).reduce((sum, bin) => sum + bin.count, 0);
       const words = pairs.length === 0 ? `${name}: none found` : `${name}, n = ${pairs.length}${beyond ? `, ${beyond} beyond` : ""}`;
-      svg.append(text(panel.left + 4, panel.top + 10, words, { size: 9.5, colour: theme.soft }));
+      svg.append(text(panel.left, panel.top - 4, words, { size: 9.5, colour: theme.soft }));
     });
   });
   return svg;
@@ -185,14 +191,14 @@ export function drawScatter(methods: Method[], theme: Theme, narrow: boolean): S
     methods.forEach((method, k) => {
       const { pairs } = method.groups[i];
       for (const pair of pairs.filter((candidate) => inside(candidate.estimate))) {
-        const dot = mark(k, x(pair.truth), y(pair.estimate), 2.3, colourOf(theme, k), 0.6);
+        const dot = mark(method.kind, x(pair.truth), y(pair.estimate), 2.3, theme.kinds[method.kind], 0.6);
         dot.append(s("title", {}, `${pair.label}: ${fixed(pair.estimate, 3)} m, truth ${fixed(pair.truth, 3)} m (${method.name})`));
         group.append(dot);
       }
       const beyond = pairs.filter((pair) => !inside(pair.estimate)).length;
       const words = pairs.length === 0 ? "no plots found"
         : `R² ${fixed(r2(pairs), 2)}, within ${fixed(r2Within(pairs), 2)}; RMSE ${fixed(100 * rmse(pairs), 1)} cm; n = ${pairs.length}${beyond ? `, ${beyond} beyond` : ""}`;
-      svg.append(mark(k, panel.left + 2, panel.top + side + 41 + 13 * k, 3, colourOf(theme, k)),
+      svg.append(mark(method.kind, panel.left + 2, panel.top + side + 41 + 13 * k, 3, theme.kinds[method.kind]),
         text(panel.left + 10, panel.top + side + 45 + 13 * k, words, { size: 10, colour: theme.soft }));
     });
   });

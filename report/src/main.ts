@@ -1,8 +1,9 @@
 import "./style.css";
 import { readReport, type Report } from "./data";
 import { h } from "./dom";
+import { estimateFigures } from "./estimate";
 import { FieldView } from "./field_view";
-import { estimateFigures, SuiteView } from "./suite";
+import { SuiteView } from "./suite";
 import { SweepView } from "./sweep";
 import { themeChoice } from "./theme";
 
@@ -58,7 +59,7 @@ function sections(report: Report): HTMLElement[] {
   const all: HTMLElement[] = [];
   if (report.fields.length > 0) all.push(fieldsSection(report));
   if (report.suite) all.push(...(report.suite.sweep ? new SweepView(report.suite) : new SuiteView(report.suite)).sections);
-  const figures = report.kind === "estimate" ? estimateFigures(report) : undefined;
+  const figures = report.kind === "estimate" ? estimateFigures(report.fields[0]) : undefined;
   if (figures) all.push(figures);
   return all.length > 1 ? [links(all), ...all] : all;
 }

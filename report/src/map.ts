@@ -1,10 +1,10 @@
 // The plots from above, coloured by what is asked of them.
-import { canvas, line, round, text, tickTexts, type Panel } from "./axes";
+import { besideTicks, canvas, line, round, text, tickTexts, type Panel } from "./axes";
+import { corners } from "./boxes";
 import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Box, Field, Plot } from "./data";
 import { s } from "./dom";
 import { counted, csv, extremes, fixed, namedTruth } from "./numbers";
-import { corners } from "./place";
 
 export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
 
@@ -80,17 +80,21 @@ export interface Sheet {
   at: (x: number, y: number) => [number, number];
 }
 
-// Coordinates of hundreds of kilometres count from a round one, which the axis names.
-const roundOrigin = (middle: number): number => (Math.abs(middle) < 10_000 ? 0 : 1000 * Math.floor(middle / 1000));
+// Large coordinates count from a round one near the middle, which the axis names.
+function roundOrigin(middle: number, span: number): number {
+  const step = span < 50 ? 100 : 1000;
+  return Math.abs(middle) < 5 * step ? 0 : step * Math.round(middle / step);
+}
 const axisName = (name: string, from: number): string => (from ? `${name} less ${counted(from)}, m` : `${name}, m`);
 
 const kWidth = 460;
 const kHeight = 400;
+export const kAxis = 56; // room for an upright axis
 
 // An empty map with the axes of the cloud's coordinates.
 function sheetOf(field: Field, title: string, theme: Theme): Sheet {
   const svg = canvas(kWidth, kHeight, theme, title);
-  return sheetIn(svg, { left: 46, top: 10, width: kWidth - 46 - 86, height: kHeight - 10 - 40 }, [...field.plots, ...field.true_boxes].map(({ box }) => box), theme);
+  return sheetIn(svg, { left: kAxis, top: 10, width: kWidth - kAxis - 86, height: kHeight - 10 - 40 }, [...field.plots, ...field.true_boxes].map(({ box }) => box), theme);
 }
 
 // The same in a panel of a figure, around boxes.
@@ -103,17 +107,18 @@ export function sheetIn(svg: SVGSVGElement, panel: Panel, boxes: Box[], theme: T
   const [left, top] = [panel.left + panel.width / 2, panel.top + panel.height / 2];
   const bottom = panel.top + panel.height;
   const right = panel.left + panel.width;
-  const [fromX, fromY] = [roundOrigin(x0), roundOrigin(y0)];
+  const [fromX, fromY] = [roundOrigin(x0, east - west), roundOrigin(y0, north - south)];
+  const rows = tickTexts(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, { from: fromY });
   for (const [x, words] of tickTexts(x0 - panel.width / scale / 2, x0 + panel.width / scale / 2, { from: fromX })) {
     const u = left + (x - x0) * scale;
     svg.append(line(u, panel.top, u, bottom, theme.line), text(u, bottom + 14, words, { anchor: "middle", colour: theme.soft }));
   }
-  for (const [y, words] of tickTexts(y0 - panel.height / scale / 2, y0 + panel.height / scale / 2, { from: fromY })) {
+  for (const [y, words] of rows) {
     const v = top - (y - y0) * scale;
     svg.append(line(panel.left, v, right, v, theme.line), text(panel.left - 5, v + 4, words, { anchor: "end", colour: theme.soft }));
   }
   svg.append(text(left, bottom + 32, axisName("east", fromX), { anchor: "middle" }),
-    text(panel.left - 34, top, axisName("north", fromY), { anchor: "middle", turned: true }));
+    text(panel.left - besideTicks(rows), top, axisName("north", fromY), { anchor: "middle", turned: true }));
   return { svg, panel, theme, scale, at: (x, y) => [left + (x - x0) * scale, top - (y - y0) * scale] };
 }
 

@@ -55,11 +55,11 @@ export function quantile(sorted: ArrayLike<number>, share: number): number {
   return sorted[i] + (at - i) * (sorted[next] - sorted[i]);
 }
 
-// RFC 4180.
+// RFC 4180; numbers to six decimals, which is a micrometre.
 export function csv(rows: (string | number | null | undefined)[][]): string {
   const cell = (value: string | number | null | undefined): string => {
     if (value === null || value === undefined || (typeof value === "number" && !Number.isFinite(value))) return "";
-    const text = String(value);
+    const text = String(typeof value === "number" ? Number(value.toFixed(6)) : value);
     return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
   };
   return rows.map((row) => row.map(cell).join(",") + "\r\n").join("");

@@ -1,22 +1,14 @@
 // Where things of a field stand in the scene: relative to the middle of what is first looked at, so that
 // single precision suffices.
 import * as THREE from "three";
-import type { Box, Field, Plot } from "./data";
+import { corners } from "./boxes";
+import type { Field, Plot } from "./data";
 import type { Surface } from "./decode";
 import { quantile } from "./numbers";
 
 export interface Grounds {
   ground?: Surface;
   terrain?: Surface;
-}
-
-// Corners of a box, counter-clockwise.
-export function corners([x, y, width, length, heading]: Box): [number, number][] {
-  const along = [Math.cos((heading * Math.PI) / 180), Math.sin((heading * Math.PI) / 180)];
-  return ([[-1, -1], [1, -1], [1, 1], [-1, 1]] as const).map(([u, v]) => [
-    x + (u * length * along[0] - v * width * along[1]) / 2,
-    y + (u * length * along[1] + v * width * along[0]) / 2,
-  ]);
 }
 
 export interface Extent {

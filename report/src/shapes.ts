@@ -1,8 +1,9 @@
 // What stands in the scene besides the points.
 import * as THREE from "three";
+import { corners } from "./boxes";
 import type { Box } from "./data";
 import type { Surface } from "./decode";
-import { corners, type Place } from "./place";
+import type { Place } from "./place";
 
 // Ground whose standard error is larger is not drawn: it is made up.
 const kUnsure_m = 0.06;
@@ -76,7 +77,6 @@ export function bars(places: THREE.Vector3[], colour: string): THREE.Group {
   }
   return bars;
 }
-
 
 export function pathLine(path: [number, number, number][], place: Place): THREE.Line {
   const geometry = new THREE.BufferGeometry().setFromPoints(path.map((stop) => place.local(...stop)));

@@ -2,10 +2,11 @@
 import { card, type Card } from "./card";
 import type { Suite, Sweep } from "./data";
 import { h, select } from "./dom";
-import { csv, fixed, signed, truthName } from "./numbers";
-import { axisName, flightsOf, reaches, shortest, told, type Flight, type Goal } from "./sweep_data";
-import { drawSweep, numberAxes, sweepMeasures, type SweepMeasure, type SweepOptions } from "./sweep_figure";
-import { Table, type Column } from "./table";
+import { csv, fixed, truthName } from "./numbers";
+import { axisName, flightsOf, shortest, told, type Flight, type Goal } from "./sweep_data";
+import { drawSweep, numberAxes, sweepMeasures, sweepNote, type SweepMeasure, type SweepOptions } from "./sweep_figure";
+import { flightColumns } from "./sweep_table";
+import { Table } from "./table";
 
 // The heights of the table, each beside the truth that it is named after, and the one that is asked about.
 function heightsOf(suite: Suite, sweep: Sweep): { method: string; truth: string }[] {
@@ -13,23 +14,6 @@ function heightsOf(suite: Suite, sweep: Sweep): { method: string; truth: string 
   const rows = suite.table.filter((row) => row.named || row.truth === sweep.truth);
   const all = [asked, ...rows.map(({ method, truth }) => ({ method, truth }))];
   return all.filter(({ method, truth }, i) => all.findIndex((other) => other.method === method && other.truth === truth) === i);
-}
-
-function columnsOf(sweep: Sweep, goal: () => Goal): Column<Flight>[] {
-  const cm = (title: string, of: (flight: Flight) => number, sign = false): Column<Flight> =>
-    ({ title, unit: "cm", value: (flight) => 100 * of(flight), shown: (flight) => (sign ? signed : fixed)(100 * of(flight), 2) });
-  return [
-    ...sweep.axes.map(({ key }, i): Column<Flight> => ({ title: axisName(key).name, unit: axisName(key).unit || undefined, value: (flight) => flight.values[i] })),
-    cm("RMSE", (flight) => flight.rmse),
-    { title: "95 % interval", unit: "cm", hint: "bootstrap over farms", value: (flight) => 100 * flight.high,
-      shown: (flight) => (Number.isFinite(flight.low) ? `${fixed(100 * flight.low, 2)} – ${fixed(100 * flight.high, 2)}` : "") },
-    cm("bias", (flight) => flight.bias, true), cm("within fields", (flight) => flight.within),
-    { title: "found", value: (flight) => flight.found, shown: (flight) => `${flight.found} of ${flight.plots}` },
-    { title: "extra", hint: "estimated plots that are none", value: (flight) => flight.extra },
-    { title: "flight", unit: "s", hint: "time in the air over these plots, mean over farms", value: (flight) => flight.seconds, shown: (flight) => fixed(flight.seconds, 0) },
-    { title: "points", unit: "million", value: (flight) => flight.points / 1e6, shown: (flight) => fixed(flight.points / 1e6, 2) },
-    { title: "good enough", value: (flight) => (reaches(flight, goal()) ? "yes" : "no") },
-  ];
 }
 
 export class SweepView {
@@ -56,7 +40,7 @@ export class SweepView {
     this.figure = card(() => this.contours());
     this.figure.element.classList.add("wide");
     this.table = new Table({
-      title: "Flights", columns: columnsOf(this.sweep, () => this.goal), rows: this.flights,
+      title: "Flights", columns: flightColumns(this.sweep, () => this.goal), rows: this.flights,
       note: "RMSE, bias and the error within fields over the plots found. Good enough: the upper end of the RMSE's interval (of a single farm the RMSE) and the share of plots found are." });
     this.tell();
     this.sections.push(
@@ -117,10 +101,9 @@ export class SweepView {
     const { method, truth } = this.heights[this.height];
     const { name, unit, of } = sweepMeasures[this.measure];
     const options: SweepOptions = { sweep: this.sweep, flights: this.flights, measure: this.measure, x: this.x, y: this.y, goal: this.goal };
-    const first = this.flights[0];
     return {
       title: `${name[0].toUpperCase()}${name.slice(1)} by flight`,
-      note: `${method} against the ${truthName(truth)}; n: ${first.farms} farm${first.farms === 1 ? "" : "s"}, ${first.plots} plots a mark. Marks are the flights that were flown, with their values; between them the values are interpolated.`,
+      note: `${method} against the ${truthName(truth)}${sweepNote(options)}`,
       draw: (colours: Parameters<typeof drawSweep>[1], narrow: boolean) => drawSweep(options, colours, narrow),
       csv: () => csv([
         [...this.sweep.axes.map(({ key }) => key), `${this.measure}_${unit === "%" ? "percent" : unit}`, "rmse_low_cm", "rmse_high_cm", "plots", "found"],

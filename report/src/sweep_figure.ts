@@ -1,6 +1,6 @@
 // Which flight a field needs: a measure over two options of the flight as contours, a panel for each
 // combination of the others; over one option as lines.
-import { canvas, digitsOf, frame, legend, legendHeight, line, mark, round, text, type Axis, type Frame, type LegendEntry, type Panel } from "./axes";
+import { canvas, digitsOf, frame, legend, legendHeight, line, mark, round, text, through, type Axis, type Frame, type LegendEntry, type Panel } from "./axes";
 import { cividis, hex, viridis, type Ramp, type Theme } from "./colours";
 import { bands, contourLines, type Nodes } from "./contours";
 import type { Sweep } from "./data";
@@ -27,9 +27,11 @@ export interface SweepOptions {
   goal: Goal;
 }
 
+const isNumbers = (values: Value[]): values is number[] => values.every((value) => typeof value === "number");
+
 // Axes whose values are numbers, two at least.
 export const numberAxes = ({ axes }: Sweep): number[] =>
-  axes.map((_, i) => i).filter((i) => axes[i].values.length > 1 && axes[i].values.every((value) => typeof value === "number"));
+  axes.map((_, i) => i).filter((i) => axes[i].values.length > 1 && isNumbers(axes[i].values));
 
 // Where values stand: evenly by their ratio where they span much, else as they are.
 function scaleOf(values: number[]): (value: number) => number {
@@ -37,15 +39,16 @@ function scaleOf(values: number[]): (value: number) => number {
   return low > 0 && high >= 4 * low ? Math.log2 : (value) => value;
 }
 
+// Names stand side by side in their order.
 function axisOf(sweep: Sweep, axis: number, margin: number): Axis & { place: (value: Value) => number } {
-  const values = sweep.axes[axis].values as number[];
-  const place = scaleOf(values);
+  const { values } = sweep.axes[axis];
+  const place = isNumbers(values) ? (scaleOf(values) as (value: Value) => number) : (value: Value) => values.indexOf(value);
   const places = values.map(place);
   const [low, high] = [Math.min(...places), Math.max(...places)];
   const { name, unit } = axisName(sweep.axes[axis].key);
   return {
-    low: low - margin * (high - low), high: high + margin * (high - low), label: unit ? `${name}, ${unit}` : name,
-    labels: values.map((value) => [place(value), String(value)]), place: (value) => place(value as number) };
+    low: low - margin * (high - low || 1), high: high + margin * (high - low || 1), label: unit ? `${name}, ${unit}` : name,
+    labels: values.map((value) => [place(value), String(value)]), place };
 }
 
 interface PanelFlights {
@@ -109,7 +112,7 @@ function drawContours({ x, y, group }: Frame, nodes: Nodes, colours: Bands, them
   for (const level of colours.levels) {
     const pieces = contourLines(nodes, level);
     if (pieces.length === 0) continue;
-    const d = pieces.map(([[x0, y0], [x1, y1]]) => `M${round(x(x0))} ${round(y(y0))}L${round(x(x1))} ${round(y(y1))}`).join("");
+    const d = pieces.map((ends) => through(ends.map(([u, v]) => [x(u), y(v)]))).join("");
     group.append(s("path", { d, stroke: theme.paper, "stroke-width": 1.2, "stroke-opacity": 0.85, fill: "none" }));
   }
 }
@@ -121,11 +124,12 @@ function drawFlight({ x, y, group }: Frame, at: [number, number], flight: Flight
   const [u, v] = [x(at[0]), y(at[1])];
   const enough = reaches(flight, goal);
   const words = `${flight.values.map((one, i) => told(sweep.axes[i].key, one)).join(", ")}: ${fixed(value, digits + 1)} ${unit}, n = ${flight.found} of ${flight.plots} plots`;
-  const dot = flight === best ? mark(3, u, v, 5.5, theme.kinds[4]) : mark(0, u, v, 3.4, enough ? theme.ink : theme.paper);
+  const size = flight === best ? 5.5 : 3.4;
+  const dot = flight === best ? mark(3, u, v, size, theme.kinds[4]) : mark(0, u, v, size, enough ? theme.ink : theme.paper);
   dot.setAttribute("stroke", enough ? theme.paper : theme.ink);
   dot.setAttribute("stroke-width", "1.1");
   dot.append(s("title", {}, words));
-  group.append(dot, onColour(text(u, v - 7, fixed(value, digits), { anchor: "middle", size: 9.5, colour: theme.ink }), theme));
+  group.append(dot, onColour(text(u, v - 5 - size, fixed(value, digits), { anchor: "middle", size: 9.5, colour: theme.ink }), theme));
 }
 
 // The colours of the bands with the levels between them, below the panels.
@@ -157,12 +161,36 @@ function grid(count: number, columns: number, top: number, narrow: boolean): { p
   return { panels, width, bottom: top + 262 * Math.ceil(count / columns) };
 }
 
-const goalText = ({ rmse, found }: Goal): string => `RMSE ≤ ${Number((100 * rmse).toFixed(2))} cm, found ≥ ${Number((100 * found).toFixed(1))} %`;
+const goalText = ({ rmse, found }: Goal): string => `RMSE ≤ ${Number((100 * rmse).toPrecision(3))} cm, found ≥ ${Number((100 * found).toPrecision(4))} %`;
 
-function marksLegend(theme: Theme, goal: Goal, best: Flight | undefined): LegendEntry[] {
-  const entries: LegendEntry[] = [{ name: `good enough: ${goalText(goal)}`, colour: theme.ink, shape: 0 }, { name: "hollow: not", colour: theme.line, shape: 0 }];
-  return best ? [...entries, { name: "the shortest flight that is", colour: theme.kinds[4], shape: 3 }] : entries;
+// The marks that are drawn.
+export function marksLegend(theme: Theme, flights: Flight[], goal: Goal): LegendEntry[] {
+  const best = shortest(flights, goal);
+  const entries: LegendEntry[] = [];
+  const others = flights.some((flight) => flight !== best && reaches(flight, goal));
+  if (others) entries.push({ name: `good enough: ${goalText(goal)}`, colour: theme.ink, shape: 0 });
+  if (flights.some((flight) => !reaches(flight, goal)))
+    entries.push({ name: others ? "not good enough" : `not: ${goalText(goal)}`, colour: theme.paper, edge: theme.ink, shape: 0 });
+  if (best) entries.push({ name: "the shortest that is good enough", colour: theme.kinds[4], shape: 3 });
+  return entries;
 }
+
+// What the figure shows beside a height and its truth, in words.
+export function sweepNote(options: SweepOptions): string {
+  const { sweep, flights, measure, x, y } = options;
+  const most = (of: (flight: Flight) => number) => Math.max(0, ...flights.map(of).filter(Number.isFinite));
+  const farms = most((flight) => flight.farms);
+  const said = [`; n: ${farms} farm${farms === 1 ? "" : "s"}, ${most((flight) => flight.plots)} plots a mark.`];
+  if (y !== undefined)
+    return [...said, "Marks are the flights that were flown, with their values; between them the values are interpolated."].join(" ");
+  const lines = panelsOf(sweep, flights, [x]).length;
+  said.push("Marks are the flights that were flown.");
+  if (hasIntervals(flights, measure)) said.push("Bars: 95 % intervals by the bootstrap over farms.");
+  if (lines > kMostLines) said.push(`The first ${kMostLines} of ${lines} lines; the CSV has all flights.`);
+  return said.join(" ");
+}
+
+const hasIntervals = (flights: Flight[], measure: SweepMeasure): boolean => measure === "rmse" && flights.some(({ low }) => Number.isFinite(low));
 
 export function drawSweep(options: SweepOptions, theme: Theme, narrow: boolean): SVGSVGElement {
   return options.y === undefined ? drawLines(options, theme, narrow) : drawMaps(options, theme, narrow);
@@ -173,7 +201,7 @@ function drawMaps(options: SweepOptions, theme: Theme, narrow: boolean): SVGSVGE
   const { name, unit, of } = sweepMeasures[measure];
   const groups = panelsOf(sweep, flights, [x, y]);
   const best = shortest(flights, goal);
-  const entries = marksLegend(theme, goal, best);
+  const entries = marksLegend(theme, flights, goal);
   const columns = columnsOf(sweep, [x, y], groups.length);
   const { width: room } = grid(groups.length, columns, 0, narrow);
   const top = 26 + legendHeight(entries, room - kGap - 8);
@@ -212,8 +240,8 @@ function drawLines(options: SweepOptions, theme: Theme, narrow: boolean): SVGSVG
     { low: Math.min(0, ...ends), high: 1.08 * Math.max(0.1, ...ends), label: `${name}, ${unit}` }, theme);
   groups.forEach(({ flights: own }, i) => {
     const known = own.filter((flight) => Number.isFinite(of(flight)));
-    const places = known.map((flight) => [drawn.x(right.place(flight.values[x])), drawn.y(of(flight))]);
-    drawn.group.append(s("path", { d: places.map(([u, v], k) => `${k ? "L" : "M"}${round(u)} ${round(v)}`).join(""), stroke: theme.kinds[i], "stroke-width": 1.6, fill: "none" }));
+    const places = known.map((flight): [number, number] => [drawn.x(right.place(flight.values[x])), drawn.y(of(flight))]);
+    drawn.group.append(s("path", { d: through(places), stroke: theme.kinds[i], "stroke-width": 1.6, fill: "none" }));
     known.forEach((flight, k) => {
       const [u, v] = places[k];
       if (measure === "rmse" && Number.isFinite(flight.low))

@@ -1,14 +1,38 @@
 // Sortable tables.
 import { button, h } from "./dom";
-import { counted, csv } from "./numbers";
+import { counted, csv, fixed, signed } from "./numbers";
 import { saveButtons } from "./save";
+
+type Value = string | number | null | undefined;
 
 export interface Column<Row> {
   title: string;
   unit?: string;
   hint?: string;
-  value: (row: Row) => string | number | null | undefined;
+  value: (row: Row) => Value;
   shown?: (row: Row) => string; // else the value as it is
+  csv?: [name: string, value: (row: Row) => Value][]; // its columns in the CSV, else one of its title and value
+}
+
+const named = (title: string, unit?: string): string => (unit ? `${title} (${unit})` : title);
+
+// Metres as centimetres.
+export const centimetres = <Row>(
+  title: string, metres: (row: Row) => number, { digits = 2, sign = false, hint }: { digits?: number; sign?: boolean; hint?: string } = {}): Column<Row> =>
+  ({ title, unit: "cm", hint, value: (row) => 100 * metres(row), shown: (row) => (sign ? signed : fixed)(100 * metres(row), digits) });
+
+// The 95 % interval of a column of centimetres.
+export function intervalColumn<Row>(of: string, low: (row: Row) => number, high: (row: Row) => number): Column<Row> {
+  const ends = { low: (row: Row) => 100 * low(row), high: (row: Row) => 100 * high(row) };
+  return {
+    title: "95 % interval", unit: "cm", hint: "bootstrap over farms", value: ends.high,
+    shown: (row) => (Number.isFinite(low(row)) ? `${fixed(ends.low(row), 2)} – ${fixed(ends.high(row), 2)}` : ""),
+    csv: [[named(`${of} low`, "cm"), ends.low], [named(`${of} high`, "cm"), ends.high]] };
+}
+
+export function tableCsv<Row>(columns: Column<Row>[], rows: Row[]): string {
+  const all = columns.flatMap(({ title, unit, value, csv }) => csv ?? [[named(title, unit), value] as const]);
+  return csv([all.map(([name]) => name), ...rows.map((row) => all.map(([, value]) => value(row)))]);
 }
 
 export interface TableOptions<Row> {
@@ -38,7 +62,7 @@ export class Table<Row> {
         button(column.unit ? `${column.title}, ${column.unit}` : column.title, "Sort by this", () => this.sort(i))));
     this.element = h("section", { class: "card table" },
       h("div", { class: "head" }, h("h3", {}, options.title), h("div", { class: "tools" },
-        saveButtons({ title: options.title, csv: () => this.csv() }))),
+        saveButtons({ title: options.title, csv: () => tableCsv(options.columns, this.ordered()) }))),
       h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": options.title },
         h("table", {}, h("thead", {}, h("tr", {}, ...this.heads)), this.body)),
       this.more);
@@ -75,7 +99,7 @@ export class Table<Row> {
     if (this.sorted < 0) return this.options.rows;
     const { value } = this.options.columns[this.sorted];
     const sign = this.descending ? -1 : 1;
-    const missing = (of: string | number | null | undefined) => of === null || of === undefined || Number.isNaN(of);
+    const missing = (of: Value) => of === null || of === undefined || Number.isNaN(of);
     return [...this.options.rows].sort((a, b) => {
       const [x, y] = [value(a), value(b)];
       if (missing(x) || missing(y)) return Number(missing(x)) - Number(missing(y));
@@ -106,13 +130,5 @@ export class Table<Row> {
         this.all = true;
         this.fill();
       }));
-  }
-
-  csv(): string {
-    const { columns } = this.options;
-    return csv([
-      columns.map((column) => (column.unit ? `${column.title} (${column.unit})` : column.title)),
-      ...this.ordered().map((row) => columns.map((column) => column.value(row))),
-    ]);
   }
 }

@@ -1,14 +1,15 @@
 // How a method came to its plots, as the paper's figures show it: the boxes of clusters before the vote and of
 // plots after it; the points that it took for ground.
-import { canvas, frame, legend, legendHeight, round, text, type LegendEntry } from "./axes";
+import { canvas, dots, frame, legend, legendHeight, text, through, type LegendEntry } from "./axes";
+import { axesOf } from "./boxes";
 import type { Theme } from "./colours";
 import type { Box, Cloud, Field, Plane, Working } from "./data";
 import type { TilePoints } from "./decode";
 import { s } from "./dom";
-import { cornersOn, sheetIn, type Sheet } from "./map";
+import { cornersOn, kAxis, sheetIn, type Sheet } from "./map";
 import { counted, csv, fixed } from "./numbers";
 import type { Grounds } from "./place";
-import { fewOf, groundLine, kBeyond, pointsOver, type SidePoint } from "./profile";
+import { fewOf, groundLine, kBeyond, planeHeight, pointsOver, type SidePoint } from "./profile";
 
 const kCanopy_m = 0.15; // dhami2020's: what stands higher is clustered
 const kMostPoints = 5000; // of a panel
@@ -47,7 +48,7 @@ export function drawVoting(options: WorkingOptions, theme: Theme, narrow: boolea
   const truth = field.true_boxes.map(({ box }) => box);
   const columns = narrow ? 1 : 2;
   const width = narrow ? 360 : 720;
-  const side = width / columns - 62;
+  const side = width / columns - kAxis - 6;
   const entries: LegendEntry[] = [{ name: "the method's boxes", colour: theme.kinds[1], dash: "" }];
   if (truth.length) entries.push({ name: "true plots", colour: theme.ink, dash: "3 2" });
   if (canopy.length) entries.push({ name: "points above the ground", colour: theme.kinds[2], shape: 0 });
@@ -57,12 +58,11 @@ export function drawVoting(options: WorkingOptions, theme: Theme, narrow: boolea
   legend(svg, entries, 50, 16, width - 60);
   const parts: [string, Box[]][] = [[`(a) clusters, n = ${working.clusters.length}`, working.clusters], [`(b) after the vote, n = ${working.plots.length}`, working.plots]];
   parts.forEach(([title, boxes], i) => {
-    const panel = { left: 50 + (i % columns) * (side + 62), top: top + pitch * Math.floor(i / columns), width: side, height: side };
+    const panel = { left: kAxis + (i % columns) * (side + kAxis + 6), top: top + pitch * Math.floor(i / columns), width: side, height: side };
     const sheet = sheetIn(svg, panel, [...truth, ...working.clusters, ...working.plots], theme);
     svg.append(text(panel.left + side / 2, panel.top - 6, title, { anchor: "middle" }));
-    const d = canopy.map(([x, y]) => sheet.at(x, y)).filter(([u, v]) => u > panel.left && u < panel.left + side && v > panel.top && v < panel.top + side)
-      .map(([u, v]) => `M${u.toFixed(1)} ${v.toFixed(1)}h0`).join("");
-    svg.append(s("path", { d, stroke: theme.kinds[2], "stroke-width": 1.2, "stroke-linecap": "round", "stroke-opacity": 0.6, fill: "none" }));
+    const places = canopy.map(([x, y]) => sheet.at(x, y)).filter(([u, v]) => u > panel.left && u < panel.left + side && v > panel.top && v < panel.top + side);
+    svg.append(dots(places, theme.kinds[2], 1.2, 0.6));
     drawBoxes(sheet, truth, theme.ink, 0.9, "3 2");
     drawBoxes(sheet, boxes, theme.kinds[1], 1.6);
   });
@@ -75,19 +75,17 @@ export function votingCsv({ working }: WorkingOptions): string {
     ...rows("before", working.clusters), ...rows("after", working.plots)]);
 }
 
-const planeHeight = ({ box, z, slope }: Plane) => (x: number, y: number): number => z + slope[0] * (x - box[0]) + slope[1] * (y - box[1]);
-
 // How far the ground is from the plane under a plot, root mean square over its box.
 function unevenness(plane: Plane, { terrain, ground }: Grounds): number {
   const surface = terrain ?? ground;
   if (!surface) return NaN;
-  const [x0, y0, width, length, heading] = plane.box;
-  const [c, d] = [Math.cos((heading * Math.PI) / 180), Math.sin((heading * Math.PI) / 180)];
+  const [, , width, length] = plane.box;
+  const { at } = axesOf(plane.box);
   let sum = 0;
   let n = 0;
   for (let u = -0.5; u <= 0.5; u += 0.1)
     for (let v = -0.5; v <= 0.5; v += 0.25) {
-      const [x, y] = [x0 + u * length * c - v * width * d, y0 + u * length * d + v * width * c];
+      const [x, y] = at(u * length, v * width);
       const off = surface.height(x, y) - planeHeight(plane)(x, y);
       if (Number.isFinite(off)) [sum, n] = [sum + off * off, n + 1];
     }
@@ -99,6 +97,13 @@ function twoPlanes(working: Working, grounds: Grounds): { plane: Plane; off: num
   const all = working.planes.map((plane) => ({ plane, off: unevenness(plane, grounds) }));
   if (all.every(({ off }) => Number.isFinite(off))) all.sort((a, b) => b.off - a.off);
   return all.length > 1 ? [all[0], all[all.length - 1]] : all;
+}
+
+export function inliersNote({ working, grounds }: WorkingOptions): string {
+  const [first, last] = twoPlanes(working, grounds);
+  const which = Number.isFinite(first.off) ? "those whose ground is farthest from and nearest to a plane" : "the first and the last";
+  return `Points within ${fixed(100 * first.plane.tolerance, 0)} cm of the plane that the method took for the plot's ground, seen along the plot's width` +
+    (last ? `: of ${counted(working.planes.length)} plots ${which}.` : ".");
 }
 
 interface Seen {
@@ -119,8 +124,7 @@ export function drawInliers(options: WorkingOptions, theme: Theme, narrow: boole
   const seen = seenOf(options);
   const columns = narrow ? 1 : 2;
   const width = narrow ? 360 : 720;
-  const brown = theme.dark ? "#d6a461" : "#a1762f";
-  const entries: LegendEntry[] = [{ name: "ground inliers", colour: brown, shape: 0 }, { name: "outliers", colour: theme.ink, shape: 0 }, { name: "the plot's plane", colour: theme.kinds[1], dash: "" }];
+  const entries: LegendEntry[] = [{ name: "ground inliers", colour: theme.soil, shape: 0 }, { name: "outliers", colour: theme.ink, shape: 0 }, { name: "the plot's plane", colour: theme.kinds[1], dash: "" }];
   if (options.grounds.terrain) entries.push({ name: "true ground", colour: theme.kinds[5], dash: "5 3" });
   const top = 22 + legendHeight(entries, width - 60);
   const svg = canvas(width, top + 256 * Math.ceil(seen.length / columns), theme, `Ground inliers of plots, ${options.working.method}`);
@@ -133,16 +137,14 @@ export function drawInliers(options: WorkingOptions, theme: Theme, narrow: boole
     const margin = 0.06 * (high - low || 1);
     const length = plane.box[3];
     const { x, y, group } = frame(svg, panel, { low: -kBeyond, high: length + kBeyond, label: "along the plot, m" }, { low: low - margin, high: high + margin, label: i % columns ? "" : "height z, m" }, theme);
-    for (const ground of [false, true]) {
-      const d = shown.filter((point) => point.ground === ground).map(({ along, z }) => `M${x(along).toFixed(1)} ${y(z).toFixed(1)}h0`).join("");
-      group.append(s("path", { d, stroke: ground ? brown : theme.ink, "stroke-width": 1.6, "stroke-linecap": "round", "stroke-opacity": 0.7, fill: "none" }));
-    }
+    for (const [ground, colour] of [[false, theme.ink], [true, theme.soil]] as const)
+      group.append(dots(shown.filter((point) => point.ground === ground).map(({ along, z }) => [x(along), y(z)]), colour, 1.6, 0.7));
     const lines: [(u: number, v: number) => number, string, string | undefined][] = [[planeHeight(plane), theme.kinds[1], undefined]];
     const { terrain } = options.grounds;
     if (terrain) lines.push([(u, v) => terrain.height(u, v), theme.kinds[5], "5 3"]);
     for (const [height, colour, dash] of lines)
       for (const piece of groundLine(plane.box, height))
-        group.append(s("path", { d: piece.map(([u, v], k) => `${k ? "L" : "M"}${round(x(u))} ${round(y(v))}`).join(""), stroke: colour, "stroke-width": 1.8, "stroke-dasharray": dash, fill: "none" }));
+        group.append(s("path", { d: through(piece.map(([u, v]) => [x(u), y(v)])), stroke: colour, "stroke-width": 1.8, "stroke-dasharray": dash, fill: "none" }));
     const inliers = points.filter(({ ground }) => ground).length;
     svg.append(text(panel.left + panel.width / 2, panel.top - 6,
       `(${"ab"[i]}) plot ${plane.id}${Number.isFinite(off) ? `, ground ${fixed(100 * off, 1)} cm from the plane (rms)` : ""}; ${counted(inliers)} of ${counted(points.length)}`, { anchor: "middle", size: 9.5 }));

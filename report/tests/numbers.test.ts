@@ -1,10 +1,11 @@
 import { describe, expect, it } from "vitest";
 import { tickTexts } from "../src/axes";
+import { corners } from "../src/boxes";
 import type { Field, Plot } from "../src/data";
 import { coloursOf } from "../src/map";
 import { csv, extremes, fixed, namedTruth, quantile, signed, ticks } from "../src/numbers";
 import { fileName } from "../src/save";
-import { corners, Place } from "../src/place";
+import { Place } from "../src/place";
 import { baseOf } from "../src/profile";
 
 describe("numbers", () => {
@@ -44,6 +45,7 @@ describe("numbers", () => {
   it("go into CSV as RFC 4180 has it", () => {
     expect(csv([["a", 1, NaN, null], ['say "x", y', -2, undefined, "line\nbreak"]])).toBe(
       'a,1,,\r\n"say ""x"", y",-2,,"line\nbreak"\r\n');
+    expect(csv([[0.1 + 0.2, 4511999.12345, -1e-12, 1e9]])).toBe("0.3,4511999.12345,0,1000000000\r\n");
   });
 
   it("know the truth that a height is named after", () => {
@@ -80,7 +82,7 @@ describe("a field without a ground", () => {
 
   it("has heights that stand on the low end of the plot's points", () => {
     const points = Array.from({ length: 101 }, (_, i) => ({ along: 1, z: 300 + 0.01 * i, above: NaN, inside: true }));
-    expect(baseOf(plot, points, {})).toBeCloseTo(300.01, 9);
-    expect(baseOf(plot, [], {})).toBe(0);
+    expect(baseOf(plot, points, [])).toBeCloseTo(300.01, 9);
+    expect(baseOf(plot, [], [])).toBe(0);
   });
 });

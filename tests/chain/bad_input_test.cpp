@@ -224,7 +224,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"plotview plot index.ply groundless --plot 1 -o p.png", "ground.asc"},
         BadCommand{"plotview plot index.ply estimate --plot 2 -o p.png", "no plot 2"},
         BadCommand{"plotview plot index.ply estimate -o p.png", "--plot"},
-        BadCommand{"plotview plot index.ply estimate --plot 1 --heights p96 -o p.png", "p96"}),
+        BadCommand{"plotview plot index.ply estimate --plot 1 --heights p96 -o p.png", "p96"},
+        BadCommand{
+            "plotview plot index.ply estimate --plot 1 --heights max,max,max,max,max -o p.png",
+            "5 heights are given; 4 are drawn at most"},
+        BadCommand{"lidarsim view index.ply -o page.pcd", "page.pcd: does not end in .html"},
+        BadCommand{"estimator report estimate -o page.txt", "page.txt: does not end in .html"}),
     [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
 
 #ifdef PLOTSCAN_HAVE_SDFORMAT

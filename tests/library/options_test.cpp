@@ -71,6 +71,33 @@ TEST_F(LibraryOptions, OfEstimatesAreTheProgramsHints) {
   EXPECT_THROW(estimate_files({cloud()}, path("yards"), options), BadInput);
 }
 
+TEST_F(LibraryOptions, OfNumbersAndFramesAreTheProgramsToo) {
+  run_program("estimator run " + cloud().string() +
+              " -o numbers_theirs --first-number 101 --numbering serpentine --first-corner "
+              "ne");
+  EstimateFilesOptions options;
+  options.first_number = 101;
+  options.numbering = "serpentine";
+  options.first_corner = "ne";
+  estimate_files({cloud()}, path("numbers_ours"), options);
+  expect_same("numbers_ours", "numbers_theirs");
+  options.crs = "EPSG:32617";
+  EXPECT_THAT(
+      testing::message_of<BadInput>([&] { estimate_files({cloud()}, path("nothing"), options); }),
+      HasSubstr("EPSG:32617"));
+}
+
+TEST_F(LibraryOptions, OfRecordingsAreTheProgramsToo) {
+  run_program("lidarsim convert scan scan.pcap");
+  run_program(
+      "estimator run scan.pcap -o packets_theirs --trajectory scan/trajectory.csv --sensor vlp16 "
+      "--mount 0,90,0");
+  EstimateFilesOptions options{.trajectory = path("scan") / "trajectory.csv", .sensor = "vlp16"};
+  options.mount_rpy_deg = {{0, 90, 0}};
+  estimate_files({path("scan.pcap")}, path("packets_ours"), options);
+  expect_same("packets_ours", "packets_theirs");
+}
+
 TEST_F(LibraryOptions, OfEstimatesAreTheProgramsMapsAndMethods) {
   const std::string map = path("farm/truth/plots.geojson");
   run_program("estimator run " + cloud().string() + " -o map_theirs --boxes " + map +

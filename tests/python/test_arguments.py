@@ -26,6 +26,9 @@ class Arguments(unittest.TestCase):
         options = {"set": {"terrain.relief_m": 0.5, "weeds": True}, "seed": 5, "threads": 3, "replace": True}
         made = sent("generate_farm", "description", "farm", progress=print, **options)
         self.assertEqual(made, ("description", "farm", ["terrain.relief_m=0.5", "weeds=true"], 5, 3, True, print))
+        texts = {"a": (1, 2.5), "b": numpy.array([[1, 2], [3, 4]]), "c": "{d: 1}", "e": [True, "f"], "g": numpy.float32(0.5)}
+        told = ["a=[1, 2.5]", "b=[[1, 2], [3, 4]]", "c={d: 1}", 'e=[true, "f"]', "g=0.5"]
+        self.assertEqual(sent("generate_farm", "a", "b", set=texts)[2], told)
         self.assertEqual(sent("generate_farm", "a", "b"), ("a", "b", [], None, 0, False, None))
         self.assertEqual(sent("read_truth", "farm"), ("farm",))
 
@@ -70,6 +73,9 @@ class Arguments(unittest.TestCase):
 
         files = {"method": "dhami2020", "boxes": Path("map"), "id": "name", "units": "ft",
                  "leave_out_classes": [5, 6], "measured": Path("ruler"), "csv": Path("table"), "seed": 5, "replace": True}  # fmt: skip
+        files |= {"crs": "EPSG:32617", "trajectory": Path("flown"), "sensor": "vlp16", "mount_rpy_deg": [0.0, 90.0, 0.0],
+                  "topic": "/points", "first_number": 101, "numbering": "serpentine", "first_corner": "nw",
+                  "plot_names": Path("names")}  # fmt: skip
         clouds, folder, options, progress = sent("estimate_files", "scan", "out", **files, **given)
         self.assertEqual((clouds, folder, progress), (["scan"], "out", print))
         self.expect_options(options, files)

@@ -118,10 +118,25 @@ class Estimate(ExampleScan):
         columns = numpy.column_stack([self.cloud.points[axis] for axis in "xyz"])
         moved = columns.astype(float) + (500000, 4600000, 300)
         moved[0] = numpy.nan
-        with self.assertRaisesRegex(plotscan.BadInput, "point 1 lies [0-9]+ m .* in steps of 500 mm"):
+        moved[1] = 0  # one stray point near the origin
+        with self.assertRaisesRegex(plotscan.BadInput, "the points lie up to [0-9]+ m .* in steps of 500 mm"):
             plotscan.estimate_field(moved.astype(numpy.float32))
         self.assertEqual(len(plotscan.estimate_field(moved).plots), 9)
         self.assertEqual(len(plotscan.estimate_field(columns, origin_m=(500000, 4600000, 300)).plots), 9)
+
+    def test_nothing_that_is_told_is_ignored(self):
+        boxes = [plot.box for plot in self.field.plots]
+        with self.assertRaisesRegex(plotscan.BadInput, "rows is of the search for plots; boxes are given"):
+            plotscan.estimate_field(self.cloud, boxes=boxes, rows=3)
+        plotscan.estimate_field(self.cloud, boxes=boxes, crop="soybean")
+        with self.assertRaisesRegex(plotscan.BadInput, "a cloud brings its own origin"):
+            plotscan.estimate_field(self.cloud, origin_m=(1, 2, 3))
+        truth = self.farm / "truth" / "plots.geojson"
+        for told, message in (({"rows": 3}, "rows is of the search"), ({"numbering": "zigzag"}, "names of their own")):
+            with self.assertRaisesRegex(plotscan.BadInput, message):
+                plotscan.estimate_files(self.scan, self.folder / "x", boxes=truth, **told)
+        with self.assertRaisesRegex(plotscan.BadInput, 'one of sw, se, nw, ne; not "north"'):
+            plotscan.estimate_files(self.scan, self.folder / "x", first_corner="north")
 
     def test_bad_options_are_refused(self):
         with self.assertRaisesRegex(ValueError, 'crop "rice" must be one of maize'):

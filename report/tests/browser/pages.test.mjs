@@ -96,6 +96,16 @@ test("an estimate: a plot is chosen on the map, in the table, by key and in the 
       await select.selectOption(measure);
       assert.ok((await page.locator(".map .plot polygon").first().getAttribute("fill")).startsWith("#"));
     }
+    // A height has one colour, whichever are shown.
+    const labels = () => page.locator(".profile svg text[font-weight]").evaluateAll((texts) => Object.fromEntries(texts.map((text) => [text.textContent.split(" ")[0], text.getAttribute("fill")])));
+    const bars = () => page.locator("#figures figure").first().locator("rect:has(title)").evaluateAll((rects) => Object.fromEntries(rects.map((rect) => [rect.textContent.split(",")[0], rect.getAttribute("fill")])));
+    const colours = await bars();
+    for (const height of ["max", "mean"]) {
+      await page.locator(".map select").nth(1).selectOption(height);
+      for (const [name, colour] of Object.entries(await labels())) assert.equal(colour, colours[name], name);
+    }
+    await page.locator("#figures .chips label").filter({ hasText: /^max$/ }).locator("input").click();
+    for (const [name, colour] of Object.entries(await bars())) assert.equal(colour, colours[name], name);
     await harmless(page);
     await page.screenshot({ path: join(shots, "estimate.png"), fullPage: true });
     sound(kept);
@@ -122,6 +132,8 @@ for (const [name, least] of [["estimate", [5, 6, 6]], ["suite/report", [9, 10, 1
       } else {
         const rows = bytes.toString().trim().split("\r\n");
         assert.ok(rows.length > 1 && rows[0].includes(","), name);
+        const head = rows[0].split(",");
+        assert.equal(new Set(head).size, head.length, rows[0]);
         assert.ok(!bytes.includes("NaN"), name);
       }
     }

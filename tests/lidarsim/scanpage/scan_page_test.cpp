@@ -56,7 +56,7 @@ TEST(ScanPage, HoldsPointsGroundAndPlots) {
   const fs::path cloud = folder.write("a \"><img src=x>.ply", field_ply());
   const fs::path plots = write_map(folder, R"({"plot_number":17,"height_max_m":0.8})");
   const fs::path html = folder.path() / "page.html";
-  const PageSummary summary =
+  const report::PageSummary summary =
       write_scan_page({.scan = cloud, .html = html, .plots = plots, .points = 10'000});
   EXPECT_EQ(summary.read, 14'400U);
   EXPECT_EQ(summary.shown, 10'000U);

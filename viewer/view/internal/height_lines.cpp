@@ -27,7 +27,9 @@ std::vector<std::string> usual_names(const estimate::PlotEstimate& plot) {
   for (const char* name : {"mean", "p95", "max"}) {
     if (plot.heights_m.contains(name)) names.emplace_back(name);
   }
-  return names.empty() ? all_names(plot) : names;
+  if (names.empty()) names = all_names(plot);
+  names.resize(std::min(names.size(), kColours.size()));
+  return names;
 }
 
 // Where labels stand, as near to their lines as leaves `apart` between them; `wanted` ascends.
@@ -89,6 +91,9 @@ void draw_label(Page& page, const Eigen::Vector2d& place, const Label& label, do
 
 std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
                                      const std::vector<std::string>& names) {
+  if (names.size() > kColours.size())
+    throw InputError(
+        fmt::format("{} heights are given; {} are drawn at most", names.size(), kColours.size()));
   std::vector<HeightLine> lines;
   for (const std::string& name : names.empty() ? usual_names(plot) : names) {
     const auto height = plot.heights_m.find(name);
@@ -100,7 +105,7 @@ std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
                     .height_m = height->second,
                     .low_m = height->second,
                     .high_m = height->second,
-                    .colour = kColours[lines.size() % kColours.size()]};
+                    .colour = kColours[lines.size()]};
     const auto error = plot.errors.find(name);
     if (error != plot.errors.end()) {
       line.low_m = error->second.low95_m;
