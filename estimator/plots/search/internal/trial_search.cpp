@@ -257,8 +257,10 @@ bool shows_gaps(const Look& look) {
          no_plots_because(signs).empty();
 }
 
-// Whether the plots and their gaps are all that stands there.
-bool explains_all(const Look& look) { return look.evidence > 0 && look.explained > kNearlyAll; }
+// Whether the plots and their gaps are all that stands there, and nothing was left out.
+bool explains_all(const Look& look) {
+  return look.evidence > 0 && look.explained > kNearlyAll && look.field.others_m2 == 0;
+}
 
 // Looks at a field in several ways, and keeps the best.
 class TrialSearch {

@@ -15,6 +15,8 @@
 namespace plotscan::plots {
 namespace {
 
+const Hints kSides{.width_m = 1.5, .length_m = 4};  // of Trial's plots
+
 // Two rows of three end 0.8 m early at the field's border, as grazed ones do: what stands there is
 // no longer like the plots of the middle row, but nothing else either.
 TEST(FindPlots, FindsPlotsOfOuterRowsThatAreShorter) {
@@ -152,9 +154,11 @@ TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
   std::erase_if(points, [](const Eigen::Vector3f& point) {
     return point.y() < -10 && point.y() > -12 && point.z() < 0.2F;
   });
-  const PlotField field = find_plots(points, 0.02, {}, 2);
-  expect_those(boxes, field);
-  EXPECT_NEAR(field.others_m2, 24 * 14, 24);
+  for (const Hints& hints : {Hints{}, kSides, Hints{.width_m = 1.5}}) {
+    const PlotField field = find_plots(points, 0.02, hints, 2);
+    expect_those(boxes, field);
+    EXPECT_NEAR(field.others_m2, 24 * 14, 24);
+  }
 }
 
 // In the middle of 40 x 40 m of the same crop, a path of a metre around.
@@ -171,7 +175,23 @@ TEST(FindPlots, FindsPlotsInTheMiddleOfACrop) {
     points.emplace_back(static_cast<float>(x), static_cast<float>(y),
                         static_cast<float>(height_m + 0.02 * random.normal()));
   }
-  for (const Hints& hints : {Hints{}, Hints{.rows = 3, .columns = 6}})
+  for (const Hints& hints :
+       {Hints{}, Hints{.rows = 3, .columns = 6}, kSides, Hints{.width_m = 1.5}})
+    expect_those(boxes, find_plots(points, 0.02, hints, 2));
+}
+
+// Plots of rows that touch, beyond an alley the one column that shows by itself: the rest is as
+// closed as a crop without plots, and as high.
+TEST(FindPlots, FindsTouchingPlotsOfAToldWidthBesideAColumnAlone) {
+  std::vector<PlotBox> boxes = Trial{
+      .rows = 5,
+      .gap_m = 0,
+      .row_gap_m = 0.25,
+      .heading_rad = 0,
+      .offsets_m = {0, 0, 0, 0, 0}}.boxes();
+  for (std::size_t i = 0; i < boxes.size(); i += 6) boxes[i].center -= 2.5 * boxes[i].width_axis();
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes, everywhere, 20, 20);
+  for (const Hints& hints : {kSides, Hints{.width_m = 1.5}})
     expect_those(boxes, find_plots(points, 0.02, hints, 2));
 }
 
@@ -189,7 +209,8 @@ TEST(FindPlots, FindsPlotsWithNarrowGapsBesideACropWithoutPlots) {
     if (point.y() < edge_m && random.uniform() < 0.75)
       point.z() = static_cast<float>(random.uniform(0.3, 0.8));
   }
-  expect_those(boxes, find_plots(points, 0.02, {}, 2));
+  for (const Hints& hints : {Hints{}, kSides})
+    expect_those(boxes, find_plots(points, 0.02, hints, 2));
 }
 
 }  // namespace
