@@ -58,7 +58,8 @@ void declare_view(Program& program) {
       ->required();
   view.add_option("-o,--output", options->html, "page to write (.html)")->required();
   view.add_option("--plots", options->plots,
-                  "boxes to show: a farm folder, or a map of plots (GeoJSON) in the cloud's frame");
+                  "boxes to show: a farm or estimate folder, or a map of plots (GeoJSON) in the "
+                  "cloud's frame");
   view.add_option("--points", options->points, "points on the page, at most")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, report::kMostPoints));

@@ -53,9 +53,8 @@ void draw(const Program& program, const PictureArguments& arguments) {
   const farm::Farm farm = farmfolder::read_farm(arguments.farm);
   std::vector<PlotBox> boxes;
   if (arguments.plots) {
-    for (const auto& plot : read_plot_features(file_or_inside(*arguments.plots, "plots.geojson"))) {
+    for (const PlotFeature& plot : read_plot_features(plot_map_of(*arguments.plots)))
       boxes.push_back(plot.box);
-    }
   }
   std::optional<fs::path> cloud;
   if (arguments.scan) cloud = file_or_inside(*arguments.scan, "cloud.pcd");
@@ -163,7 +162,7 @@ void declare_picture(Program& program, PictureArguments& arguments) {
                          "scan folder, PCD or PLY: drawn beside the farm, coloured by height");
   picture
       .add_option("--plots", arguments.plots,
-                  "estimate folder or GeoJSON: its boxes are drawn on the scan")
+                  "estimate or farm folder, or GeoJSON: its boxes are drawn on the scan")
       ->needs(scan);
   add_view_options(picture, arguments.options);
   picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -16,9 +17,15 @@ namespace plotscan {
 class ByteWriter {
  public:
   template <class Value>
-  void put(const Value& value) {
+  ByteWriter& put(const Value& value) {
     static_assert(std::is_trivially_copyable_v<Value>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+  }
+  // The text in a field of `size` bytes: cut off, or filled up with zeros.
+  ByteWriter& put_field(std::string_view text, std::size_t size) {
+    bytes_.append(text.substr(0, size)).append(size - std::min(size, text.size()), '\0');
+    return *this;
   }
   void put_text(std::string_view text) {
     put(static_cast<std::uint64_t>(text.size()));

@@ -320,6 +320,12 @@ std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property
   return property == "id" ? plot.id : std::nullopt;
 }
 
+std::filesystem::path plot_map_of(const std::filesystem::path& place) {
+  if (!std::filesystem::is_directory(place)) return place;
+  const std::filesystem::path of_farm = place / "truth" / "plots.geojson";
+  return std::filesystem::exists(of_farm) ? of_farm : place / "plots.geojson";
+}
+
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
   return read_plot_features(path, "").plots;
 }

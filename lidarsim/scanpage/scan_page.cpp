@@ -51,8 +51,7 @@ report::ShownPlot shown(const PlotFeature& plot, std::size_t place) {
 std::vector<report::ShownPlot> read_plots(const std::optional<fs::path>& place) {
   std::vector<report::ShownPlot> plots;
   if (!place) return plots;
-  const fs::path file = fs::is_directory(*place) ? *place / "truth" / "plots.geojson" : *place;
-  for (const PlotFeature& plot : read_plot_features(file))
+  for (const PlotFeature& plot : read_plot_features(plot_map_of(*place)))
     plots.push_back(shown(plot, plots.size() + 1));
   return plots;
 }

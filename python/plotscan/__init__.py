@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import json
 import os
+import reprlib
 from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
@@ -49,6 +50,19 @@ __version__ = _plotscan.version()
 Path = Union[str, "os.PathLike[str]"]
 SettingValue = Union[float, bool, str, Sequence[float], None]
 Progress = Optional[Callable[[float], Any]]
+
+
+def _told(self: Any) -> str:
+    """What the object holds, in short; of an estimate not its documents and its ground."""
+    short = reprlib.Repr()
+    short.maxlist, short.maxstring, short.maxother = 1, 60, 60
+    names = [name for name, value in vars(type(self)).items() if isinstance(value, property)]
+    shown = [name for name in names if name not in ("geojson", "diagnostics", "ground")]
+    return f"{type(self).__name__}({', '.join(f'{name}={short.repr(getattr(self, name))}' for name in shown)})"
+
+
+for _class in (Box, BoxError, FarmSummary, FieldEstimate, FlightSummary, Height, HeightScore, Plot, Scores, Setting, TruePlot):
+    _class.__repr__ = _told  # type: ignore[method-assign]
 
 
 def data_folder() -> str:

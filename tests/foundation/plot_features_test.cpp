@@ -225,5 +225,14 @@ TEST(PlotFeatures, AMapOfAMillionPlotsIsRefusedBeforeItIsParsed) {
               ::testing::HasSubstr("has 64000001 bytes; plots are read from up to 64000000"));
 }
 
+TEST(PlotFeatures, AFolderStandsForItsMap) {
+  const TemporaryFolder folder;
+  const auto map = folder.write("estimate/plots.geojson", "{}");
+  const auto truth = folder.write("farm/truth/plots.geojson", "{}");
+  EXPECT_EQ(plot_map_of(folder.path() / "estimate"), map);
+  EXPECT_EQ(plot_map_of(folder.path() / "farm"), truth);
+  EXPECT_EQ(plot_map_of(map), map);
+}
+
 }  // namespace
 }  // namespace plotscan

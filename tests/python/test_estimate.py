@@ -58,6 +58,13 @@ class Estimate(ExampleScan):
             [(p.box.center_x_m, p.box.width_m) for p in truth],
         )
 
+    def test_objects_say_what_they_hold(self):
+        box = plotscan.Box(1, 2, 1.5, 4, 30)
+        said = "Box(center_x_m=1.0, center_y_m=2.0, width_m=1.5, length_m=4.0, heading_deg=30.0)"
+        self.assertEqual(repr(box), said)
+        self.assertRegex(repr(self.field), r"^FieldEstimate\(method='lattice', plots=\[Plot\(.*, \.\.\.\], why_no_plots='', crs=''\)$")
+        self.assertLess(len(repr(self.field)), 600)
+
     def test_table_has_a_row_a_plot(self):
         table = plotscan.plot_table(self.field.plots)
         self.assertEqual({len(column) for column in table.values()}, {9})

@@ -48,7 +48,7 @@ class Interface(unittest.TestCase):
             self.assertEqual(counts, {len(node.args.posonlyargs)}, name)
 
     def test_all_is_what_is_public(self):
-        modules = {"annotations", "json", "os", "numpy", "Any", "Callable", "Dict", "List", "Mapping", "Optional",
+        modules = {"annotations", "json", "os", "reprlib", "numpy", "Any", "Callable", "Dict", "List", "Mapping", "Optional",
                    "Sequence", "Tuple", "Union", "Path", "Progress", "SettingValue"}  # fmt: skip
         self.assertEqual(public(vars(plotscan)) - modules, set(plotscan.__all__))
 
