@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/elements.h"
 
-#include <array>
-#include <charconv>
-
-#include "sdfxml/elements.h"
+#include "core/number_text.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -39,23 +36,18 @@ void end_model(sdfxml::XmlFile& xml) {
   xml.finish();
 }
 
-std::string colour_text(const Eigen::Vector3f& colour) {
-  std::string text;
-  for (const float part : colour) {
-    std::array<char, 32> digits{};
-    text.append(digits.data(),
-                std::to_chars(digits.data(), digits.data() + digits.size(), part).ptr);
-    text += ' ';
-  }
-  return text + "1";
+void open_material(sdfxml::XmlWriter& xml, const Eigen::Vector3f& colour) {
+  std::string rgba;
+  for (const float part : colour) rgba.append(NumberText(part)) += ' ';
+  rgba += '1';
+  xml.open("material");
+  xml.text("ambient", rgba);
+  xml.text("diffuse", rgba);
 }
 
 void write_sim_material(sdfxml::XmlFile& xml, const Eigen::Vector3f& colour,
                         const std::string& image) {
-  const std::string rgba = colour_text(colour);
-  xml.open("material");
-  xml.text("ambient", rgba);
-  xml.text("diffuse", rgba);
+  open_material(xml, colour);
   xml.text("specular", "0 0 0 1");
   xml.text("double_sided", "true");
   xml.open("pbr");
@@ -77,14 +69,6 @@ void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceC
   xml.text("size", sdfxml::sdf_numbers({box.size.x(), box.size.y(), box.size.z()}));
   xml.close();
   xml.close();
-  write_class(xml, label);
-  xml.close();
-}
-
-void write_mesh_collision(sdfxml::XmlFile& xml, const std::string& name, const std::string& uri,
-                          const Eigen::Vector3d& scale, SurfaceClass label) {
-  xml.open("collision", name);
-  sdfxml::write_mesh_geometry(xml, uri, scale);
   write_class(xml, label);
   xml.close();
 }

@@ -10,7 +10,6 @@
 
 #include "gazebo/export_options.h"
 #include "gazebo/labels.h"
-#include "mesh/mesh.h"
 
 // SDF elements of exported worlds and models.
 namespace plotscan::gazebo {
@@ -35,8 +34,8 @@ void end_model(sdfxml::XmlFile& xml);
 
 using sdfxml::write_class;
 
-// "r g b 1", of an opaque colour.
-std::string colour_text(const Eigen::Vector3f& colour);
+// Begins a <material> with an opaque colour.
+void open_material(sdfxml::XmlWriter& xml, const Eigen::Vector3f& colour);
 
 // <material> of Gazebo Sim: diffuse colour, image (a URI, or "" for none), matt, both sides shown.
 void write_sim_material(sdfxml::XmlFile& xml, const Eigen::Vector3f& colour,
@@ -49,7 +48,5 @@ struct CollisionBox {
   double heading_rad = 0;
 };
 void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceClass label);
-void write_mesh_collision(sdfxml::XmlFile& xml, const std::string& name, const std::string& uri,
-                          const Eigen::Vector3d& scale, SurfaceClass label);
 
 }  // namespace plotscan::gazebo

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/export_world.h"
 
-#include <algorithm>
 #include <optional>
 #include <set>
 #include <utility>
@@ -53,10 +52,9 @@ void require_possible(const ExportOptions& options) {
   }
 }
 
-EntityCounts write_models(const fs::path& folder, const farm::Farm& farm,
+EntityCounts write_models(const ModelFolder& models, const farm::Farm& farm,
                           const std::vector<PlantGroups>& groups, const PlantSurfaces& surfaces,
                           const ExportOptions& options, const ProgressReport& progress) {
-  const ModelFolder models{.path = folder / "models", .gazebo = options.gazebo};
   EntityCounts counts = write_terrain_model(models, farm);
   counts += write_merged_plants(models, farm, groups, surfaces, options, progress);
   if (options.drone) {
@@ -99,12 +97,12 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
       options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
   require_different_names(farm, groups, options.drone);
   OutputFolder output(folder, options.replace, origin.command, {{farm_folder}});
+  const ModelFolder models{.path = output.path() / "models", .gazebo = options.gazebo};
   const PlantSurfaces surfaces = plant_surfaces(farm, options.lod);
   ExportSummary summary{.counts = {}, .plants = farm.plants.size()};
-  summary.counts = write_models(output.path(), farm, groups, surfaces, options,
+  summary.counts = write_models(models, farm, groups, surfaces, options,
                                 [&](double share) { progress(kMeshShare * share); });
-  const std::vector<SinglePlant> single_plants = write_single_plants(
-      {.path = output.path() / "models", .gazebo = options.gazebo}, farm, surfaces);
+  const std::vector<SinglePlant> single_plants = write_single_plants(models, farm, surfaces);
   summary.counts += write_worlds(
       output.path(),
       {.farm = farm, .options = options, .groups = groups, .single_plants = single_plants});

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/groups.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -49,22 +47,24 @@ PlantsByPlace sorted_plants(const farm::Farm& farm) {
 }
 
 PlantGroup plot_group(const farm::Farm& farm, const farm::Plot& plot, const Plants& plants) {
-  return {.link = "link",
-          .mesh_prefix = "",
-          .origin = on_ground(farm, plot.box.center, plants),
+  return {.origin = on_ground(farm, plot.box.center, plants),
           .heading_rad = plot.box.heading_rad,
           .plants = plants};
+}
+
+// A model that begins with one link and stands where that does.
+PlantGroups model_of(const std::string& name, SurfaceClass label, PlantGroup link) {
+  const Eigen::Vector3d origin = link.origin;
+  return {
+      .name = classed(name, label), .label = label, .origin = origin, .links = {std::move(link)}};
 }
 
 std::vector<PlantGroups> by_plot(const farm::Farm& farm, const PlantsByPlace& sorted) {
   std::vector<PlantGroups> models;
   for (const auto& [place, plants] : sorted.by_plot) {
     const farm::Plot& plot = farm.plots[place.first];
-    PlantGroup group = plot_group(farm, plot, plants);
-    models.push_back({.name = classed(sdfxml::plot_element_name(plot.id), place.second),
-                      .label = place.second,
-                      .origin = group.origin,
-                      .links = {std::move(group)}});
+    models.push_back(
+        model_of(sdfxml::plot_element_name(plot.id), place.second, plot_group(farm, plot, plants)));
   }
   return models;
 }
@@ -77,12 +77,10 @@ std::vector<PlantGroups> by_row(const farm::Farm& farm, const PlantsByPlace& sor
     group.link = classed(sdfxml::plot_element_name(plot.id), place.second);
     group.mesh_prefix = group.link + "_";
     PlantGroups& row = rows[{plot.trial, plot.row, place.second}];
-    if (row.links.empty()) {
-      row.name = classed(row_model_name(plot.trial, plot.row), place.second);
-      row.label = place.second;
-      row.origin = group.origin;
-    }
-    row.links.push_back(std::move(group));
+    if (row.links.empty())
+      row = model_of(row_model_name(plot.trial, plot.row), place.second, std::move(group));
+    else
+      row.links.push_back(std::move(group));
   }
   std::vector<PlantGroups> models;
   models.reserve(rows.size());
@@ -103,16 +101,9 @@ void add_outside(const farm::Farm& farm, SurfaceClass label, const Plants& plant
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (const farm::Plant* plant : members) middle += plant->position.head<2>();
     middle /= static_cast<double>(members.size());
-    PlantGroup group{.link = "link",
-                     .mesh_prefix = "",
-                     .origin = on_ground(farm, middle, members),
-                     .heading_rad = 0,
-                     .plants = members};
     const std::string name = many ? outside_model_name(++number) : sdfxml::kPlantsOutsidePlots;
-    models.push_back({.name = classed(name, label),
-                      .label = label,
-                      .origin = group.origin,
-                      .links = {std::move(group)}});
+    models.push_back(
+        model_of(name, label, {.origin = on_ground(farm, middle, members), .plants = members}));
   }
 }
 

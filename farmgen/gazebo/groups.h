@@ -14,8 +14,8 @@ namespace plotscan::gazebo {
 
 // Plants whose surfaces are merged: one link.
 struct PlantGroup {
-  std::string link;         // its name in the model
-  std::string mesh_prefix;  // of its mesh files in the model's folder: "" or "plot_12_"
+  std::string link = "link";     // its name in the model
+  std::string mesh_prefix = {};  // of its mesh files in the model's folder: "" or "plot_12_"
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the link, world frame; no rotation
   double heading_rad = 0;                            // along which a box around it lies
   std::vector<const farm::Plant*> plants;            // in the order of the farm

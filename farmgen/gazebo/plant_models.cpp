@@ -2,17 +2,15 @@
 #include "gazebo/plant_models.h"
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
 #include <set>
+#include <string_view>
 
-#include "sdfxml/elements.h"
 #include <tbb/parallel_for.h>
 
-#include "core/text_file.h"
 #include "farm/surface_colours.h"
 #include "gazebo/internal/obj_file.h"
-#include "mesh/alpha_mask.h"
+#include "mesh/obj.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -22,6 +20,10 @@ namespace {
 constexpr int kPlantNormals = 64;
 constexpr int kGroundNormals = 1024;
 
+// Leaves and soil do not shine, for renderers of the plain model and of the physically based one.
+constexpr std::string_view kMatt = "Ks 0 0 0\nNs 1\nPr 0.9\nPm 0\n";
+constexpr const char* kImages = "materials/textures/";  // folder of images in a model's folder
+
 // Gazebo Classic leaves out what is seen from behind, and has no means to say otherwise. Gazebo Sim
 // has, in <material>, but not for a mesh with several materials. <material> takes the place of the
 // mesh's own, and has no mask: holes in leaves would be closed.
@@ -29,51 +31,26 @@ bool has_sim_material(Gazebo gazebo, const mesh::Material& material) {
   return gazebo == Gazebo::sim && material.mask == nullptr;
 }
 
-bool needs_back_faces(const Surface& surface, bool double_sided_material) {
-  return !surface.closed && !double_sided_material;
-}
-
-// The model whose folder holds a material's image: the first that shows it.
-std::string home_of_image(const farm::Farm& farm, const PlantSurfaces& surfaces,
-                          std::size_t material) {
-  for (std::size_t i = 0; i < surfaces.models.size(); ++i) {
-    for (const Surface& surface : surfaces.models[i]) {
-      if (surface.material == material) return farm.models[i].name;
-    }
-  }
-  return "";
-}
-
-MtlEntry mtl_entry(const PlantSurfaces& surfaces, std::size_t material, const std::string& images) {
-  return {
-      .name = surfaces.names[material], .material = surfaces.materials[material], .images = images};
-}
-
-void write_image(const fs::path& model_folder, const mesh::Image& image) {
-  const fs::path folder = model_folder / "materials" / "textures";
-  fs::create_directories(folder);
-  TextFile file(folder / image.name);
-  file << image.bytes;
-  file.close();
-}
-
 SinglePlant write_single_mesh(const ModelFolder& models, const std::string& name,
                               const std::vector<Surface>& parts, const PlantSurfaces& surfaces) {
   const fs::path folder = mesh_folder(models, name);
-  std::vector<MtlEntry> entries;
+  const fs::path images = models.path / name / kImages;
+  std::vector<mesh::MtlEntry> entries;
   SinglePlant plant{.uri = mesh_uri(name, name + ".obj")};
   ObjFile obj(folder / (name + ".obj"), name + ".mtl", kPlantNormals);
   for (const Surface& surface : parts) {
     const mesh::Material& material = surfaces.materials[surface.material];
-    entries.push_back(mtl_entry(surfaces, surface.material, "../materials/textures/"));
-    if (material.texture) write_image(models.path / name, *material.texture);
-    if (material.mask) write_image(models.path / name, *material.mask->image());
+    entries.push_back({.name = surfaces.names[surface.material],
+                       .material = material,
+                       .images = std::string("../") + kImages});
+    if (material.texture || material.mask) fs::create_directories(images);
+    mesh::write_images(images, material);
     obj.use_material(entries.back().name);
-    obj.add(surface, Eigen::Affine3d::Identity(), needs_back_faces(surface, false));
+    obj.add(surface, Eigen::Affine3d::Identity(), !surface.closed);
     for (const Eigen::Vector3f& v : surface.vertices) plant.bounds.extend(v.cast<double>());
   }
   obj.close();
-  write_mtl(folder / (name + ".mtl"), entries);
+  mesh::write_mtl(folder / (name + ".mtl"), entries, kMatt);
   plant.triangles = obj.triangles();
   return plant;
 }
@@ -84,43 +61,6 @@ struct MergedMesh {
   std::string file;
   std::uint64_t triangles = 0;
 };
-
-MergedMesh write_merged_mesh(const ModelFolder& models, const std::string& model,
-                             const PlantGroup& group, std::size_t material, const farm::Farm& farm,
-                             const PlantSurfaces& surfaces) {
-  const fs::path folder = mesh_folder(models, model);
-  const std::string stem = group.mesh_prefix + surfaces.names[material];
-  ObjFile obj(folder / (stem + ".obj"), stem + ".mtl", kPlantNormals);
-  const std::string home = home_of_image(farm, surfaces, material);
-  write_mtl(folder / (stem + ".mtl"),
-            {mtl_entry(surfaces, material, "../../" + home + "/materials/textures/")});
-  obj.use_material(surfaces.names[material]);
-  const bool double_sided_material = has_sim_material(models.gazebo, surfaces.materials[material]);
-  for (const farm::Plant* plant : group.plants) {
-    const Eigen::Affine3d link_from_plant =
-        Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
-    for (const Surface& surface : surfaces.models[plant->model]) {
-      if (surface.material != material) continue;
-      obj.add(surface, link_from_plant, needs_back_faces(surface, double_sided_material));
-    }
-  }
-  obj.close();
-  return {.material = material, .file = stem + ".obj", .triangles = obj.triangles()};
-}
-
-std::vector<MergedMesh> write_merged_meshes(const ModelFolder& models, const std::string& model,
-                                            const PlantGroup& group, const farm::Farm& farm,
-                                            const PlantSurfaces& surfaces) {
-  std::set<std::size_t> materials;
-  for (const farm::Plant* plant : group.plants) {
-    for (const Surface& surface : surfaces.models[plant->model]) materials.insert(surface.material);
-  }
-  std::vector<MergedMesh> meshes;
-  meshes.reserve(materials.size());
-  for (const std::size_t material : materials)
-    meshes.push_back(write_merged_mesh(models, model, group, material, farm, surfaces));
-  return meshes;
-}
 
 // Around all plants of the group, along its heading, in the link's frame.
 CollisionBox box_around(const PlantGroup& group, const PlantSurfaces& surfaces) {
@@ -140,14 +80,30 @@ CollisionBox box_around(const PlantGroup& group, const PlantSurfaces& surfaces) 
           .heading_rad = group.heading_rad};
 }
 
-class MergedModelWriter {
+// Writes models of merged plants: first the meshes of their links, then the models.
+class MergedPlants {
  public:
-  MergedModelWriter(const ModelFolder& models, const farm::Farm& farm,
-                    const PlantSurfaces& surfaces, const ExportOptions& options)
-      : models_(models), farm_(farm), surfaces_(surfaces), options_(options) {}
+  MergedPlants(const ModelFolder& models, const farm::Farm& farm, const PlantSurfaces& surfaces,
+               Collision collision)
+      : models_(models), farm_(farm), surfaces_(surfaces), collision_(collision) {}
 
-  EntityCounts write(const PlantGroups& groups,
-                     const std::vector<std::vector<MergedMesh>>& meshes) const {
+  // The meshes of a link, one a material.
+  std::vector<MergedMesh> write_meshes(const std::string& model, const PlantGroup& group) const {
+    std::set<std::size_t> materials;
+    for (const farm::Plant* plant : group.plants) {
+      for (const Surface& surface : surfaces_.models[plant->model])
+        materials.insert(surface.material);
+    }
+    std::vector<MergedMesh> meshes;
+    meshes.reserve(materials.size());
+    for (const std::size_t material : materials)
+      meshes.push_back(write_mesh(model, group, material));
+    return meshes;
+  }
+
+  // The description of a model whose meshes are written.
+  EntityCounts write_model(const PlantGroups& groups,
+                           const std::vector<std::vector<MergedMesh>>& meshes) const {
     EntityCounts counts{.models = 1};
     sdfxml::XmlFile xml = begin_model(models_, groups.name, "Plants of the farm " + farm_.name);
     for (std::size_t i = 0; i < groups.links.size(); ++i)
@@ -157,16 +113,39 @@ class MergedModelWriter {
   }
 
  private:
+  MergedMesh write_mesh(const std::string& model, const PlantGroup& group,
+                        std::size_t material) const {
+    const fs::path folder = mesh_folder(models_, model);
+    const std::string& name = surfaces_.names[material];
+    const std::string stem = group.mesh_prefix + name;
+    ObjFile obj(folder / (stem + ".obj"), stem + ".mtl", kPlantNormals);
+    mesh::write_mtl(folder / (stem + ".mtl"),
+                    {{.name = name,
+                      .material = surfaces_.materials[material],
+                      .images = "../../" + images_of(material)}},
+                    kMatt);
+    obj.use_material(name);
+    const bool one_sided = !has_sim_material(models_.gazebo, surfaces_.materials[material]);
+    for (const farm::Plant* plant : group.plants) {
+      const Eigen::Affine3d link_from_plant =
+          Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
+      for (const Surface& surface : surfaces_.models[plant->model]) {
+        if (surface.material == material)
+          obj.add(surface, link_from_plant, one_sided && !surface.closed);
+      }
+    }
+    obj.close();
+    return {.material = material, .file = stem + ".obj", .triangles = obj.triangles()};
+  }
+
   EntityCounts write_link(sdfxml::XmlFile& xml, const PlantGroups& groups, const PlantGroup& group,
                           const std::vector<MergedMesh>& meshes) const {
     EntityCounts counts{.links = 1};
     xml.open("link", group.link);
     const Eigen::Vector3d place = group.origin - groups.origin;
     if (!place.isZero(0)) xml.text("pose", sdfxml::sdf_pose(place, Eigen::Quaterniond::Identity()));
-    for (const MergedMesh& mesh : meshes) {
-      counts += write_mesh(xml, groups, mesh);
-    }
-    if (options_.collision == Collision::box) {
+    for (const MergedMesh& mesh : meshes) counts += write_visual(xml, groups, mesh);
+    if (collision_ == Collision::box) {
       write_box_collision(xml, box_around(group, surfaces_), groups.label);
       ++counts.collisions;
     }
@@ -174,36 +153,43 @@ class MergedModelWriter {
     return counts;
   }
 
-  EntityCounts write_mesh(sdfxml::XmlFile& xml, const PlantGroups& groups,
-                          const MergedMesh& mesh) const {
+  EntityCounts write_visual(sdfxml::XmlFile& xml, const PlantGroups& groups,
+                            const MergedMesh& mesh) const {
+    const mesh::Material& material = surfaces_.materials[mesh.material];
     const std::string& name = surfaces_.names[mesh.material];
     const std::string uri = mesh_uri(groups.name, mesh.file);
     xml.open("visual", name);
     sdfxml::write_mesh_geometry(xml, uri);
-    if (has_sim_material(options_.gazebo, surfaces_.materials[mesh.material]))
-      write_sim_material(xml, surfaces_.materials[mesh.material].colour, image_uri(mesh.material));
+    if (has_sim_material(models_.gazebo, material)) {
+      write_sim_material(
+          xml, material.colour,
+          material.texture ? "model://" + images_of(mesh.material) + material.texture->name : "");
+    }
     write_class(xml, groups.label);
     xml.close();
     EntityCounts counts{.visuals = 1, .triangles = mesh.triangles};
-    if (options_.collision == Collision::mesh) {
+    if (collision_ == Collision::mesh) {
       // In SDF no two parts of a link have one name.
-      write_mesh_collision(xml, name + ".collision", uri, Eigen::Vector3d::Ones(), groups.label);
+      sdfxml::write_mesh_part(xml, "collision", name + ".collision", uri, groups.label);
       ++counts.collisions;
     }
     return counts;
   }
 
-  std::string image_uri(std::size_t material) const {
-    const auto& image = surfaces_.materials[material].texture;
-    if (!image) return "";
-    return "model://" + home_of_image(farm_, surfaces_, material) + "/materials/textures/" +
-           image->name;
+  // The folder of a material's images, from that of all models: the first model that shows it has
+  // them.
+  std::string images_of(std::size_t material) const {
+    const auto model = std::ranges::find_if(surfaces_.models, [&](const auto& surfaces) {
+      return std::ranges::count(surfaces, material, &Surface::material) > 0;
+    });
+    return farm_.models[static_cast<std::size_t>(model - surfaces_.models.begin())].name + "/" +
+           kImages;
   }
 
   const ModelFolder& models_;
   const farm::Farm& farm_;
   const PlantSurfaces& surfaces_;
-  const ExportOptions& options_;
+  Collision collision_;
 };
 
 }  // namespace
@@ -227,10 +213,7 @@ std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const fa
     sdfxml::XmlFile xml =
         begin_model(models, name, "Plant of the farm " + farm.name + ", foot at the origin");
     xml.open("link", "link");
-    xml.open("visual", "visual");
-    sdfxml::write_mesh_geometry(xml, plants.back().uri);
-    write_class(xml, classes[i]);
-    xml.close();
+    sdfxml::write_mesh_part(xml, "visual", "visual", plants.back().uri, classes[i]);
     xml.close();
     end_model(xml);
   }
@@ -247,18 +230,18 @@ EntityCounts write_merged_plants(const ModelFolder& models, const farm::Farm& fa
     meshes[i].resize(groups[i].links.size());
     for (std::size_t k = 0; k < groups[i].links.size(); ++k) links.emplace_back(i, k);
   }
+  const MergedPlants writer(models, farm, surfaces, options.collision);
   std::mutex reporting;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, links.size(), [&](std::size_t i) {
     const auto [model, link] = links[i];
-    meshes[model][link] =
-        write_merged_meshes(models, groups[model].name, groups[model].links[link], farm, surfaces);
+    meshes[model][link] = writer.write_meshes(groups[model].name, groups[model].links[link]);
     const std::lock_guard lock(reporting);
     progress(static_cast<double>(++done) / static_cast<double>(links.size()));
   });
-  const MergedModelWriter writer(models, farm, surfaces, options);
   EntityCounts counts;
-  for (std::size_t i = 0; i < groups.size(); ++i) counts += writer.write(groups[i], meshes[i]);
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    counts += writer.write_model(groups[i], meshes[i]);
   return counts;
 }
 
@@ -273,16 +256,13 @@ EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& fa
   obj.close();
   mesh::Material soil{.name = "soil", .colour = farm::kSoilBrown};
   if (farm.soil_reflectance) soil.reflectance = static_cast<float>(*farm.soil_reflectance);
-  write_mtl(folder / (name + ".mtl"), {{.name = soil.name, .material = soil, .images = ""}});
+  mesh::write_mtl(folder / (name + ".mtl"), {{.name = soil.name, .material = soil}}, kMatt);
 
   const std::string uri = mesh_uri(name, name + ".obj");
   sdfxml::XmlFile xml = begin_model(models, name, "Terrain of the farm " + farm.name);
   xml.open("link", "link");
-  xml.open("visual", "visual");
-  sdfxml::write_mesh_geometry(xml, uri);
-  write_class(xml, SurfaceClass::ground);
-  xml.close();
-  write_mesh_collision(xml, "collision", uri, Eigen::Vector3d::Ones(), SurfaceClass::ground);
+  for (const char* part : {"visual", "collision"})
+    sdfxml::write_mesh_part(xml, part, part, uri, SurfaceClass::ground);
   xml.close();
   end_model(xml);
   return {.models = 1, .links = 1, .visuals = 1, .collisions = 1, .triangles = obj.triangles()};

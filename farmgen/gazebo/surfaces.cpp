@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
+
+#include "mesh/obj.h"
 
 namespace plotscan::gazebo {
 namespace {
-
-constexpr std::uint32_t kUnused = ~0u;
 
 std::size_t index_of(std::vector<mesh::Material>& materials, const mesh::Material& wanted) {
   const auto found = std::find(materials.begin(), materials.end(), wanted);
@@ -57,40 +56,16 @@ bool is_closed(const Surface& surface) {
 }
 
 Surface surface_of(const mesh::Mesh& mesh, std::uint16_t material, bool textured) {
-  Surface surface;
-  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
+  mesh::Mesh part{.vertices = mesh.vertices, .triangles = {}};
+  if (textured) part.texture_coordinates = mesh.texture_coordinates;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (mesh.material_of(i) != material) continue;
-    auto triangle = mesh.triangles[i];
-    for (std::uint32_t& vertex : triangle) {
-      std::uint32_t& moved = place[vertex];
-      if (moved == kUnused) {
-        moved = static_cast<std::uint32_t>(surface.vertices.size());
-        surface.vertices.push_back(mesh.vertices[vertex]);
-        if (textured) surface.texture_coordinates.push_back(mesh.texture_coordinates[vertex]);
-      }
-      vertex = moved;
-    }
-    surface.triangles.push_back(triangle);
+    if (mesh.material_of(i) == material) part.triangles.push_back(mesh.triangles[i]);
   }
-  return surface;
-}
-
-std::vector<std::string> file_names(const std::vector<mesh::Material>& materials) {
-  std::set<std::string> taken;
-  std::vector<std::string> names;
-  for (const mesh::Material& material : materials) {
-    std::string stem = material.name.empty() ? "plant" : material.name;
-    for (char& c : stem) {
-      const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-      if (!plain && c != '-') c = '_';
-    }
-    std::string name = stem;
-    for (int number = 2; !taken.insert(name).second; ++number)
-      name = stem + "_" + std::to_string(number);
-    names.push_back(name);
-  }
-  return names;
+  part = mesh::compact(part);
+  return {.vertices = std::move(part.vertices),
+          .normals = {},
+          .texture_coordinates = std::move(part.texture_coordinates),
+          .triangles = std::move(part.triangles)};
 }
 
 }  // namespace
@@ -120,7 +95,7 @@ PlantSurfaces plant_surfaces(const farm::Farm& farm, Detail lod) {
                                                  : mesh::simplified(model.mesh, kLightTriangles);
     surfaces.models.push_back(surfaces_of(shown, surfaces.materials));
   }
-  surfaces.names = file_names(surfaces.materials);
+  surfaces.names = mesh::distinct_names(surfaces.materials, "plant", "-");
   return surfaces;
 }
 

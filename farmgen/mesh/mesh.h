@@ -16,6 +16,8 @@ namespace plotscan::mesh {
 struct Image {
   std::string name;   // a file name without folders: letters, digits, '-', '_', '.'
   std::string bytes;  // of a PNG or JPEG file
+
+  bool operator==(const Image&) const = default;
 };
 
 class AlphaMask;  // mesh/alpha_mask.h
@@ -47,6 +49,10 @@ struct Mesh {
     return triangle_material.empty() ? std::uint16_t{0} : triangle_material[triangle];
   }
 };
+
+// The mesh without the vertices that no triangle names; the others in the order in which they are
+// named first.
+Mesh compact(const Mesh& mesh);
 
 // The same surface with at most about `triangles` triangles. Each connected part of each material
 // (a leaf, a stem) keeps its share of the triangles, its place, its texture and, by being widened a

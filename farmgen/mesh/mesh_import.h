@@ -29,7 +29,7 @@ struct MeshImportOptions {
 // Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are
 // triangulated, all objects joined, equal vertices shared, and triangles without area dropped.
 // Materials keep their names, diffuse colours and textures (PNG or JPEG, inside the file or beside
-// it), what write_optics says of them, and where they let rays through: `map_d` and other opacity
+// it), what write_mtl says of them, and where they let rays through: `map_d` and other opacity
 // textures, else the texture's own alpha (of glTF as alphaMode and alphaCutoff say). `notes`, where
 // given, gains a line for each opacity texture that is left out since it is absent or in another
 // format. Throws InputError when the file is missing or cannot be parsed, its format is another, a

@@ -12,48 +12,13 @@
 namespace plotscan::mesh {
 namespace {
 
-// A name that can stand in an OBJ file, and different from those taken.
-std::string material_name(const Material& material, std::set<std::string>& taken) {
-  std::string name = material.name.empty() ? "surface" : material.name;
-  for (char& c : name) {
-    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    if (!plain && c != '-' && c != '.') c = '_';
-  }
-  const std::string stem = name;
-  for (int number = 2; !taken.insert(name).second; ++number)
-    name = stem + "_" + std::to_string(number);
-  return name;
-}
+// Matt for readers of the plain model and of the physically based one (roughness, metallic).
+constexpr std::string_view kMatt = "Ks 0 0 0\nPr 0.8\nPm 0\n";
 
 void write_image(const std::filesystem::path& folder, const Image& image) {
   TextFile file(folder / image.name);
   file << image.bytes;
   file.close();
-}
-
-void write_images(const std::filesystem::path& folder, const Mesh& mesh) {
-  for (const Material& material : mesh.materials) {
-    if (material.texture) write_image(folder, *material.texture);
-    if (material.mask) write_image(folder, *material.mask->image());
-  }
-}
-
-void write_materials(const std::filesystem::path& path, const Mesh& mesh,
-                     const std::vector<std::string>& names) {
-  TextFile out(path);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const Material& material = mesh.materials[i];
-    out << "newmtl " << names[i] << "\n";
-    for (const char* key : {"Ka", "Kd"}) {
-      out << key << " " << material.colour.x() << " " << material.colour.y() << " "
-          << material.colour.z() << "\n";
-    }
-    // Matt for readers of the plain model and of the physically based one (roughness, metallic).
-    out << "Ks 0 0 0\nPr 0.8\nPm 0\n";
-    if (material.texture) out << "map_Kd " << material.texture->name << "\n";
-    write_optics(out, material, "");
-  }
-  out.close();
 }
 
 void write_triangles(TextFile& out, const Mesh& mesh, std::size_t material) {
@@ -71,21 +36,60 @@ void write_triangles(TextFile& out, const Mesh& mesh, std::size_t material) {
 
 }  // namespace
 
-void write_optics(TextFile& mtl, const Material& material, const std::string& images) {
-  if (material.mask) mtl << "map_d " << images << material.mask->image()->name << "\n";
-  if (material.mask && material.mask->cutoff() != kAlphaCutoff)
-    mtl << kCutoffComment << " " << material.mask->cutoff() << "\n";
-  if (material.reflectance) mtl << kReflectanceComment << " " << *material.reflectance << "\n";
+std::string plain_name(std::string text, std::string_view also) {
+  for (char& c : text) {
+    const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (!plain && also.find(c) == std::string_view::npos) c = '_';
+  }
+  return text;
+}
+
+std::vector<std::string> distinct_names(const std::vector<Material>& materials,
+                                        const std::string& nameless, std::string_view also) {
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const Material& material : materials) {
+    const std::string stem = plain_name(material.name.empty() ? nameless : material.name, also);
+    std::string name = stem;
+    for (int number = 2; !taken.insert(name).second; ++number)
+      name = stem + "_" + std::to_string(number);
+    names.push_back(name);
+  }
+  return names;
+}
+
+void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& entries,
+               std::string_view matt) {
+  TextFile out(path);
+  for (const auto& [name, material, images] : entries) {
+    const Eigen::Vector3f& colour = material.colour;
+    out << "newmtl " << name << "\n";
+    for (const char* key : {"Ka ", "Kd "})
+      out << key << colour.x() << " " << colour.y() << " " << colour.z() << "\n";
+    out << matt;
+    if (material.texture) out << "map_Kd " << images << material.texture->name << "\n";
+    if (material.mask) out << "map_d " << images << material.mask->image()->name << "\n";
+    if (material.mask && material.mask->cutoff() != kAlphaCutoff)
+      out << kCutoffComment << " " << material.mask->cutoff() << "\n";
+    if (material.reflectance) out << kReflectanceComment << " " << *material.reflectance << "\n";
+  }
+  out.close();
+}
+
+void write_images(const std::filesystem::path& folder, const Material& material) {
+  if (material.texture) write_image(folder, *material.texture);
+  if (material.mask) write_image(folder, *material.mask->image());
 }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
-  std::set<std::string> taken;
-  std::vector<std::string> names;
-  for (const Material& material : mesh.materials) names.push_back(material_name(material, taken));
+  const std::vector<std::string> names = distinct_names(mesh.materials, "surface", "-.");
   const std::filesystem::path library = std::filesystem::path(path).replace_extension(".mtl");
   if (!names.empty()) {
-    write_materials(library, mesh, names);
-    write_images(path.parent_path(), mesh);
+    std::vector<MtlEntry> entries;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      entries.push_back({.name = names[i], .material = mesh.materials[i]});
+    write_mtl(library, entries, kMatt);
+    for (const Material& material : mesh.materials) write_images(path.parent_path(), material);
   }
   TextFile out(path);
   out << "# metres, z up\n";

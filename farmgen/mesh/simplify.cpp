@@ -214,30 +214,6 @@ void keep_area(const Mesh& mesh, const Part& part, const Indices& kept,
   }
 }
 
-// Without the vertices that no triangle names.
-Mesh compact(const Mesh& mesh) {
-  constexpr std::uint32_t kUnused = ~0u;
-  std::vector<std::uint32_t> place(mesh.vertices.size(), kUnused);
-  Mesh kept{.vertices = {},
-            .triangles = mesh.triangles,
-            .materials = mesh.materials,
-            .triangle_material = mesh.triangle_material,
-            .texture_coordinates = {}};
-  for (auto& triangle : kept.triangles) {
-    for (std::uint32_t& vertex : triangle) {
-      std::uint32_t& moved = place[vertex];
-      if (moved == kUnused) {
-        moved = static_cast<std::uint32_t>(kept.vertices.size());
-        kept.vertices.push_back(mesh.vertices[vertex]);
-        if (!mesh.texture_coordinates.empty())
-          kept.texture_coordinates.push_back(mesh.texture_coordinates[vertex]);
-      }
-      vertex = moved;
-    }
-  }
-  return kept;
-}
-
 }  // namespace
 
 Mesh simplified(const Mesh& mesh, std::size_t triangles) {

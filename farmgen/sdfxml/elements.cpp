@@ -67,6 +67,15 @@ void write_class(XmlWriter& xml, farm::SurfaceClass label) {
   xml.text("laser_retro", std::to_string(static_cast<int>(label)));
 }
 
+void write_mesh_part(XmlWriter& xml, const char* part, const std::string& name,
+                     const std::string& uri, farm::SurfaceClass label,
+                     const Eigen::Vector3d& scale) {
+  xml.open(part, name);
+  write_mesh_geometry(xml, uri, scale);
+  write_class(xml, label);
+  xml.close();
+}
+
 void write_sun(XmlWriter& xml) {
   xml.open("light", "sun");
   xml.attribute("type", "directional");

@@ -41,6 +41,11 @@ void write_mesh_geometry(XmlWriter& xml, const std::string& uri,
 // <laser_retro>: the class of what a ray meets.
 void write_class(XmlWriter& xml, farm::SurfaceClass label);
 
+// A part of a link, "visual" or "collision", that is a mesh.
+void write_mesh_part(XmlWriter& xml, const char* part, const std::string& name,
+                     const std::string& uri, farm::SurfaceClass label,
+                     const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
+
 // A directional light from the south-east, high up.
 void write_sun(XmlWriter& xml);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/angle.h"
+#include "core/bytes.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "scan/internal/las_format.h"
@@ -24,30 +25,6 @@ constexpr std::size_t kLargestRecord = las::kFormatSizes[kPointFormat] + kRing +
 constexpr double kScanAngleStep_rad = radians(0.006);
 constexpr std::uint16_t kFlightLine = 1;
 constexpr int kMaxReturns = 15;
-
-// Little-endian fields one after the other.
-class Bytes {
- public:
-  template <class T>
-  Bytes& put(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  // Text in a field of `size` bytes, filled with zeros.
-  Bytes& text(std::string_view text, std::size_t size) {
-    bytes_.append(text.substr(0, size));
-    bytes_.append(size - std::min(size, text.size()), '\0');
-    return *this;
-  }
-  Bytes& zeros(std::size_t count) {
-    bytes_.append(count, '\0');
-    return *this;
-  }
-  const std::string& str() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
 
 // ASPRS' standard class. Weeds are vegetation too: the extra byte `class` tells them from the crop.
 std::uint8_t asprs_class(PointClass label) {
@@ -71,16 +48,17 @@ std::string vlr(std::string_view user, std::uint16_t record, std::string_view de
     throw InputError("the text of the coordinate system has " + std::to_string(data.size()) +
                      " bytes; a record of a LAS file takes 65535");
   }
-  Bytes bytes;
-  bytes.put<std::uint16_t>(0).text(user, 16).put(record);
-  bytes.put(static_cast<std::uint16_t>(data.size())).text(description, 32).text(data, data.size());
-  return bytes.str();
+  ByteWriter bytes;
+  bytes.put<std::uint16_t>(0).put_field(user, 16).put(record);
+  bytes.put(static_cast<std::uint16_t>(data.size())).put_field(description, 32);
+  return bytes.take() + data;
 }
 
 std::string extra_byte(std::uint8_t type, std::string_view name, std::string_view description) {
-  Bytes bytes;
-  bytes.zeros(2).put(type).put<std::uint8_t>(0).text(name, 32).zeros(124).text(description, 32);
-  return bytes.str();
+  ByteWriter bytes;
+  bytes.put<std::uint16_t>(0).put(type).put<std::uint8_t>(0).put_field(name, 32);
+  bytes.put_field("", 124).put_field(description, 32);
+  return bytes.take();
 }
 
 std::string extra_bytes(bool labels) {
@@ -198,14 +176,15 @@ std::string LasWriter::header() const {
   const std::uint16_t encoding =
       las::kWkt | (options_.start ? las::kAdjustedGpsTime : std::uint16_t{0});
   const std::uint32_t records = options_.start ? 3 : 2;
-  Bytes bytes;
-  bytes.text("LASF", 4).put(kFlightLine).put(encoding).zeros(16);  // no project id
+  ByteWriter bytes;
+  bytes.put_field("LASF", 4).put(kFlightLine).put(encoding);
+  bytes.put_field("", 16);  // no project id
   bytes.put<std::uint8_t>(1).put<std::uint8_t>(4);
-  bytes.text(options_.system, 32).text("Plotscan " + version(), 32).put(day).put(year);
+  bytes.put_field(options_.system, 32).put_field("Plotscan " + version(), 32).put(day).put(year);
   bytes.put(static_cast<std::uint16_t>(las::kHeaderSize));
   bytes.put(static_cast<std::uint32_t>(las::kHeaderSize + records_.size())).put(records);
   bytes.put(static_cast<std::uint8_t>(kPointFormat)).put(static_cast<std::uint16_t>(record_size()));
-  bytes.zeros(24);  // the legacy counts of older versions
+  bytes.put_field("", 24);  // the legacy counts of older versions
   for (int axis = 0; axis < 3; ++axis) bytes.put(kStep_m);
   for (int axis = 0; axis < 3; ++axis) bytes.put(options_.offset_m[axis]);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -213,10 +192,11 @@ std::string LasWriter::header() const {
     bytes.put(points_ == 0 ? 0.0 : offset + most_[axis] * kStep_m);
     bytes.put(points_ == 0 ? 0.0 : offset + least_[axis] * kStep_m);
   }
-  bytes.zeros(8).zeros(8).zeros(4);  // no waveforms, no extended records
+  bytes.put_field("", 8 + 8 + 4);  // no waveforms, no extended records
   bytes.put(points_).put(by_return_);
-  check(bytes.str().size() == las::kHeaderSize, "the LAS header has its length");
-  return bytes.str();
+  std::string header = bytes.take();
+  check(header.size() == las::kHeaderSize, "the LAS header has its length");
+  return header;
 }
 
 }  // namespace plotscan::scan

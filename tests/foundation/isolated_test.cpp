@@ -154,6 +154,12 @@ TEST(Bytes, ComeBackInTheirOrder) {
   EXPECT_THROW(reader.get<char>(), std::runtime_error);
 }
 
+TEST(Bytes, AFieldIsCutOffOrFilledWithZeros) {
+  ByteWriter writer;
+  writer.put_field("seven", 3).put_field("seven", 7).put('!');
+  EXPECT_EQ(writer.take(), std::string("sevseven\0\0!", 11));
+}
+
 TEST(Bytes, ACountBeyondTheBytesIsRefusedBeforeItIsAllocated) {
   ByteWriter writer;
   writer.put(std::uint64_t{1} << 62);

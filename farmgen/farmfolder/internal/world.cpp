@@ -19,16 +19,9 @@ constexpr const char* kSdfVersion = "1.6";
 void write_one_mesh_model(sdfxml::XmlFile& xml, const std::string& name, const std::string& uri,
                           farm::SurfaceClass label) {
   sdfxml::open_static_model(xml, name);
-  xml.open("visual", "visual");
-  sdfxml::write_mesh_geometry(xml, uri);
-  sdfxml::write_class(xml, label);
-  xml.close();
-  if (label == farm::SurfaceClass::ground) {
-    xml.open("collision", "collision");
-    sdfxml::write_mesh_geometry(xml, uri);
-    sdfxml::write_class(xml, label);
-    xml.close();
-  }
+  sdfxml::write_mesh_part(xml, "visual", "visual", uri, label);
+  if (label == farm::SurfaceClass::ground)
+    sdfxml::write_mesh_part(xml, "collision", "collision", uri, label);
   sdfxml::close_static_model(xml);
 }
 

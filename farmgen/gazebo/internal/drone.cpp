@@ -82,10 +82,7 @@ class Drone {
 
   void close_visual(const Eigen::Vector3f& colour) {
     xml_.close();
-    const std::string rgba = colour_text(colour);
-    xml_.open("material");
-    xml_.text("ambient", rgba);
-    xml_.text("diffuse", rgba);
+    open_material(xml_, colour);
     xml_.close();
     write_class(xml_, SurfaceClass::other);
     xml_.close();

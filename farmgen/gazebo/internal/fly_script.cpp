@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/fly_script.h"
 
-#include "core/csv.h"
 #include "core/text_file.h"
 #include "gazebo/internal/drone.h"
 #include "gazebo/internal/world_file.h"
@@ -170,9 +169,7 @@ has_run() { [ "$(iterations)" -ge "$goal" ]; }
 steps=$(awk "BEGIN { print int($step_s / $physics_step_s + 0.5) }")
 call control WorldControl "pause: true"
 goal=$(iterations)
-)sh";
 
-constexpr const char* kSimLoop = R"sh(
 count=$(printf '%s\n' "$list" | wc -l)
 done=0
 while read -r pose; do
@@ -328,14 +325,12 @@ void write_fly_script(const std::filesystem::path& path, const std::string& worl
          "set -eu\n"
          "export LC_ALL=C\n\n"
       << "world='" << world << "'\ndrone='" << kDroneModel << "'\n";
-  if (gazebo == Gazebo::sim) {
-    out << "physics_step_s=" << format_number(kStep_s) << "\nleast_step_s=$physics_step_s\n"
-        << kUsage << kPoses << kSim << kSimLoop;
-  } else {
-    out << "physics_step_s=" << format_number(kStep_s) << "\nturn_s=" << format_number(kTurn_s)
-        << "\nlead_s=" << format_number(kLead_s) << "\nleast_step_s=$turn_s\n"
-        << kUsage << kPoses << kClassic;
-  }
+  out << "physics_step_s=" << kStep_s << "\n";
+  if (gazebo == Gazebo::sim)
+    out << "least_step_s=$physics_step_s\n";
+  else
+    out << "turn_s=" << kTurn_s << "\nlead_s=" << kLead_s << "\nleast_step_s=$turn_s\n";
+  out << kUsage << kPoses << (gazebo == Gazebo::sim ? kSim : kClassic);
   out.close();
   std::filesystem::permissions(path,
                                std::filesystem::perms::owner_exec |

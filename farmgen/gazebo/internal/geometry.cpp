@@ -42,7 +42,7 @@ std::uint32_t ShapeCache::index(const std::string& key, Make&& make) {
 }
 
 std::uint32_t ShapeCache::of_mesh(const ShapeSpec& given, const std::string& what) {
-  const auto file = is_remote(given.uri) ? std::nullopt : finder_.find(given.uri, given.from);
+  const auto file = finder_.find(given.uri, given.from);
   if (!file)
     throw InputError(given.from, what + ": mesh " + finder_.not_found(given.uri, given.from));
   const std::string key =

@@ -68,13 +68,16 @@ void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
   }
 }
 
+void load_xml(tinyxml2::XMLDocument& document, const fs::path& file, const std::string& refusal) {
+  if (document.LoadFile(file.c_str()) == tinyxml2::XML_SUCCESS) return;
+  throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
+                   refusal + ": " + document.ErrorName());
+}
+
 // libsdformat crashes on a description of a model that lacks something.
 void require_config(const fs::path& config) {
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(config.c_str()) != tinyxml2::XML_SUCCESS) {
-    throw InputError(config, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
-                     std::string("cannot be parsed as XML: ") + document.ErrorName());
-  }
+  load_xml(document, config, "cannot be parsed as XML");
   const tinyxml2::XMLElement* model = document.FirstChildElement("model");
   const tinyxml2::XMLElement* sdf = model == nullptr ? nullptr : model->FirstChildElement("sdf");
   if (sdf == nullptr) throw InputError(config, "has no <model> with an <sdf> that names its file");
@@ -106,11 +109,7 @@ class Follower {
                                  " bytes; SDF is read up to " + std::to_string(kMostBytes));
     }
     tinyxml2::XMLDocument document;
-    if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
-      throw InputError(
-          file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
-          std::string("cannot be parsed as XML, which SDF is: ") + document.ErrorName());
-    }
+    load_xml(document, file, "cannot be parsed as XML, which SDF is");
     if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
     require_sdf(*document.RootElement(), file);
     if (open_.size() == kDeepest)
@@ -148,7 +147,7 @@ class Follower {
     const tinyxml2::XMLElement* element = include.FirstChildElement("uri");
     const std::string uri = trimmed(element == nullptr ? nullptr : element->GetText());
     if (uri.empty()) throw InputError(file, line, "<include> has no <uri>");
-    const auto found = is_remote(uri) ? std::nullopt : finder_.find(uri, file);
+    const auto found = finder_.find(uri, file);
     if (!found) throw InputError(file, line, "<include> " + finder_.not_found(uri, file));
     const auto [known, is_new] = includes_.by_uri.try_emplace(uri, *found);
     if (known->second != *found) {

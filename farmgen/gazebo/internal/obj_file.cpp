@@ -2,24 +2,14 @@
 #include "gazebo/internal/obj_file.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
-#include "core/error.h"
-#include "core/text_file.h"
-#include "mesh/obj.h"
+#include "core/number_text.h"
 
 namespace plotscan::gazebo {
 namespace {
 
 constexpr std::size_t kBuffer = 1 << 20;
-
-template <class Number>
-void put(std::string& text, Number value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text.append(digits.data(), end);
-}
 
 // The octahedral map of a direction to [0, 1]^2 and back (Meyer et al. 2010, On Floating-Point
 // Normal Vectors, section 3).
@@ -45,24 +35,8 @@ Eigen::Vector3d direction_from_square(const Eigen::Vector2d& square) {
 
 }  // namespace
 
-void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& materials) {
-  TextFile out(path);
-  for (const MtlEntry& material : materials) {
-    out << "newmtl " << material.name << "\n";
-    const Eigen::Vector3f& colour = material.material.colour;
-    for (const char* key : {"Ka ", "Kd "})
-      out << key << colour.x() << " " << colour.y() << " " << colour.z() << "\n";
-    out << "Ks 0 0 0\nNs 1\nPr 0.9\nPm 0\n";
-    if (material.material.texture)
-      out << "map_Kd " << material.images << material.material.texture->name << "\n";
-    mesh::write_optics(out, material.material, material.images);
-  }
-  out.close();
-}
-
 ObjFile::ObjFile(const std::filesystem::path& path, const std::string& materials, int normal_steps)
-    : path_(path),
-      out_(path, std::ios::binary),
+    : out_(path),
       steps_(normal_steps),
       normal_ids_(static_cast<std::size_t>(normal_steps + 1) * (normal_steps + 1), 0) {
   buffer_ = "# metres, z up\nmtllib " + materials + "\n";
@@ -74,13 +48,13 @@ void ObjFile::put_numbers(std::string_view key, std::initializer_list<float> val
   buffer_ += key;
   for (const float value : values) {
     buffer_ += ' ';
-    put(buffer_, value + 0.0F);
+    buffer_.append(NumberText(value + 0.0F));
   }
   buffer_ += '\n';
 }
 
 void ObjFile::flush() {
-  out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  out_ << buffer_;
   buffer_.clear();
 }
 
@@ -133,11 +107,11 @@ std::uint64_t ObjFile::texture_base(const Surface& surface) {
 // `texture` is 0 where there is none.
 void ObjFile::put_corner(std::uint64_t vertex, std::uint64_t texture, std::uint32_t normal) {
   buffer_ += ' ';
-  put(buffer_, vertex);
+  buffer_.append(NumberText(vertex));
   buffer_ += '/';
-  if (texture != 0) put(buffer_, texture);
+  if (texture != 0) buffer_.append(NumberText(texture));
   buffer_ += '/';
-  put(buffer_, normal);
+  buffer_.append(NumberText(normal));
 }
 
 void ObjFile::add(const Surface& surface, const Eigen::Affine3d& file_from_surface,
@@ -166,7 +140,6 @@ void ObjFile::add(const Surface& surface, const Eigen::Affine3d& file_from_surfa
 void ObjFile::close() {
   flush();
   out_.close();
-  if (!out_) throw WriteError(path_);
 }
 
 }  // namespace plotscan::gazebo

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <map>
 #include <string>
@@ -12,20 +11,10 @@
 
 #include <Eigen/Geometry>
 
+#include "core/text_file.h"
 #include "gazebo/surfaces.h"
 
 namespace plotscan::gazebo {
-
-// A material of an MTL file.
-struct MtlEntry {
-  std::string name;
-  mesh::Material material;
-  std::string images;  // folder of its images from the MTL file, with a slash behind
-};
-
-// Diffuse and ambient colour, texture, the roughness of a leaf for renderers that know it, and what
-// mesh::write_optics says.
-void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& materials);
 
 // An OBJ file for Gazebo's loaders, written surface by surface. Gazebo's loaders compute no
 // normals, so these are in the file, rounded to one of about `normal_steps`^2 directions and each
@@ -55,8 +44,7 @@ class ObjFile {
   void put_numbers(std::string_view key, std::initializer_list<float> values);
   void flush();
 
-  std::filesystem::path path_;
-  std::ofstream out_;
+  TextFile out_;
   std::string buffer_;
   int steps_;
   std::vector<std::uint32_t> normal_ids_;  // by direction; 0: not yet written

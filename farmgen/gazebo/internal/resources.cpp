@@ -38,11 +38,12 @@ std::optional<std::string> behind(const std::string& uri, std::string_view schem
   return uri.substr(scheme.size());
 }
 
-}  // namespace
-
+// Whether the URI leads to the network.
 bool is_remote(const std::string& uri) {
   return uri.starts_with("http://") || uri.starts_with("https://") || uri.starts_with("fuel://");
 }
+
+}  // namespace
 
 ResourceFinder::ResourceFinder(const fs::path& world, const std::vector<fs::path>& first)
     : folders_(first) {

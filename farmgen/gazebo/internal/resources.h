@@ -32,7 +32,4 @@ class ResourceFinder {
   std::vector<std::filesystem::path> folders_;
 };
 
-// Whether the URI leads to the network.
-bool is_remote(const std::string& uri);
-
 }  // namespace plotscan::gazebo

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/world_file.h"
 
-#include <algorithm>
-
 #include "sdfxml/elements.h"
 #include "terrain/extent.h"
 
@@ -134,12 +132,9 @@ class WorldFile {
     xml_.text("pose", sdfxml::sdf_pose(plant.position, plant.rotation));
     write_label(label);
     xml_.open("link", "link");
-    xml_.open("visual", "visual");
-    sdfxml::write_mesh_geometry(xml_, mesh.uri, plant.scale);
-    write_class(xml_, label);
-    xml_.close();
+    sdfxml::write_mesh_part(xml_, "visual", "visual", mesh.uri, label, plant.scale);
     if (options_.collision == Collision::mesh)
-      write_mesh_collision(xml_, "collision", mesh.uri, plant.scale, label);
+      sdfxml::write_mesh_part(xml_, "collision", "collision", mesh.uri, label, plant.scale);
     if (options_.collision == Collision::box) {
       write_box_collision(xml_,
                           {.center = plant.scale.cwiseProduct(mesh.bounds.center()),

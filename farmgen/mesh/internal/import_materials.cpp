@@ -2,7 +2,6 @@
 #include "mesh/internal/import_materials.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "core/text.h"
 #include "mesh/alpha_mask.h"
 #include "mesh/internal/mtl_comments.h"
+#include "mesh/obj.h"
 
 namespace plotscan::mesh {
 namespace {
@@ -26,12 +26,7 @@ bool is_image(const std::string& bytes) {
 }
 
 std::string image_name(const std::string& file) {
-  std::string name = std::filesystem::path(file).filename().string();
-  for (char& c : name) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
-    if (!plain) c = '_';
-  }
-  return name;
+  return plain_name(std::filesystem::path(file).filename().string(), "-.");
 }
 
 // That of a picture: another name might be that of the model or of its materials.
@@ -93,9 +88,7 @@ std::shared_ptr<const Image> opacity_image(const std::filesystem::path& path, co
     notes->push_back(path.string() + ": material " + material.name +
                      " is taken as opaque everywhere: its mask " + found.missing);
   }
-  const bool is_texture = found.image && material.texture &&
-                          found.image->name == material.texture->name &&
-                          found.image->bytes == material.texture->bytes;
+  const bool is_texture = found.image && material.texture && *found.image == *material.texture;
   return is_texture ? material.texture : found.image;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/internal/mtl_comments.h"
 
-#include <cctype>
 #include <fstream>
 
 #include "core/error.h"
 #include "core/parse.h"
+#include "core/text.h"
 
 namespace plotscan::mesh {
 namespace {
@@ -47,9 +47,7 @@ void read_library(const std::filesystem::path& file, std::map<std::string, MtlCo
 
 std::map<std::string, MtlComments> read_mtl_comments(const std::filesystem::path& obj) {
   std::map<std::string, MtlComments> found;
-  std::string extension = obj.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".obj") return found;
+  if (lower_extension(obj) != ".obj") return found;
   std::ifstream in(obj);
   for (std::string line; std::getline(in, line);) {
     // Libraries are named before the first vertex: the rest of the file need not be read again.

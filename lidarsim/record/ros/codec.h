@@ -7,6 +7,8 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/error.h"
@@ -27,7 +29,7 @@ inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 inline constexpr std::size_t kCdrHeader = 4;
 
 template <class Value>
-concept Number = std::integral<Value> || std::floating_point<Value>;
+concept Number = std::integral<Value> || std::floating_point<Value> || std::is_enum_v<Value>;
 
 class Encoder {
  public:
@@ -57,9 +59,9 @@ class Encoder {
     put(static_cast<std::uint32_t>(time.ns / kSecond_ns));
     put(static_cast<std::uint32_t>(time.ns % kSecond_ns));
   }
-  void put(const std::string& text) {
+  void put(std::string_view text) {
     put(static_cast<std::uint32_t>(text.size() + (version_ == Version::ros2 ? 1 : 0)));
-    append(text.data(), text.size());
+    bytes_ += text;
     if (version_ == Version::ros2) bytes_.push_back('\0');
   }
   template <class Element>
@@ -169,10 +171,10 @@ class Decoder {
   std::size_t at_ = 0;
 };
 
-template <class Message>
-std::string encode(Version version, const Message& message) {
+template <class... Messages>
+std::string encode(Version version, const Messages&... messages) {
   Encoder encoder(version);
-  encoder(message);
+  encoder(messages...);
   return encoder.take();
 }
 

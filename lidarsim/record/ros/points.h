@@ -29,7 +29,6 @@ class RosPoints {
   const std::string& topic() const { return topic_; }
   // Time 0 of the points: when the first message was recorded, rounded down to a microsecond.
   UtcTime start() const;
-  const std::string& world_frame() const { return path_.top(); }
   // The trajectory of the body that carries the sensor, by the transforms, in the world frame and
   // the points' time; nothing if no transform moves.
   std::optional<scan::Trajectory> trajectory() const { return path_.motion(); }

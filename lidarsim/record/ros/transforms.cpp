@@ -96,8 +96,8 @@ void RosTransforms::add(const ros::TFMessage& message, ros::Time epoch, bool sti
 
 FramePath RosTransforms::path(const std::string& frame) const {
   FramePath path;
-  path.top_ = frame_name(frame);
-  for (auto found = edges_.find(path.top_); found != edges_.end(); found = edges_.find(path.top_)) {
+  std::string top = frame_name(frame);
+  for (auto found = edges_.find(top); found != edges_.end(); found = edges_.find(top)) {
     if (path.steps_.size() == edges_.size())
       throw InputError("the frames above \"" + frame + "\" lead in a circle");
     const Edge& edge = found->second;
@@ -106,7 +106,7 @@ FramePath RosTransforms::path(const std::string& frame) const {
       path.steps_.emplace_back(still_pose(poses.back()));
     else
       path.steps_.emplace_back(scan::Trajectory(poses));
-    path.top_ = edge.parent;
+    top = edge.parent;
   }
   return path;
 }

@@ -16,7 +16,6 @@ namespace plotscan::record {
 // The chain of transforms from a frame up to the topmost frame above it.
 class FramePath {
  public:
-  const std::string& top() const { return top_; }
   // The pose at a time in seconds, counted as in RosTransforms. Nothing before the first or after
   // the last transform.
   std::optional<Eigen::Isometry3d> top_from_frame(double time_s) const;
@@ -31,7 +30,6 @@ class FramePath {
   // The same, but from the frame below step `first` upwards.
   std::optional<Eigen::Isometry3d> top_from_step(std::size_t first, double time_s) const;
 
-  std::string top_;
   std::vector<std::variant<Still, scan::Trajectory>> steps_;  // parent_from_child, upwards
 };
 

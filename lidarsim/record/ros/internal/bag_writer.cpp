@@ -20,16 +20,13 @@ class Fields {
   explicit Fields(BagOp op) { add("op", op); }
   Fields() = default;
 
-  template <class Number>
-  Fields& add(std::string_view name, Number value) {
+  template <class Value>
+  Fields& add(std::string_view name, Value value) {
     return add_text(name, bytes_of(value));
   }
   Fields& add_text(std::string_view name, std::string_view value) {
-    append_values(bytes_, std::string(name) + "=" + std::string(value));
+    bytes_ += bytes_of(std::string(name).append("=").append(value));
     return *this;
-  }
-  Fields& add_time(std::string_view name, Time time) {
-    return add_text(name, encode(Version::ros1, time));
   }
   const std::string& bytes() const { return bytes_; }
 
@@ -38,7 +35,7 @@ class Fields {
 };
 
 void append_record(std::string& bytes, const Fields& header, std::string_view data) {
-  append_values(bytes, header.bytes(), data);
+  bytes += bytes_of(header.bytes(), data);
 }
 
 void append_connection(std::string& bytes, std::uint32_t id, const Topic& topic) {
@@ -83,10 +80,9 @@ class BagWriter : public FileWriter {
     seen_[topic] = true;
     TopicIndex& index = index_[id];
     ++index.count;
-    index.entries += encode(Version::ros1, time);
-    append_values(index.entries, static_cast<std::uint32_t>(chunk_.size()));
+    index.entries += bytes_of(time, static_cast<std::uint32_t>(chunk_.size()));
     info_.last = time;
-    append_record(chunk_, Fields(BagOp::message).add("conn", id).add_time("time", time), message);
+    append_record(chunk_, Fields(BagOp::message).add("conn", id).add("time", time), message);
     if (chunk_.size() > kChunkSize) end_chunk();
   }
 
@@ -139,13 +135,13 @@ class BagWriter : public FileWriter {
 
   static void append_chunk_info(std::string& bytes, const ChunkInfo& chunk) {
     std::string counts;
-    for (const auto& [id, count] : chunk.counts) append_values(counts, id, count);
+    for (const auto& [id, count] : chunk.counts) counts += bytes_of(id, count);
     append_record(bytes,
                   Fields(BagOp::chunk_info)
                       .add("ver", kIndexVersion)
                       .add("chunk_pos", chunk.offset)
-                      .add_time("start_time", chunk.first)
-                      .add_time("end_time", chunk.last)
+                      .add("start_time", chunk.first)
+                      .add("end_time", chunk.last)
                       .add("count", static_cast<std::uint32_t>(chunk.counts.size())),
                   counts);
   }

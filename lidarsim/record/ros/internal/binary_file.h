@@ -8,37 +8,20 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "core/error.h"
+#include "record/ros/codec.h"
 
 namespace plotscan::record {
 
 // The size at which a chunk of messages is written, bytes.
 inline constexpr std::size_t kChunkSize = std::size_t{768} << 10;
 
-// Appends numbers as they lie in memory (little endian), and texts behind their lengths in 32 bits.
-template <class... Value>
-void append_values(std::string& bytes, const Value&... values) {
-  const auto append = [&bytes](const auto& value) {
-    if constexpr (std::is_convertible_v<decltype(value), std::string_view>) {
-      const std::string_view text = value;
-      append_values(bytes, static_cast<std::uint32_t>(text.size()));
-      bytes += text;
-    } else {
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    }
-  };
-  (append(values), ...);
-}
-
-// The same alone.
-template <class... Value>
-std::string bytes_of(const Value&... values) {
-  std::string bytes;
-  append_values(bytes, values...);
-  return bytes;
+// Numbers in little endian and texts behind their lengths in 32 bits, as in messages of ROS 1.
+template <class... Values>
+std::string bytes_of(const Values&... values) {
+  return ros::encode(ros::Version::ros1, values...);
 }
 
 // A file written from its beginning to its end.

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kNotCompressed;  // an empty name
 
 void append_record(std::string& bytes, McapOp op, std::string_view content) {
-  append_values(bytes, op, static_cast<std::uint64_t>(content.size()));
+  bytes += bytes_of(op, static_cast<std::uint64_t>(content.size()));
   bytes += content;
 }
 
@@ -42,7 +42,7 @@ struct ChunkIndex {
 
 std::string content_of(const ChunkIndex& chunk) {
   std::string offsets;
-  for (const auto& [channel, offset] : chunk.index_offsets) append_values(offsets, channel, offset);
+  for (const auto& [channel, offset] : chunk.index_offsets) offsets += bytes_of(channel, offset);
   return bytes_of(chunk.first_ns, chunk.last_ns, chunk.offset, chunk.length, offsets,
                   chunk.index_length, kNotCompressed, chunk.size, chunk.size);
 }
@@ -70,7 +70,7 @@ class McapWriter : public FileWriter {
     if (chunk_.empty()) chunk_first_ = time;
     if (!first_) first_ = time;
     last_ = time;
-    append_values(index_[channel], time.ns, static_cast<std::uint64_t>(chunk_.size()));
+    index_[channel] += bytes_of(time.ns, static_cast<std::uint64_t>(chunk_.size()));
     const auto sequence = static_cast<std::uint32_t>(counts_[topic]++);
     append_record(chunk_, McapOp::message,
                   bytes_of(channel, sequence, time.ns, time.ns).append(message));
@@ -155,8 +155,8 @@ class McapWriter : public FileWriter {
     if (!chunks_.empty()) group(McapOp::chunk_index, chunk_records);
     const std::uint64_t offsets_begin = begin + bytes.size();
     bytes += offsets;
-    append_values(bytes, McapOp::footer, kMcapFooterSize, begin, offsets_begin);
-    append_values(bytes, mcap_crc(bytes));
+    bytes += bytes_of(McapOp::footer, kMcapFooterSize, begin, offsets_begin);
+    bytes += bytes_of(mcap_crc(bytes));
     out_.write(bytes + std::string(kMcapMagic));
   }
 
@@ -165,7 +165,7 @@ class McapWriter : public FileWriter {
     std::string counts;
     for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
       messages += counts_[topic];
-      append_values(counts, static_cast<std::uint16_t>(topic + 1), counts_[topic]);
+      counts += bytes_of(static_cast<std::uint16_t>(topic + 1), counts_[topic]);
     }
     constexpr std::uint32_t kAttachments = 0;
     constexpr std::uint32_t kMetadata = 1;
