@@ -124,7 +124,7 @@ void add_export_command(Program& program) {
                    "a quadrotor with a VLP-16, and a script that flies it along a trajectory.csv");
   add_choice(command, "--lidar", arguments->lidar,
              "the drone's in Gazebo Classic: gpu sees what is drawn and needs a display; cpu sees "
-             "collisions (--collision mesh) and needs none",
+             "collisions (--collision mesh or box) and needs none",
              kLidars)
       ->capture_default_str();
   command.add_flag("--force", arguments->force, "replace a world that is already there");

@@ -98,7 +98,7 @@ void require_classes(const std::vector<int>& classes) {
   }
 }
 
-CloudFiles cloud_of(const EstimateFilesOptions& options) {
+CloudFiles files_of(const EstimateFilesOptions& options) {
   require_classes(options.leave_out_classes);
   CloudFiles cloud;
   if (const auto unit_m = unit_named(options.units.value_or(""))) cloud.units = {*unit_m, *unit_m};
@@ -134,7 +134,7 @@ methods::RunOptions inner(const EstimateFilesOptions& options) {
     throw InputError("boxes of clouds in files are a map's: give its file");
   methods::RunOptions run;
   run.method = options.method;
-  run.cloud = cloud_of(options);
+  run.cloud = files_of(options);
   run.boxes = options.boxes;
   run.numbering = numbering_of(options);
   run.id = options.id;

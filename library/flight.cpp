@@ -33,7 +33,7 @@ FlightSummary fly(const std::filesystem::path& place, const std::filesystem::pat
                   const FlightOptions& options, const Progress& progress) {
   return boundary::guarded([&]() -> FlightSummary {
     lidar::PlaceScan scanned =
-        lidar::fly_place(found_file(place, "worlds"), folder, inner(options), progress);
+        lidar::fly_place(found_place(place, "worlds"), folder, inner(options), progress);
     return {.shots = scanned.summary.shots,
             .points = scanned.summary.points,
             .duration_s = scanned.summary.duration_s,

@@ -80,12 +80,12 @@ void require_drift(const CLI::App& fly, const std::string& time,
 void require_effect(const CLI::App& fly, const lidar::FlyOptions& options, bool is_farm) {
   if (fly.count("--spacing") > 0 && options.pattern == "single")
     throw InputError("--spacing is between neighbouring strips; --pattern single flies only one");
+  require_swaying(fly, options, is_farm);
   const CLI::Option& wind = *fly.get_option("--wind");
   for (const CLI::Option* option : fly.get_options()) {
     if (option->get_group() == wind.get_group() && option->count() > 0 && wind.count() == 0)
-      throw InputError(option->get_name() + " tells of a wind, and --wind gives none");
+      throw InputError(option->get_name() + " needs a wind: --wind, metres per second");
   }
-  require_swaying(fly, options, is_farm);
   require_drift(fly, "--position-drift-time", {"--position-drift", "--height-drift"});
   require_drift(fly, "--attitude-drift-time", {"--tilt-drift", "--heading-drift"});
 }
@@ -94,7 +94,7 @@ void run_fly(const Program& program, Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   require_effect(*arguments.fly, arguments.options.flight,
                  std::filesystem::is_directory(arguments.place));
-  arguments.place = found_file(arguments.place, "worlds");
+  arguments.place = found_place(arguments.place, "worlds");
   lidar::FlyOptions& options = arguments.options.flight;
   options.seed = program.common().seed;
   options.threads = program.common().threads;

@@ -5,6 +5,7 @@
 
 #include "farmfolder/terrain_ply.h"
 
+#include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
@@ -42,11 +43,20 @@ std::optional<std::string> told_crs(const fs::path& estimate) {
   return manifest[crs].get<std::string>();
 }
 
+// Throws InputError where the cloud is said to be in other units than the estimate was made with.
+void require_those_units(const fs::path& estimate, const CoordinateUnits& said,
+                         const CoordinateUnits& used) {
+  if (said.horizontal_m == used.horizontal_m) return;
+  throw InputError(estimate, "was made with units of " + unit_name(used.horizontal_m) +
+                                 "; its cloud cannot be shown in " + unit_name(said.horizontal_m));
+}
+
 void show_cloud(report::ShownField& field, const PageOptions& options,
                 const std::optional<CoordinateUnits>& units, const ProgressReport& progress) {
   CloudFiles cloud = *options.cloud;
   cloud.files = cloud_files_of(cloud.files);
   const bool is_measured = is_measured_cloud(options.estimate, cloud);
+  if (cloud.units && units) require_those_units(options.estimate, *cloud.units, *units);
   if (!cloud.units) cloud.units = units;  // as estimator run was told
   if (!cloud.crs && is_measured) cloud.crs = told_crs(options.estimate);
   field.cloud = read_shown_positions(cloud, options.points, progress);

@@ -83,7 +83,8 @@ fs::path data_folder() {
 fs::path found_file(const fs::path& name, const fs::path& room) {
   std::error_code ignored;
   const bool is_file = fs::exists(name, ignored) && !fs::is_directory(name, ignored);
-  if (is_file || name.is_absolute()) return name;
+  const bool is_here = name.is_absolute() || name.native().starts_with(".");
+  if (is_file || is_here) return name;
   const auto folder = known_folder();
   if (!folder) return name;
   for (const fs::path& place : {*folder, *folder / room}) {
@@ -94,6 +95,11 @@ fs::path found_file(const fs::path& name, const fs::path& room) {
     }
   }
   return name;
+}
+
+fs::path found_place(const fs::path& name, const fs::path& room) {
+  std::error_code ignored;
+  return fs::is_directory(name, ignored) ? name : found_file(name, room);
 }
 
 fs::path found_or_shipped(const fs::path& name, const fs::path& room) {

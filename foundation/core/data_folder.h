@@ -13,14 +13,20 @@ namespace plotscan {
 std::filesystem::path data_folder();
 
 // The file that a user names: `name` itself if it exists and is no folder (results are often in one
-// named as the suite), else the file of that name, with or
-// without ".yaml" added, in the data folder or its subfolder `room` ("worlds"). Returns `name`
-// unchanged if there is no such file: opening it then fails with a message. Throws InputError when
-// PLOTSCAN_DATA names another kind of folder.
+// named as the suite), is absolute or begins with a dot; else the file of that name, with or
+// without
+// ".yaml" added, in the data folder or its subfolder `room` ("worlds"). Returns `name` unchanged if
+// there is no such file: opening it then fails with a message. Throws InputError when PLOTSCAN_DATA
+// names another kind of folder.
 std::filesystem::path found_file(const std::filesystem::path& name,
                                  const std::filesystem::path& room);
 
-// The same, for names of what `room` ships. Throws InputError, naming these, on one that is none.
+// The same where a folder, such as a farm, may be meant as well.
+std::filesystem::path found_place(const std::filesystem::path& name,
+                                  const std::filesystem::path& room);
+
+// As found_file, for names of what `room` ships. Throws InputError, naming these, on one that is
+// none.
 std::filesystem::path found_or_shipped(const std::filesystem::path& name,
                                        const std::filesystem::path& room);
 

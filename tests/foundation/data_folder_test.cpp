@@ -54,6 +54,18 @@ TEST_F(NamedFile, IsNoFolder) {
   EXPECT_EQ(found("paper"), suite_);
 }
 
+// As after `farmgen generate paper -o paper`: the farm is flown over.
+TEST_F(NamedFile, MayBeAPlaceThatIsAFolder) {
+  EXPECT_EQ(found_place("paper", "benchmarks/suites"), suite_);
+  fs::create_directories("paper");
+  EXPECT_EQ(found_place("paper", "benchmarks/suites"), "paper");
+}
+
+TEST_F(NamedFile, ThatBeginsWithADotIsTheUsers) {
+  EXPECT_EQ(found("./paper"), "./paper");
+  EXPECT_EQ(found("../paper"), "../paper");
+}
+
 // A mere name is that of something shipped; a path is opened, and says itself what is wrong.
 TEST_F(NamedFile, ThatIsNoneIsToldWhatIsShipped) {
   const auto shipped = [](const char* name) { return found_or_shipped(name, "benchmarks/suites"); };

@@ -80,14 +80,22 @@ bool is_clear(const PlotField& told) {
   return !told.plots.empty() && told.rival.empty() && told.doubt.empty();
 }
 
-// Those of the hints that are left without the sides, the numbers, or both.
+// Those of the hints that are left without one of two sides; without all of them but the heading;
+// and without the sides, or the numbers.
 std::vector<Hints> fewer_hints(const Hints& all) {
-  std::vector<Hints> fewer = {{.heading_rad = all.heading_rad}};
-  if (!(all.width_m || all.length_m) || !(all.rows || all.columns || all.plots)) return fewer;
-  Hints numbers = all, sides = all;
-  numbers.width_m = numbers.length_m = std::nullopt;
-  sides.rows = sides.columns = sides.plots = std::nullopt;
-  fewer.insert(fewer.end(), {numbers, sides});
+  std::vector<Hints> fewer;
+  if (all.width_m && all.length_m) {
+    Hints width = all, length = all;
+    width.length_m = length.width_m = std::nullopt;
+    fewer.insert(fewer.end(), {width, length});
+  }
+  fewer.push_back({.heading_rad = all.heading_rad});
+  if ((all.width_m || all.length_m) && (all.rows || all.columns || all.plots)) {
+    Hints numbers = all, sides = all;
+    numbers.width_m = numbers.length_m = std::nullopt;
+    sides.rows = sides.columns = sides.plots = std::nullopt;
+    fewer.insert(fewer.end(), {numbers, sides});
+  }
   return fewer;
 }
 

@@ -166,6 +166,12 @@ TEST_F(FieldPage, ShowsTheCloudInTheUnitsOfTheEstimate) {
   const nlohmann::json& shown = field["cloud"];
   EXPECT_NEAR(shown["origin"][0].get<double>() + shown["tiles"][0]["low"][0].get<double>(),
               0.3048 * 10.5, 1e-3);
+  CloudFiles in_metres(cloud);
+  in_metres.units = CoordinateUnits{1, 1};
+  const auto show = [&] {
+    write_estimate_page({.estimate = feet, .html = html_, .cloud = in_metres, .replace = true});
+  };
+  EXPECT_THAT(message_of<InputError>(show), HasSubstr("was made with units of"));
 }
 
 // Text in degrees does not say so; where UTM's zone 17 has its middle, the results are known.
