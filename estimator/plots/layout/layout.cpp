@@ -260,6 +260,21 @@ int touching_axes(const Layout& layout) {
   return (layout.r_touching ? 1 : 0) + (layout.c_touching ? 1 : 0);
 }
 
+// Whether there is less canopy from plot to plot of a row than in the plots.
+bool has_gaps(const Layout& layout) {
+  constexpr double kMostCover = 0.95;  // of the plots'
+  double in_gaps = 0, in_plots = 0;
+  for (const auto& [band, plots] : layout.rows) {
+    for (std::size_t i = 0; i + 1 < plots.size(); ++i) {
+      const Band &plot = plots[i], &next = plots[i + 1];
+      if (next.begin <= plot.end) continue;
+      in_gaps += layout.view.cover(band.begin, band.end, plot.end, next.begin);
+      in_plots += layout.view.cover(band.begin, band.end, plot.begin, plot.end);
+    }
+  }
+  return in_plots == 0 || in_gaps < kMostCover * in_plots;
+}
+
 // Of the layouts whose plots touch along so many axes, the one with the most evidence, if any has
 // some.
 std::optional<Layout> clearest(const std::vector<Layout>& layouts, int axes) {
@@ -272,15 +287,16 @@ std::optional<Layout> clearest(const std::vector<Layout>& layouts, int axes) {
 }
 
 // The clearest layout. Those that touch must explain the canopy at least as well as those between
-// gaps. Where nothing shows between plots, others may explain the canopy as well: those that touch
-// along one axis are taken before those that touch along both.
+// gaps, if these are gaps. Where nothing shows between plots, others may explain the canopy as
+// well: those that touch along one axis are taken before those that touch along both.
 std::optional<Layout> clearest(const std::vector<Layout>& layouts) {
   const auto evidence = [](const std::optional<Layout>& layout) {
     return layout ? layout->evidence : 0;
   };
   const auto none = clearest(layouts, 0), one = clearest(layouts, 1), two = clearest(layouts, 2);
   const auto& touching = evidence(one) >= kNearlyAsClear * evidence(two) ? one : two;
-  return touching && evidence(touching) >= evidence(none) ? touching : none;
+  const bool is_as_clear = evidence(touching) >= evidence(none) || !has_gaps(*none);
+  return touching && is_as_clear ? touching : none;
 }
 
 }  // namespace

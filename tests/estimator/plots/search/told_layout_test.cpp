@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/search/internal/told_layout.h"
 
+#include <cmath>
+
 #include "estimator/plots/known_trial.h"
+#include "estimator/plots/trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,6 +72,27 @@ TEST(ToldLayout, IsRefusedWherePlotsOfANumberOverlap) {
   EXPECT_EQ(not_told_because(trial, overlapping, {.width_m = 1.5, .plots = 15}), "");
   EXPECT_EQ(not_told_because(trial, {.least_gap_m = -0.04}, {.plots = 15}), "");
 }
+
+// Plots of `rows` drill rows that run on at one spacing from plot to plot, leaves to either side of
+// them: between plots there is no more to see than between their rows.
+void expect_drilled(double width_m, int rows, double leaves_m) {
+  const Trial trial{.rows = 4, .gap_m = 0, .offsets_m = {0, 0, 0, 0}, .width_m = width_m};
+  const double spacing_m = width_m / rows;
+  const auto sown = [&](const PlotBox&, const Eigen::Vector2d& at) {
+    const double from_row_m = std::remainder(at.y() - 0.5 * (rows - 1) * spacing_m, spacing_m);
+    return std::abs(from_row_m) < leaves_m;
+  };
+  const std::vector<PlotBox> boxes = trial.boxes();
+  const auto points = cloud_over(boxes, sown, 14, 14);
+  expect_those(boxes, find_plots(points, 0.02, {.width_m = width_m, .length_m = 4}, 2), 0.85);
+}
+
+// With both sides 16 were found, and 24 with the length alone.
+TEST(ToldPlots, OfTwoRowsAreFoundWithOneSideToo) { expect_drilled(0.77, 2, 0.17); }
+
+// A pattern of half as many plots, one row between them, has as much canopy in its gaps as in its
+// plots.
+TEST(ToldPlots, OfThreeRowsAreNotEveryOtherGroupOfRows) { expect_drilled(1.5, 3, 0.14); }
 
 }  // namespace
 }  // namespace plotscan::plots
