@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
     Suites, LoadSuiteErrors,
     ::testing::Values(
         BadSuite{kSound + "colour: red\n", ":6: colour is not a known key"},
-        BadSuite{with("[4]", "[4, four]"), ":4: seeds.1.seed \"four\" is not a whole number"},
+        BadSuite{with("[4]", "[4, four]"), ":4: seeds.1 \"four\" is not a whole number"},
         BadSuite{with("[4]", "[4, 4]"), ":4: seeds name 4 twice"},
         BadSuite{with("[4]", "{first: 1, count: 0}"), ":4: seeds.count 0 is not in [1, 10000]"},
         BadSuite{with("[4]", "4"), ":4: seeds is not a map"},
@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuite{with(".yaml}", ".yaml, without_plots: true, survey_m: [0, 0, 1, 1]}"),
                  ":3: cases.0.survey_m is of plots, and the case is without_plots"},
         BadSuite{kSound + "truths: [height_max]\n",
-                 ":6: truths.0.name \"height_max\" is not one of height_hand3_m, height_max_m"},
+                 ":6: truths.0 \"height_max\" is not one of height_hand3_m, height_max_m"},
         BadSuite{kSound + "truths: [height_max_m, height_max_m]\n",
                  ":6: truths name height_max_m twice"},
         BadSuite{kSound + "published: {source: us, methods: [oracle]}\n",

@@ -75,9 +75,9 @@ TEST(LoadSweep, TellsWhatIsWrong) {
   EXPECT_THAT(message(swept_with("height: max", "height: tallest")), HasSubstr("s.yaml:8: height"));
   EXPECT_THAT(
       message(swept_with("puck_hires]", "puck]")),
-      HasSubstr("s.yaml:7: axes.sensor.1.sensor does not hold: sensor \"puck\" is unknown"));
+      HasSubstr("s.yaml:7: axes.sensor.1 does not hold: sensor \"puck\" is unknown"));
   EXPECT_THAT(message(swept_with("sensor: [vlp16, puck_hires]", "start_utc: [noon]")),
-              HasSubstr("s.yaml:7: axes.start_utc.0.start_utc \"noon\" is not like 2026-06-01T"));
+              HasSubstr("s.yaml:7: axes.start_utc.0 \"noon\" is not like 2026-06-01T"));
   EXPECT_THAT(message(swept_with("spin_jitter: none", "altitude_m: 8")),
               HasSubstr("s.yaml:6: axes.altitude_m is given under flight as well"));
   EXPECT_THAT(message(swept_with("height: max", "height: max\ntruth: tallest")),
