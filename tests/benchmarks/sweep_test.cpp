@@ -73,9 +73,8 @@ TEST(LoadSweep, TellsWhatIsWrong) {
               HasSubstr("s.yaml:6: axes.altitude_m name 6 twice"));
   EXPECT_THAT(message(swept_with("[6, 9.5, 119]", "[6, 9000]")), HasSubstr("altitude_m"));
   EXPECT_THAT(message(swept_with("height: max", "height: tallest")), HasSubstr("s.yaml:8: height"));
-  EXPECT_THAT(
-      message(swept_with("puck_hires]", "puck]")),
-      HasSubstr("s.yaml:7: axes.sensor.1 does not hold: sensor \"puck\" is unknown"));
+  EXPECT_THAT(message(swept_with("puck_hires]", "puck]")),
+              HasSubstr("s.yaml:7: axes.sensor.1 does not hold: sensor \"puck\" is unknown"));
   EXPECT_THAT(message(swept_with("sensor: [vlp16, puck_hires]", "start_utc: [noon]")),
               HasSubstr("s.yaml:7: axes.start_utc.0 \"noon\" is not like 2026-06-01T"));
   EXPECT_THAT(message(swept_with("spin_jitter: none", "altitude_m: 8")),
