@@ -104,8 +104,7 @@ report::PageSummary write_estimate_page(const PageOptions& options,
   show_working(field, estimate);
   if (options.truth) add_truth(field, estimate, *options.truth, options.id);
   if (options.cloud) show_cloud(field, options, estimate.units, progress);
-  const auto summary =
-      report::write_field_page(file.path(), "estimate", "Plots of " + field.name, field);
+  auto summary = report::write_field_page(file.path(), "estimate", "Plots of " + field.name, field);
   file.commit();
   return summary;
 }

@@ -101,7 +101,7 @@ report::PageSummary write_scan_page(const PageOptions& options, const ProgressRe
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
   report::note_cloud_elsewhere(field, field.name);
-  const auto summary = report::write_field_page(file.path(), "scan", "Scan " + field.name, field);
+  auto summary = report::write_field_page(file.path(), "scan", "Scan " + field.name, field);
   file.commit();
   tell(1);
   return summary;
