@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "terrain/extent.h"
 #include <fmt/core.h>
@@ -27,17 +28,17 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
                                    const std::filesystem::path& source, const farm::Plot& plot,
                                    const Eigen::Vector2d& corner) {
   const Eigen::AlignedBox2d box = terrain::outline_of(terrain);
+  const double outside = overhang(box, corner);
+  const std::string where = fmt::format("plots: a corner of plot {} at ({}, {})", plot.id,
+                                        metres(corner.x()), metres(corner.y()));
+  if (outside <= 0)
+    throw InputError(source, where + " lies over a hole in the terrain, or beyond its edge");
   double needed_half_side = 0;
   for (const farm::Plot& each : plots) {
     for (const Eigen::Vector2d& point : each.box.corners()) {
       needed_half_side = std::max(needed_half_side, point.cwiseAbs().maxCoeff());
     }
   }
-  const double outside = overhang(box, corner);
-  const std::string where = fmt::format("plots: a corner of plot {} at ({}, {})", plot.id,
-                                        metres(corner.x()), metres(corner.y()));
-  if (outside <= 0)
-    throw InputError(source, where + " has no terrain under it, which has a hole or an edge there");
   throw InputError(
       source, fmt::format("{} lies {} off the terrain, which spans x {} to {}, y {} to {}; these "
                           "plots need a square terrain of side {}, or fewer, smaller or "

@@ -55,7 +55,7 @@ Progress = Optional[Callable[[float], Any]]
 def _told(self: Any) -> str:
     """What the object holds, in short; of an estimate not its documents and its ground."""
     short = reprlib.Repr()
-    short.maxlist, short.maxstring, short.maxother = 1, 60, 60
+    short.maxlist, short.maxstring, short.maxother = 1, 60, 120
     names = [name for name, value in vars(type(self)).items() if isinstance(value, property)]
     shown = [name for name in names if name not in ("geojson", "diagnostics", "ground")]
     return f"{type(self).__name__}({', '.join(f'{name}={short.repr(getattr(self, name))}' for name in shown)})"
