@@ -12,7 +12,7 @@ namespace plotscan::plots {
 
 struct FieldAxes {
   double first_rad = 0;   // direction of one family of lines
-  double second_rad = 0;  // of the other, 60 to 120 degrees further
+  double second_rad = 0;  // of the other, 75 to 105 degrees further
 };
 
 // The pair of directions along which the canopy's lines are sharpest: the squared steps, from line
