@@ -46,7 +46,7 @@ constexpr double kMostUneven = 0.45;
 constexpr double kMostUnevenAtRandom = 0.9;
 constexpr double kLeastHeldOfUneven = 0.85;
 constexpr double kLeastHeld = 0.6;  // of the canopy; the rest may be weeds, or another trial
-constexpr double kLeastHeldOfTouching = 0.85;  // tall maize: 0.88, as its leaves hang over; chosen
+constexpr double kLeastHeldOfTouching = 0.85;  // of what does not hang into other gaps; chosen
 constexpr double kLeastFilled = 0.6;           // of the places
 // Nats a plot, in the layout's outline. One canopy cut into cells, mounds: up to 4; plots, also
 // those of clouds cut to the field: 6.5 and more (57 fields of two words).
@@ -245,8 +245,8 @@ std::string no_plots_because(const FieldSigns& signs) {
   return clearness.product() < kLeastConfidence ? unclear_because(signs, clearness) : "";
 }
 
-std::string no_touching_plots_because(FieldSigns signs) {
-  if (signs.held_share < kLeastHeldOfTouching)
+std::string no_touching_plots_because(FieldSigns signs, double in_gaps) {
+  if (signs.held_share < kLeastHeldOfTouching * (1 - in_gaps))
     return "canopy lies here, but not in plots without gaps";
   signs.least_gap_m = std::numeric_limits<double>::infinity();
   signs.gap_cover = 0;

@@ -20,8 +20,9 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 // Why these are no plots; "" where they are.
 std::string no_plots_because(const FieldSigns& signs);
 
-// The same of plots that are said to have no gaps: they leave next to nothing beside them.
-std::string no_touching_plots_because(FieldSigns signs);
+// The same of plots that are said to have no gaps: they leave next to nothing beside them. Along
+// their other side they may have some; `in_gaps` is the share of the canopy that hangs into those.
+std::string no_touching_plots_because(FieldSigns signs, double in_gaps);
 
 // Whether these may be plots of a trial beside others, whose canopy they do not hold and which may
 // stand in their gaps: whether nothing else speaks against them.

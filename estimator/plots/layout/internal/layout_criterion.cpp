@@ -48,6 +48,12 @@ Band gap_between(const Band& one, const Band& next, double cell_m) {
 struct LayoutCriterion::Sums {
   double cells = 0, canopy = 0, squares = 0;
 
+  Sums& operator+=(const Sums& other) {
+    cells += other.cells;
+    canopy += other.canopy;
+    squares += other.squares;
+    return *this;
+  }
   Sums& operator-=(const Sums& other) {
     cells -= other.cells;
     canopy -= other.canopy;
@@ -76,6 +82,13 @@ struct LayoutCriterion::Area {
   }
 };
 
+// The rows that plots are sown in, as the mean plot shows them: its cover from cell to cell along c
+// or along r.
+struct LayoutCriterion::RowsOfPlots {
+  bool along_c = true;
+  std::vector<double> cover = {};
+};
+
 LayoutCriterion::LayoutCriterion(const CanopyRaster& raster)
     : raster_(raster), per_cell_(clumps_per_cell(raster)), squared_(raster.squares()) {}
 
@@ -89,18 +102,56 @@ LayoutCriterion::Sums LayoutCriterion::sums_over(const RowView& view, const Band
           .squares = squares / (1.0 * kFullCover * kFullCover)};
 }
 
+LayoutCriterion::RowsOfPlots LayoutCriterion::rows_along(bool along_c, const Layout& layout) const {
+  const int size = along_c ? layout.c_shape.size : layout.r_shape.size;
+  std::vector<Sums> strips(static_cast<std::size_t>(size));
+  for (const Row& row : layout.rows) {
+    for (const Band& plot : row.plots) {
+      const Band& across = along_c ? plot : row.band;
+      for (int i = 0; i < size; ++i) {
+        const Band strip{across.begin + i, across.begin + i + 1};
+        strips[static_cast<std::size_t>(i)] +=
+            along_c ? sums_over(layout.view, row.band, strip) : sums_over(layout.view, strip, plot);
+      }
+    }
+  }
+  RowsOfPlots rows{.along_c = along_c};
+  for (const Sums& strip : strips) rows.cover.push_back(strip.canopy / std::max(1.0, strip.cells));
+  return rows;
+}
+
+// What a level of its own times the rows' cover leaves of a piece; `from` is where its plot begins
+// across the rows.
+double LayoutCriterion::left_in_piece(const RowView& view, const Band& r, const Band& c,
+                                      const RowsOfPlots& rows, int from) const {
+  const Band& across = rows.along_c ? c : r;
+  double squares = 0, both = 0, of_rows = 0;
+  for (int cell = across.begin; cell < across.end; ++cell) {
+    const Band strip{cell, cell + 1};
+    const Sums sums = rows.along_c ? sums_over(view, r, strip) : sums_over(view, strip, c);
+    const double cover = rows.cover[static_cast<std::size_t>(cell - from)];
+    squares += sums.squares;
+    both += cover * sums.canopy;
+    of_rows += cover * cover * sums.cells;
+  }
+  return squares - (of_rows > 0 ? both * both / of_rows : 0);
+}
+
 // The canopy's residual variation when each piece of the plots and of the gaps between them has its
 // own level, and all the rest of the area one common level.
-double LayoutCriterion::variation_left(const Layout& layout, const Area& area) const {
+double LayoutCriterion::variation_left(const Layout& layout, const Area& area,
+                                       const RowsOfPlots* rows) const {
   const RowView& view = layout.view;
   Sums beyond = sums_over(view, area.r, area.c);
   double left = 0;
-  const auto take = [&](const Band& r_band, const Band& c_band) {
+  const auto take = [&](const Band& r_band, const Band& c_band, bool in_plot) {
     if (r_band.size() <= 0 || c_band.size() <= 0) return;
     for (const Band& r : pieces_of(r_band, view.cell_m())) {
       for (const Band& c : pieces_of(c_band, view.cell_m())) {
         const Sums sums = sums_over(view, r, c);
-        left += sums.left();
+        left += in_plot && rows != nullptr
+                    ? left_in_piece(view, r, c, *rows, (rows->along_c ? c_band : r_band).begin)
+                    : sums.left();
         beyond -= sums;
       }
     }
@@ -111,9 +162,9 @@ double LayoutCriterion::variation_left(const Layout& layout, const Area& area) c
     const Band gap =
         last_row ? Band{} : gap_between(row.band, layout.rows[i + 1].band, view.cell_m());
     for (std::size_t k = 0; k < row.plots.size(); ++k) {
-      take(row.band, row.plots[k]);
-      take(gap, row.plots[k]);
-      if (k > 0) take(row.band, gap_between(row.plots[k - 1], row.plots[k], view.cell_m()));
+      take(row.band, row.plots[k], true);
+      take(gap, row.plots[k], false);
+      if (k > 0) take(row.band, gap_between(row.plots[k - 1], row.plots[k], view.cell_m()), false);
     }
   }
   return left + beyond.left();
@@ -121,8 +172,20 @@ double LayoutCriterion::variation_left(const Layout& layout, const Area& area) c
 
 double LayoutCriterion::cost(const Layout& layout, const Area& area) const {
   const double observations = per_cell_ * sums_over(layout.view, area.r, area.c).cells;
-  return observations * std::log(std::max(1e-12, variation_left(layout, area))) +
-         std::log(std::max(2.0, observations)) * number_of_lines(layout);
+  const auto cost_with = [&](const RowsOfPlots* rows) {
+    const double leaves =
+        rows == nullptr ? 0
+                        : static_cast<double>(rows->cover.size()) * layout.view.cell_m() / kLeaf_m;
+    return observations * std::log(std::max(1e-12, variation_left(layout, area, rows))) +
+           std::log(std::max(2.0, observations)) * (number_of_lines(layout) + leaves);
+  };
+  double least = cost_with(nullptr);
+  for (const bool along_c : {false, true}) {
+    if (!(along_c ? layout.c_touching : layout.r_touching)) continue;
+    const RowsOfPlots rows = rows_along(along_c, layout);
+    least = std::min(least, cost_with(&rows));
+  }
+  return least;
 }
 
 double LayoutCriterion::operator()(const Layout& layout) const {

@@ -12,7 +12,9 @@ namespace plotscan::plots {
 
 // Schwarz's criterion of layouts on a raster: their likelihood, with the lines on which plots begin
 // as parameters. Canopy levels do not count as parameters: in every layout each piece of canopy has
-// its own, so a layout with more plots does not fit an uneven canopy better.
+// its own, so a layout with more plots does not fit an uneven canopy better. Where plots touch, no
+// gap stands out, but the rows that they are sown in may: what all plots have in common of them is
+// explained too, a parameter for each leaf's width of it.
 class LayoutCriterion {
  public:
   // Refers to the raster.
@@ -26,9 +28,13 @@ class LayoutCriterion {
  private:
   struct Sums;
   struct Area;
+  struct RowsOfPlots;
 
   Sums sums_over(const RowView& view, const Band& r, const Band& c) const;
-  double variation_left(const Layout& layout, const Area& area) const;
+  RowsOfPlots rows_along(bool along_c, const Layout& layout) const;
+  double left_in_piece(const RowView& view, const Band& r, const Band& c, const RowsOfPlots& rows,
+                       int from) const;
+  double variation_left(const Layout& layout, const Area& area, const RowsOfPlots* rows) const;
   double cost(const Layout& layout, const Area& area) const;
 
   const CanopyRaster& raster_;

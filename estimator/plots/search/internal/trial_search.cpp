@@ -150,11 +150,11 @@ bool are_rows(const Layout& layout, const std::optional<SownRows>& rows) {
 
 // Why what looks like plots is none; "" where it may be plots. What the user told is taken as true,
 // but that plots touch is not told.
-std::string refused_because(const TrialLayout& layout, const FieldSigns& signs, const Hints& hints,
-                            LineModel model) {
+std::string refused_because(const TrialLayout& layout, const FieldSigns& signs, double in_gaps,
+                            const Hints& hints, LineModel model) {
   if (!hints.tell_layout()) return no_plots_because(signs);
   std::string why = not_told_because(layout, signs, hints);
-  if (why.empty() && model == LineModel::touching) return no_touching_plots_because(signs);
+  if (why.empty() && model == LineModel::touching) return no_touching_plots_because(signs, in_gaps);
   return why;
 }
 
@@ -190,9 +190,10 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const std::optional<SownRows> rows = refine(lattice, hints);
   lattice.view.raster = &canopy;
   const FieldSigns signs = signs_of(lattice, field, noise_m, layout.evidence_in_outline);
+  const double in_gaps = held_share(with_gaps(lattice)) - signs.held_share;
   lattice.view.raster = &cover;
   FieldFit fit = fit_of(lattice, rows);
-  Look look{no_plots(refused_because(fit.layout, signs, hints, model))};
+  Look look{no_plots(refused_because(fit.layout, signs, in_gaps, hints, model))};
   look.field.fit = std::move(fit);
   look.field.signs = signs;
   if (hints.tell_layout() && model != LineModel::touching)
@@ -241,10 +242,13 @@ bool shows_more(const Look& look, const Look& before) {
   return is_field(look) && (before.evidence == 0 || expected_plots(look) > expected_plots(before));
 }
 
+// Whether there are plots, and nothing speaks against them.
+bool is_sure(const Look& look) { return look.evidence > 0 && look.field.doubt.empty(); }
+
 // Whether the plots hold nearly all of the canopy that was looked at.
 bool holds_most(const Look& look) {
   constexpr double kMost = 0.9;
-  return look.evidence > 0 && look.field.signs->held_share > kMost;
+  return is_sure(look) && look.field.signs->held_share > kMost;
 }
 
 // Whether many plots show with gaps between them: they do not touch.
@@ -259,7 +263,7 @@ bool shows_gaps(const Look& look) {
 
 // Whether the plots and their gaps are all that stands there, and nothing was left out.
 bool explains_all(const Look& look) {
-  return look.evidence > 0 && look.explained > kNearlyAll && look.field.others_m2 == 0;
+  return is_sure(look) && look.explained > kNearlyAll && look.field.others_m2 == 0;
 }
 
 // Looks at a field in several ways, and keeps the best.

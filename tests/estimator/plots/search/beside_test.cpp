@@ -195,6 +195,33 @@ TEST(FindPlots, FindsTouchingPlotsOfAToldWidthBesideAColumnAlone) {
     expect_those(boxes, find_plots(points, 0.02, hints, 2));
 }
 
+// Plots of two or three rows whose leaves cover a third of the ground, and that run on at one
+// spacing from plot to plot: little tells a plot from one level, but the same rows show in all.
+TEST(FindPlots, FindsTouchingPlotsOfFewRows) {
+  struct Rows {
+    int count;
+    double spacing_m, leaves_m;
+  };
+  for (const Rows rows : {Rows{2, 0.75, 0.2}, Rows{2, 0.5, 0.2}, Rows{3, 0.38, 0.15}}) {
+    const double width_m = rows.count * rows.spacing_m;
+    const std::vector<PlotBox> boxes =
+        Trial{.columns = 8, .gap_m = 0, .row_gap_m = 0.6, .width_m = width_m}.boxes();
+    const auto in_rows = [&](const PlotBox&, const Eigen::Vector2d& from_center) {
+      const double from_side_m = from_center.y() + width_m / 2;
+      const double from_row_m = std::remainder(from_side_m - rows.spacing_m / 2, rows.spacing_m);
+      return std::abs(from_row_m) < rows.leaves_m / 2;
+    };
+    const std::vector<Eigen::Vector3f> points = cloud_over(boxes, in_rows, 14, 14);
+    for (const Hints& hints : {Hints{.width_m = width_m}, Hints{.width_m = width_m, .length_m = 4},
+                               Hints{.width_m = width_m, .rows = 3, .columns = 8}}) {
+      SCOPED_TRACE(rows.spacing_m);
+      const PlotField field = find_plots(points, 0.02, hints, 2);
+      expect_those(boxes, field, 0.8);
+      EXPECT_EQ(field.doubt, "");
+    }
+  }
+}
+
 // Plots with narrow gaps, 0.2 m beside the same crop without plots: on squares of a metre the crop
 // goes on through them.
 TEST(FindPlots, FindsPlotsWithNarrowGapsBesideACropWithoutPlots) {

@@ -249,12 +249,13 @@ TEST(FieldSigns, AllowPlotsThatTouch) {
                    .least_gap_m = 0,
                    .evidence = 100};
   EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("rows of a crop"));
-  EXPECT_EQ(no_touching_plots_because(signs), "");
+  EXPECT_EQ(no_touching_plots_because(signs, 0), "");
   signs.held_share = 0.8;
-  EXPECT_THAT(no_touching_plots_because(signs), ::testing::HasSubstr("without gaps"));
+  EXPECT_THAT(no_touching_plots_because(signs, 0), ::testing::HasSubstr("without gaps"));
+  EXPECT_EQ(no_touching_plots_because(signs, 0.1), "") << "as leaves hang into the other gaps";
   signs.held_share = 0.9;
   signs.aspect = 15;
-  EXPECT_THAT(no_touching_plots_because(signs), ::testing::HasSubstr("rows of a crop"));
+  EXPECT_THAT(no_touching_plots_because(signs, 0), ::testing::HasSubstr("rows of a crop"));
 }
 
 // Plots of a drill and a combine, 1.5 x 18 m, are as long as rows, but lie as plots do.
