@@ -126,11 +126,7 @@ std::vector<Column> columns_of(const Estimate& estimate) {
                          return plot.confidence ? format_number(*plot.confidence) : "";
                        }});
   }
-  const auto may_have_flags = [](const auto& plot) {
-    return plot.confidence.has_value() || !plot.flags.empty();
-  };
-  if (std::ranges::any_of(plots, may_have_flags))
-    columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
+  columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
   add_attributes(plots, columns);
   return columns;
 }

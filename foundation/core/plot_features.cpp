@@ -60,6 +60,12 @@ json crs_member(const std::string& crs) {
   return {{"type", "name"}, {"properties", {{"name", name}}}};
 }
 
+// Where RFC 7946 has no member crs, coordinates are degrees. No program takes these for such.
+std::string local_system(double unit_m) {
+  return fmt::format(R"(LOCAL_CS["local",UNIT["{}",{}]])", unit_name(unit_m),
+                     format_number(unit_m));
+}
+
 json collection(const std::vector<PlotFeature>& plots, const std::string& coordinate_system,
                 const Projection& projection) {
   json features = json::array();
@@ -182,11 +188,12 @@ std::optional<CoordinateUnits> units_of(const json& document, const std::filesys
 }
 
 // The system that a file names in its member crs: "EPSG:<code>" if it has a code; "" if it names
-// none.
+// none, or a local one.
 std::string stated_crs(const json& document) {
   if (!document.contains("crs") || !document["crs"].is_object()) return "";
   const json properties = document["crs"].value("properties", json::object());
   const std::string name = properties.is_object() ? properties.value("name", "") : "";
+  if (name.starts_with("LOCAL_CS") || name.starts_with("ENGCRS")) return "";
   const std::size_t code = name.find_last_of(':');
   const bool is_epsg = name.find("EPSG:") != std::string::npos && code != std::string::npos;
   return is_epsg ? "EPSG:" + name.substr(code + 1) : name;
@@ -288,7 +295,7 @@ json plot_collection(const std::vector<PlotFeature>& plots, const std::string& c
                  crs.empty() ? "local " + unit + ", x east, y north; not WGS84"
                              : unit + " of the system in member crs, x east, y north; not WGS84",
                  [unit_m](const Eigen::Vector2d& corner) { return corner / unit_m; });
-  if (!crs.empty()) document["crs"] = crs_member(crs);
+  document["crs"] = crs_member(crs.empty() ? local_system(unit_m) : crs);
   if (units) document[kUnits] = {{"x_y", units->horizontal_m}, {"z", units->vertical_m}};
   return document;
 }

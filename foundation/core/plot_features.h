@@ -30,6 +30,8 @@ struct PlotFeature {
 // Where the metres are those of a known system, `crs` names it, and so does a member "crs" of the
 // file, as "The GeoJSON Format Specification" of 2008 has it (section 3.1, a named CRS), which GIS
 // programs read: "EPSG:<code>", which that section calls a legacy identifier; else the text itself.
+// Where no system is known, the member is the well-known text of a local one, which keeps GIS
+// programs from taking the metres for degrees.
 // With `units`, the polygons are in these in place of metres, and a member "coordinate_units_m"
 // says so (metres to one unit, "x_y" and "z"); the attributes stay metres.
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,

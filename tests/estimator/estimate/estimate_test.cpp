@@ -128,9 +128,9 @@ TEST(Estimate, WritesOneLineAPlot) {
   EXPECT_EQ(
       read_text(folder.path() / "heights.csv"),
       "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
-      "height_raw-p99_m,height_voxel-max_m\n"
-      "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7\n"
-      "2,0,0,9,9,1.5,4,28.64788975654116,0,,\n");
+      "height_raw-p99_m,height_voxel-max_m,flags\n"
+      "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7,\n"
+      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,\n");
 }
 
 Estimate with_intervals() {

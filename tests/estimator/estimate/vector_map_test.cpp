@@ -228,5 +228,24 @@ TEST(VectorMap, WhatIsNoMapOfPlotsIsRefused) {
   EXPECT_FALSE(is_vector_map("plots.geojson"));
 }
 
+// As R's sf, geopandas and QGIS open what is written: without a member crs it would be degrees.
+TEST(PlotFeatures, OfNoKnownSystemAreMetresInGisPrograms) {
+  const TemporaryFolder folder;
+  const std::vector<PlotFeature> plots = {
+      {.box = {.center = {10, 20}, .width_m = 1.5, .length_m = 4}}};
+  const auto unit_in_gis = [&](const std::optional<CoordinateUnits>& units) {
+    const auto file = folder.path() / "plots.geojson";
+    write_plot_features(file, plots, "", units);
+    EXPECT_NEAR(read_plot_features(file, "EPSG:32617").plots.at(0).box.center.y(), 20, 1e-9);
+    GDALAllRegister();
+    const std::unique_ptr<GDALDataset> data(
+        GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+    const OGRSpatialReference* system = data->GetLayer(0)->GetSpatialRef();
+    return system != nullptr && system->IsLocal() ? system->GetLinearUnits() : 0;
+  };
+  EXPECT_DOUBLE_EQ(unit_in_gis({}), 1);
+  EXPECT_DOUBLE_EQ(unit_in_gis(CoordinateUnits{kFoot_m, kFoot_m}), kFoot_m);
+}
+
 }  // namespace
 }  // namespace plotscan::estimate
