@@ -20,6 +20,19 @@ constexpr double kShortestSide_m = 0.1;  // of the smallest plots
 constexpr std::size_t kGroundClass = 2;
 constexpr std::array<std::size_t, 2> kNoiseClasses = {7, 18};
 
+// The field's outline reaches beyond the outermost points (find_field), which end what was scanned.
+void clip_field(CloudReport& report) {
+  const Eigen::AlignedBox3d& scanned_m = report.facts.bounds_m;
+  cloud::Area& field = report.density.field;
+  for (const int axis : {0, 1}) {
+    double& least = field[static_cast<std::size_t>(axis)];
+    double& most = field[static_cast<std::size_t>(axis) + 2];
+    least = std::max(least, scanned_m.min()[axis]);
+    most = std::min(most, scanned_m.max()[axis]);
+  }
+  report.density.area_m2 = std::min(report.density.area_m2, cloud::sides_of(field).prod());
+}
+
 void judge_density(CloudReport& report) {
   const double density = report.density.median;
   const auto too_few = [&](const char* how) {
@@ -95,6 +108,7 @@ CloudReport inspect_cloud(const CloudFiles& cloud) {
   const std::vector<cloud::TileCount> counts = tiles.counts();
   cloud::require_places(counts, cloud.name());
   report.density = cloud::field_density(counts);
+  clip_field(report);
   judge_density(report);
   judge_extent(report);
   judge_steps(steps, report);

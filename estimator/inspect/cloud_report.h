@@ -15,7 +15,7 @@ namespace plotscan::inspect {
 // What is known of a cloud before anything is measured in it.
 struct CloudReport {
   scan::CloudFacts facts;
-  cloud::FieldDensity density;
+  cloud::FieldDensity density;              // its field no larger than the cloud
   std::vector<std::string> obstacles = {};  // why it can carry no plots; none: it can
   std::vector<std::string> doubts = {};     // what may keep plots from being found
 };

@@ -11,6 +11,7 @@
 #include "core/place_json.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "estimate/height_properties.h"
 
 namespace plotscan::score {
 namespace {
@@ -173,10 +174,10 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
       << "row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
   for (const std::string& truth : truths) out << ',' << csv_field("true_" + truth);
   for (const std::string& height : heights)
-    out << ',' << csv_field("estimated_height_" + height + "_m");
+    out << ',' << csv_field(estimate::property_of(height, "estimated_"));
   for (const std::string& height : intervals)
-    out << ',' << csv_field("low95_" + height + "_m") << ','
-        << csv_field("high95_" + height + "_m");
+    out << ',' << csv_field(estimate::property_of(height, estimate::kLow)) << ','
+        << csv_field(estimate::property_of(height, estimate::kHigh));
   if (!intervals.empty()) out << ",confidence,flags";
   out << '\n';
   for (const PlotScore& plot : field.plots) {

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/csv.h"
 #include "core/error.h"
 #include "core/format.h"
 #include "core/geodesy.h"

@@ -221,11 +221,34 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
                        std::to_string(kMostHeaderLines) + " lines is a point, x y z");
 }
 
+// Whether a bracket that opens in the text is not closed.
+bool has_open_bracket(std::string_view text) {
+  const std::size_t opens = text.find_last_of("[(");
+  return opens != std::string_view::npos &&
+         text.find_first_of("])", opens) == std::string_view::npos;
+}
+
+// The words of a line with those in brackets joined to the name before them: "X", "[US" and "ft]"
+// become "X [US ft]".
+std::vector<std::string_view> with_brackets(const std::vector<std::string_view>& words) {
+  std::vector<std::string_view> names;
+  for (const std::string_view word : words) {
+    const bool in_brackets = word.starts_with('[') || word.starts_with('(');
+    if (!names.empty() && (in_brackets || has_open_bracket(names.back()))) {
+      names.back() = {names.back().data(), word.data() + word.size()};
+    } else {
+      names.push_back(word);
+    }
+  }
+  return names;
+}
+
 // The names of the columns, without quotes around them; empty if the header has none.
 std::vector<std::string> column_names(const TextHeader& header, char separator) {
   std::vector<std::string_view> words;
   split_columns(header.names, separator, words);
   if (words.size() < 3) split_columns(header.names, separator_of(header.names), words);
+  words = with_brackets(words);
   std::ranges::transform(words, words.begin(), without_quotes);
   return {words.begin(), words.end()};
 }

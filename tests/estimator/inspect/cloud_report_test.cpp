@@ -42,7 +42,7 @@ TEST(CloudReport, CountsTheDensityOfTheField) {
     EXPECT_EQ(report.facts.points, 800u * a_side * a_side);
     EXPECT_NEAR(report.density.median, a_side * a_side, 1e-9) << a_side;
     EXPECT_NEAR(report.density.least5, a_side * a_side, 1e-9) << a_side;
-    EXPECT_GE(report.density.area_m2, 800);
+    EXPECT_NEAR(report.density.area_m2, (40 - 1.0 / a_side) * (20 - 1.0 / a_side), 1e-9);
   }
 }
 
@@ -65,6 +65,16 @@ TEST(CloudReport, OnePlaceCarriesNoPlots) {
   for (int i = 0; i < 500; ++i) text += "3 4 5\n3.05 4.05 6\n";
   EXPECT_THAT(inspect_cloud(folder.write("place.xyz", text)).obstacles,
               ElementsAre(HasSubstr("within 10 cm of one place")));
+}
+
+TEST(CloudReport, TheFieldIsNoLargerThanTheCloud) {
+  const TemporaryFolder folder;
+  const cloud::FieldDensity point = inspect_cloud(folder.write("point.xyz", "3 4 5\n")).density;
+  EXPECT_THAT(point.field, ElementsAre(3, 4, 3, 4));
+  EXPECT_EQ(point.area_m2, 0);
+  EXPECT_GT(point.median, 0);
+  EXPECT_THAT(inspect_cloud(folder.write("two.xyz", "3 4 5\n10 8 5\n")).density.field,
+              ElementsAre(3, 4, 10, 8));
 }
 
 // Geocentric coordinates: z is thousands of kilometres. `estimator run` refuses them as well.

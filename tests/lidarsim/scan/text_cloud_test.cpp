@@ -102,6 +102,10 @@ TEST_F(TextCloud, UnitsInBracketsAreConverted) {
         << unit;
   }
   EXPECT_EQ(read("x[cm] y[cm] z[mm]\n100 200 500\n"), (Positions{{1, 2, 0.5}}));
+  EXPECT_EQ(read("X [ft] Y [ft] Z [ft]\n10 20 5\n"), (Positions{{3.048, 6.096, 1.524}}));
+  EXPECT_EQ(read("# \"Z\" \"X [ft]\" \"Y [ft]\"\n5 10 20\n"), (Positions{{3.048, 6.096, 1.524}}));
+  EXPECT_EQ(read("Z (m)\tX [US ft]\tY [US ft]\tnote\n5\t3937\t0\t1\n").at(0).z(), 5);
+  EXPECT_NEAR(read("Z (m) X [US ft] Y [US ft]\n5 3937 0\n").at(0).x(), 1200, 1e-9);
   EXPECT_EQ(read("X (m),Y (m),Z (feet)\n1,2,10\n"), (Positions{{1, 2, 3.048}}));
   EXPECT_EQ(read("X (metres),Y,Z\n1,2,10\n"), (Positions{{1, 2, 10}}));
   EXPECT_EQ(read("X (UTM 15N),Y (UTM 15N),Z (NAVD88)\n1,2,10\n"), (Positions{{1, 2, 10}}));
