@@ -4,6 +4,7 @@
 #include "farmfolder/read_farm.h"
 
 #include "core/error.h"
+#include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "core/program.h"
@@ -113,18 +114,26 @@ estimate::Estimate estimate_with_ground(const fs::path& folder) {
   return estimate;
 }
 
+// The file of the estimate's cloud; a note tells if it is another one.
+fs::path measured_cloud(const Program& program, const EstimateArguments& arguments) {
+  fs::path cloud = file_or_inside(arguments.cloud, "cloud.pcd");
+  if (const auto note = other_cloud_note(arguments.estimate, cloud))
+    program.announce("note: " + *note);
+  return cloud;
+}
+
 void draw_field(const Program& program, const EstimateArguments& arguments) {
   require_picture(arguments.png, {{arguments.cloud, arguments.estimate}});
-  view::draw_field(file_or_inside(arguments.cloud, "cloud.pcd"),
-                   estimate_with_ground(arguments.estimate), arguments.png, arguments.field);
+  const estimate::Estimate estimate = estimate_with_ground(arguments.estimate);
+  view::draw_field(measured_cloud(program, arguments), estimate, arguments.png, arguments.field);
   tell(program, arguments.png);
 }
 
 void draw_plot(const Program& program, const EstimateArguments& arguments) {
   require_picture(arguments.png, {{arguments.cloud, arguments.estimate}});
-  view::draw_plot(file_or_inside(arguments.cloud, "cloud.pcd"),
-                  estimate_with_ground(arguments.estimate), PlotId(arguments.plot), arguments.png,
-                  arguments.side);
+  const estimate::Estimate estimate = estimate_with_ground(arguments.estimate);
+  view::draw_plot(measured_cloud(program, arguments), estimate, PlotId(arguments.plot),
+                  arguments.png, arguments.side);
   tell(program, arguments.png);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fieldpage/field_page.h"
 
-#include <algorithm>
-
 #include "farmfolder/terrain_ply.h"
 
 #include "core/error.h"
@@ -24,14 +22,10 @@ estimate::Estimate read(const fs::path& path) {
   return estimate;
 }
 
-// Whether the cloud's only file is the one that the estimate's manifest names.
-bool is_measured_cloud(const fs::path& estimate, const CloudFiles& cloud) {
-  if (!fs::exists(estimate / "manifest.json") || cloud.files.size() != 1) return true;
-  const nlohmann::json inputs = read_manifest(estimate).value("inputs", nlohmann::json::array());
-  const std::string hash = file_hash(cloud.files.front());
-  return std::ranges::any_of(inputs, [&](const nlohmann::json& input) {
-    return input.is_object() && input.value("hash", "") == hash;
-  });
+// That the cloud's only file is not the one that was measured.
+std::optional<std::string> other_cloud_note_of(const fs::path& estimate, const CloudFiles& cloud) {
+  if (cloud.files.size() != 1) return std::nullopt;
+  return other_cloud_note(estimate, cloud.files.front());
 }
 
 // The coordinate system that estimator run was told, if it was.
@@ -55,17 +49,14 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
                 const std::optional<CoordinateUnits>& units, const ProgressReport& progress) {
   CloudFiles cloud = *options.cloud;
   cloud.files = cloud_files_of(cloud.files);
-  const bool is_measured = is_measured_cloud(options.estimate, cloud);
+  const std::optional<std::string> note = other_cloud_note_of(options.estimate, cloud);
   if (cloud.units && units) require_those_units(options.estimate, *cloud.units, *units);
   if (!cloud.units) cloud.units = units;  // as estimator run was told
-  if (!cloud.crs && is_measured) cloud.crs = told_crs(options.estimate);
+  if (!cloud.crs && !note) cloud.crs = told_crs(options.estimate);
   field.cloud = read_shown_positions(cloud, options.points, progress);
   report::note_cloud_elsewhere(field, cloud.name());
   field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
-  if (!is_measured)
-    field.notes.push_back("The cloud " + cloud.name() +
-                          " is not the file that this estimate was made from (its manifest.json "
-                          "has another hash).");
+  if (note) field.notes.push_back(*note);
 }
 
 // A farm's truth, a map of true plots, or a table of measured heights.

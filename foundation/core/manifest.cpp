@@ -86,6 +86,18 @@ nlohmann::json read_manifest(const fs::path& folder) {
   return manifest;
 }
 
+std::optional<std::string> other_cloud_note(const fs::path& estimate, const fs::path& cloud) {
+  if (!fs::exists(estimate / "manifest.json")) return std::nullopt;
+  const nlohmann::json inputs = read_manifest(estimate).value("inputs", nlohmann::json::array());
+  const std::string hash = file_hash(cloud);
+  const bool is_input = std::ranges::any_of(inputs, [&](const nlohmann::json& input) {
+    return input.is_object() && input.value("hash", "") == hash;
+  });
+  if (is_input) return std::nullopt;
+  return "The cloud " + cloud.string() +
+         " is not the file that this estimate was made from (its manifest.json has another hash).";
+}
+
 void require_unchanged(const fs::path& folder, const std::string& part) {
   const nlohmann::json manifest = read_manifest(folder);
   try {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,10 @@ std::vector<std::filesystem::path> unlisted_files(const std::filesystem::path& f
 // Throws InputError when the folder has no manifest.json that can be parsed, or one of a newer
 // format.
 nlohmann::json read_manifest(const std::filesystem::path& folder);
+
+// Says that the cloud is not what the estimate in the folder was made from: no input in its
+// manifest has the file's hash. Nothing where one has, or where there is no manifest.
+std::optional<std::string> other_cloud_note(const std::filesystem::path& estimate,
+                                            const std::filesystem::path& cloud);
 
 }  // namespace plotscan

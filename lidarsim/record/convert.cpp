@@ -23,11 +23,20 @@ bool is_trajectory(const fs::path& file) {
   return extension == ".tum" || extension == ".txt" || extension == ".csv";
 }
 
+// Of clouds and recordings.
+std::vector<std::string> point_extensions() {
+  return extensions_of([](const Format& format) { return format.create != nullptr; });
+}
+
 std::string writable_extensions() {
-  std::vector<std::string> extensions =
-      extensions_of([](const Format& format) { return format.create != nullptr; });
+  std::vector<std::string> extensions = point_extensions();
   extensions.insert(extensions.end(), {".tum", ".txt", ".csv"});
   return joined(extensions, ", ");
+}
+
+std::string where_points_go(const fs::path& out) {
+  return lower_extension(out) + " is a trajectory's here; points are written into a file whose " +
+         "name ends in one of " + joined(point_extensions(), ", ");
 }
 
 SourceOptions source_options(const ConvertOptions& options) {
@@ -48,7 +57,8 @@ ConvertSummary write_poses(const scan::Trajectory& trajectory, const fs::path& o
 }
 
 // Reads a trajectory file, or the reported trajectory of a scan folder or a recording.
-scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options) {
+scan::Trajectory trajectory_of(const fs::path& in, const fs::path& out,
+                               const ConvertOptions& options) {
   if (!options.write.encoding.empty() || !options.write.crs.empty())
     throw InputError("--encoding and --crs are for clouds, and a trajectory is written");
   if (fs::is_directory(in)) return scan_flight(in, source_options(options)).reported;
@@ -62,12 +72,13 @@ scan::Trajectory trajectory_of(const fs::path& in, const ConvertOptions& options
   const Source source = open(in, options);
   if (source.flight) return scan::moved(source.flight->reported, source.info.origin_m);
   if (source.trajectory) return *source.trajectory;
-  throw InputError(in, "holds points but no trajectory");
+  throw InputError(in, "holds points but no trajectory; " + where_points_go(out));
 }
 
 const Format& writable_format(const fs::path& out) {
   const Format* format = find_format(out);
   if (format != nullptr && format->create) return *format;
+  if (is_trajectory(out)) throw InputError(out, "cannot be written: " + where_points_go(out));
   const std::string laz = lower_extension(out) == ".laz"
                               ? "; .laz where built with LASzip (liblaszip-dev on Debian 13 and "
                                 "Ubuntu 24.04)"
@@ -141,7 +152,7 @@ ConvertSummary convert_within(const fs::path& in, const fs::path& out,
   if (!fs::is_directory(in)) require_file(in);
   ConvertSummary summary;
   if (is_trajectory(out)) {
-    summary = write_poses(trajectory_of(in, options), file.path());
+    summary = write_poses(trajectory_of(in, out, options), file.path());
   } else if (is_trajectory(in)) {
     throw InputError(in,
                      "is a trajectory by its extension, which is converted to .tum, .txt or .csv; "

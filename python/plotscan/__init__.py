@@ -96,7 +96,8 @@ def generate_farm(
     Raises BadInput on a description that does not hold, a mesh that cannot be read, a folder that exists.
     """
     assignments = [f"{key}={_text(value)}" for key, value in (set or {}).items()]
-    return _plotscan.generate_farm(description, folder, assignments, seed, threads, replace, progress)
+    drawn = None if seed is None else _seed(seed)
+    return _plotscan.generate_farm(description, folder, assignments, drawn, threads, replace, progress)
 
 
 def read_truth(farm: Path) -> List[TruePlot]:
@@ -142,7 +143,7 @@ def fly(
     options.waypoints = waypoints
     options.formats = _several(formats)
     options.resource_paths = _several(resource_paths)
-    options.seed = seed
+    options.seed = _seed(seed)
     options.threads = threads
     options.replace = replace
     return _plotscan.fly(place, folder, options, progress)
@@ -218,6 +219,14 @@ def estimate_settings(method: str = "lattice") -> List[Setting]:
     Raises BadInput on another name.
     """
     return _plotscan.estimate_settings(method)
+
+
+def _seed(seed: int) -> int:
+    """The seed, which the compiled part takes as 64 bits without a sign."""
+    most = 2**64 - 1
+    if not hasattr(seed, "__index__") or not 0 <= seed <= most:
+        raise BadInput(f"seed: {seed!r} is not a whole number in [0, {most}]")
+    return seed
 
 
 def _require_points(points: Union[Cloud, numpy.ndarray]) -> None:
@@ -338,7 +347,7 @@ def estimate_files(
     options.leave_out_classes = list(leave_out_classes)
     options.measured = measured
     options.csv = csv
-    options.seed = seed
+    options.seed = _seed(seed)
     options.replace = replace
     return _plotscan.estimate_files(_several(clouds), folder, options, progress)
 

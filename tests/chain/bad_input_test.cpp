@@ -96,6 +96,8 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
     folder.write(std::string("estimate/") + grid + ".asc",
                  "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\n0 0\n0 0\n");
   }
+  std::filesystem::copy(folder.path() / "estimate", folder.path() / "measured");
+  folder.write("measured/manifest.json", R"({"inputs": [{"file": "a.las", "hash": "0"}]})");
   const auto before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
   const Finished finished = run(GetParam().command, folder.path().string());
   EXPECT_EQ(finished.exit_code, 2) << finished.output << finished.errors;
@@ -212,6 +214,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"plotview field index.ply not_a_farm -o p.png", "plots.geojson"},
         BadCommand{"plotview field index.ply groundless -o p.png", "ground.asc"},
         BadCommand{"plotview field absent.las estimate -o p.png", "absent.las"},
+        BadCommand{"plotview field index.ply measured --margin -1 -o p.png",
+                   "note: The cloud index.ply is not the file that this estimate was made from"},
         BadCommand{"plotview field index.ply estimate -o index.ply", "index.ply: is the input"},
         BadCommand{"plotview plot index.ply estimate --plot 1 -o estimate/ground.asc",
                    "ground.asc: lies in the input"},

@@ -33,5 +33,21 @@ TEST(Manifest, ListsOptionsInputsAndOutputs) {
   EXPECT_THROW(read_manifest(folder.path() / "in"), InputError);
 }
 
+TEST(Manifest, KnowsTheCloudThatWasMeasured) {
+  const testing::TemporaryFolder folder;
+  const auto cloud = folder.write("cloud.xyz", "1 2 3\n");
+  const auto other = folder.write("other.xyz", "1 2 4\n");
+  folder.write("estimate/plots.geojson", "");
+  const auto estimate = folder.path() / "estimate";
+  EXPECT_EQ(other_cloud_note(estimate, other), std::nullopt);
+  write_manifest(estimate, {.command = "estimator run", .inputs = {cloud}});
+  EXPECT_EQ(other_cloud_note(estimate, cloud), std::nullopt);
+  EXPECT_EQ(other_cloud_note(estimate, folder.write("renamed.xyz", "1 2 3\n")), std::nullopt);
+  EXPECT_EQ(other_cloud_note(estimate, other),
+            "The cloud " + other.string() +
+                " is not the file that this estimate was made from (its manifest.json has another "
+                "hash).");
+}
+
 }  // namespace
 }  // namespace plotscan

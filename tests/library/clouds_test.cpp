@@ -113,6 +113,9 @@ TEST(LibraryClouds, RefuseWhatCannotBe) {
   EXPECT_THAT(refused([&] { write_cloud(file, some_points()); }), HasSubstr("exists"));
   EXPECT_THAT(refused([&] { write_cloud(folder.path() / "a.xls", some_points()); }),
               HasSubstr("must end in one of"));
+  EXPECT_THAT(refused([&] { write_cloud(folder.path() / "a.txt", some_points()); }),
+              HasSubstr("a.txt: cannot be written: .txt is a trajectory's here; points are written "
+                        "into a file whose name ends in one of .pcd, .ply"));
   EXPECT_THAT(refused([&] { write_cloud(folder.path() / "a.bag", some_points()); }),
               HasSubstr("needs the flight"));
   EXPECT_THAT(refused([&] { read_cloud(folder.path() / "none.las"); }), HasSubstr("none.las"));

@@ -83,6 +83,15 @@ class Arguments(unittest.TestCase):
         self.assertEqual(sent("estimate_files", ["a", Path("b")], "out")[0], ["a", Path("b")])
         self.assertEqual(sent("estimate_settings"), ("lattice",))
 
+    def test_of_seeds(self):
+        self.assertEqual(sent("generate_farm", "a", "b", seed=2**64 - 1)[3], 2**64 - 1)
+        self.assertEqual(sent("fly", "farm", "scan", seed=numpy.int32(7))[2].seed, 7)
+        self.assertEqual(sent("estimate_files", "scan", "out", seed=0)[2].seed, 0)
+        for function in (plotscan.generate_farm, plotscan.fly, plotscan.estimate_files):
+            for seed in (-1, 2**64, 1.5, "1"):
+                with self.assertRaisesRegex(plotscan.BadInput, f"^seed: {seed!r} is not a whole number in .0, 18446744073709551615.$"):
+                    function("absent", "out", seed=seed)
+
     def test_of_scores(self):
         self.assertEqual(sent("score_estimate", "estimate", "farm", min_iou=0.7), ("estimate", "farm", 0.7, ""))
         self.assertEqual(sent("score_estimate", "estimate", "farm"), ("estimate", "farm", 0.5, ""))

@@ -199,6 +199,10 @@ void require_count(int count, int most, const std::string& name) {
 
 void require_sound(const Options& options) {
   if (options.boxes.empty()) {
+    if (options.plots == 0) {
+      throw InputError("the number of plots is not given, or 0; it is 1 to " +
+                       std::to_string(kMostPlots) + ", unless the plots' boxes are given");
+    }
     require_count(options.plots, kMostPlots, "the number of plots");
   } else if (options.learn_box) {
     throw InputError("a learn box and given boxes exclude each other");

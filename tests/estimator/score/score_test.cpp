@@ -252,8 +252,8 @@ TEST(ScoreFiles, IntervalsConfidenceAndFlagsComeBack) {
     std::string text;
     for (std::size_t i = 0; i < line.fields.size(); ++i) {
       const std::string& column = table.columns[i];
-      if (column == "low95_height_max_m" || column == "high95_height_max_m" || column == "confidence" ||
-          column == "flags")
+      if (column == "low95_height_max_m" || column == "high95_height_max_m" ||
+          column == "confidence" || column == "flags")
         text += line.fields[i] + "|";
     }
     rows.push_back(text);

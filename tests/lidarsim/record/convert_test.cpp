@@ -209,6 +209,9 @@ TEST_F(Convert, WhatCannotBeIsRefusedAndLeavesNothing) {
   EXPECT_THAT(refusal(folder_.path() / "archive.xyz", "out.pcd"), HasSubstr("neither"));
   EXPECT_THAT(refusal(folder_.path() / "empty", "out.pcd"), HasSubstr("no manifest.json"));
   EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.tum"), HasSubstr("no trajectory"));
+  EXPECT_THAT(refusal(scan_ / "cloud.pcd", "out.TXT"),
+              HasSubstr("/cloud.pcd: holds points but no trajectory; .txt is a trajectory's here; "
+                        "points are written into a file whose name ends in one of .pcd, .ply"));
   EXPECT_THAT(refusal(scan_ / "poses.csv", "out.pcd"),
               HasSubstr("is a trajectory by its extension"));
   EXPECT_THAT(refusal(scan_, "out.pcd", {.flight = FlightOptions{}}), HasSubstr("by itself"));

@@ -222,7 +222,9 @@ TEST(Dhami2020, RefusesBadOptions) {
   const auto message = [&](const Options& options) {
     return message_of<InputError>([&] { estimate_plots(map, options); });
   };
-  EXPECT_THAT(message({.plots = 0}), HasSubstr("number of plots is 0; it is 1 to 100000"));
+  EXPECT_THAT(message({.plots = 0}),
+              HasSubstr("number of plots is not given, or 0; it is 1 to 100000, unless"));
+  EXPECT_THAT(message({.plots = -1}), HasSubstr("number of plots is -1; it is 1 to 100000"));
   EXPECT_THAT(message({.plots = 100001}), HasSubstr("number of plots"));
   EXPECT_THAT(message({.plots = 2, .voxel_m = 0}), HasSubstr("voxel_m 0 must be in [0.005, 1]"));
   EXPECT_THAT(message({.plots = 2, .min_height_m = -1}), HasSubstr("min_height_m -1"));
