@@ -103,10 +103,10 @@ TEST_F(Chain, EstimatesFromLasAsFromPcd) {
   const std::string options = " --method dhami2020 --plots 9 --crop-box=-5,-9,5,9";
   succeed("estimator run scan/cloud.pcd -o from_pcd" + options);
   succeed("estimator run scan/cloud.las -o from_las" + options);
-  const std::vector<std::string> columns = {"plot_number", "center_x_m",       "center_y_m",
-                                            "width_m",     "length_m",         "height_voxel-max_m",
-                                            "row_number",  "col_number",       "heading_deg",
-                                            "points",      "height_raw-max_m", "height_raw-p99_m"};
+  const std::vector<std::string> columns = {
+      "plot_number",        "center_x_m",       "center_y_m", "width_m",     "length_m",
+      "height_voxel-max_m", "row_number",       "col_number", "heading_deg", "points",
+      "height_raw-max_m",   "height_raw-p99_m", "flags"};
   const auto table = [&](const std::string& name) {
     std::vector<std::vector<double>> rows;
     read_csv(folder_.path() / name / "heights.csv", columns, {}, [&](const CsvRow& row) {
