@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "core/each_index.h"
 #include "heights/features.h"
 #include "heights/flags.h"
 #include "heights/internal/box_cells.h"
+#include "heights/internal/calibration_files.h"
 #include "heights/internal/plant_heights.h"
 #include "heights/known_returns.h"
 
@@ -75,7 +78,10 @@ const CalibratedModels& shipped_models() {
 
 }  // namespace
 
-const std::vector<std::string>& crop_names() { return shipped_calibration().crops; }
+const std::vector<std::string>& crop_names() {
+  static const std::vector<std::string> names = nlohmann::json::parse(calibration_file("crops"));
+  return names;
+}
 
 FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Surface& surface,
                              const HeightOptions& options) {

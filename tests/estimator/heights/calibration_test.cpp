@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "heights/crop_model.h"
 #include "heights/features.h"
+#include "heights/measure_heights.h"
 #include "heights/ratio_model.h"
 
 namespace plotscan::heights {
@@ -25,6 +26,10 @@ using testing::ThrowsMessage;
 TEST(Calibration, TheShippedOneFitsTheFeatures) {
   EXPECT_EQ(shipped_calibration().features, feature_names());
   EXPECT_EQ(shipped_calibration().heights.size(), 8);
+}
+
+TEST(Calibration, NamesTheCropsOfTheShippedOne) {
+  EXPECT_EQ(crop_names(), shipped_calibration().crops);
 }
 
 TEST(Calibration, ReadsBackAsItWasWritten) {
