@@ -21,8 +21,8 @@ double draw(RandomStream& random, const Bounds& range) {
   return random.uniform(range.first, range.second);
 }
 
-template <std::size_t Count>
-double pick(RandomStream& random, const std::array<double, Count>& values) {
+template <class Value, std::size_t Count>
+Value pick(RandomStream& random, const std::array<Value, Count>& values) {
   return values[random.below(Count)];
 }
 
@@ -137,9 +137,8 @@ void plan_path(RandomStream& random, lidar::FlyOptions& flight) {
   flight.spacing_m = random.uniform(3.5, 8);
   flight.heading_deg = random.uniform(0, 180);
   if (random.uniform() < 0.5) return;
-  const std::array<const char*, 5> sensors = {"hdl32e", "os1_64", "puck_hires", "vlp32c",
-                                              "livox_mid40"};
-  flight.sensor = sensors[random.below(sensors.size())];
+  flight.sensor =
+      pick(random, std::array{"hdl32e", "os1_64", "puck_hires", "vlp32c", "livox_mid40"});
   flight.altitude_m = random.uniform(6, 20);
 }
 
@@ -152,8 +151,7 @@ void plan_errors(RandomStream& random, lidar::FlyOptions& flight) {
   if (happens()) {
     flight.sub_rays = 7;
     flight.speed_m_s = std::max(flight.speed_m_s, 4.0);  // a beam costs as much as 7 rays
-    const std::array<const char*, 4> returns = {"strongest", "last", "dual", "dual"};
-    flight.returns = returns[random.below(returns.size())];
+    flight.returns = pick(random, std::array{"strongest", "last", "dual", "dual"});
   }
   if (happens()) {
     flight.wind.mean_m_s = random.uniform(1, 5);

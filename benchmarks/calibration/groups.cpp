@@ -8,8 +8,9 @@
 namespace plotscan::calibration {
 namespace {
 
-const std::string& name_of(const heights::CalibrationFarm& farm, Group group) {
-  return group == Group::crop ? farm.crop : farm.library;
+std::string group_of(const heights::Calibration& calibration, std::size_t farm, Group group) {
+  if (group == Group::farm) return std::to_string(farm);
+  return group == Group::crop ? calibration.farms[farm].crop : calibration.farms[farm].library;
 }
 
 }  // namespace
@@ -17,10 +18,8 @@ const std::string& name_of(const heights::CalibrationFarm& farm, Group group) {
 std::vector<std::vector<std::size_t>> groups_of(const heights::Calibration& calibration,
                                                 Group group) {
   std::map<std::string, std::vector<std::size_t>> by_name;
-  for (std::size_t i = 0; i < calibration.farms.size(); ++i) {
-    by_name[group == Group::farm ? std::to_string(i) : name_of(calibration.farms[i], group)]
-        .push_back(i);
-  }
+  for (std::size_t i = 0; i < calibration.farms.size(); ++i)
+    by_name[group_of(calibration, i, group)].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
   groups.reserve(by_name.size());
   for (auto& [name, farms] : by_name) groups.push_back(std::move(farms));

@@ -10,7 +10,6 @@
 #include "core/plot_features.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
-#include "farmbench/internal/survey.h"
 #include "farmbench/text_file.h"
 #include "record/convert.h"
 #include "record/scan_folder.h"
@@ -22,14 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
-
-record::Source inside(record::Source source, const cloud::Area& area) {
-  source.stream = [stream = source.stream, area,
-                   origin_m = source.info.origin_m](const scan::PointSink& sink) {
-    return stream(only_inside(area, origin_m, sink));
-  };
-  return source;
-}
 
 // What an operator knows of the flight: when, with which sensor, how it was mounted.
 json flight_json(const fs::path& scan, const lidar::FlyOptions& flight) {
@@ -50,7 +41,12 @@ json flight_json(const fs::path& scan, const lidar::FlyOptions& flight) {
 std::uint64_t write_blind_cloud(const fs::path& source, const fs::path& cloud,
                                 const std::optional<cloud::Area>& survey) {
   record::Source points = record::open_source(source, {});
-  if (survey) points = inside(std::move(points), *survey);
+  if (survey) {
+    points.stream = [&survey, all = points.stream,
+                     origin_m = points.info.origin_m](const scan::PointSink& sink) {
+      return all(only_inside(*survey, origin_m, sink));
+    };
+  }
   return record::write_points(points, cloud, {.labels = false}).points;
 }
 

@@ -180,8 +180,8 @@ json made_from(const CommandMethod& method) {
           {"sha256", files}};
 }
 
-CommandResult run_command_method(const CommandMethod& method, const Field& field) {
-  CommandResult result{.estimate = {.method = method.name}, .failure = {}};
+MethodRun run_command_method(const CommandMethod& method, const Field& field) {
+  MethodRun run{.estimate = {.method = method.name}, .result = {.method = method.name}};
   const fs::path task = field.poses.parent_path().parent_path();
   const TemporaryPath folder(task.string() + "-entry-" + std::to_string(getpid()));
   const TemporaryPath log(folder.path().string() + ".log");  // the program's own folder is empty
@@ -191,18 +191,18 @@ CommandResult run_command_method(const CommandMethod& method, const Field& field
       substituted(method.words, values_in(fs::absolute(folder.path()), method, field.threads));
   const FinishedProcess finished =
       run_process(arguments, folder.path(), fs::absolute(log.path()), method.limits);
-  result.seconds = finished.seconds;
-  result.peak_memory_mb = static_cast<double>(finished.peak_bytes) / 1e6;
-  result.failure = finished.failure;
+  run.result.seconds = finished.seconds;
+  run.result.peak_memory_mb = static_cast<double>(finished.peak_bytes) / 1e6;
+  run.result.failure = finished.failure;
   const std::string said = finished.failure.empty() ? "" : last_line(log.path());
-  if (!said.empty()) result.failure += ": " + said;
-  if (!result.failure.empty()) return result;
+  if (!said.empty()) run.result.failure += ": " + said;
+  if (!run.result.failure.empty()) return run;
   try {
-    result.estimate.plots = read_output(folder.path(), field);
+    run.estimate.plots = read_output(folder.path(), field);
   } catch (const InputError& error) {
-    result.failure = error.what();
+    run.result.failure = error.what();
   }
-  return result;
+  return run;
 }
 
 }  // namespace plotscan::farmbench

@@ -9,6 +9,7 @@
 
 #include "estimate/estimate.h"
 #include "farmbench/entry/child_process.h"
+#include "farmbench/farm_result.h"
 
 namespace plotscan {
 class YamlSection;
@@ -45,16 +46,14 @@ CommandMethod read_command_method(const YamlSection& entry, const std::string& n
 // all files that it names.
 nlohmann::json made_from(const CommandMethod& method);
 
-// A program's result for a field.
-struct CommandResult {
+// What a method says of a field, and how it went; not scored yet.
+struct MethodRun {
   estimate::Estimate estimate;
-  std::string failure;  // "" or why it counts as having found nothing
-  double seconds = 0;
-  double peak_memory_mb = 0;
+  MethodResult result;
 };
 
 // Runs the program in a folder of its own, with the files that its command names (without labels),
 // and reads what it wrote. Any error of the program is reported as the result's failure.
-CommandResult run_command_method(const CommandMethod& method, const Field& field);
+MethodRun run_command_method(const CommandMethod& method, const Field& field);
 
 }  // namespace plotscan::farmbench

@@ -13,32 +13,34 @@
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
-namespace {
 
 using nlohmann::json;
 
-json farm_json(const EnteredFarm& farm) {
-  return {{"case", farm.case_name},
-          {"seed", farm.seed},
-          {"field", farm.field},
-          {"farm_sha256", farm.farm_sha256},
-          {"cloud_sha256", farm.cloud_sha256},
-          {"file_sha256", farm.file_sha256},
-          {"failure", farm.result.failure},
-          {"score", score::to_json(farm.result.score)}};
+void to_json(json& document, const EnteredFarm& farm) {
+  document = {{"case", farm.case_name},
+              {"seed", farm.seed},
+              {"field", farm.field},
+              {"farm_sha256", farm.farm_sha256},
+              {"cloud_sha256", farm.cloud_sha256},
+              {"file_sha256", farm.file_sha256},
+              {"failure", farm.result.failure},
+              {"score", score::to_json(farm.result.score)}};
 }
 
-EnteredFarm farm_from_json(const json& document, const std::string& method) {
-  return {.case_name = document.at("case"),
+void from_json(const json& document, EnteredFarm& farm) {
+  farm = {.case_name = document.at("case"),
           .seed = document.at("seed"),
           .field = document.at("field"),
           .farm_sha256 = document.at("farm_sha256"),
           .cloud_sha256 = document.at("cloud_sha256"),
           .file_sha256 = document.at("file_sha256"),
-          .result = {.method = method,
-                     .failure = document.at("failure"),
+          .result = {.failure = document.at("failure"),
                      .score = score::field_from_json(document.at("score"))}};
 }
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Entry, method, suite, program_sha256, scorer_sha256, farms)
+
+namespace {
 
 // A farm that is there twice would count twice.
 void require_different_farms(const Entry& entry, const fs::path& file) {
@@ -53,14 +55,8 @@ void require_different_farms(const Entry& entry, const fs::path& file) {
 
 Entry read_entry(const fs::path& file) {
   try {
-    const json document = json::parse(read_json_text(file));
-    Entry entry{.method = document.at("method"),
-                .suite = document.at("suite"),
-                .program_sha256 = document.at("program_sha256"),
-                .scorer_sha256 = document.at("scorer_sha256"),
-                .farms = {}};
-    for (const json& farm : document.at("farms"))
-      entry.farms.push_back(farm_from_json(farm, entry.method));
+    auto entry = json::parse(read_json_text(file)).get<Entry>();
+    for (EnteredFarm& farm : entry.farms) farm.result.method = entry.method;
     require_different_farms(entry, file);
     return entry;
   } catch (const json::exception& error) {
@@ -106,15 +102,8 @@ void require_new_name(const Entry& entry, const fs::path& file,
 }  // namespace
 
 void write_entry(const fs::path& output, const Entry& entry) {
-  json farms = json::array();
-  for (const EnteredFarm& farm : entry.farms) farms.push_back(farm_json(farm));
-  const json document = {{"method", entry.method},
-                         {"suite", entry.suite},
-                         {"program_sha256", entry.program_sha256},
-                         {"scorer_sha256", entry.scorer_sha256},
-                         {"farms", farms}};
   fs::create_directories(output / "entries");
-  write_json(file_of(output, entry), document);
+  write_json(file_of(output, entry), entry);
 }
 
 const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& result) {

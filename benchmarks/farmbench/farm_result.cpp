@@ -7,38 +7,42 @@ namespace plotscan::farmbench {
 
 using nlohmann::json;
 
-json to_json(const FarmResult& result) {
-  json methods = json::array();
-  for (const MethodResult& method : result.methods) {
-    methods.push_back({{"method", method.method},
-                       {"failure", method.failure},
-                       {"diagnostics", method.diagnostics},
-                       {"score", score::to_json(method.score)}});
-  }
-  return {
+void to_json(json& document, const MethodResult& result) {
+  document = {{"method", result.method},
+              {"failure", result.failure},
+              {"diagnostics", result.diagnostics},
+              {"score", score::to_json(result.score)}};
+}
+
+void from_json(const json& document, MethodResult& result) {
+  result = {.method = document.at("method"),
+            .failure = document.at("failure"),
+            .diagnostics = document.at("diagnostics"),
+            .score = score::field_from_json(document.at("score"))};
+}
+
+void to_json(json& document, const FarmResult& result) {
+  document = {
       {"case", result.case_name},
       {"seed", result.seed},
       {"made_from", result.made_from},
       {"scan", {{"shots", result.shots}, {"points", result.points}, {"flight_s", result.flight_s}}},
-      {"methods", methods}};
+      {"methods", result.methods}};
 }
 
-FarmResult farm_result_from_json(const json& document) {
+void from_json(const json& document, FarmResult& result) {
   const json& scan = document.at("scan");
-  FarmResult result{.case_name = document.at("case"),
-                    .seed = document.at("seed"),
-                    .made_from = document.at("made_from"),
-                    .shots = scan.at("shots"),
-                    .points = scan.at("points"),
-                    .flight_s = scan.at("flight_s"),
-                    .methods = {}};
-  for (const json& method : document.at("methods")) {
-    result.methods.push_back({.method = method.at("method"),
-                              .failure = method.at("failure"),
-                              .diagnostics = method.at("diagnostics"),
-                              .score = score::field_from_json(method.at("score"))});
-  }
-  return result;
+  result = {.case_name = document.at("case"),
+            .seed = document.at("seed"),
+            .made_from = document.at("made_from"),
+            .shots = scan.at("shots"),
+            .points = scan.at("points"),
+            .flight_s = scan.at("flight_s"),
+            .methods = document.at("methods")};
+}
+
+std::string farm_name(const std::string& case_name, std::uint64_t seed) {
+  return case_name + "-" + std::to_string(seed);
 }
 
 json times_of(const FarmResult& result) {

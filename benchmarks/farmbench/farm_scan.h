@@ -9,6 +9,7 @@
 #include "farm/farm.h"
 #include "farmbench/suite.h"
 #include "lidar/fly.h"
+#include "scan/point.h"
 #include "score/score.h"
 
 namespace plotscan::farmbench {
@@ -29,6 +30,10 @@ farm::Farm make_farm(const FarmPlace& place);
 // For a case without plots these are the things in the farm's boxes. Throws InputError when no plot
 // is scored.
 std::vector<score::TruePlot> standing_plots(const FarmPlace& place);
+
+// Hands on to `sink` the points that lie in the area; their positions are relative to origin_m.
+scan::PointSink only_inside(const cloud::Area& area, const Eigen::Vector3d& origin_m,
+                            const scan::PointSink& sink);
 
 // A farm's scan, and the cloud of it that methods get.
 struct ScannedFarm {

@@ -28,15 +28,15 @@ inline std::string percent(double share) { return number("{:.1f} %", 100 * share
 
 // How many errors of more than 5 cm come without a flag: "3 (0.33 %)".
 inline std::string unflagged(const TableRow& row) {
-  return std::to_string(row.large_unflagged) + " (" +
-         number("{:.2f} %", 100 * row.large_unflagged_share) + ")";
+  return std::to_string(row.height.large_unflagged) + " (" +
+         number("{:.2f} %", 100 * row.height.large_unflagged_share) + ")";
 }
 
 // "4.81 [4.40, 5.30]", without the interval where it is NaN.
-inline std::string with_interval(double metres, double low_m, double high_m) {
-  const std::string value = centimetres(metres);
-  return std::isnan(low_m) ? value
-                           : value + " [" + centimetres(low_m) + ", " + centimetres(high_m) + "]";
+inline std::string with_interval(double metres, const Interval& ends_m) {
+  if (std::isnan(ends_m.low)) return centimetres(metres);
+  return fmt::format("{} [{}, {}]", centimetres(metres), centimetres(ends_m.low),
+                     centimetres(ends_m.high));
 }
 
 }  // namespace plotscan::farmbench

@@ -19,16 +19,12 @@
 namespace plotscan::farmbench {
 namespace {
 
-std::vector<PlotBox> true_boxes(const Field& field) {
-  std::vector<PlotBox> boxes;
-  for (const score::TruePlot& plot : field.plots) boxes.push_back(plot.box);
-  return boxes;
-}
-
-std::vector<int> true_trials(const Field& field) {
-  std::vector<int> trials;
-  for (const score::TruePlot& plot : field.plots) trials.push_back(plot.trial);
-  return trials;
+// A member of each of the true plots.
+template <class Value>
+std::vector<Value> true_values(const Field& field, Value score::TruePlot::*member) {
+  std::vector<Value> values;
+  for (const score::TruePlot& plot : field.plots) values.push_back(plot.*member);
+  return values;
 }
 
 estimate::Estimate oracle_ground(const Field& field) {
@@ -76,8 +72,8 @@ Method lattice_method(const std::string& name, bool in_true_boxes,
         methods::lattice::Options own = options;
         own.threads = field.threads;
         if (in_true_boxes) {
-          own.boxes = true_boxes(field);
-          own.trials = true_trials(field);
+          own.boxes = true_values(field, &score::TruePlot::box);
+          own.trials = true_values(field, &score::TruePlot::trial);
         }
         return methods::lattice::measure_field(field.found.with(own), own);
       }};
@@ -93,7 +89,7 @@ Method dhami2020_method(const std::string& name, bool in_true_boxes,
             own.seed = field.seed;
             own.threads = field.threads;
             own.plots = in_true_boxes ? 0 : static_cast<int>(field.plots.size());
-            if (in_true_boxes) own.boxes = true_boxes(field);
+            if (in_true_boxes) own.boxes = true_values(field, &score::TruePlot::box);
             return methods::dhami2020::estimate_plots(field.map, own);
           }};
 }
@@ -168,14 +164,6 @@ std::string method_name(const std::string& written) {
   std::string name;
   for (std::string word; words >> word;) name += (name.empty() ? "" : " ") + word;
   return name;
-}
-
-void require_known_methods(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    method_named(name);
-    if (std::ranges::count(names, name) > 1)
-      throw InputError("the method \"" + name + "\" is named twice");
-  }
 }
 
 }  // namespace plotscan::farmbench

@@ -59,7 +59,4 @@ const std::vector<std::string>& known_truths();
 // The name of a method as results have it: its words, one blank between two of them.
 std::string method_name(const std::string& written);
 
-// Throws InputError on a name that method_named refuses, and on a repeated name.
-void require_known_methods(const std::vector<std::string>& names);
-
 }  // namespace plotscan::farmbench

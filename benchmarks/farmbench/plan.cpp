@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -35,10 +36,10 @@ fs::path case_file(const fs::path& output, const SuiteCase& suite_case) {
 }
 
 // What every farm of a case is made from.
-json case_made_from(const Suite& suite, const SuiteCase& suite_case, const std::string& build) {
+std::string case_plan(const Suite& suite, const SuiteCase& suite_case, const std::string& build) {
   json document = made_from(suite, suite_case, suite.seeds.front(), build);
   document.erase("seed");
-  return document;
+  return document.dump(1) + "\n";
 }
 
 json plan_json(const RunOptions& options) {
@@ -59,9 +60,8 @@ std::string tasks_csv(const Suite& suite) {
   std::string text = "farm,case,seed,viewed\n";
   for (const SuiteCase& suite_case : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
-      const char* viewed = is_viewed(suite, seed) ? ",1\n" : ",0\n";
-      text.append(farm_name(suite_case, seed)).append(",").append(suite_case.name);
-      text.append(",").append(std::to_string(seed)).append(viewed);
+      text += fmt::format("{},{},{},{:d}\n", farm_name(suite_case.name, seed), suite_case.name,
+                          seed, is_viewed(suite, seed));
     }
   }
   return text;
@@ -98,10 +98,6 @@ RunOptions read_plan(const fs::path& output, const std::string& build) {
   }
 }
 
-std::string case_plan(const Suite& suite, const SuiteCase& suite_case, const std::string& build) {
-  return case_made_from(suite, suite_case, build).dump(1) + "\n";
-}
-
 void require_unchanged_case(const RunOptions& planned, const Suite& suite,
                             const SuiteCase& suite_case) {
   const fs::path file = case_file(planned.output, suite_case);
@@ -113,9 +109,8 @@ void require_unchanged_case(const RunOptions& planned, const Suite& suite,
 
 FarmTask planned_task(const RunOptions& planned, const Suite& suite, const std::string& farm) {
   for (const SuiteCase& suite_case : suite.cases) {
-    if (!farm.starts_with(suite_case.name + "-")) continue;
     for (const std::uint64_t seed : suite.seeds) {
-      if (farm_name(suite_case, seed) != farm) continue;
+      if (farm_name(suite_case.name, seed) != farm) continue;
       require_unchanged_case(planned, suite, suite_case);
       return task_of(suite, suite_case, seed, planned.build);
     }
@@ -183,7 +178,7 @@ PlannedFarm run_planned(const fs::path& output, const std::string& farm,
   // whose processes' numbers say nothing here.
   const TemporaryPath work(options.work.value_or(output) /
                            ("." + farm + kWork + std::to_string(getpid())));
-  run_task(task, suite, planned, {.folder = work.path(), .threads = options.threads}, progress);
+  run_task(task, suite, planned, work.path(), options.threads, progress);
   return {.result = std::move(*task.result)};
 }
 

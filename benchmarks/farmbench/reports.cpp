@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include <fmt/core.h>
 
@@ -10,44 +12,76 @@
 #include "farmbench/format.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"
-#include "farmbench/internal/markdown.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/internal/sweep_table.h"
+#include "farmbench/markdown.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace {
 
+// The rows that `is_wanted` holds for, by method in the table's order, then by case.
+template <class IsWanted>
+std::vector<TableRow> by_method(const std::vector<TableRow>& table, const IsWanted& is_wanted) {
+  std::vector<TableRow> rows;
+  for (const std::string& method : methods_of(table)) {
+    std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
+      return row.method == method && is_wanted(row);
+    });
+  }
+  return rows;
+}
+
+// The rows that are compared with one truth.
+std::vector<TableRow> rows_against(const std::string& truth, const std::vector<TableRow>& table) {
+  return by_method(table, [&](const TableRow& row) { return row.truth == truth && row.shown; });
+}
+
+// The rows whose height is named after the truth.
+std::vector<TableRow> named_rows(const std::vector<TableRow>& table) {
+  return by_method(table, [](const TableRow& row) { return row.named; });
+}
+
+// The published figure that belongs beside the row, "" where there is none.
+std::string published_cm(const SuiteResult& result, const TableRow& row) {
+  if (!result.published || std::ranges::count(result.published->methods, row.method) == 0)
+    return "";
+  const auto info = std::ranges::find(result.cases, row.case_name, &CaseInfo::name);
+  if (info == result.cases.end() || !info->published_rmse_cm) return "";
+  return fmt::format("{:.1f}", *info->published_rmse_cm);
+}
+
 // "30 of 30, 2 without": plots found, of these the ones without this height.
 std::string found_of(const TableRow& row) {
-  const std::string without = row.without > 0 ? fmt::format(", {} without", row.without) : "";
-  return fmt::format("{} of {}", row.found, row.plots) + without;
+  const std::string without =
+      row.height.without > 0 ? fmt::format(", {} without", row.height.without) : "";
+  return fmt::format("{} of {}", row.boxes.found, row.boxes.plots) + without;
 }
 
 // Whether a row has a place among others: RMSE is that of the plots that a method has measured, and
 // one that leaves the harder ones out, or boxes out of the air in, is no better for it.
 bool has_place(const TableRow& row) {
   constexpr double kMost = 0.95;
-  const auto measured = static_cast<double>(row.found - row.without);
-  return measured >= kMost * static_cast<double>(row.plots) && !(row.precision < kMost);
+  const auto measured = static_cast<double>(row.boxes.found - row.height.without);
+  return measured >= kMost * static_cast<double>(row.boxes.plots) && !(row.boxes.precision < kMost);
 }
 
 // A row without a place has rank 0.
 Cells leaderboard_cells(std::size_t rank, const TableRow& row, const std::string& published) {
   return {rank > 0 ? std::to_string(rank) : "",
           row.method,
-          with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
+          with_interval(row.height.rmse_m, row.rmse_95_m),
           published,
-          number("{:+.2f}", 100 * row.bias_m),
-          centimetres(row.mae_m),
-          number("{:.3f}", row.r2),
+          number("{:+.2f}", 100 * row.height.bias_m),
+          centimetres(row.height.mae_m),
+          number("{:.3f}", row.height.r2),
           centimetres(row.within.within_m),
           number("{:.2f}", row.within.r2),
           number("{:.2f}", row.within.rho),
           found_of(row),
-          std::to_string(row.extra),
-          number("{:.3f}", row.iou_median),
+          std::to_string(row.boxes.extra),
+          number("{:.3f}", row.boxes.iou_median),
           number("{:.2f}", row.seconds)};
 }
 
@@ -63,7 +97,7 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
       const auto row = std::ranges::find_if(rows, [&](const TableRow& candidate) {
         return candidate.method == method && candidate.case_name == info.name;
       });
-      cells.push_back(row == rows.end() ? "-" : centimetres(row->rmse_m));
+      cells.push_back(row == rows.end() ? "-" : centimetres(row->height.rmse_m));
       if (row != rows.end() && info.name != *result.baseline)
         cells.back() += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
     }
@@ -74,13 +108,14 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
 
 std::string plots_found(const std::vector<TableRow>& rows) {
   std::vector<Cells> lines;
+  lines.reserve(rows.size());
   for (const TableRow& row : rows) {
-    lines.push_back({row.method, row.case_name, std::to_string(row.plots),
-                     std::to_string(row.found), std::to_string(row.missed),
-                     std::to_string(row.extra), number("{:.4f}", row.recall),
-                     number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
-                     number("{:.3f}", row.iou_min), centimetres(row.center_rmse_m),
-                     number("{:.3f}", degrees(row.heading_rmse_rad))});
+    lines.push_back({row.method, row.case_name, std::to_string(row.boxes.plots),
+                     std::to_string(row.boxes.found), std::to_string(row.boxes.missed),
+                     std::to_string(row.boxes.extra), number("{:.4f}", row.boxes.recall),
+                     number("{:.4f}", row.boxes.precision), number("{:.3f}", row.boxes.iou_mean),
+                     number("{:.3f}", row.boxes.iou_min), centimetres(row.boxes.center_rmse_m),
+                     number("{:.3f}", degrees(row.boxes.heading_rmse_rad))});
   }
   return "\n## Plots found\n\n" +
          markdown_table(
@@ -92,13 +127,14 @@ std::string plots_found(const std::vector<TableRow>& rows) {
 std::string own_truths(const std::vector<TableRow>& rows) {
   if (rows.empty()) return "";
   std::vector<Cells> lines;
+  lines.reserve(rows.size());
   for (const TableRow& row : rows) {
-    lines.push_back({row.method, row.truth, row.case_name,
-                     with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                     number("{:+.2f}", 100 * row.bias_m), centimetres(row.within.farm_bias_m),
-                     centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-                     number("{:.2f}", row.within.rho), percent(row.coverage95),
-                     std::to_string(row.flagged), unflagged(row)});
+    lines.push_back(
+        {row.method, row.truth, row.case_name, with_interval(row.height.rmse_m, row.rmse_95_m),
+         number("{:+.2f}", 100 * row.height.bias_m), centimetres(row.within.farm_bias_m),
+         centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
+         number("{:.2f}", row.within.rho), percent(row.height.coverage95),
+         std::to_string(row.height.flagged), unflagged(row)});
   }
   return "\n## Each height against the truth it is named after\n\n" +
          markdown_table({"method", "truth", "case", "RMSE [95 %]", "bias", "bias a farm",
@@ -112,7 +148,8 @@ std::string ranking(const SuiteResult& result, std::vector<TableRow> rows) {
   // NaN, a method without any height, comes last.
   std::ranges::stable_sort(rows, [](const TableRow& a, const TableRow& b) {
     if (has_place(a) != has_place(b)) return has_place(a);
-    return a.rmse_m < b.rmse_m || (std::isnan(b.rmse_m) && !std::isnan(a.rmse_m));
+    return a.height.rmse_m < b.height.rmse_m ||
+           (std::isnan(b.height.rmse_m) && !std::isnan(a.height.rmse_m));
   });
   std::vector<Cells> lines;
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -133,14 +170,12 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
       "the errors less their farm's. Methods that measured fewer than 95 % of the plots, "
       "or more than 5 % of whose plots are none, have no place. All columns and "
       "truths are in table.csv.\n" +
-      plots_found(plot_rows(result, table)) + own_truths(named_rows(table));
-  const std::vector<std::string> failures = failure_lines(result);
-  if (!failures.empty()) text += "\n## Methods that gave up\n\n";
-  for (const std::string& failure : failures) text += "- " + failure + "\n";
+      plots_found(plot_rows(result, table)) + own_truths(named_rows(table)) +
+      failure_list("## Methods that gave up", result);
   for (const std::string& truth : shown_truths(result, table)) {
     if (!result.baseline) break;
     text += "\n## RMSE in cm (and its change against " + *result.baseline + "), truth " + truth +
-            "\n\n" + changes_by_case(result, rows_by_method(table, truth));
+            "\n\n" + changes_by_case(result, rows_against(truth, table));
   }
   for (const std::string& truth : shown_truths(result, table)) {
     for (const CaseInfo& info : result.cases) {
@@ -155,98 +190,89 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
   return text;
 }
 
-// How wide the columns of names are: as the longest name, so that all columns stay in line.
-struct NameWidths {
-  std::size_t method;
-  std::size_t case_name = 14;
-};
-
-NameWidths widened(NameWidths widths, const std::vector<TableRow>& rows) {
+// A table for terminals: the rows' methods, each on its first line only, their cases, and what
+// `told` says of them under the heads; no line for a row that it says nothing of. The columns of
+// names are as wide as the longest name, so that all columns stay in line.
+std::vector<std::string> lines_of(const std::vector<TableRow>& rows, std::size_t method_width,
+                                  const std::string& heads,
+                                  const std::function<std::string(const TableRow&)>& told) {
+  std::size_t case_width = 14;
   for (const TableRow& row : rows) {
-    widths.method = std::max(widths.method, row.method.size());
-    widths.case_name = std::max(widths.case_name, row.case_name.size());
+    method_width = std::max(method_width, row.method.size());
+    case_width = std::max(case_width, row.case_name.size());
   }
-  return widths;
-}
-
-// The first two columns of a table's line.
-std::string name_columns(const std::string& method, const std::string& case_name,
-                         const NameWidths& widths) {
-  return fmt::format("{:{}} {:{}} ", method, widths.method, case_name, widths.case_name);
-}
-
-std::string summary_line(const SuiteResult& result, const TableRow& row, bool first_of_method,
-                         const NameWidths& widths) {
-  return name_columns(first_of_method ? row.method : "", row.case_name, widths) +
-         fmt::format(" {:21} {:>7} {:>6}",
-                     with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                     number("{:+.2f}", 100 * row.bias_m), published_cm(result, row)) +
-         (row.without > 0 ? fmt::format("  {} plots without", row.without) : "");
-}
-
-std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
-  const NameWidths widths = widened({.method = 21}, rows);
-  std::vector<std::string> lines = {
-      "Plots found. IoU, centre (cm rms) and heading (degrees rms) over those found",
-      name_columns("method", "case", widths) +
-          fmt::format("{:>9} {:>5} {:>7} {:>9} {:>6} {:>7} {:>8}", "found  ", "extra", "recall",
-                      "precision", "IoU", "centre", "heading")};
+  const auto line = [&](const std::string& method, const std::string& case_name,
+                        const std::string& rest) {
+    return fmt::format("{:{}} {:{}} {}", method, method_width, case_name, case_width, rest);
+  };
+  std::vector<std::string> lines = {line("method", "case", heads)};
   std::string method;
   for (const TableRow& row : rows) {
-    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
-                    fmt::format("{:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}", row.found,
-                                row.plots, row.extra, number("{:.4f}", row.recall),
-                                number("{:.4f}", row.precision), number("{:.3f}", row.iou_mean),
-                                centimetres(row.center_rmse_m),
-                                number("{:.3f}", degrees(row.heading_rmse_rad))));
+    const std::string rest = told(row);
+    if (rest.empty()) continue;
+    lines.push_back(line(row.method != method ? row.method : "", row.case_name, rest));
     method = row.method;
   }
   return lines;
+}
+
+std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
+  return lines_of(rows, 21,
+                  fmt::format("{:>9} {:>5} {:>7} {:>9} {:>6} {:>7} {:>8}", "found  ", "extra",
+                              "recall", "precision", "IoU", "centre", "heading"),
+                  [](const TableRow& row) {
+                    return fmt::format(
+                        "{:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}", row.boxes.found,
+                        row.boxes.plots, row.boxes.extra, number("{:.4f}", row.boxes.recall),
+                        number("{:.4f}", row.boxes.precision), number("{:.3f}", row.boxes.iou_mean),
+                        centimetres(row.boxes.center_rmse_m),
+                        number("{:.3f}", degrees(row.boxes.heading_rmse_rad)));
+                  });
+}
+
+std::vector<std::string> rmse_lines(const SuiteResult& result, const std::vector<TableRow>& rows) {
+  return lines_of(
+      rows, 32, fmt::format(" {:21} {:>7} {:>6}", "RMSE", "bias", "publ."),
+      [&](const TableRow& row) {
+        const std::size_t without = row.height.without;
+        return fmt::format(" {:21} {:>7} {:>6}", with_interval(row.height.rmse_m, row.rmse_95_m),
+                           number("{:+.2f}", 100 * row.height.bias_m), published_cm(result, row)) +
+               (without > 0 ? fmt::format("  {} plots without", without) : "");
+      });
 }
 
 // The errors after each farm's bias is subtracted, and whether the order of the plots is right.
 std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
-  if (rows.empty()) return {};
-  const NameWidths widths = widened({.method = 32}, rows);
-  std::vector<std::string> lines = {
-      "",
-      "Against the truth each height is named after: the farms' own biases, and the rest (cm rms)",
-      name_columns("method", "case", widths) + fmt::format("{:>7} {:>11} {:>11} {:>9} {:>10}",
-                                                           "RMSE", "bias a farm", "within farm",
-                                                           "R2 within", "rho within")};
-  std::string method;
-  for (const TableRow& row : rows) {
-    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
-                    fmt::format("{:>7} {:>11} {:>11} {:>9} {:>10}", centimetres(row.rmse_m),
-                                centimetres(row.within.farm_bias_m),
-                                centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-                                number("{:.2f}", row.within.rho)));
-    method = row.method;
-  }
-  return lines;
+  return lines_of(rows, 32,
+                  fmt::format("{:>7} {:>11} {:>11} {:>9} {:>10}", "RMSE", "bias a farm",
+                              "within farm", "R2 within", "rho within"),
+                  [](const TableRow& row) {
+                    return fmt::format(
+                        "{:>7} {:>11} {:>11} {:>9} {:>10}", centimetres(row.height.rmse_m),
+                        centimetres(row.within.farm_bias_m), centimetres(row.within.within_m),
+                        number("{:.2f}", row.within.r2), number("{:.2f}", row.within.rho));
+                  });
 }
 
-// Lines on the methods that give intervals; no lines where none does.
+// Those that give intervals.
 std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
-  const NameWidths widths = widened({.method = 21}, rows);
-  std::vector<std::string> lines;
-  std::string method;
-  for (const TableRow& row : rows) {
-    if (std::isnan(row.coverage95)) continue;
-    if (lines.empty()) {
-      lines = {"", "Against the truth each height is named after: truths in its 95 % intervals",
-               name_columns("method", "case", widths) +
-                   fmt::format(" {:20} {:>7} {:>7} {:>8} {:>14}", "RMSE", "bias", "in 95 %",
-                               "flagged", "over 5 cm, not")};
-    }
-    lines.push_back(name_columns(row.method != method ? row.method : "", row.case_name, widths) +
-                    fmt::format(" {:20} {:>7} {:>7} {:8} {:>14}",
-                                with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                                number("{:+.2f}", 100 * row.bias_m), percent(row.coverage95),
-                                row.flagged, unflagged(row)));
-    method = row.method;
-  }
-  return lines;
+  return lines_of(rows, 21,
+                  fmt::format(" {:20} {:>7} {:>7} {:>8} {:>14}", "RMSE", "bias", "in 95 %",
+                              "flagged", "over 5 cm, not"),
+                  [](const TableRow& row) {
+                    if (std::isnan(row.height.coverage95)) return std::string();
+                    return fmt::format(" {:20} {:>7} {:>7} {:8} {:>14}",
+                                       with_interval(row.height.rmse_m, row.rmse_95_m),
+                                       number("{:+.2f}", 100 * row.height.bias_m),
+                                       percent(row.height.coverage95), row.height.flagged,
+                                       unflagged(row));
+                  });
+}
+
+void add_table(const std::string& title, const std::vector<std::string>& table,
+               std::vector<std::string>& lines) {
+  lines.insert(lines.end(), {"", title});
+  lines.insert(lines.end(), table.begin(), table.end());
 }
 
 }  // namespace
@@ -259,16 +285,6 @@ std::vector<std::string> shown_truths(const SuiteResult& result,
     return std::ranges::find(table, truth, &TableRow::truth) == table.end();
   });
   return shown;
-}
-
-std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth) {
-  std::vector<TableRow> rows;
-  for (const std::string& method : methods_of(table)) {
-    std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
-      return row.method == method && row.truth == truth && row.shown;
-    });
-  }
-  return rows;
 }
 
 std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
@@ -287,50 +303,25 @@ std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<Tab
   return rows;
 }
 
-std::vector<TableRow> named_rows(const std::vector<TableRow>& table) {
-  std::vector<TableRow> rows;
-  for (const std::string& method : methods_of(table)) {
-    std::ranges::copy_if(table, std::back_inserter(rows),
-                         [&](const TableRow& row) { return row.method == method && row.named; });
-  }
-  return rows;
-}
-
-std::string published_cm(const SuiteResult& result, const TableRow& row) {
-  if (!result.published || std::ranges::count(result.published->methods, row.method) == 0)
-    return "";
-  const auto info = std::ranges::find(result.cases, row.case_name, &CaseInfo::name);
-  if (info == result.cases.end() || !info->published_rmse_cm) return "";
-  return fmt::format("{:.1f}", *info->published_rmse_cm);
-}
-
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table) {
   if (result.sweep) return sweep_lines(result, table);
   std::vector<std::string> lines = plot_lines(plot_rows(result, table));
+  lines.insert(lines.begin(),
+               "Plots found. IoU, centre (cm rms) and heading (degrees rms) over those found");
   for (const std::string& truth : shown_truths(result, table)) {
-    lines.emplace_back("");
-    lines.push_back("Truth " + truth +
-                    ". RMSE [95 % interval] and bias in cm over the plots found");
-    const std::vector<TableRow> rows = rows_by_method(table, truth);
-    const NameWidths widths = widened({.method = 32}, rows);
-    lines.push_back(name_columns("method", "case", widths) +
-                    fmt::format(" {:21} {:>7} {:>6}", "RMSE", "bias", "publ."));
-    std::string method;
-    for (const TableRow& row : rows) {
-      lines.push_back(summary_line(result, row, row.method != method, widths));
-      method = row.method;
-    }
+    add_table("Truth " + truth + ". RMSE [95 % interval] and bias in cm over the plots found",
+              rmse_lines(result, rows_against(truth, table)), lines);
   }
-  for (const auto& more : {within_lines(named_rows(table)), trust_lines(named_rows(table))})
-    lines.insert(lines.end(), more.begin(), more.end());
-  const std::vector<std::string> failures = failure_lines(result);
-  if (!failures.empty()) lines.insert(lines.end(), {"", "Gave up:"});
-  lines.insert(lines.end(), failures.begin(), failures.end());
-  if (result.published) {
-    lines.emplace_back("");
-    lines.push_back("publ.: RMSE of the method in " + result.published->source);
-  }
+  const std::vector<TableRow> named = named_rows(table);
+  const std::string against = "Against the truth each height is named after: ";
+  if (!named.empty())
+    add_table(against + "the farms' own biases, and the rest (cm rms)", within_lines(named), lines);
+  if (const auto trust = trust_lines(named); trust.size() > 1)
+    add_table(against + "truths in its 95 % intervals", trust, lines);
+  add_failures(result, lines);
+  if (result.published)
+    lines.insert(lines.end(), {"", "publ.: RMSE of the method in " + result.published->source});
   return lines;
 }
 
@@ -346,7 +337,7 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
   if (!result.baseline) return;
   for (const std::string& truth : shown_truths(result, table))
     write_text(folder / ("changes_" + truth + ".svg"),
-               change_chart(result, rows_by_method(table, truth)));
+               change_chart(result, rows_against(truth, table)));
 }
 
 }  // namespace plotscan::farmbench

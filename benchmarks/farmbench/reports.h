@@ -26,17 +26,8 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
 std::vector<std::string> shown_truths(const SuiteResult& result,
                                       const std::vector<TableRow>& table);
 
-// The rows that are compared with one truth, by method in the table's order, then by case.
-std::vector<TableRow> rows_by_method(const std::vector<TableRow>& table, const std::string& truth);
-
 // One row for each of the suite's methods and cases, whose columns of boxes count; named after the
 // method. All of a method's heights share its plots.
 std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table);
-
-// The rows whose height is named after the truth, by method, then by case.
-std::vector<TableRow> named_rows(const std::vector<TableRow>& table);
-
-// The published figure that belongs beside the row, "" where there is none.
-std::string published_cm(const SuiteResult& result, const TableRow& row);
 
 }  // namespace plotscan::farmbench

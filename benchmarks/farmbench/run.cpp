@@ -56,7 +56,7 @@ void run_tasks(std::vector<FarmTask>& tasks, const Suite& suite, const RunOption
   std::mutex report_mutex;
   run_queue(open.size(), options.jobs, progress, [&](std::size_t i, const ProgressReport& own) {
     const auto start = std::chrono::steady_clock::now();
-    run_task(*open[i], suite, options, {.folder = work.path(), .threads = threads}, own);
+    run_task(*open[i], suite, options, work.path(), threads, own);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     const std::lock_guard lock(report_mutex);
     if (finished) finished(*open[i]->result, took.count());
@@ -109,7 +109,7 @@ RunSummary write_results(const RunOptions& options, const Suite& suite,
   RunSummary summary{.result = result_of(suite, std::move(farms)), .table = {}};
   add_entries(options.output, summary.result);
   summary.table = make_table(summary.result, options.seed);
-  write_json(options.output / "results.json", to_json(summary.result));
+  write_json(options.output / "results.json", summary.result);
   write_reports(options.output, summary.result, summary.table);
   write_run_manifest(options, suite.name, tasks.size(), finished);
   return summary;
@@ -140,7 +140,7 @@ SuiteResult read_results(const fs::path& output) {
   require_known_format(document, file);
   SuiteResult result;
   try {
-    result = suite_result_from_json(document);
+    document.get_to(result);
     require_methods(result);
     require_whole(result);
   } catch (const json::exception& error) {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/yaml_section.h"
+#include "farmbench/entry/entered_plots.h"
 #include "farmbench/internal/flight_section.h"
 #include "farmbench/internal/sweep_section.h"
 #include "farmbench/methods.h"
@@ -17,13 +18,11 @@ namespace {
 
 constexpr std::size_t kMostCases = 1000;
 constexpr std::size_t kMostMethods = 100;
-constexpr std::string_view kNameCharacters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
 
 // A name that can be part of a file's name and of a CSV field.
 std::string read_name(const YamlSection& section) {
   std::string name = section.text("name");
-  if (name.size() > 40 || name.find_first_not_of(kNameCharacters) != std::string::npos)
+  if (!is_table_name(name))
     section.fail("name", "\"" + name + "\" is not a name: 1 to 40 letters, digits, '-' and '_'");
   return name;
 }
@@ -63,13 +62,6 @@ SuiteCase read_case(const YamlSection& section, const lidar::FlyOptions& flight)
     section.fail("survey_m", "is of plots, and the case is without_plots");
   require_farm(section, suite_case);
   return suite_case;
-}
-
-// The farm and flight that all cases of a sweep share.
-SuiteCase read_base(const YamlSection& root) {
-  SuiteCase base = read_case(root, {});
-  if (base.without_plots) root.fail("without_plots", "is of cases, and a sweep asks about plots");
-  return base;
 }
 
 std::optional<double> read_published_rmse(const YamlSection& root, const YamlSection& section) {
@@ -220,7 +212,9 @@ Suite load_suite(const std::filesystem::path& file) {
   read_methods(root, suite);
   suite.crop_margin_m = root.number("crop_margin_m", {0, 100}, suite.crop_margin_m);
   if (root.has("axes")) {
-    read_sweep(root, read_base(root), suite);
+    const SuiteCase base = read_case(root, {});  // the farm and flight that all cases share
+    if (base.without_plots) root.fail("without_plots", "is of cases, and a sweep asks about plots");
+    read_sweep(root, base, suite);
   } else {
     suite.cases = read_cases(root);
     read_comparisons(root, suite);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloud/area.h"
+#include <nlohmann/json.hpp>
 
 #include "farmbench/command_method.h"
 #include "farmbench/sweep.h"
@@ -36,6 +37,7 @@ struct Published {
   std::string source;                // "Dhami et al., IROS 2020"
   std::vector<std::string> methods;  // the rows that it belongs beside, "dhami2020/raw-p99"
 };
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Published, source, methods)
 
 // A benchmark: every method on every seed of every case.
 struct Suite {

@@ -2,7 +2,7 @@
 #include "farmbench/suite_choice.h"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
 
 #include "core/error.h"
 #include "farmbench/entry/sha256.h"
@@ -67,23 +67,19 @@ Suite chosen_suite(const SuiteChoice& choice) {
 
 std::vector<BlindField> blind_fields(const Suite& suite, const SuiteChoice& choice) {
   const std::string secret = secret_of(choice);
-  std::vector<BlindField> fields;
+  std::map<std::string, BlindField> by_code;
   for (const SuiteCase& suite_case : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
-      fields.push_back(
-          {digits_of("field", suite.name, suite_case.name, seed, secret).substr(0, kCodeDigits),
-           suite_case, seed});
+      const std::string code =
+          digits_of("field", suite.name, suite_case.name, seed, secret).substr(0, kCodeDigits);
+      const bool is_new = by_code.try_emplace(code, BlindField{code, suite_case, seed}).second;
+      check(is_new, "no two fields have one code");
     }
   }
-  std::vector<std::size_t> order(fields.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return fields[i].code; });
-  std::vector<BlindField> sorted;
-  for (const std::size_t i : order) {
-    check(sorted.empty() || sorted.back().code != fields[i].code, "no two fields have one code");
-    sorted.push_back(fields[i]);
-  }
-  return sorted;
+  std::vector<BlindField> fields;
+  fields.reserve(by_code.size());
+  for (const auto& [code, field] : by_code) fields.push_back(field);
+  return fields;
 }
 
 std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256) {

@@ -30,12 +30,12 @@ struct BlindField {
   std::uint64_t seed = 1;
 };
 
-// Every farm of a chosen suite, which outlives them, in the order of their codes: each is the
-// beginning of SHA-256 of the suite's and case's name, the seed and, where there is one, the
-// secret.
 // What a task says of a field's farm: equal farms of several fields must not show.
 std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256);
 
+// Every farm of a chosen suite, which outlives them, in the order of their codes: each is the
+// beginning of SHA-256 of the suite's and case's name, the seed and, where there is one, the
+// secret.
 std::vector<BlindField> blind_fields(const Suite& suite, const SuiteChoice& choice);
 
 }  // namespace plotscan::farmbench

@@ -31,7 +31,6 @@ void require_axes(const Sweep& sweep, std::size_t cases) {
 
 SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
   SuiteResult result{.suite = suite.name,
-                     .cases = {},
                      .methods = suite.methods,
                      .truths = suite.truths,
                      .published = suite.published,
@@ -46,52 +45,40 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
   return result;
 }
 
-json to_json(const SuiteResult& result) {
-  json cases = json::array();
-  for (const CaseInfo& info : result.cases) {
-    cases.push_back({{"name", info.name}});
-    if (info.published_rmse_cm) cases.back()["published_rmse_cm"] = *info.published_rmse_cm;
-  }
-  json farms = json::array();
-  for (const FarmResult& farm : result.farms) farms.push_back(to_json(farm));
-  json document = {{"format", kFormat},
-                   {"suite", result.suite},
-                   {"cases", cases},
-                   {"methods", result.methods},
-                   {"farms", farms}};
-  if (result.published)
-    document["published"] = {{"source", result.published->source},
-                             {"methods", result.published->methods}};
+void to_json(json& document, const CaseInfo& info) {
+  document = {{"name", info.name}};
+  if (info.published_rmse_cm) document["published_rmse_cm"] = *info.published_rmse_cm;
+}
+
+void from_json(const json& document, CaseInfo& info) {
+  info = {.name = document.at("name")};
+  if (document.contains("published_rmse_cm"))
+    info.published_rmse_cm = document["published_rmse_cm"].get<double>();
+}
+
+void to_json(json& document, const SuiteResult& result) {
+  document = {{"format", kFormat},
+              {"suite", result.suite},
+              {"cases", result.cases},
+              {"methods", result.methods},
+              {"farms", result.farms}};
+  if (result.published) document["published"] = *result.published;
   if (!result.entered.empty()) document["entered"] = result.entered;
   if (!result.truths.empty()) document["truths"] = result.truths;
   if (result.baseline) document["baseline"] = *result.baseline;
-  if (result.sweep) document["sweep"] = to_json(*result.sweep);
-  return document;
+  if (result.sweep) document["sweep"] = *result.sweep;
 }
 
-SuiteResult suite_result_from_json(const json& document) {
-  SuiteResult result{.suite = document.at("suite"),
-                     .cases = {},
-                     .methods = document.at("methods"),
-                     .entered = document.value("entered", std::vector<std::string>()),
-                     .truths = document.value("truths", std::vector<std::string>()),
-                     .published = {},
-                     .baseline = {},
-                     .sweep = {},
-                     .farms = {}};
-  for (const json& info : document.at("cases")) {
-    result.cases.push_back({info.at("name"), {}});
-    if (info.contains("published_rmse_cm"))
-      result.cases.back().published_rmse_cm = info["published_rmse_cm"].get<double>();
-  }
-  if (document.contains("published")) {
-    const json& published = document["published"];
-    result.published = {.source = published.at("source"), .methods = published.at("methods")};
-  }
+void from_json(const json& document, SuiteResult& result) {
+  result = {.suite = document.at("suite"),
+            .cases = document.at("cases"),
+            .methods = document.at("methods"),
+            .entered = document.value("entered", std::vector<std::string>()),
+            .truths = document.value("truths", std::vector<std::string>())};
+  if (document.contains("published")) result.published = document["published"].get<Published>();
   if (document.contains("baseline")) result.baseline = document["baseline"].get<std::string>();
-  if (document.contains("sweep")) result.sweep = sweep_from_json(document["sweep"]);
-  for (const json& farm : document.at("farms")) result.farms.push_back(farm_result_from_json(farm));
-  return result;
+  if (document.contains("sweep")) result.sweep = document["sweep"].get<Sweep>();
+  document.at("farms").get_to(result.farms);
 }
 
 void require_whole(const SuiteResult& result) {
@@ -103,7 +90,7 @@ void require_whole(const SuiteResult& result) {
       throw InputError("has two cases " + info.name + "; each must have a name of its own");
   std::set<std::pair<std::string, std::uint64_t>> farms;
   for (const FarmResult& farm : result.farms) {
-    const std::string name = farm.case_name + "-" + std::to_string(farm.seed);
+    const std::string name = farm_name(farm.case_name, farm.seed);
     if (!cases.contains(farm.case_name))
       throw InputError("farm " + name + " is of no case; its case must be one of \"cases\"");
     if (!farms.emplace(farm.case_name, farm.seed).second)

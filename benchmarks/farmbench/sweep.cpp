@@ -23,24 +23,18 @@ std::string text_of(const json& value) {
   return value.is_number() ? format_number(value.get<double>()) : value.get<std::string>();
 }
 
-json to_json(const Sweep& sweep) {
-  json axes = json::array();
-  for (const SweepAxis& axis : sweep.axes)
-    axes.push_back({{"key", axis.key}, {"values", axis.values}});
-  json document = {{"axes", axes}, {"height", sweep.height}, {"truth", sweep.truth}};
-  if (sweep.goal) document["goal"] = {{"rmse_m", sweep.goal->rmse_m}, {"found", sweep.goal->found}};
-  return document;
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepAxis, key, values)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SweepGoal, rmse_m, found)
+
+void to_json(json& document, const Sweep& sweep) {
+  document = {{"axes", sweep.axes}, {"height", sweep.height}, {"truth", sweep.truth}};
+  if (sweep.goal) document["goal"] = *sweep.goal;
 }
 
-Sweep sweep_from_json(const json& document) {
-  Sweep sweep{.axes = {}, .height = document.at("height"), .truth = document.at("truth")};
-  for (const json& axis : document.at("axes"))
-    sweep.axes.push_back({axis.at("key"), axis.at("values")});
-  if (document.contains("goal")) {
-    const json& goal = document["goal"];
-    sweep.goal = {.rmse_m = goal.at("rmse_m"), .found = goal.at("found")};
-  }
-  return sweep;
+void from_json(const json& document, Sweep& sweep) {
+  sweep = {
+      .axes = document.at("axes"), .height = document.at("height"), .truth = document.at("truth")};
+  if (document.contains("goal")) sweep.goal = document["goal"].get<SweepGoal>();
 }
 
 }  // namespace plotscan::farmbench

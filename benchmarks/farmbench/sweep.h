@@ -37,8 +37,8 @@ std::vector<nlohmann::json> combination(const Sweep& sweep, std::size_t i);
 // "20" of 20.0, "vlp16": as tables have it.
 std::string text_of(const nlohmann::json& value);
 
-nlohmann::json to_json(const Sweep& sweep);
+void to_json(nlohmann::json& document, const Sweep& sweep);
 // Throws nlohmann::json::exception on anything that to_json does not write.
-Sweep sweep_from_json(const nlohmann::json& document);
+void from_json(const nlohmann::json& document, Sweep& sweep);
 
 }  // namespace plotscan::farmbench

@@ -48,11 +48,23 @@ std::set<std::string> truths_of(const std::vector<score::FieldScore>& fields) {
   return truths;
 }
 
-SquaredErrors squared_errors(const score::HeightPairs& pairs) {
-  SquaredErrors errors{.count = pairs.estimates_m.size()};
-  for (std::size_t i = 0; i < errors.count; ++i) {
-    const double error_m = pairs.estimates_m[i] - pairs.truths_m[i];
-    errors.sum += error_m * error_m;
+std::vector<score::HeightPairs> pairs_by_farm(const CaseOfMethod& collected,
+                                              const std::string& height, const std::string& truth) {
+  std::vector<score::HeightPairs> farms;
+  for (const score::FieldScore& field : collected.fields)
+    farms.push_back(score::height_pairs(field, height, truth));
+  return farms;
+}
+
+std::vector<SquaredErrors> squared_errors(const std::vector<score::HeightPairs>& farms) {
+  std::vector<SquaredErrors> errors;
+  for (const score::HeightPairs& farm : farms) {
+    SquaredErrors& own = errors.emplace_back();
+    own.count = farm.estimates_m.size();
+    for (std::size_t i = 0; i < own.count; ++i) {
+      const double error_m = farm.estimates_m[i] - farm.truths_m[i];
+      own.sum += error_m * error_m;
+    }
   }
   return errors;
 }
@@ -87,105 +99,68 @@ constexpr std::array kColumns = {
     Column{"method", [](Row row) { return csv_field(row.method); }},
     Column{"truth", [](Row row) { return csv_field(row.truth); }},
     Column{"farms", [](Row row) { return std::to_string(row.farms); }},
-    Column{"plots", [](Row row) { return std::to_string(row.plots); }},
-    Column{"found", [](Row row) { return std::to_string(row.found); }},
-    Column{"missed", [](Row row) { return std::to_string(row.missed); }},
-    Column{"extra", [](Row row) { return std::to_string(row.extra); }},
-    Column{"without", [](Row row) { return std::to_string(row.without); }},
-    Column{"recall", [](Row row) { return field_of(row.recall); }},
-    Column{"precision", [](Row row) { return field_of(row.precision); }},
-    Column{"iou_mean", [](Row row) { return field_of(row.iou_mean); }},
-    Column{"iou_median", [](Row row) { return field_of(row.iou_median); }},
-    Column{"iou_min", [](Row row) { return field_of(row.iou_min); }},
-    Column{"center_rmse_cm", [](Row row) { return field_of(100 * row.center_rmse_m); }},
-    Column{"heading_rmse_deg", [](Row row) { return field_of(degrees(row.heading_rmse_rad)); }},
-    Column{"rmse_cm", [](Row row) { return field_of(100 * row.rmse_m); }},
-    Column{"rmse_lo_cm", [](Row row) { return field_of(100 * row.rmse_low_m); }},
-    Column{"rmse_hi_cm", [](Row row) { return field_of(100 * row.rmse_high_m); }},
+    Column{"plots", [](Row row) { return std::to_string(row.boxes.plots); }},
+    Column{"found", [](Row row) { return std::to_string(row.boxes.found); }},
+    Column{"missed", [](Row row) { return std::to_string(row.boxes.missed); }},
+    Column{"extra", [](Row row) { return std::to_string(row.boxes.extra); }},
+    Column{"without", [](Row row) { return std::to_string(row.height.without); }},
+    Column{"recall", [](Row row) { return field_of(row.boxes.recall); }},
+    Column{"precision", [](Row row) { return field_of(row.boxes.precision); }},
+    Column{"iou_mean", [](Row row) { return field_of(row.boxes.iou_mean); }},
+    Column{"iou_median", [](Row row) { return field_of(row.boxes.iou_median); }},
+    Column{"iou_min", [](Row row) { return field_of(row.boxes.iou_min); }},
+    Column{"center_rmse_cm", [](Row row) { return field_of(100 * row.boxes.center_rmse_m); }},
+    Column{"heading_rmse_deg",
+           [](Row row) { return field_of(degrees(row.boxes.heading_rmse_rad)); }},
+    Column{"rmse_cm", [](Row row) { return field_of(100 * row.height.rmse_m); }},
+    Column{"rmse_lo_cm", [](Row row) { return field_of(100 * row.rmse_95_m.low); }},
+    Column{"rmse_hi_cm", [](Row row) { return field_of(100 * row.rmse_95_m.high); }},
     Column{"rmse_change_cm", [](Row row) { return field_of(100 * row.rmse_change_m); }},
-    Column{"rmse_change_lo_cm", [](Row row) { return field_of(100 * row.rmse_change_low_m); }},
-    Column{"rmse_change_hi_cm", [](Row row) { return field_of(100 * row.rmse_change_high_m); }},
-    Column{"bias_cm", [](Row row) { return field_of(100 * row.bias_m); }},
-    Column{"mae_cm", [](Row row) { return field_of(100 * row.mae_m); }},
-    Column{"r2", [](Row row) { return field_of(row.r2); }},
+    Column{"rmse_change_lo_cm", [](Row row) { return field_of(100 * row.rmse_change_95_m.low); }},
+    Column{"rmse_change_hi_cm", [](Row row) { return field_of(100 * row.rmse_change_95_m.high); }},
+    Column{"bias_cm", [](Row row) { return field_of(100 * row.height.bias_m); }},
+    Column{"mae_cm", [](Row row) { return field_of(100 * row.height.mae_m); }},
+    Column{"r2", [](Row row) { return field_of(row.height.r2); }},
     Column{"farm_bias_cm", [](Row row) { return field_of(100 * row.within.farm_bias_m); }},
     Column{"within_cm", [](Row row) { return field_of(100 * row.within.within_m); }},
     Column{"r2_within", [](Row row) { return field_of(row.within.r2); }},
     Column{"rho_within", [](Row row) { return field_of(row.within.rho); }},
-    Column{"coverage95", [](Row row) { return field_of(row.coverage95); }},
-    Column{"flagged", [](Row row) { return std::to_string(row.flagged); }},
-    Column{"over_5cm_unflagged", [](Row row) { return std::to_string(row.large_unflagged); }},
+    Column{"coverage95", [](Row row) { return field_of(row.height.coverage95); }},
+    Column{"flagged", [](Row row) { return std::to_string(row.height.flagged); }},
+    Column{"over_5cm_unflagged",
+           [](Row row) { return std::to_string(row.height.large_unflagged); }},
     Column{"over_5cm_unflagged_share",
-           [](Row row) { return field_of(row.large_unflagged_share); }}};
+           [](Row row) { return field_of(row.height.large_unflagged_share); }}};
 
-void set_boxes(TableRow& row, const CaseOfMethod& collected) {
-  const score::BoxScore boxes = score::score_boxes(collected.fields);
-  row.farms = collected.fields.size();
-  row.plots = boxes.plots;
-  row.found = boxes.found;
-  row.missed = boxes.missed;
-  row.extra = boxes.extra;
-  row.recall = boxes.recall;
-  row.precision = boxes.precision;
-  row.iou_mean = boxes.iou_mean;
-  row.iou_median = boxes.iou_median;
-  row.iou_min = boxes.iou_min;
-  row.center_rmse_m = boxes.center_rmse_m;
-  row.heading_rmse_rad = boxes.heading_rmse_rad;
-  row.seconds = quantile(collected.seconds, 0.5);
-}
-
-std::vector<SquaredErrors> errors_by_farm(const CaseOfMethod& collected, const std::string& height,
-                                          const std::string& truth) {
-  std::vector<SquaredErrors> by_farm;
-  for (const score::FieldScore& field : collected.fields)
-    by_farm.push_back(squared_errors(score::height_pairs(field, height, truth)));
-  return by_farm;
+// What all rows of the case and the method have in common.
+TableRow common_row(const SuiteResult& result, const std::string& case_name,
+                    const CaseOfMethod& collected) {
+  return {.suite = result.suite,
+          .case_name = case_name,
+          .method = collected.heights.front().row,
+          .truth = {},
+          .farms = collected.fields.size(),
+          .boxes = score::score_boxes(collected.fields),
+          .seconds = quantile(collected.seconds, 0.5)};
 }
 
 void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod& collected,
                 const std::string& height, std::uint64_t seed) {
   if (baseline.seeds != collected.seeds) return;
-  const std::vector<SquaredErrors> before = errors_by_farm(baseline, height, row.truth);
-  const std::vector<SquaredErrors> after = errors_by_farm(collected, height, row.truth);
-  const Interval interval = bootstrap_rmse_change(before, after, seed);
-  row.rmse_change_m = row.rmse_m - rmse(summed(before));
-  row.rmse_change_low_m = interval.low;
-  row.rmse_change_high_m = interval.high;
+  const auto before = squared_errors(pairs_by_farm(baseline, height, row.truth));
+  const auto after = squared_errors(pairs_by_farm(collected, height, row.truth));
+  row.rmse_change_m = row.height.rmse_m - rmse(summed(before));
+  row.rmse_change_95_m = bootstrap_rmse_change(before, after, seed);
 }
 
 void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string& height,
                  std::uint64_t seed) {
-  std::vector<score::HeightPairs> by_farm;
+  const std::vector<score::HeightPairs> farms = pairs_by_farm(collected, height, row.truth);
   score::HeightPairs pooled;
-  for (const score::FieldScore& field : collected.fields) {
-    by_farm.push_back(score::height_pairs(field, height, row.truth));
-    score::append(pooled, by_farm.back());
-  }
-  const score::HeightScore score = score::score_height(height, row.truth, pooled);
-  const Interval interval = bootstrap_rmse(errors_by_farm(collected, height, row.truth), seed);
-  row.without = score.without;
-  row.rmse_m = score.rmse_m;
-  row.rmse_low_m = interval.low;
-  row.rmse_high_m = interval.high;
-  row.bias_m = score.bias_m;
-  row.mae_m = score.mae_m;
-  row.r2 = score.r2;
-  row.within = score::score_within(by_farm);
-  row.coverage95 = score.coverage95;
-  row.flagged = score.flagged;
-  row.large_unflagged = score.large_unflagged;
-  row.large_unflagged_share = score.large_unflagged_share;
-}
-
-// What was found where there is no plot.
-TableRow row_without_plots(const std::string& suite, const std::string& case_name,
-                           const CaseOfMethod& collected) {
-  TableRow row{
-      .suite = suite, .case_name = case_name, .method = collected.heights.front().row, .truth = {}};
-  set_boxes(row, collected);
-  set_heights(row, collected, collected.heights.front().height, 1);
-  return row;
+  for (const score::HeightPairs& farm : farms) score::append(pooled, farm);
+  row.height = score::score_height(height, row.truth, pooled);
+  row.rmse_95_m = bootstrap_rmse(squared_errors(farms), seed);
+  row.within = score::score_within(farms);
 }
 
 }  // namespace
@@ -200,21 +175,20 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
       std::set<std::string> heights;
       for (const MethodHeight& height : collected.heights) heights.insert(height.height);
       const std::set<std::string> truths = truths_of(collected.fields);
-      if (truths.empty() && !collected.fields.empty())
-        table.push_back(row_without_plots(result.suite, info.name, collected));
-      for (const MethodHeight& height : collected.heights) {
+      const TableRow common = common_row(result, info.name, collected);
+      if (truths.empty() && !collected.fields.empty()) {  // what was found where there is no plot
+        table.push_back(common);
+        set_heights(table.back(), collected, collected.heights.front().height, 1);
+      }
+      for (const auto& [height, name] : collected.heights) {
         for (const std::string& truth : truths) {
-          TableRow row{.suite = result.suite,
-                       .case_name = info.name,
-                       .method = height.row,
-                       .truth = truth,
-                       .named = score::named_truth(height.height) == truth,
-                       .shown = !height.height.empty() &&
-                                score::heights_beside(truth, heights).contains(height.height)};
-          set_boxes(row, collected);
-          set_heights(row, collected, height.height, seed);
-          if (baseline) set_change(row, *baseline, collected, height.height, seed);
-          table.push_back(row);
+          TableRow& row = table.emplace_back(common);
+          row.method = name;
+          row.truth = truth;
+          row.named = score::named_truth(height) == truth;
+          row.shown = !height.empty() && score::heights_beside(truth, heights).contains(height);
+          set_heights(row, collected, height, seed);
+          if (baseline) set_change(row, *baseline, collected, height, seed);
         }
       }
     }
@@ -230,39 +204,39 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
   return methods;
 }
 
-nlohmann::json to_json(const TableRow& row) {
-  return {{"case", row.case_name},
-          {"method", row.method},
-          {"truth", row.truth},
-          {"farms", row.farms},
-          {"plots", row.plots},
-          {"found", row.found},
-          {"missed", row.missed},
-          {"extra", row.extra},
-          {"without", row.without},
-          {"recall", row.recall},
-          {"precision", row.precision},
-          {"iou_mean", row.iou_mean},
-          {"iou_median", row.iou_median},
-          {"iou_min", row.iou_min},
-          {"center_rmse_m", row.center_rmse_m},
-          {"heading_rmse_deg", degrees(row.heading_rmse_rad)},
-          {"rmse_m", row.rmse_m},
-          {"rmse_95_m", {row.rmse_low_m, row.rmse_high_m}},
-          {"rmse_change_m", row.rmse_change_m},
-          {"rmse_change_95_m", {row.rmse_change_low_m, row.rmse_change_high_m}},
-          {"bias_m", row.bias_m},
-          {"mae_m", row.mae_m},
-          {"r2", row.r2},
-          {"farm_bias_m", row.within.farm_bias_m},
-          {"within_m", row.within.within_m},
-          {"r2_within", row.within.r2},
-          {"rho_within", row.within.rho},
-          {"coverage95", row.coverage95},
-          {"flagged", row.flagged},
-          {"over_5cm_unflagged", row.large_unflagged},
-          {"over_5cm_unflagged_share", row.large_unflagged_share},
-          {"seconds", row.seconds}};
+void to_json(nlohmann::json& document, const TableRow& row) {
+  document = {{"case", row.case_name},
+              {"method", row.method},
+              {"truth", row.truth},
+              {"farms", row.farms},
+              {"plots", row.boxes.plots},
+              {"found", row.boxes.found},
+              {"missed", row.boxes.missed},
+              {"extra", row.boxes.extra},
+              {"without", row.height.without},
+              {"recall", row.boxes.recall},
+              {"precision", row.boxes.precision},
+              {"iou_mean", row.boxes.iou_mean},
+              {"iou_median", row.boxes.iou_median},
+              {"iou_min", row.boxes.iou_min},
+              {"center_rmse_m", row.boxes.center_rmse_m},
+              {"heading_rmse_deg", degrees(row.boxes.heading_rmse_rad)},
+              {"rmse_m", row.height.rmse_m},
+              {"rmse_95_m", {row.rmse_95_m.low, row.rmse_95_m.high}},
+              {"rmse_change_m", row.rmse_change_m},
+              {"rmse_change_95_m", {row.rmse_change_95_m.low, row.rmse_change_95_m.high}},
+              {"bias_m", row.height.bias_m},
+              {"mae_m", row.height.mae_m},
+              {"r2", row.height.r2},
+              {"farm_bias_m", row.within.farm_bias_m},
+              {"within_m", row.within.within_m},
+              {"r2_within", row.within.r2},
+              {"rho_within", row.within.rho},
+              {"coverage95", row.height.coverage95},
+              {"flagged", row.height.flagged},
+              {"over_5cm_unflagged", row.height.large_unflagged},
+              {"over_5cm_unflagged_share", row.height.large_unflagged_share},
+              {"seconds", row.seconds}};
 }
 
 std::string table_csv(const std::vector<TableRow>& table) {

@@ -9,9 +9,17 @@
 
 #include "core/statistics.h"
 #include "farmbench/suite_result.h"
+#include "score/height_score.h"
+#include "score/score.h"
 #include "score/within_farms.h"
 
 namespace plotscan::farmbench {
+
+// Ends of a 95 % interval; NaN where there is none.
+struct Interval {
+  double low = kNaN;
+  double high = kNaN;
+};
 
 // One case, method and truth over all farms of the case (docs/benchmark.md). What cannot be
 // computed is NaN.
@@ -23,37 +31,14 @@ struct TableRow {
   bool named = false;  // the height is named after the truth (score::named_truth)
   bool shown = true;   // the height stands beside the truth in reports (score::heights_beside)
   std::size_t farms = 0;
-  std::size_t plots = 0;  // true ones
-  std::size_t found = 0;
-  std::size_t missed = 0;
-  std::size_t extra = 0;
-  std::size_t without = 0;  // found plots without this height
-  double recall = 0;        // found / plots
-  double precision = 0;     // found / (found + extra)
-  double iou_mean = 0;
-  double iou_median = 0;
-  double iou_min = 0;
-  double center_rmse_m = 0;
-  double heading_rmse_rad = 0;
-  double rmse_m = 0;
-  double rmse_low_m = 0;  // 95 % bootstrap interval over farms
-  double rmse_high_m = 0;
-  // This RMSE minus that of the suite's baseline on the same farms, and its 95 % interval. NaN
-  // where the suite names no baseline.
+  score::BoxScore boxes = {};
+  score::HeightScore height = {};
+  Interval rmse_95_m = {};  // bootstrap over farms
+  // This RMSE minus that of the suite's baseline on the same farms. NaN where the suite names none.
   double rmse_change_m = kNaN;
-  double rmse_change_low_m = kNaN;
-  double rmse_change_high_m = kNaN;
-  double bias_m = 0;
-  double mae_m = 0;
-  double r2 = 0;
+  Interval rmse_change_95_m = {};
   score::WithinFarms within = {};  // the error a farm and within it; NaN where nothing was found
-  // Share of truths inside the method's own 95 % intervals; NaN for a method without intervals, and
-  // where the height is not named after the truth.
-  double coverage95 = kNaN;
-  std::size_t flagged = 0;              // found plots with this height and a flag
-  std::size_t large_unflagged = 0;      // those without, in error by more than score::kLargeError_m
-  double large_unflagged_share = kNaN;  // of all with it
-  double seconds = 0;                   // of the method, median over farms; NaN: not known
+  double seconds = 0;              // of the method, median over farms; NaN: not known
 };
 
 // All rows: by case, by method, by truth; of a case without plots, one row a method. `seed` draws
@@ -64,7 +49,7 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed);
 std::vector<std::string> methods_of(const std::vector<TableRow>& rows);
 
 // A row as --json prints it: metres, degrees, null for NaN.
-nlohmann::json to_json(const TableRow& row);
+void to_json(nlohmann::json& document, const TableRow& row);
 
 // table.csv (docs/benchmark.md); a field that is NaN is empty.
 std::string table_csv(const std::vector<TableRow>& table);

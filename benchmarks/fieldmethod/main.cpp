@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <pcl/common/common.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
@@ -41,7 +42,7 @@ Cloud::Ptr read_thinned(const char* file) {
   const Cloud::Ptr all(new Cloud);
   if (pcl::io::loadPCDFile(file, *all) != 0) throw InputError(file, "cannot be read");
   if (all->empty()) throw InputError(file, "holds no points");
-  const Cloud::Ptr thinned(new Cloud);
+  Cloud::Ptr thinned(new Cloud);
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(all);
   grid.setLeafSize(kThinning_m, kThinning_m, kThinning_m);
@@ -49,7 +50,7 @@ Cloud::Ptr read_thinned(const char* file) {
   return thinned;
 }
 
-pcl::Indices ground_of(const Cloud::Ptr& cloud) {
+Cloud ground_of(const Cloud::Ptr& cloud) {
   pcl::ApproximateProgressiveMorphologicalFilter<pcl::PointXYZ> filter;
   filter.setInputCloud(cloud);
   filter.setCellSize(static_cast<float>(kCell_m));
@@ -60,28 +61,23 @@ pcl::Indices ground_of(const Cloud::Ptr& cloud) {
   pcl::Indices ground;
   filter.extract(ground);
   if (ground.empty()) throw InputError("no ground was found");
-  return ground;
+  return {*cloud, ground};
 }
 
 // Mean heights of the ground's points in square cells; a cell without any takes the mean of its
 // neighbours, cell after cell inwards.
 class Raster {
  public:
-  Raster(const Cloud& cloud, const pcl::Indices& ground) {
-    for (const int i : ground) {
-      const auto& point = cloud[static_cast<std::size_t>(i)];
-      low_x_ = std::min(low_x_, static_cast<double>(point.x));
-      low_y_ = std::min(low_y_, static_cast<double>(point.y));
-    }
-    for (const int i : ground) {
-      const auto& point = cloud[static_cast<std::size_t>(i)];
-      columns_ = std::max(columns_, column(point.x) + 1);
-      rows_ = std::max(rows_, row(point.y) + 1);
-    }
+  explicit Raster(const Cloud& ground) {
+    pcl::PointXYZ low, high;
+    pcl::getMinMax3D(ground, low, high);
+    low_x_ = static_cast<double>(low.x);
+    low_y_ = static_cast<double>(low.y);
+    columns_ = column(high.x) + 1;
+    rows_ = row(high.y) + 1;
     std::vector<double> sums(columns_ * rows_, 0);
     std::vector<int> counts(columns_ * rows_, 0);
-    for (const int i : ground) {
-      const auto& point = cloud[static_cast<std::size_t>(i)];
+    for (const pcl::PointXYZ& point : ground) {
       const std::size_t cell = row(point.y) * columns_ + column(point.x);
       sums[cell] += static_cast<double>(point.z);
       ++counts[cell];
@@ -134,8 +130,8 @@ class Raster {
     return changed;
   }
 
-  double low_x_ = 1e9;
-  double low_y_ = 1e9;
+  double low_x_ = 0;
+  double low_y_ = 0;
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
   std::vector<double> z_m_;
@@ -186,7 +182,7 @@ int main(int argc, char** argv) {
   try {
     const Cloud::Ptr cloud = read_thinned(argv[1]);
     const std::vector<DrawnPlot> plots = read_plots(argv[2]);
-    write_heights(*cloud, Raster(*cloud, ground_of(cloud)), plots, argv[3]);
+    write_heights(*cloud, Raster(ground_of(cloud)), plots, argv[3]);
     return 0;
   } catch (const InputError& error) {
     std::fprintf(stderr, "field_method: %s\n", error.what());

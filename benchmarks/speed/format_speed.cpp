@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/temporary_path.h"
 #include "record/formats.h"
 #include "record/open_source.h"
 #include "scan/point.h"
@@ -29,25 +30,6 @@ namespace fs = std::filesystem;
 using Points = std::vector<scan::LabelledPoint>;
 
 constexpr std::size_t kBuffer_bytes = std::size_t{256} * 1024;  // of plain reading and writing
-
-// A folder of its own that goes with its object.
-class TemporaryFolder {
- public:
-  TemporaryFolder()
-      : path_(fs::temp_directory_path() / ("format_speed-" + std::to_string(getpid()))) {
-    fs::create_directory(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 void read_plainly(const fs::path& file) {
   std::array<char, kBuffer_bytes> buffer;
@@ -174,7 +156,9 @@ int run(int argc, char** argv) {
   }
   const fs::path scan_folder = argv[1];
   const Flight flight(scan_folder);
-  const TemporaryFolder folder;
+  const TemporaryPath folder(fs::temp_directory_path() /
+                             ("format_speed-" + std::to_string(getpid())));
+  fs::create_directory(folder.path());
   const std::vector<Kind> kinds = written_kinds();
   for (const Kind& kind : kinds) {
     const fs::path file =

@@ -14,7 +14,7 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
-#include "core/error.h"
+#include "core/temporary_path.h"
 #include "farm/farm.h"
 #include "flight/route.h"
 #include "lidar/embree.h"
@@ -117,11 +117,10 @@ int run(int argc, char** argv) {
   }
   const farm::Farm farm = farmfolder::read_farm(argv[1]);
   const Work work(farm, argc == 3 ? scan::read_trajectory(argv[2]) : middle_strip(farm));
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("lidarsim_speed-" + std::to_string(getpid()) + ".pcd");
-  for (const int threads : {1, 2}) add_comparison(work, threads, file);
+  const TemporaryPath file(std::filesystem::temp_directory_path() /
+                           ("lidarsim_speed-" + std::to_string(getpid()) + ".pcd"));
+  for (const int threads : {1, 2}) add_comparison(work, threads, file.path());
   benchmark::RunSpecifiedBenchmarks();
-  std::filesystem::remove(file);
   return 0;
 }
 

@@ -10,8 +10,7 @@
 #include "lidar/fly.h"
 #include "lidar/make_farm.h"
 #include "strata/empty_field.h"
-#include "strata/position_file.h"
-#include "strata/thin.h"
+#include "strata/positions.h"
 
 namespace plotscan::strata {
 namespace fs = std::filesystem;

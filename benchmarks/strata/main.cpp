@@ -14,8 +14,8 @@
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
 #include "strata/measured_field.h"
+#include "strata/positions.h"
 #include "strata/table.h"
-#include "strata/thin.h"
 
 namespace {
 

@@ -71,6 +71,9 @@ double canopy_height(const Thing& thing, const Eigen::Vector2d& place, RandomStr
   return thing.height_m * (0.9 + uneven) * within(0.7, 1, random);
 }
 
+// Of the points of a thing that has walls.
+constexpr double kWallShare = 0.1;
+
 bool has_walls(Shape shape) {
   return shape == Shape::car || shape == Shape::block || shape == Shape::roof;
 }
@@ -159,7 +162,7 @@ std::vector<Eigen::Vector3f> scan(const std::vector<Thing>& things, const Ground
       highest_m = height_m;
       hit = &thing;
     }
-    if (hit != nullptr && has_walls(hit->shape) && random.uniform() < options.wall_share) {
+    if (hit != nullptr && has_walls(hit->shape) && random.uniform() < kWallShare) {
       const double height_m = hit->height_m * random.uniform() * 2 / 3;
       add(on_a_side(hit->outline, random), height_m);
     } else {

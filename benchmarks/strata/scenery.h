@@ -54,7 +54,6 @@ struct ScanOptions {
   double side_m = 30;       // of the square that is scanned, about the origin
   double density_m2 = 300;  // points a square metre
   double noise_m = 0.02;    // standard deviation of the points along each axis
-  double wall_share = 0.1;  // share of a thing's points that lie on its walls, if any
 };
 
 // A scan of things on the ground: points uniform over the square, each at the highest return there,

@@ -90,50 +90,40 @@ std::vector<MeasuredField> all_fields(const Measurement& measurement) {
   return all;
 }
 
-json json_of(const HeightTally& tally) {
-  json document = score::to_json(tally.score);
+}  // namespace
+
+void to_json(json& document, const HeightTally& tally) {
+  document = score::to_json(tally.score);
   document["farm_bias_m"] = tally.within.farm_bias_m;
   document["worst_farm_bias_m"] = tally.within.worst_bias_m;
   document["within_m"] = tally.within.within_m;
   document["r2_within"] = tally.within.r2;
   document["rho_within"] = tally.within.rho;
-  return document;
 }
 
-json json_of(const StratumTally& tally) {
-  json heights = json::object();
-  for (const auto& [name, height] : tally.heights) heights[name] = json_of(height);
-  return {{"stratum", tally.stratum},
-          {"farms", tally.farms},
-          {"failures", tally.failures},
-          {"boxes", score::to_json(tally.boxes)},
-          {"heights", heights},
-          {"worst_height", tally.worst_height},
-          {"over_5cm_unflagged_share", tally.worst_unflagged_share},
-          {"coverage95", tally.coverage95},
-          {"box_coverage95", tally.box_coverage95},
-          {"seconds_per_million_points", tally.seconds_per_million_points}};
+void to_json(json& document, const StratumTally& tally) {
+  document = {{"stratum", tally.stratum},
+              {"farms", tally.farms},
+              {"failures", tally.failures},
+              {"boxes", score::to_json(tally.boxes)},
+              {"heights", tally.heights},
+              {"worst_height", tally.worst_height},
+              {"over_5cm_unflagged_share", tally.worst_unflagged_share},
+              {"coverage95", tally.coverage95},
+              {"box_coverage95", tally.box_coverage95},
+              {"seconds_per_million_points", tally.seconds_per_million_points}};
 }
 
-json json_of(const MeasuredField& field) {
-  return {{"stratum", field.stratum},
-          {"index", field.index},
-          {"points", field.points},
-          {"seconds", field.seconds},
-          {"failure", field.failure},
-          {"true_confidences", field.true_confidences},
-          {"false_confidences", field.false_confidences},
-          {"score", score::to_json(field.score)}};
+void to_json(json& document, const MeasuredField& field) {
+  document = {{"stratum", field.stratum},
+              {"index", field.index},
+              {"points", field.points},
+              {"seconds", field.seconds},
+              {"failure", field.failure},
+              {"true_confidences", field.true_confidences},
+              {"false_confidences", field.false_confidences},
+              {"score", score::to_json(field.score)}};
 }
-
-template <class Items>
-json json_list(const Items& items) {
-  json list = json::array();
-  for (const auto& item : items) list.push_back(json_of(item));
-  return list;
-}
-
-}  // namespace
 
 std::vector<std::string> table_lines(const Measurement& measurement) {
   std::vector<std::string> lines;
@@ -165,11 +155,11 @@ std::string field_line(const MeasuredField& field) {
 }
 
 json to_json(const Measurement& measurement) {
-  return {{"strata", json_list(tally_strata(measurement.farms))},
-          {"fields_without_plots", json_list(tally_strata(measurement.empty_fields))},
+  return {{"strata", tally_strata(measurement.farms)},
+          {"fields_without_plots", tally_strata(measurement.empty_fields)},
           {"confidence_auc", confidence_auc(all_fields(measurement))},
-          {"farms", json_list(measurement.farms)},
-          {"empty_fields", json_list(measurement.empty_fields)}};
+          {"farms", measurement.farms},
+          {"empty_fields", measurement.empty_fields}};
 }
 
 }  // namespace plotscan::strata

@@ -70,7 +70,7 @@ class Command : public ::testing::Test {
     writer.close();
   }
 
-  CommandResult run_command(const std::string& command, const ProcessLimits& limits = {}) {
+  MethodRun run_command(const std::string& command, const ProcessLimits& limits = {}) {
     CommandMethod method{.name = "mine",
                          .command = command,
                          .words = split_command(command),
@@ -103,15 +103,15 @@ TEST_F(Command, GetsWhatItNamesAndHandsInWhatItWrites) {
       "test \"$2\" = 3 || exit 7\n"
       "head -1 \"$3\" | grep -q t_s || exit 6\n"
       "sed 's/heading_deg/height_p99_m/; s/,0$/,0.75/' \"$4\" | cut -d, -f1,6 > \"$5\"\n");
-  const CommandResult result =
+  const MethodRun run =
       run_command("sh {suite}/tool.sh {cloud} {threads} {poses} {boxes_csv} {out_csv}");
-  EXPECT_EQ(result.failure, "");
-  ASSERT_EQ(result.estimate.plots.size(), 1U);
-  EXPECT_EQ(result.estimate.plots[0].id.text(), "5");
-  EXPECT_EQ(result.estimate.plots[0].box.center, Eigen::Vector2d(1, 2));
-  EXPECT_EQ(result.estimate.plots[0].heights_m.at("p99"), 0.75);
-  EXPECT_GT(result.seconds, 0);
-  EXPECT_GT(result.peak_memory_mb, 0.1);
+  EXPECT_EQ(run.result.failure, "");
+  ASSERT_EQ(run.estimate.plots.size(), 1U);
+  EXPECT_EQ(run.estimate.plots[0].id.text(), "5");
+  EXPECT_EQ(run.estimate.plots[0].box.center, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(run.estimate.plots[0].heights_m.at("p99"), 0.75);
+  EXPECT_GT(run.result.seconds, 0);
+  EXPECT_GT(run.result.peak_memory_mb, 0.1);
   EXPECT_FALSE(fs::exists("x"));
   const auto entries = fs::directory_iterator(folder_.path());
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 2);  // its folder is gone
@@ -124,21 +124,22 @@ TEST_F(Command, TheMemoryOfThisProgramIsNotTheirs) {
   std::string long_path;
   for (int i = 0; i < 40000; ++i) long_path += "/:";
   setenv("PATH", (long_path + path).c_str(), 1);
-  const CommandResult result = run_command("true {out}");
+  const MethodRun run = run_command("true {out}");
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(own.back(), 'x');
-  EXPECT_EQ(result.failure, "wrote no output");
-  EXPECT_LT(result.peak_memory_mb, 100);
+  EXPECT_EQ(run.result.failure, "wrote no output");
+  EXPECT_LT(run.result.peak_memory_mb, 100);
 }
 
 TEST_F(Command, FailuresAreResults) {
-  EXPECT_EQ(run_command("sh -c 'echo one; echo \"no ground\" >&2; exit 4' {out}").failure,
+  EXPECT_EQ(run_command("sh -c 'echo one; echo \"no ground\" >&2; exit 4' {out}").result.failure,
             "ended with exit code 4: no ground");
-  EXPECT_THAT(run_command("sh -c 'kill -SEGV $$' {out}").failure, HasSubstr("Segmentation fault"));
-  EXPECT_THAT(run_command("no-such-program-here {out}").failure,
+  EXPECT_THAT(run_command("sh -c 'kill -SEGV $$' {out}").result.failure,
+              HasSubstr("Segmentation fault"));
+  EXPECT_THAT(run_command("no-such-program-here {out}").result.failure,
               HasSubstr("is there a program no-such-program-here?"));
-  EXPECT_EQ(run_command("true {out}").failure, "wrote no output");
-  EXPECT_THAT(run_command("sh -c 'echo height_p99_m >$0; echo tall >>$0' {out_csv}").failure,
+  EXPECT_EQ(run_command("true {out}").result.failure, "wrote no output");
+  EXPECT_THAT(run_command("sh -c 'echo height_p99_m >$0; echo tall >>$0' {out_csv}").result.failure,
               ::testing::AllOf(HasSubstr("plots.csv:2: height_p99_m is \"tall\""),
                                HasSubstr("has neither a box nor")));
 }
@@ -146,29 +147,29 @@ TEST_F(Command, FailuresAreResults) {
 // The message goes into JSON, which is UTF-8, and onto terminals; the log may be large.
 TEST_F(Command, WhateverItWritesItsLastLineIsText) {
   EXPECT_EQ(run_command("sh -c 'printf \"10 %%\\r20 %%\\rgr\\374n \\033[31mred\\n\"; exit 4' {out}")
-                .failure,
+                .result.failure,
             "ended with exit code 4: gr\\xfcn \\x1b[31mred");
   const std::string accents =
       run_command(
           "sh -c 'printf x; for i in $(seq 200); do printf \"\\303\\244\"; done; exit 4' {out}")
-          .failure;
+          .result.failure;
   EXPECT_TRUE(accents.ends_with("\u00e4")) << accents;
   EXPECT_EQ(
       run_command("sh -c 'head -c 100000 /dev/zero | tr \"\\000\" a; echo; echo end; exit 4' {out}")
-          .failure,
+          .result.failure,
       "ended with exit code 4: end");
   EXPECT_EQ(run_command("sh -c 'test -z \"$(ls -A)\" || exit 5; echo mine >log.txt; exit 4' {out}")
-                .failure,
+                .result.failure,
             "ended with exit code 4");
 }
 
 TEST_F(Command, IsStoppedWhereItsTimeIsOver) {
   const auto start = std::chrono::steady_clock::now();
   // A grandchild that would go on, holding the log open.
-  const CommandResult result =
+  const MethodRun run =
       run_command("sh -c 'sleep 987 & echo waiting; wait' {out}", {.seconds = 0.3});
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  EXPECT_EQ(result.failure, "took more than 0.3 s and was stopped: waiting");
+  EXPECT_EQ(run.result.failure, "took more than 0.3 s and was stopped: waiting");
   EXPECT_LT(took.count(), 100);
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (lives("sleep 987") && std::chrono::steady_clock::now() < end)
@@ -177,19 +178,19 @@ TEST_F(Command, IsStoppedWhereItsTimeIsOver) {
 }
 
 TEST_F(Command, IsStoppedWhereItsOutputWouldFillTheDisk) {
-  EXPECT_THAT(
-      run_command("sh -c 'yes on and on' {out}", {.seconds = 60, .log_bytes = 1'000'000}).failure,
-      ::testing::StartsWith("printed more than 1 MB and was stopped: "));
+  EXPECT_THAT(run_command("sh -c 'yes on and on' {out}", {.seconds = 60, .log_bytes = 1'000'000})
+                  .result.failure,
+              ::testing::StartsWith("printed more than 1 MB and was stopped: "));
 }
 
 TEST_F(Command, IsKeptWithinItsMemory) {
   EXPECT_EQ(run_command("sh -c 'x=$(head -c 60000000 /dev/zero | tr \"\\\\000\" a); exit 3' {out}",
                         {.memory_bytes = std::uint64_t{4} << 30})
-                .failure,
+                .result.failure,
             "ended with exit code 3");
   EXPECT_NE(run_command("sh -c 'x=$(head -c 60000000 /dev/zero | tr \"\\\\000\" a); exit 3' {out}",
                         {.memory_bytes = std::uint64_t{40} << 20})
-                .failure,
+                .result.failure,
             "ended with exit code 3");
 }
 
@@ -212,7 +213,7 @@ TEST(CommandSuite, RunsBesideOurOwnAndStaysInTheReports) {
     return candidate.method == "mine/p99 true-boxes" && candidate.truth == "height_p99_m";
   });
   ASSERT_NE(row, summary.table.end());
-  EXPECT_EQ(row->found, 4U);
+  EXPECT_EQ(row->boxes.found, 4U);
   EXPECT_THAT(read_text(options.output / "leaderboard.md"),
               ::testing::AllOf(HasSubstr("mine/p99 true-boxes"),
                                HasSubstr("- broken, zq-even-hidden: 1 of 1 farm, ended with exit "

@@ -111,14 +111,14 @@ TEST_F(Scoring, GivesTheScoresOfOurOwnMethodToTheSameEstimate) {
   for (const TableRow& row : own.table) {
     const std::string height = row.method.substr(std::string("lattice").size());
     const TableRow& entered = row_of(scored.table, row.case_name, "mine" + height, row.truth);
-    EXPECT_EQ(entered.found, row.found);
-    EXPECT_EQ(entered.extra, row.extra);
-    EXPECT_NEAR(entered.iou_mean, row.iou_mean, 1e-9);
-    EXPECT_NEAR(entered.rmse_m, row.rmse_m, 1e-12);
-    EXPECT_NEAR(entered.bias_m, row.bias_m, 1e-12);
-    EXPECT_EQ(entered.flagged, row.flagged);
+    EXPECT_EQ(entered.boxes.found, row.boxes.found);
+    EXPECT_EQ(entered.boxes.extra, row.boxes.extra);
+    EXPECT_NEAR(entered.boxes.iou_mean, row.boxes.iou_mean, 1e-9);
+    EXPECT_NEAR(entered.height.rmse_m, row.height.rmse_m, 1e-12);
+    EXPECT_NEAR(entered.height.bias_m, row.height.bias_m, 1e-12);
+    EXPECT_EQ(entered.height.flagged, row.height.flagged);
     if (row.named) {
-      EXPECT_EQ(entered.coverage95, row.coverage95);
+      EXPECT_EQ(entered.height.coverage95, row.height.coverage95);
     }
   }
 }
@@ -160,13 +160,13 @@ TEST_F(Scoring, HeightsInGivenBoxesHaveRowsOfTheirOwn) {
   EXPECT_EQ(scored.missing, std::vector<std::string>{fields_[1].code});
   const TableRow& row =
       row_of(scored.table, fields_[0].suite_case.name, "mine/p99 true-boxes", "height_p99_m");
-  EXPECT_EQ(row.found, 2U);
-  EXPECT_EQ(row.missed, 2U);
-  EXPECT_EQ(row.iou_min, 1);
+  EXPECT_EQ(row.boxes.found, 2U);
+  EXPECT_EQ(row.boxes.missed, 2U);
+  EXPECT_EQ(row.boxes.iou_min, 1);
   const TableRow& missing =
       row_of(scored.table, fields_[1].suite_case.name, "mine/p99 true-boxes", "height_p99_m");
-  EXPECT_EQ(missing.found, 0U);
-  EXPECT_EQ(missing.missed, 4U);
+  EXPECT_EQ(missing.boxes.found, 0U);
+  EXPECT_EQ(missing.boxes.missed, 4U);
   EXPECT_TRUE(fs::exists(folder_.path() / "results" / "report.html"));
 }
 
@@ -213,9 +213,9 @@ TEST_F(Scoring, BoxesWithoutHeightsAreScoredAsBoxes) {
         "center_x_m,center_y_m,width_m,length_m,heading_deg\n50,50,1,4,0\n");
   const ScoredSubmission scored = score_submission(options());
   const TableRow& row = row_of(scored.table, fields_[0].suite_case.name, "mine", "height_max_m");
-  EXPECT_EQ(row.found, 0U);
-  EXPECT_EQ(row.extra, 1U);
-  EXPECT_TRUE(std::isnan(row.rmse_m));
+  EXPECT_EQ(row.boxes.found, 0U);
+  EXPECT_EQ(row.boxes.extra, 1U);
+  EXPECT_TRUE(std::isnan(row.height.rmse_m));
   EXPECT_EQ(scored.apart, std::vector<std::string>{fields_[0].code});
 }
 

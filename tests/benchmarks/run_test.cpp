@@ -58,14 +58,14 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   const TableRow& own = row_of(summary.table, "flat", "dhami2020/raw-p99");
   const TableRow& given = row_of(summary.table, "flat", "dhami2020/raw-p99 true-boxes");
   const TableRow& oracle = row_of(summary.table, "flat", "oracle-ground");
-  EXPECT_EQ(own.found, own.plots);
-  EXPECT_EQ(own.extra, 0U);
-  EXPECT_GT(own.iou_median, 0.6);
-  EXPECT_LT(own.rmse_m, 0.12);
+  EXPECT_EQ(own.boxes.found, own.boxes.plots);
+  EXPECT_EQ(own.boxes.extra, 0U);
+  EXPECT_GT(own.boxes.iou_median, 0.6);
+  EXPECT_LT(own.height.rmse_m, 0.12);
   const TableRow& alone = row_of(summary.table, "flat", "lattice/max");
-  EXPECT_EQ(alone.found, alone.plots);
-  EXPECT_EQ(alone.extra, 0U);
-  EXPECT_LT(alone.rmse_m, 0.05);
+  EXPECT_EQ(alone.boxes.found, alone.boxes.plots);
+  EXPECT_EQ(alone.boxes.extra, 0U);
+  EXPECT_LT(alone.height.rmse_m, 0.05);
   const TableRow& one_number = row_of(summary.table, "flat", "one-number/max");
   std::vector<double> truths_m;
   for (const score::PlotScore& plot : summary.result.farms[0].methods.back().score.plots)
@@ -73,21 +73,22 @@ TEST(RunSuite, SmokeFindsPlotsAndHeights) {
   ASSERT_EQ(truths_m.size(), 4U);
   double squared = 0;
   for (const double truth_m : truths_m) squared += std::pow(truth_m - mean(truths_m), 2);
-  EXPECT_NEAR(one_number.rmse_m, std::sqrt(squared / 4), 1e-12);
-  EXPECT_NEAR(one_number.bias_m, 0, 1e-12);
+  EXPECT_NEAR(one_number.height.rmse_m, std::sqrt(squared / 4), 1e-12);
+  EXPECT_NEAR(one_number.height.bias_m, 0, 1e-12);
   EXPECT_TRUE(std::isnan(one_number.within.r2));  // it says nothing of one plot against another
   // On flat ground a plane is as good as the truth.
-  EXPECT_NEAR(given.bias_m, oracle.bias_m, 0.01);
+  EXPECT_NEAR(given.height.bias_m, oracle.height.bias_m, 0.01);
   for (const char* terrain : {"flat", "half", "one"}) {
     const TableRow& row = row_of(summary.table, terrain, "oracle-ground");
-    EXPECT_EQ(row.found, row.plots);
-    EXPECT_DOUBLE_EQ(row.iou_min, 1);
+    EXPECT_EQ(row.boxes.found, row.boxes.plots);
+    EXPECT_DOUBLE_EQ(row.boxes.iou_min, 1);
     // The 99th percentile of the points lies a little under the tallest plant's tip.
-    EXPECT_LT(row.bias_m, 0.01) << terrain;
-    EXPECT_GT(row.bias_m, -0.12) << terrain;
-    EXPECT_LT(row.rmse_m, 0.12) << terrain;
+    EXPECT_LT(row.height.bias_m, 0.01) << terrain;
+    EXPECT_GT(row.height.bias_m, -0.12) << terrain;
+    EXPECT_LT(row.height.rmse_m, 0.12) << terrain;
     // The noise reaches above it.
-    EXPECT_GT(row_of(summary.table, terrain, "dhami2020/raw-max true-boxes").bias_m, row.bias_m);
+    EXPECT_GT(row_of(summary.table, terrain, "dhami2020/raw-max true-boxes").height.bias_m,
+              row.height.bias_m);
   }
   for (const char* file : {"table.csv", "results.json", "leaderboard.md", "report.html",
                            "manifest.json", "farms/one-1.json", "views/one-1.cbor"}) {
@@ -163,10 +164,10 @@ TEST(RunSuite, AMethodThatGivesUpHasMissedEveryPlot) {
   const RunSummary summary = run(options);
   EXPECT_THAT(summary.result.farms[0].methods[0].failure, HasSubstr("too few for 4 plots"));
   const TableRow& row = row_of(summary.table, "bare", "dhami2020/raw-p99");
-  EXPECT_EQ(row.missed, 4U);
-  EXPECT_TRUE(std::isnan(row.rmse_m));
+  EXPECT_EQ(row.boxes.missed, 4U);
+  EXPECT_TRUE(std::isnan(row.height.rmse_m));
   const TableRow& oracle = row_of(summary.table, "bare", "oracle-ground");
-  EXPECT_EQ(oracle.without, 4U);  // found, but nothing stands on the ground
+  EXPECT_EQ(oracle.height.without, 4U);  // found, but nothing stands on the ground
   const fs::path kept = options.output / "clouds" / "bare-1";
   EXPECT_TRUE(fs::exists(kept / "scan" / "cloud.pcd"));
   options.force = true;
@@ -210,8 +211,8 @@ TEST(RunSuite, WithoutPlotsWhateverIsFoundIsInvented) {
                      .build = "test"};
   const RunSummary summary = run(options);
   ASSERT_EQ(summary.table.size(), 1U);
-  EXPECT_EQ(summary.table[0].plots, 0U);
-  EXPECT_EQ(summary.table[0].extra, 4U);
+  EXPECT_EQ(summary.table[0].boxes.plots, 0U);
+  EXPECT_EQ(summary.table[0].boxes.extra, 4U);
 }
 
 TEST(RunSuite, OptionsChooseSeedsAndMethods) {
@@ -247,9 +248,9 @@ TEST(RunSuite, PlotsOutsideTheSurveyAreNotScored) {
   options.keep_clouds = true;
   const RunSummary summary = run(options);
   const TableRow& row = row_of(summary.table, "part", "oracle-ground");
-  EXPECT_EQ(row.plots, 2U);
-  EXPECT_EQ(row.found, 2U);
-  EXPECT_LT(row.rmse_m, 0.15);
+  EXPECT_EQ(row.boxes.plots, 2U);
+  EXPECT_EQ(row.boxes.found, 2U);
+  EXPECT_LT(row.height.rmse_m, 0.15);
   double left = 0, right = 0;
   scan::read_positions(options.output / "clouds" / "part-1" / "survey.pcd",
                        [&](std::span<const Eigen::Vector3d> points) {

@@ -18,11 +18,10 @@
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
 #include "strata/measured_field.h"
-#include "strata/position_file.h"
+#include "strata/positions.h"
 #include "strata/scenery.h"
 #include "strata/table.h"
 #include "strata/tally.h"
-#include "strata/thin.h"
 
 namespace plotscan::strata {
 namespace {

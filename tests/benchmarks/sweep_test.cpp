@@ -118,9 +118,9 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
     row.case_name = name;
     row.method = "lattice/mean";
     row.truth = "height_mean_m";
-    row.recall = recall;
-    row.rmse_m = rmse_m;
-    row.rmse_high_m = high_m;
+    row.boxes.recall = recall;
+    row.height.rmse_m = rmse_m;
+    row.rmse_95_m.high = high_m;
   };
   add(40, 0.01, 0.02, 1);
   add(30, 0.02, 0.04, 1);                       // perhaps not
@@ -129,7 +129,7 @@ TEST(Sweep, NeedsTheShortestFlightThatSurelyReachesTheGoal) {
   result.farms.emplace_back().case_name = "2";  // a third farm, which was not flown
   EXPECT_EQ(flight_needed(result, rows), 0U);
   EXPECT_EQ(flight_costs(result)[2].flight_s, 20);
-  rows[1].rmse_high_m = nothing;  // of a single farm: the RMSE counts
+  rows[1].rmse_95_m.high = nothing;  // of a single farm: the RMSE counts
   EXPECT_EQ(flight_needed(result, rows), 1U);
   EXPECT_THAT(sweep_markdown(result, rows), HasSubstr("has altitude_m 2; 30 s over"));
   for (FarmResult& farm : result.farms) farm.flight_s = 0;  // as of a submission alone
@@ -154,7 +154,7 @@ TEST(Sweep, TablesHaveTheSuitesNumbersForAnyJobsAndThreads) {
   const auto found =
       std::ranges::find_if(csv, [&](const std::string& line) { return line.starts_with(asked); });
   ASSERT_NE(found, csv.end());
-  EXPECT_NEAR(std::stod(found->substr(asked.size())), 100 * rows[0].rmse_m, 1e-4);
+  EXPECT_NEAR(std::stod(found->substr(asked.size())), 100 * rows[0].height.rmse_m, 1e-4);
   const std::string page = read_text(folder.path() / "a/report.html");
   EXPECT_THAT(page, HasSubstr("\"flights\":["));
   EXPECT_TRUE(fs::is_empty(folder.path() / "a/views")) << "a sweep shows no farm";
@@ -174,9 +174,9 @@ TEST(Sweep, GoesOnAfterAFlightThatSeesNothing) {
   const RunSummary summary = run({.suite = suite, .output = folder.path() / "a", .build = "test"});
   const std::vector<TableRow> rows = sweep_rows(summary.result, summary.table);
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].found, 0U);
-  EXPECT_EQ(rows[0].missed, 4U);
-  EXPECT_EQ(rows[1].found, 4U);
+  EXPECT_EQ(rows[0].boxes.found, 0U);
+  EXPECT_EQ(rows[0].boxes.missed, 4U);
+  EXPECT_EQ(rows[1].boxes.found, 4U);
   const std::string table = read_text(folder.path() / "a/sweep.md");
   EXPECT_THAT(table, HasSubstr("the shortest flight that does has altitude_m 6;"));
   EXPECT_THAT(table, HasSubstr("| 119 | - | - | 0 of 4 | 0 | none | - |"));

@@ -24,14 +24,20 @@ using nlohmann::json;
 constexpr std::uintmax_t kMostBytes = 64'000'000;
 constexpr double kFarthest_m = 1e7;
 
+// The property where it is there and not null.
+const json* stated(const EnteredRow& row, const std::string& name) {
+  const auto found = row.properties.find(name);
+  return found == row.properties.end() || found->is_null() ? nullptr : &*found;
+}
+
 // A property that has to be a number where it is there; nothing where it is not one.
 std::optional<double> number_in(const EnteredRow& row, const std::string& name,
                                 Problems& problems) {
-  const auto found = row.properties.find(name);
-  if (found == row.properties.end() || found->is_null()) return std::nullopt;
-  if (found->is_number() && estimate::is_plausible(found->get<double>()))
-    return found->get<double>();
-  problems.add(row.place, name + " is " + found->dump() + "; it must be metres, -100 to 1000");
+  const json* value = stated(row, name);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_number() && estimate::is_plausible(value->get<double>()))
+    return value->get<double>();
+  problems.add(row.place, name + " is " + value->dump() + "; it must be metres, -100 to 1000");
   return std::nullopt;
 }
 
@@ -73,9 +79,7 @@ void read_heights(const EnteredRow& row, estimate::PlotEstimate& plot, Problems&
     for (const std::string_view before : {estimate::kLow, estimate::kHigh}) {
       if (!property.starts_with(before) || value.is_null()) continue;
       const std::string height = property.substr(before.size());
-      const auto found = row.properties.find(height);
-      const bool is_measured = found != row.properties.end() && !found->is_null();
-      if (!estimate::height_of(height).empty() && !is_measured)
+      if (!estimate::height_of(height).empty() && stated(row, height) == nullptr)
         problems.add(row.place,
                      fmt::format("{} belongs to {}, which is not there", property, height));
     }
@@ -83,17 +87,14 @@ void read_heights(const EnteredRow& row, estimate::PlotEstimate& plot, Problems&
 }
 
 void read_trust(const EnteredRow& row, estimate::PlotEstimate& plot, Problems& problems) {
-  const auto confidence = row.properties.find("confidence");
-  if (confidence != row.properties.end() && !confidence->is_null()) {
-    const bool is_share =
-        confidence->is_number() && confidence->get<double>() >= 0 && confidence->get<double>() <= 1;
-    if (is_share)
+  if (const json* confidence = stated(row, "confidence")) {
+    if (confidence->is_number() && *confidence >= 0 && *confidence <= 1)
       plot.confidence = confidence->get<double>();
     else
       problems.add(row.place, "confidence is " + confidence->dump() + "; it must be 0 to 1");
   }
-  const auto flags = row.properties.find("flags");
-  if (flags == row.properties.end() || flags->is_null()) return;
+  const json* flags = stated(row, "flags");
+  if (flags == nullptr) return;
   const auto is_text = [](const json& flag) { return flag.is_string(); };
   if (!flags->is_array() || !std::ranges::all_of(*flags, is_text))
     return problems.add(row.place, "flags is " + flags->dump() +
@@ -110,10 +111,9 @@ bool is_sound(const PlotBox& box) {
 
 estimate::PlotEstimate plot_of(const EnteredRow& row, std::size_t number, Problems& problems) {
   estimate::PlotEstimate plot{.id = number, .box = row.box.value_or(PlotBox{})};
-  const auto id = row.properties.find("plot_number");
-  if (id != row.properties.end() && !id->is_null()) {
-    if (const auto stated = PlotId::from(*id))
-      plot.id = *stated;
+  if (const json* id = stated(row, "plot_number")) {
+    if (const auto number_or_text = PlotId::from(*id))
+      plot.id = *number_or_text;
     else
       problems.add(row.place, "plot_number is " + id->dump() + "; it must be a number or a text");
   } else if (!row.box_stated) {

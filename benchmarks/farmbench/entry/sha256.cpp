@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include <fmt/ranges.h>
 #include <openssl/evp.h>
 
 #include "core/error.h"
@@ -28,13 +29,7 @@ class Sha256 {
   std::string hex() {
     std::array<unsigned char, 32> digest{};
     check(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1, "a hash is finished");
-    static constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string text;
-    for (const unsigned char byte : digest) {
-      text += kDigits[byte >> 4];
-      text += kDigits[byte & 15];
-    }
-    return text;
+    return fmt::format("{:02x}", fmt::join(digest, ""));
   }
 
  private:

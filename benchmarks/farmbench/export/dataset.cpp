@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <functional>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -15,6 +15,7 @@
 #include "core/temporary_path.h"
 #include "farmbench/export/internal/labelled_scans.h"
 #include "farmbench/farm_scan.h"
+#include "farmbench/markdown.h"
 #include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
@@ -83,29 +84,22 @@ json write_sequence(const Sequence& sequence, const fs::path& folder, const fs::
 }
 
 std::string counts_table(const json& sequences) {
-  std::string text = "| split | farms | scans | points | plots |";
-  for (const char* name : kClasses) text += std::string(" ") + name + " |";
-  text += "\n| --- | --- | --- | --- | --- |";
-  for (std::size_t i = 0; i < kClasses.size(); ++i) text += " --- |";
-  text += "\n";
+  Cells heads = {"split", "farms", "scans", "points", "plots"};
+  heads.insert(heads.end(), kClasses.begin(), kClasses.end());
+  std::vector<Cells> rows;
   for (const char* split : kSplits) {
-    std::array<std::uint64_t, 4> sums{};
-    std::array<std::uint64_t, 5> by_class{};
+    std::vector<std::uint64_t> sums(heads.size() - 1);
     for (const json& sequence : sequences) {
       if (sequence["split"] != split) continue;
-      sums[0] += 1;
-      sums[1] += sequence["scans"].get<std::uint64_t>();
-      sums[2] += sequence["points"].get<std::uint64_t>();
-      sums[3] += sequence["plots"].size();
-      for (std::size_t i = 0; i < kClasses.size(); ++i)
-        by_class[i] += sequence["points_by_class"][kClasses[i]].get<std::uint64_t>();
+      std::vector<std::uint64_t> counts = {1, sequence["scans"], sequence["points"],
+                                           sequence["plots"].size()};
+      for (const char* name : kClasses) counts.push_back(sequence["points_by_class"][name]);
+      std::ranges::transform(sums, counts, sums.begin(), std::plus<>());
     }
-    text += std::string("| ") + split + " |";
-    for (const std::uint64_t sum : sums) text += " " + std::to_string(sum) + " |";
-    for (const std::uint64_t sum : by_class) text += " " + std::to_string(sum) + " |";
-    text += "\n";
+    Cells& cells = rows.emplace_back(Cells{split});
+    for (const std::uint64_t sum : sums) cells.push_back(std::to_string(sum));
   }
-  return text;
+  return markdown_table(heads, rows);
 }
 
 std::string card(const json& document, const std::string& command) {
@@ -136,7 +130,8 @@ std::string split_of(std::size_t seed_index) {
   return place == 3 ? "validation" : place == 4 ? "test" : "train";
 }
 
-DatasetSummary export_dataset(const DatasetOptions& options, const ProgressReport& progress) {
+DatasetSummary export_dataset(const ExportOptions& options, const std::string& command,
+                              const ProgressReport& progress) {
   const Suite suite = chosen_suite(options.suite);
   const std::vector<Sequence> sequences = sequences_of(suite);
   OutputFolder folder(options.output, options.replace, kDatasetCommand, {{suite.file}});
@@ -160,7 +155,7 @@ DatasetSummary export_dataset(const DatasetOptions& options, const ProgressRepor
     summary.points += document["sequences"].back()["points"].get<std::uint64_t>();
   }
   write_json(folder.path() / "dataset.json", document);
-  write_text(folder.path() / "README.md", card(document, options.command));
+  write_text(folder.path() / "README.md", card(document, command));
   write_manifest(folder.path(), {.command = kDatasetCommand,
                                  .options = {{"suite", suite.name}, {"seeds", suite.seeds}},
                                  .inputs = {suite.file}});

@@ -3,21 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 #include "core/progress.h"
-#include "farmbench/suite_choice.h"
+#include "farmbench/export/export_suite.h"
 
 namespace plotscan::farmbench {
-
-struct DatasetOptions {
-  SuiteChoice suite;
-  std::filesystem::path output;
-  bool replace = false;  // an output folder that exists
-  std::string command;   // that makes the same data set again, for its card
-  int threads = 1;
-};
 
 struct DatasetSummary {
   std::size_t farms = 0;
@@ -27,9 +18,11 @@ struct DatasetSummary {
 
 // Makes and flies every farm of the suite and writes it as a sequence of labelled scans with its
 // plots, boxes and heights, then dataset.json, README.md (the card) and manifest.json
-// (docs/dataset.md). The same suite and options give the same bytes. Throws InputError as
-// export_suite does, on a survey of a part of a field, and on a plot's id beyond 65535.
-DatasetSummary export_dataset(const DatasetOptions& options, const ProgressReport& progress = {});
+// (docs/dataset.md). `command` makes the same data set again, for its card; options.parts have no
+// effect. The same suite and options give the same bytes. Throws InputError as export_suite does,
+// on a survey of a part of a field, and on a plot's id beyond 65535.
+DatasetSummary export_dataset(const ExportOptions& options, const std::string& command,
+                              const ProgressReport& progress = {});
 
 // Which part of a data set the farms of a suite's index-th seed are: of five seeds the fourth is
 // "validation", the fifth "test", the others are "train".

@@ -28,8 +28,15 @@ SquaredErrors drawn(const std::vector<SquaredErrors>& farms, std::uint64_t seed,
   return sum;
 }
 
-Interval interval_of(const std::vector<double>& values) {
-  return {quantile(values, 0.025), quantile(values, 0.975)};
+// The interval of a figure of the resamples, NaN of those that it cannot be computed of.
+template <class Figure>
+Interval resampled(const Figure& figure) {
+  constexpr std::size_t kResamples = 2000;
+  std::vector<double> figures;
+  for (std::size_t resample = 0; resample < kResamples; ++resample)
+    figures.push_back(figure(resample));
+  std::erase_if(figures, [](double value) { return std::isnan(value); });
+  return {.low = quantile(figures, 0.025), .high = quantile(figures, 0.975)};
 }
 
 }  // namespace
@@ -39,27 +46,17 @@ double rmse(const SquaredErrors& errors) {
 }
 
 Interval bootstrap_rmse(const std::vector<SquaredErrors>& farms, std::uint64_t seed) {
-  if (!can_resample(farms)) return {kNaN, kNaN};
-  std::vector<double> rmses;
-  for (std::size_t resample = 0; resample < kResamples; ++resample) {
-    const SquaredErrors errors = drawn(farms, seed, resample);
-    if (errors.count > 0) rmses.push_back(rmse(errors));
-  }
-  return interval_of(rmses);
+  if (!can_resample(farms)) return {};
+  return resampled([&](std::size_t resample) { return rmse(drawn(farms, seed, resample)); });
 }
 
 Interval bootstrap_rmse_change(const std::vector<SquaredErrors>& before,
                                const std::vector<SquaredErrors>& after, std::uint64_t seed) {
   check(before.size() == after.size(), "both hold the same farms");
-  if (!can_resample(before) || !can_resample(after)) return {kNaN, kNaN};
-  std::vector<double> changes;
-  for (std::size_t resample = 0; resample < kResamples; ++resample) {
-    const SquaredErrors errors_before = drawn(before, seed, resample);
-    const SquaredErrors errors_after = drawn(after, seed, resample);
-    if (errors_before.count > 0 && errors_after.count > 0)
-      changes.push_back(rmse(errors_after) - rmse(errors_before));
-  }
-  return interval_of(changes);
+  if (!can_resample(before) || !can_resample(after)) return {};
+  return resampled([&](std::size_t resample) {
+    return rmse(drawn(after, seed, resample)) - rmse(drawn(before, seed, resample));
+  });
 }
 
 }  // namespace plotscan::farmbench

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "farmbench/table.h"
+
 namespace plotscan::farmbench {
 
 // The squared errors of one farm's plots.
@@ -15,13 +17,6 @@ struct SquaredErrors {
 
 // Over all plots; NaN where there are none.
 double rmse(const SquaredErrors& errors);
-
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-
-inline constexpr std::size_t kResamples = 2000;
 
 // The 95 % percentile bootstrap interval of the root mean squared error over all plots (Efron and
 // Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13). Whole farms are drawn, with

@@ -19,8 +19,6 @@ std::string reason_of(const MethodResult& run) {
   return is_told ? "no plots: " + why->get<std::string>() : "";
 }
 
-}  // namespace
-
 std::vector<std::string> failure_lines(const SuiteResult& result) {
   std::vector<std::string> lines;
   for (const std::string& method : result.methods) {
@@ -43,6 +41,20 @@ std::vector<std::string> failure_lines(const SuiteResult& result) {
     }
   }
   return lines;
+}
+
+}  // namespace
+
+std::string failure_list(const std::string& heading, const SuiteResult& result) {
+  std::string list;
+  for (const std::string& line : failure_lines(result)) list += "- " + line + "\n";
+  return list.empty() ? "" : "\n" + heading + "\n\n" + list;
+}
+
+void add_failures(const SuiteResult& result, std::vector<std::string>& lines) {
+  const std::vector<std::string> failures = failure_lines(result);
+  if (!failures.empty()) lines.insert(lines.end(), {"", "Gave up:"});
+  lines.insert(lines.end(), failures.begin(), failures.end());
 }
 
 }  // namespace plotscan::farmbench

@@ -10,7 +10,12 @@ namespace plotscan::farmbench {
 
 // A line for each method and case where a method gave up, or says why it found no plots among those
 // that are there, with how often and what it said the first time: "mine, flat: 2 of 10 farms, took
-// more than 60 s and was stopped".
-std::vector<std::string> failure_lines(const SuiteResult& result);
+// more than 60 s and was stopped". Nothing where there is none.
+
+// As a Markdown list under the heading.
+std::string failure_list(const std::string& heading, const SuiteResult& result);
+
+// The same for a terminal, after the lines.
+void add_failures(const SuiteResult& result, std::vector<std::string>& lines);
 
 }  // namespace plotscan::farmbench

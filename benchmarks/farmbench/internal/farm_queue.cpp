@@ -5,50 +5,32 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <vector>
 
 namespace plotscan::farmbench {
-namespace {
-
-// The mean of many works' progress.
-class SharedProgress {
- public:
-  SharedProgress(const ProgressReport& report, std::size_t count)
-      : report_(report), step_(1.0 / static_cast<double>(count)), shares_(count) {}
-
-  void set(std::size_t work, double share) {
-    if (!report_) return;
-    const std::lock_guard lock(mutex_);
-    done_ += (share - shares_[work]) * step_;
-    shares_[work] = share;
-    report_(std::min(done_, 1.0));
-  }
-
- private:
-  const ProgressReport& report_;
-  double step_;
-  std::mutex mutex_;
-  std::vector<double> shares_;
-  double done_ = 0;
-};
-
-}  // namespace
 
 void run_queue(std::size_t count, int jobs, const ProgressReport& progress,
                const std::function<void(std::size_t, const ProgressReport&)>& work) {
   if (count == 0) return;
-  SharedProgress shared(progress, count);
-  std::atomic<std::size_t> next = 0;
-  std::mutex failure_mutex;
+  std::mutex mutex;  // of the shares and of the failure
+  std::vector<double> shares(count);
   std::exception_ptr failure;
+  const auto report = [&](std::size_t i, double share) {
+    if (!progress) return;
+    const std::lock_guard lock(mutex);
+    shares[i] = share;
+    progress(std::reduce(shares.begin(), shares.end()) / static_cast<double>(count));
+  };
+  std::atomic<std::size_t> next = 0;
   const auto worker = [&] {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
-        work(i, [&shared, i](double share) { shared.set(i, share); });
-        shared.set(i, 1);
+        work(i, [&report, i](double share) { report(i, share); });
+        report(i, 1);
       } catch (...) {
-        const std::lock_guard lock(failure_mutex);
+        const std::lock_guard lock(mutex);
         if (!failure) failure = std::current_exception();
         next = count;
       }

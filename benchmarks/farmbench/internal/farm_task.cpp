@@ -22,20 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-// Puts these in place of the suite's methods: Plotscan's, and programs that the suite names.
-void take_methods(Suite& suite, std::vector<std::string> names) {
-  std::ranges::transform(names, names.begin(), method_name);
-  std::vector<std::string> own;
-  for (const std::string& name : names) {
-    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
-      own.push_back(name);
-    else if (std::ranges::count(names, name) > 1)
-      throw InputError("the method \"" + name + "\" is named twice");
-  }
-  require_known_methods(own);
-  suite.methods = std::move(names);
-}
-
 fs::path result_file(const RunOptions& options, const FarmTask& task) {
   return options.output / "farms" / (task.name + ".json");
 }
@@ -46,7 +32,7 @@ fs::path times_file(const fs::path& output, const std::string& farm) {
 
 std::optional<fs::path> view_file(const RunOptions& options, const FarmTask& task) {
   if (!task.viewed) return std::nullopt;
-  return farm_view_file(options.output, task.suite_case.name, task.seed);
+  return farm_view_file(options.output, task.name);
 }
 
 fs::path kept_clouds(const RunOptions& options, const FarmTask& task) {
@@ -80,17 +66,14 @@ void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const Ru
             int threads, const ProgressReport& progress) {
   fs::create_directories(folder);
   FarmResult result = run_farm({.suite = suite,
-                                .suite_case = task.suite_case,
-                                .seed = task.seed,
-                                .folder = folder,
-                                .threads = threads,
+                                .place = {task.suite_case, task.seed, folder, threads},
                                 .view = view_file(options, task)},
                                progress);
   result.made_from = task.made_from;
   // The result last: it is what a later run looks for.
   if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task);
   write_json(times_file(options.output, task.name), times_of(result));
-  write_json(result_file(options, task), to_json(result));
+  write_json(result_file(options, task), result);
   task.result = std::move(result);
   fs::remove_all(folder);
 }
@@ -100,18 +83,20 @@ void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const Ru
 Suite suite_of(const RunOptions& options) {
   Suite suite =
       chosen_suite({.file = options.suite, .seeds = options.seeds, .secret = options.secret});
-  if (!options.methods.empty()) take_methods(suite, options.methods);
+  if (!options.methods.empty()) suite.methods.clear();
+  for (const std::string& written : options.methods) {
+    const std::string& name = suite.methods.emplace_back(method_name(written));
+    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
+      method_named(name);  // throws where it is not known
+  }
   for (const std::string& entered : options.entered) {
     suite.commands.push_back(command_method(entered, options.suite));
     suite.methods.push_back(suite.commands.back().name);
-    if (std::ranges::count(suite.methods, suite.methods.back()) > 1)
-      throw InputError("the method \"" + suite.methods.back() + "\" is named twice");
   }
+  for (const std::string& name : suite.methods)
+    if (std::ranges::count(suite.methods, name) > 1)
+      throw InputError("the method \"" + name + "\" is named twice");
   return suite;
-}
-
-std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed) {
-  return suite_case.name + "-" + std::to_string(seed);
 }
 
 bool is_viewed(const Suite& suite, std::uint64_t seed) {
@@ -122,7 +107,7 @@ FarmTask task_of(const Suite& suite, const SuiteCase& suite_case, std::uint64_t 
                  const std::string& build) {
   return {.suite_case = suite_case,
           .seed = seed,
-          .name = farm_name(suite_case, seed),
+          .name = farm_name(suite_case.name, seed),
           .made_from = made_from(suite, suite_case, seed, build),
           .viewed = is_viewed(suite, seed)};
 }
@@ -144,19 +129,17 @@ std::optional<FarmResult> earlier_result(const RunOptions& options, const FarmTa
   const auto view = view_file(options, task);
   if (!fs::exists(file) || (view && !fs::exists(*view))) return std::nullopt;
   try {
-    FarmResult result = farm_result_from_json(json::parse(read_json_text(file)));
+    FarmResult result = json::parse(read_json_text(file));
     read_times(options.output, result);
     if (result.made_from == task.made_from && has_clouds(options, task)) return result;
-  } catch (const json::exception&) {
-    return std::nullopt;
+  } catch (const json::exception&) {  // it counts as none
   } catch (const InputError&) {
-    return std::nullopt;
   }
   return std::nullopt;
 }
 
 void read_times(const fs::path& output, FarmResult& result) {
-  const fs::path file = times_file(output, result.case_name + "-" + std::to_string(result.seed));
+  const fs::path file = times_file(output, farm_name(result.case_name, result.seed));
   if (!fs::exists(file)) return;
   try {
     set_times(result, json::parse(read_json_text(file)));
@@ -172,10 +155,10 @@ void require_places(const RunOptions& options, const std::vector<FarmTask>& task
     if (!task.result) require_replaceable_folder(kept_clouds(options, task), kRunCommand);
 }
 
-void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, const WorkPlace& work,
-              const ProgressReport& progress) {
+void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, const fs::path& work,
+              int threads, const ProgressReport& progress) {
   try {
-    run_in(work.folder / task.name, task, suite, options, work.threads, progress);
+    run_in(work / task.name, task, suite, options, threads, progress);
   } catch (const InputError& error) {
     throw InputError(options.suite, "case " + task.suite_case.name + ", seed " +
                                         std::to_string(task.seed) + ": " + error.what());

@@ -31,9 +31,6 @@ struct FarmTask {
 // InputError as chosen_suite does, and on methods that are unknown or named twice.
 Suite suite_of(const RunOptions& options);
 
-// A farm's name in files, "flat-1".
-std::string farm_name(const SuiteCase& suite_case, std::uint64_t seed);
-
 // Whether the report shows the farms of this seed: each case's first, and none of a sweep.
 bool is_viewed(const Suite& suite, std::uint64_t seed);
 
@@ -55,16 +52,11 @@ void read_times(const std::filesystem::path& output, FarmResult& result);
 // Throws InputError if the place for a farm's kept clouds holds something not from an earlier run.
 void require_places(const RunOptions& options, const std::vector<FarmTask>& tasks);
 
-// Where a farm is run.
-struct WorkPlace {
-  std::filesystem::path folder;  // made where it is not there; the farm's own folder lies in it
-  int threads = 1;
-};
-
-// Runs the farm and writes output/times, output/farms and, of a viewed one, output/views; sets
-// task.result. Throws InputError, naming the suite, the case and the seed, as run_farm does.
-void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, const WorkPlace& work,
-              const ProgressReport& progress);
+// Runs the farm in a folder of its own in `work`, which is made where it is not there, and writes
+// output/times, output/farms and, of a viewed one, output/views; sets task.result. Throws
+// InputError, naming the suite, the case and the seed, as run_farm does.
+void run_task(FarmTask& task, const Suite& suite, const RunOptions& options,
+              const std::filesystem::path& work, int threads, const ProgressReport& progress);
 
 // The folders that run_task writes into.
 void make_result_folders(const std::filesystem::path& output);

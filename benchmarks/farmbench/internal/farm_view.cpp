@@ -18,8 +18,8 @@ std::size_t view_points(const Suite& suite) {
   return std::clamp<std::size_t>(kAll / suite.cases.size(), 50'000, kOne);
 }
 
-fs::path farm_view_file(const fs::path& output, const std::string& case_name, std::uint64_t seed) {
-  return output / "views" / (case_name + "-" + std::to_string(seed) + ".cbor");
+fs::path farm_view_file(const fs::path& output, const std::string& farm) {
+  return output / "views" / (farm + ".cbor");
 }
 
 void write_farm_view(const fs::path& file, const FarmView& view) {

@@ -35,8 +35,7 @@ struct FarmView {
 std::size_t view_points(const Suite& suite);
 
 // Where a results folder keeps a farm's view.
-std::filesystem::path farm_view_file(const std::filesystem::path& output,
-                                     const std::string& case_name, std::uint64_t seed);
+std::filesystem::path farm_view_file(const std::filesystem::path& output, const std::string& farm);
 
 // Writes report::packed_field of the farm as CBOR.
 void write_farm_view(const std::filesystem::path& file, const FarmView& view);

@@ -11,13 +11,10 @@
 namespace plotscan::farmbench {
 namespace {
 
+// A number, or an optional one.
+template <class Value>
 void read_into(const YamlSection& section, const std::string& key,
-               const lidar::NumberSetting& setting, lidar::FlyOptions& flight) {
-  setting.of(flight) = section.number(key, setting.range);
-}
-
-void read_into(const YamlSection& section, const std::string& key,
-               const lidar::OptionalSetting& setting, lidar::FlyOptions& flight) {
+               const RangedSetting<lidar::FlyOptions, Value>& setting, lidar::FlyOptions& flight) {
   setting.of(flight) = section.number(key, setting.range);
 }
 

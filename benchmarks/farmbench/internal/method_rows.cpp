@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/error.h"
 #include "score/height_score.h"
 
 namespace plotscan::farmbench {
@@ -29,10 +30,12 @@ std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::strin
 }
 
 void require_methods(const SuiteResult& result) {
-  std::vector<std::string> known;
-  for (const std::string& method : result.methods)
-    if (std::ranges::count(result.entered, method) == 0) known.push_back(method);
-  require_known_methods(known);
+  for (const std::string& method : result.methods) {
+    if (std::ranges::count(result.entered, method) > 0) continue;
+    method_named(method);  // throws where it is not known
+    if (std::ranges::count(result.methods, method) > 1)
+      throw InputError("the method \"" + method + "\" is named twice");
+  }
 }
 
 }  // namespace plotscan::farmbench

@@ -17,7 +17,7 @@ std::string row_name(const std::string& method, const std::string& height);
 // method, without a height.
 std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::string& method);
 
-// Throws InputError where a method of the result is neither known nor entered.
+// Throws InputError where a method of the result is neither known nor entered, or is named twice.
 void require_methods(const SuiteResult& result);
 
 }  // namespace plotscan::farmbench

@@ -14,7 +14,6 @@
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/manifest.h"
-#include "farmbench/farm_scan.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/methods.h"
 #include "lidar/fly_settings.h"
@@ -35,17 +34,8 @@ cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_
   return cloud::around(extent_of(plots, &score::TruePlot::box), margin_m);
 }
 
-// What a method says of a field, and how it went.
-struct MethodRun {
-  estimate::Estimate estimate;
-  MethodResult result;
-};
-
-// `truth`: all plots of the field, those that are not scored among them.
-MethodRun run_method(const Method& method, const Field& field,
-                     const std::vector<score::TruePlot>& truth) {
-  MethodRun run{.estimate = {.method = method.name},
-                .result = {.method = method.name, .failure = {}, .score = {}}};
+MethodRun run_method(const Method& method, const Field& field) {
+  MethodRun run{.estimate = {.method = method.name}, .result = {.method = method.name}};
   const auto start = std::chrono::steady_clock::now();
   const double spared_s = field.found.spared_s();
   try {
@@ -57,30 +47,17 @@ MethodRun run_method(const Method& method, const Field& field,
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   run.result.seconds = took.count() + field.found.spared_s() - spared_s;
-  run.result.score = score::score_field(truth, run.estimate);
   return run;
 }
 
-MethodRun run_command(const CommandMethod& method, const Field& field,
-                      const std::vector<score::TruePlot>& truth) {
-  CommandResult ran = run_command_method(method, field);
-  return {.estimate = ran.estimate,
-          .result = {.method = method.name,
-                     .seconds = ran.seconds,
-                     .peak_memory_mb = ran.peak_memory_mb,
-                     .failure = ran.failure,
-                     .score = score::score_field(truth, ran.estimate)}};
-}
-
+// `truth`: all plots of the field, those that are not scored among them.
 MethodRun run_named(const std::string& name, const Suite& suite, const Field& field,
                     const std::vector<score::TruePlot>& truth) {
   const auto command = std::ranges::find(suite.commands, name, &CommandMethod::name);
-  if (command == suite.commands.end()) return run_method(method_named(name), field, truth);
-  return run_command(*command, field, truth);
-}
-
-double share_of(std::size_t done, std::size_t all) {
-  return static_cast<double>(done) / static_cast<double>(all);
+  MethodRun run = command == suite.commands.end() ? run_method(method_named(name), field)
+                                                  : run_command_method(*command, field);
+  run.result.score = score::score_field(truth, run.estimate);
+  return run;
 }
 
 void report_share(const ProgressReport& progress, double share) {
@@ -94,13 +71,11 @@ std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
 }
 
 FarmResult farm_result(const FarmRun& run, const lidar::FlySummary& flown) {
-  return {.case_name = run.suite_case.name,
-          .seed = run.seed,
-          .made_from = {},
+  return {.case_name = run.place.suite_case.name,
+          .seed = run.place.seed,
           .shots = flown.shots,
           .points = flown.points,
-          .flight_s = flown.duration_s,
-          .methods = {}};
+          .flight_s = flown.duration_s};
 }
 
 struct FieldScan {
@@ -120,7 +95,7 @@ FieldScan scan_field(const FarmPlace& place, const farm::Farm& farm, const cloud
 // message omits the work folder, which differs from run to run.
 FarmResult not_flown(const FarmRun& run, const std::vector<score::TruePlot>& plots,
                      std::string why) {
-  const std::string work = run.folder.string() + "/";
+  const std::string work = run.place.folder.string() + "/";
   for (std::size_t at = 0; (at = why.find(work, at)) != std::string::npos;)
     why.erase(at, work.size());
   FarmResult result = farm_result(run, {});
@@ -140,8 +115,9 @@ std::vector<estimate::Estimate> run_methods(const Suite& suite, const Field& fie
     MethodRun method = run_named(name, suite, field, truth);
     result.methods.push_back(std::move(method.result));
     estimates.push_back(std::move(method.estimate));
-    report_share(progress,
-                 kRead + (1 - kRead) * share_of(result.methods.size(), suite.methods.size()));
+    const double share =
+        static_cast<double>(estimates.size()) / static_cast<double>(suite.methods.size());
+    report_share(progress, kRead + (1 - kRead) * share);
   }
   return estimates;
 }
@@ -149,7 +125,7 @@ std::vector<estimate::Estimate> run_methods(const Suite& suite, const Field& fie
 FarmResult run_on_scan(const FarmRun& run, const farm::Farm& farm, const FieldScan& scan,
                        const std::vector<score::TruePlot>& truth, const cloud::Area& shown,
                        const ProgressReport& progress) {
-  const auto& [suite, suite_case, seed, folder, threads, view] = run;
+  const auto& [suite_case, seed, folder, threads] = run.place;
   const std::vector<score::TruePlot> plots = scored(truth);
   const fs::path poses = folder / "scan" / "poses.csv";
   FoundFields found(scan.scanned.cloud);
@@ -163,15 +139,15 @@ FarmResult run_on_scan(const FarmRun& run, const farm::Farm& farm, const FieldSc
                     .threads = threads};
   FarmResult result = farm_result(run, scan.scanned.flown);
   const std::vector<estimate::Estimate> estimates =
-      run_methods(suite, field, truth, progress, result);
-  if (view) {
-    write_farm_view(*view, {.scan = suite_case.survey ? scan.scanned.cloud : folder / "scan",
-                            .area = shown,
-                            .points = view_points(suite),
-                            .estimates = estimates,
-                            .truth = truth,
-                            .terrain = farm.terrain,
-                            .result = result});
+      run_methods(run.suite, field, truth, progress, result);
+  if (run.view) {
+    write_farm_view(*run.view, {.scan = suite_case.survey ? scan.scanned.cloud : folder / "scan",
+                                .area = shown,
+                                .points = view_points(run.suite),
+                                .estimates = estimates,
+                                .truth = truth,
+                                .terrain = farm.terrain,
+                                .result = result});
   }
   return result;
 }
@@ -203,7 +179,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
 }
 
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
-  const FarmPlace place{run.suite_case, run.seed, run.folder, run.threads};
+  const FarmPlace& place = run.place;
   const farm::Farm farm = make_farm(place);
   std::vector<score::TruePlot> truth = standing_plots(place);
   const std::vector<score::TruePlot> plots = scored(truth);
@@ -216,7 +192,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
     return not_flown(run, plots, error.what());
   }
   report_share(progress, kRead);
-  if (run.suite_case.without_plots) truth.clear();
+  if (place.suite_case.without_plots) truth.clear();
   return run_on_scan(run, farm, *scan, truth, shown, progress);
 }
 

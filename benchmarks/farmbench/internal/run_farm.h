@@ -10,7 +10,7 @@
 
 #include "core/progress.h"
 #include "farmbench/farm_result.h"
-#include "farmbench/suite.h"
+#include "farmbench/farm_scan.h"
 
 namespace plotscan::farmbench {
 
@@ -22,17 +22,14 @@ nlohmann::json made_from(const Suite& suite, const SuiteCase& suite_case, std::u
 // One farm of a suite to be run.
 struct FarmRun {
   const Suite& suite;
-  const SuiteCase& suite_case;
-  std::uint64_t seed = 1;
-  std::filesystem::path folder;  // existing, for the farm and its scan
-  int threads = 1;
+  FarmPlace place;
   // A file for what pages show of the farm (farm_view.h), of the suite's first method.
   std::optional<std::filesystem::path> view = std::nullopt;
 };
 
-// Generates the farm into folder/farm, scans it into folder/scan, runs and scores every method. A
-// method that finds no plots (InputError) is scored as having missed them all. Throws InputError
-// when the farm cannot be made or flown.
+// Generates the farm into place.folder/farm, scans it into place.folder/scan, runs and scores every
+// method. A method that finds no plots (InputError) is scored as having missed them all. Throws
+// InputError when the farm cannot be made or flown.
 FarmResult run_farm(const FarmRun& run, const ProgressReport& progress);
 
 }  // namespace plotscan::farmbench

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 
-#include "core/angle.h"
 #include "core/output_file.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/farm_view.h"
@@ -26,46 +26,32 @@ json or_null(double value) {
   return std::isfinite(value) ? json(report::decimals(value, kDecimals)) : json();
 }
 
+// The row as --json prints it, rounded, with the columns of pages.
 json packed(const TableRow& row) {
-  return {{"case", row.case_name},
-          {"method", row.method},
-          {"truth", row.truth},
-          {"named", row.named},
-          {"shown", row.shown},
-          {"farms", row.farms},
-          {"plots", row.plots},
-          {"found", row.found},
-          {"missed", row.missed},
-          {"extra", row.extra},
-          {"without", row.without},
-          {"recall", or_null(row.recall)},
-          {"precision", or_null(row.precision)},
-          {"iou_mean", or_null(row.iou_mean)},
-          {"iou_min", or_null(row.iou_min)},
-          {"center_rmse_m", or_null(row.center_rmse_m)},
-          {"heading_rmse_deg", or_null(degrees(row.heading_rmse_rad))},
-          {"rmse_m", or_null(row.rmse_m)},
-          {"rmse_low_m", or_null(row.rmse_low_m)},
-          {"rmse_high_m", or_null(row.rmse_high_m)},
-          {"rmse_change_m", or_null(row.rmse_change_m)},
-          {"rmse_change_low_m", or_null(row.rmse_change_low_m)},
-          {"rmse_change_high_m", or_null(row.rmse_change_high_m)},
-          {"bias_m", or_null(row.bias_m)},
-          {"mae_m", or_null(row.mae_m)},
-          {"r2", or_null(row.r2)},
-          {"farm_bias_m", or_null(row.within.farm_bias_m)},
-          {"within_m", or_null(row.within.within_m)},
-          {"r2_within", or_null(row.within.r2)},
-          {"rho_within", or_null(row.within.rho)},
-          {"coverage95", or_null(row.coverage95)},
-          {"flagged", row.flagged},
-          {"large_unflagged", row.large_unflagged},
-          {"seconds", or_null(row.seconds)}};
+  json document = row;
+  for (const char* key : {"iou_median", "rmse_95_m", "rmse_change_95_m", "over_5cm_unflagged",
+                          "over_5cm_unflagged_share"})
+    document.erase(key);
+  document.update({{"named", row.named},
+                   {"shown", row.shown},
+                   {"rmse_low_m", row.rmse_95_m.low},
+                   {"rmse_high_m", row.rmse_95_m.high},
+                   {"rmse_change_low_m", row.rmse_change_95_m.low},
+                   {"rmse_change_high_m", row.rmse_change_95_m.high},
+                   {"large_unflagged", row.height.large_unflagged}});
+  for (json& value : document)
+    if (value.is_number_float()) value = or_null(value.get<double>());
+  return document;
 }
 
 const std::vector<score::PlotScore>& plots_of(const FarmResult& farm) {
   static const std::vector<score::PlotScore> none;
   return farm.methods.empty() ? none : farm.methods.front().score.plots;
+}
+
+json value_or_null(const std::map<std::string, double>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? json() : or_null(found->second);
 }
 
 // Every true plot of the suite, farm after farm.
@@ -77,20 +63,15 @@ json truths_of(const SuiteResult& result) {
   json truths = json::object();
   for (const std::string& name : names) {
     json& values = truths[name] = json::array();
-    for (const FarmResult& farm : result.farms) {
-      for (const score::PlotScore& plot : plots_of(farm)) {
-        const auto value = plot.truth.heights_m.find(name);
-        values.push_back(value == plot.truth.heights_m.end() ? json() : or_null(value->second));
-      }
-    }
+    for (const FarmResult& farm : result.farms)
+      for (const score::PlotScore& plot : plots_of(farm))
+        values.push_back(value_or_null(plot.truth.heights_m, name));
   }
   return truths;
 }
 
 json estimate_of(const score::PlotScore& plot, const std::string& height) {
-  if (!plot.found) return {};
-  const auto found = plot.found->heights_m.find(height);
-  return found == plot.found->heights_m.end() ? json() : or_null(found->second);
+  return plot.found ? value_or_null(plot.found->heights_m, height) : json();
 }
 
 // What a method says of the plots of truths_of, null where it says nothing.
@@ -103,15 +84,6 @@ json series_of(const SuiteResult& result, const std::string& method, const Metho
       values.push_back(ran ? estimate_of(run->score.plots[i], height.height) : json());
   }
   return {{"row", height.row}, {"height", height.height}, {"values", std::move(values)}};
-}
-
-json cases_of(const SuiteResult& result) {
-  json cases = json::array();
-  for (const CaseInfo& info : result.cases) {
-    cases.push_back({{"name", info.name}});
-    if (info.published_rmse_cm) cases.back()["published_rmse_cm"] = *info.published_rmse_cm;
-  }
-  return cases;
 }
 
 json farms_of(const SuiteResult& result) {
@@ -139,10 +111,8 @@ std::vector<TableRow> shown_rows(std::vector<TableRow> table) {
 
 // What was asked, and what each combination's flights cost.
 json sweep_of(const SuiteResult& result) {
-  json document = to_json(*result.sweep);
-  const std::vector<MethodHeight> heights = heights_of(result, result.methods.front());
-  const auto asked = std::ranges::find(heights, result.sweep->height, &MethodHeight::height);
-  document["row"] = asked == heights.end() ? "" : asked->row;
+  json document = *result.sweep;
+  document["row"] = asked_row(result);
   json& flights = document["flights"] = json::array();
   for (const FlightCost& cost : flight_costs(result))
     flights.push_back({{"flight_s", or_null(cost.flight_s)}, {"points", or_null(cost.points)}});
@@ -153,7 +123,7 @@ json sweep_of(const SuiteResult& result) {
 
 json suite_document(const SuiteResult& result, const std::vector<TableRow>& table) {
   json document = {{"name", result.suite},
-                   {"cases", cases_of(result)},
+                   {"cases", result.cases},
                    {"truths", shown_truths(result, table)},
                    {"farms", farms_of(result)},
                    {"table", rows_of(shown_rows(table))},
@@ -167,9 +137,7 @@ json suite_document(const SuiteResult& result, const std::vector<TableRow>& tabl
   for (const std::string& method : result.methods)
     for (const MethodHeight& height : heights_of(result, method))
       series.push_back(series_of(result, method, height));
-  if (result.published)
-    document["published"] = {{"source", result.published->source},
-                             {"methods", result.published->methods}};
+  if (result.published) document["published"] = *result.published;
   if (result.baseline) document["baseline"] = *result.baseline;
   return document;
 }
@@ -180,7 +148,7 @@ void write_suite_page(const std::filesystem::path& folder, const SuiteResult& re
   std::set<std::string> seen;
   for (const FarmResult& farm : result.farms) {
     if (!seen.insert(farm.case_name).second) continue;
-    if (auto view = read_farm_view(farm_view_file(folder, farm.case_name, farm.seed)))
+    if (auto view = read_farm_view(farm_view_file(folder, farm_name(farm.case_name, farm.seed))))
       fields.push_back(std::move(*view));
   }
   OutputFile file(folder / "report.html", true);

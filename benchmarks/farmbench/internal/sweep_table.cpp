@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/core.h>
 
@@ -12,18 +11,11 @@
 #include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/failures.h"
-#include "farmbench/internal/markdown.h"
 #include "farmbench/internal/method_rows.h"
+#include "farmbench/markdown.h"
 
 namespace plotscan::farmbench {
 namespace {
-
-// The name of the rows of the height that the sweep asks about.
-std::string asked_row(const SuiteResult& result) {
-  for (const MethodHeight& height : heights_of(result, result.methods.front()))
-    if (height.height == result.sweep->height) return height.row;
-  return "";  // an entered method that never gave it
-}
 
 std::size_t place_of(const SuiteResult& result, const std::string& case_name) {
   const auto found = std::ranges::find(result.cases, case_name, &CaseInfo::name);
@@ -79,7 +71,7 @@ std::string answer(const SuiteResult& result, const std::vector<TableRow>& rows)
     return asked + ": reached, but the flights' times are not known; farmbench sweep flies them.";
   return asked + fmt::format(": the shortest flight that does has {}; {:.0f} s over {} plots.",
                              named_values(result, row), flight_s,
-                             row.farms == 0 ? 0 : row.plots / row.farms);
+                             row.farms == 0 ? 0 : row.boxes.plots / row.farms);
 }
 
 std::string about(const SuiteResult& result) {
@@ -89,19 +81,19 @@ std::string about(const SuiteResult& result) {
 
 // The upper end of the RMSE's interval; of a single farm, which has none, the RMSE.
 double surely_at_most(const TableRow& row) {
-  return std::isnan(row.rmse_high_m) ? row.rmse_m : row.rmse_high_m;
+  return std::isnan(row.rmse_95_m.high) ? row.height.rmse_m : row.rmse_95_m.high;
 }
 
 // The cells of a row for people.
 Cells told(const SuiteResult& result, const TableRow& row) {
   const FlightCost cost = flight_costs(result)[place_of(result, row.case_name)];
   Cells cells = values_of(result, row);
-  cells.insert(cells.end(),
-               {with_interval(row.rmse_m, row.rmse_low_m, row.rmse_high_m),
-                number("{:+.2f}", 100 * row.bias_m), fmt::format("{} of {}", row.found, row.plots),
-                std::to_string(row.extra),
-                std::isnan(cost.flight_s) ? "none" : number("{:.0f}", cost.flight_s),
-                number("{:.2f}", 1e-6 * cost.points)});
+  cells.insert(
+      cells.end(),
+      {with_interval(row.height.rmse_m, row.rmse_95_m), number("{:+.2f}", 100 * row.height.bias_m),
+       fmt::format("{} of {}", row.boxes.found, row.boxes.plots), std::to_string(row.boxes.extra),
+       std::isnan(cost.flight_s) ? "none" : number("{:.0f}", cost.flight_s),
+       number("{:.2f}", 1e-6 * cost.points)});
   return cells;
 }
 
@@ -113,14 +105,18 @@ Cells told_heads(const SuiteResult& result) {
 
 }  // namespace
 
+std::string asked_row(const SuiteResult& result) {
+  for (const MethodHeight& height : heights_of(result, result.methods.front()))
+    if (height.height == result.sweep->height) return height.row;
+  return "";  // an entered method that never gave it
+}
+
 std::vector<FlightCost> flight_costs(const SuiteResult& result) {
-  std::map<std::string, std::size_t> place;
-  for (const CaseInfo& info : result.cases) place.emplace(info.name, place.size());
   std::vector<FlightCost> costs(result.cases.size());
   std::vector<double> flown(result.cases.size());
   for (const FarmResult& farm : result.farms) {
     if (farm.flight_s == 0) continue;  // it was not flown, or saw nothing
-    const std::size_t i = place.at(farm.case_name);
+    const std::size_t i = place_of(result, farm.case_name);
     flown[i] += 1;
     costs[i].flight_s += farm.flight_s;
     costs[i].points += static_cast<double>(farm.points);
@@ -151,7 +147,8 @@ std::optional<std::size_t> flight_needed(const SuiteResult& result,
   };
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool reached = surely_at_most(rows[i]) <= goal.rmse_m && rows[i].recall >= goal.found;
+    const bool reached =
+        surely_at_most(rows[i]) <= goal.rmse_m && rows[i].boxes.recall >= goal.found;
     if (reached && (!best || cost(i) < cost(*best))) best = i;
   }
   return best;
@@ -170,10 +167,12 @@ std::string sweep_csv(const SuiteResult& result, const std::vector<TableRow>& ta
     const FlightCost& cost = costs[place_of(result, row.case_name)];
     Cells cells = values_of(result, row);
     cells.insert(cells.end(), {row.method, row.truth});
-    for (const std::size_t count : {row.farms, row.plots, row.found, row.missed, row.extra})
+    for (const std::size_t count :
+         {row.farms, row.boxes.plots, row.boxes.found, row.boxes.missed, row.boxes.extra})
       cells.push_back(std::to_string(count));
-    for (const double value : {row.recall, 100 * row.rmse_m, 100 * row.rmse_low_m,
-                               100 * row.rmse_high_m, 100 * row.bias_m, 100 * row.within.within_m})
+    for (const double value :
+         {row.boxes.recall, 100 * row.height.rmse_m, 100 * row.rmse_95_m.low,
+          100 * row.rmse_95_m.high, 100 * row.height.bias_m, 100 * row.within.within_m})
       cells.push_back(rounded(value, 4));
     cells.insert(cells.end(), {rounded(cost.flight_s, 1), rounded(cost.points, 0)});
     text += csv_line(cells);
@@ -187,12 +186,9 @@ std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow
                      ", with 95 % bootstrap intervals over farms.\n\n";
   if (const std::string said = answer(result, rows); !said.empty()) text += said + "\n\n";
   std::vector<Cells> lines;
+  lines.reserve(rows.size());
   for (const TableRow& row : rows) lines.push_back(told(result, row));
-  text += markdown_table(told_heads(result), lines);
-  const std::vector<std::string> failures = failure_lines(result);
-  if (!failures.empty()) text += "\nGave up:\n\n";
-  for (const std::string& failure : failures) text += "- " + failure + "\n";
-  return text;
+  return text + markdown_table(told_heads(result), lines) + failure_list("Gave up:", result);
 }
 
 std::vector<std::string> sweep_lines(const SuiteResult& result,
@@ -212,9 +208,7 @@ std::vector<std::string> sweep_lines(const SuiteResult& result,
   }
   if (const std::string said = answer(result, rows); !said.empty())
     lines.insert(lines.end(), {"", said});
-  const std::vector<std::string> failures = failure_lines(result);
-  if (!failures.empty()) lines.insert(lines.end(), {"", "Gave up:"});
-  lines.insert(lines.end(), failures.begin(), failures.end());
+  add_failures(result, lines);
   return lines;
 }
 

@@ -22,6 +22,9 @@ std::vector<FlightCost> flight_costs(const SuiteResult& result);
 
 // The functions below take the result of a sweep and its table.
 
+// The name of the rows of the height that the sweep asks about.
+std::string asked_row(const SuiteResult& result);
+
 // The rows of the height and truth that the sweep asks about, one for each combination.
 std::vector<TableRow> sweep_rows(const SuiteResult& result, const std::vector<TableRow>& table);
 

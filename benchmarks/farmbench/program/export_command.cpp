@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export_command.h"
-
 #include <memory>
 
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "farmbench/export/dataset.h"
-#include "farmbench/export/export_suite.h"
 #include "farmbench/format.h"
 
 namespace plotscan {
@@ -27,23 +25,19 @@ void run_export(const Program& program, farmbench::ExportOptions options) {
 }
 
 // The command line that writes the same data set.
-std::string dataset_command(const std::string& suite, const farmbench::ExportOptions& options) {
-  std::string command = "farmbench export " + suite + " --dataset -o DIR";
+std::string dataset_command(const farmbench::ExportOptions& options) {
+  std::string command = "farmbench export " + options.suite.file.string() + " --dataset -o DIR";
   if (options.suite.seeds) command += " --seeds " + std::to_string(*options.suite.seeds);
   if (options.suite.secret) command += " --secret-file SECRET";
   return command;
 }
 
-void run_dataset(const Program& program, const farmbench::ExportOptions& options) {
-  farmbench::DatasetOptions dataset{
-      .suite = options.suite,
-      .output = options.output,
-      .replace = options.replace,
-      .command = dataset_command(options.suite.file.string(), options),
-      .threads = program.common().threads};
-  dataset.suite.file = found_or_shipped(options.suite.file, "benchmarks/suites");
-  const farmbench::DatasetSummary summary =
-      farmbench::export_dataset(dataset, program.progress(dataset.suite.file.stem().string()));
+void run_dataset(const Program& program, farmbench::ExportOptions options) {
+  const std::string command = dataset_command(options);
+  options.suite.file = found_or_shipped(options.suite.file, "benchmarks/suites");
+  options.threads = program.common().threads;
+  const farmbench::DatasetSummary summary = farmbench::export_dataset(
+      options, command, program.progress(options.suite.file.stem().string()));
   program.result({{"output", options.output.string()},
                   {"farms", summary.farms},
                   {"scans", summary.scans},

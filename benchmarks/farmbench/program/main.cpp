@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export_command.h"
-#include "plan_command.h"
-#include "run_command.h"
-#include "score_command.h"
-
-#include "core/program.h"
+#include "commands.h"
 
 int main(int argc, char** argv) {
   plotscan::Program program("farmbench",

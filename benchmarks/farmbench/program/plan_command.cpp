@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plan_command.h"
-
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "seed.h"
+#include "commands.h"
 #include "suite_options.h"
 #include <fmt/core.h>
 

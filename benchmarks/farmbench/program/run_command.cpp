@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_command.h"
-
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "seed.h"
+#include "commands.h"
 #include "suite_options.h"
 #include <fmt/core.h>
 
@@ -27,12 +25,10 @@ void say_summary(const Program& program, const farmbench::RunSummary& summary,
   program.say(std::string("Written: ") + (summary.result.sweep ? "sweep.csv, sweep.md, " : "") +
               "table.csv, results.json, leaderboard.md in " + output);
   program.say("To look at: " + (std::filesystem::path(output) / "report.html").string());
-  nlohmann::json rows = nlohmann::json::array();
-  for (const farmbench::TableRow& row : summary.table) rows.push_back(farmbench::to_json(row));
   program.result({{"output", output},
                   {"farms", summary.result.farms.size()},
                   {"resumed", summary.resumed},
-                  {"table", rows}});
+                  {"table", summary.table}});
 }
 
 void run_suite(const Program& program, farmbench::RunOptions options) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "score_command.h"
-
 #include <memory>
 
-#include "seed.h"
+#include "commands.h"
 
 #include "core/data_folder.h"
 #include "core/text.h"
@@ -30,12 +28,10 @@ void run_score(const Program& program, farmbench::ScoreSubmissionOptions options
     program.say("Added to table.csv, results.json, leaderboard.md in " + options.output->string());
     program.say("To look at: " + (*options.output / "report.html").string());
   }
-  nlohmann::json rows = nlohmann::json::array();
-  for (const farmbench::TableRow& row : scored.table) rows.push_back(farmbench::to_json(row));
   program.result({{"method", scored.result.methods.front()},
                   {"missing", scored.missing},
                   {"apart", scored.apart},
-                  {"table", rows}});
+                  {"table", scored.table}});
 }
 
 }  // namespace

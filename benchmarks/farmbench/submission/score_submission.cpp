@@ -74,7 +74,7 @@ EnteredFarm scored(const BlindField& field, const FieldTruth& truth, const Submi
                    .farm_sha256 = truth.farm_sha256,
                    .cloud_sha256 = cloud_sha256(submission, field.code),
                    .file_sha256 = "",
-                   .result = {.method = submission.method, .failure = {}, .score = {}}};
+                   .result = {.method = submission.method}};
   estimate::Estimate estimate{.method = submission.method};
   const auto entered = submission.fields.find(field.code);
   if (entered == submission.fields.end()) {
@@ -156,7 +156,7 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
   Farms wanted;
   for (const SuiteCase& suite_case : suite.cases) {
     for (const std::uint64_t seed : suite.seeds) {
-      farms.push_back({.case_name = suite_case.name, .seed = seed, .made_from = {}, .methods = {}});
+      farms.push_back({.case_name = suite_case.name, .seed = seed});
       wanted.emplace(suite_case.name, seed);
     }
   }
@@ -167,20 +167,20 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
     return result;
   }
   SuiteResult result = read_results(output);
+  const auto is_entered = [&](const std::string& method) {
+    return std::ranges::count(result.entered, method) > 0;
+  };
   Farms held;
   for (FarmResult& farm : result.farms) {
     held.emplace(farm.case_name, farm.seed);
-    std::erase_if(farm.methods, [&](const MethodResult& method) {
-      return std::ranges::count(result.entered, method.method) > 0;
-    });
+    std::erase_if(farm.methods,
+                  [&](const MethodResult& method) { return is_entered(method.method); });
   }
   if (result.suite != suite.name || held != wanted)
     throw InputError(file,
                      "holds results of other farms; name the suite, the seeds and the secret "
                      "that it was run with, or another folder");
-  std::erase_if(result.methods, [&](const std::string& method) {
-    return std::ranges::count(result.entered, method) > 0;
-  });
+  std::erase_if(result.methods, is_entered);
   result.entered.clear();
   return result;
 }
@@ -214,7 +214,7 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
                           .results = std::move(results)};
   write_manifest(output, manifest);
   write_entry(output, entry);
-  write_json(output / "results.json", to_json(result));
+  write_json(output / "results.json", result);
   report(output, options.seed);
   write_manifest(output, manifest);
 }
@@ -225,10 +225,7 @@ ScoredSubmission alone(const Entry& entry, const Suite& suite, std::uint64_t see
   for (const SuiteCase& suite_case : suite.cases) {
     for (const EnteredFarm& farm : entry.farms) {
       if (farm.case_name != suite_case.name) continue;
-      farms.push_back({.case_name = farm.case_name,
-                       .seed = farm.seed,
-                       .made_from = {},
-                       .methods = {farm.result}});
+      farms.push_back({.case_name = farm.case_name, .seed = farm.seed, .methods = {farm.result}});
       if (farm.file_sha256.empty()) scored.missing.push_back(farm.field);
     }
   }
