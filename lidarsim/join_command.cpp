@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "join_command.h"
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "core/text.h"

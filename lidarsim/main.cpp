@@ -6,15 +6,11 @@
 #include <variant>
 #include <vector>
 
-#include "convert_command.h"
-#include "join_command.h"
-#include "sensors_command.h"
-#include "view_command.h"
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "core/data_folder.h"
 #include "core/error.h"
-#include "core/program.h"
 #include "core/text.h"
 #include "lidar/fly_place.h"
 #include "lidar/fly_settings.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sensors_command.h"
-
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "commands.h"
 
 #include "sensor/sensor.h"
 #include "sensor/summary.h"
@@ -12,19 +12,19 @@ namespace plotscan {
 namespace {
 
 void list_sensors(const Program& program) {
-  std::vector<sensor::SensorSummary> summaries;
+  std::vector<sensor::Sensor> sensors;
   nlohmann::json document = nlohmann::json::array();
   for (const std::string& name : sensor::sensor_names()) {
-    summaries.push_back(summary_of(sensor::load_sensor(name)));
-    document.push_back(summary_json(summaries.back()));
+    sensors.push_back(sensor::load_sensor(name));
+    document.push_back(summary_json(sensors.back()));
   }
   program.result(document);
-  for (const std::string& line : summary_lines(summaries)) program.say(line);
+  for (const std::string& line : summary_lines(sensors)) program.say(line);
 }
 
 void print_sensor(const Program& program, const std::string& name) {
   const sensor::Sensor sensor = sensor::load_sensor(name);
-  nlohmann::json document = summary_json(summary_of(sensor));
+  nlohmann::json document = summary_json(sensor);
   document["file"] = sensor.description;
   program.result(document);
   program.say(sensor.description.substr(0, sensor.description.find_last_not_of('\n') + 1));

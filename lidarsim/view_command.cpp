@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "view_command.h"
-
 #include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "commands.h"
 #include <fmt/core.h>
 
 #include "core/text.h"

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include "core/error.h"
@@ -44,13 +45,7 @@ std::string file_hash(const fs::path& path) {
   }
   XXH128_canonical_t canonical;
   XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
-  static constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text;
-  for (const unsigned char byte : canonical.digest) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return text;
+  return fmt::format("{:02x}", fmt::join(canonical.digest, ""));
 }
 
 void write_manifest(const fs::path& folder, const Manifest& manifest) {

@@ -20,7 +20,6 @@
 
 #include "core/error.h"
 #include "core/internal/interrupt.h"
-#include "core/internal/program_completion.h"
 #include "core/internal/program_help.h"
 #include "core/internal/program_pages.h"
 #include "core/internal/progress_display.h"

@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <regex>
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 
 namespace plotscan {
 namespace {
@@ -25,12 +24,6 @@ constexpr std::array<sys_days, 18> kLeapSeconds = {
     1999y / January / 1, 2006y / January / 1, 2009y / January / 1, 2012y / July / 1,
     2015y / July / 1,    2017y / January / 1};
 
-int whole(const std::ssub_match& digits) {
-  int value = 0;
-  std::from_chars(&*digits.first, &*digits.first + digits.length(), value);
-  return value;
-}
-
 microseconds decimals(const std::ssub_match& digits) {
   std::string text = digits.str();
   text.resize(6, '0');
@@ -43,10 +36,11 @@ std::optional<UtcTime> parse_utc(const std::string& text) {
   static const std::regex pattern(R"((\d{4})-(\d\d)-(\d\d)T(\d\d):(\d\d):(\d\d)(?:\.(\d{1,6}))?Z)");
   std::smatch part;
   if (!std::regex_match(text, part, pattern)) return std::nullopt;
-  const year_month_day date = year(whole(part[1])) / whole(part[2]) / whole(part[3]);
-  const hours hour(whole(part[4]));
-  const minutes minute(whole(part[5]));
-  const seconds second(whole(part[6]));
+  const auto whole = [&](std::size_t i) { return std::stoi(part[i]); };
+  const year_month_day date = year(whole(1)) / whole(2) / whole(3);
+  const hours hour(whole(4));
+  const minutes minute(whole(5));
+  const seconds second(whole(6));
   if (!date.ok() || date.year() < 1980y || date.year() > 2099y || hour >= days(1) ||
       minute >= hours(1) || second >= minutes(1))
     return std::nullopt;
@@ -55,16 +49,11 @@ std::optional<UtcTime> parse_utc(const std::string& text) {
 }
 
 std::string format_utc(UtcTime time) {
-  const sys_days day = floor<days>(time);
-  const year_month_day date(day);
-  const hh_mm_ss clock(time - day);
-  std::string text = fmt::format(
-      "{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
-      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-      static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-      static_cast<int>(clock.seconds().count()));
-  if (clock.subseconds().count() != 0) {
-    text += fmt::format(".{:06}", static_cast<int>(clock.subseconds().count()));
+  const auto second = floor<seconds>(time);
+  std::string text =
+      fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(second.time_since_epoch().count()));
+  if (time != second) {
+    text += fmt::format(".{:06}", (time - second).count());
     text.erase(text.find_last_not_of('0') + 1);
   }
   return text + "Z";

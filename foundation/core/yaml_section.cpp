@@ -2,10 +2,8 @@
 #include "core/yaml_section.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include <yaml-cpp/eventhandler.h>

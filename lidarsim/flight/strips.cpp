@@ -50,7 +50,8 @@ double strips_needed(const Field& field, const StripOptions& options) {
   return std::max(1.0, std::ceil(field.bounds.sizes().y() / options.spacing_m - kRounding));
 }
 
-std::vector<Eigen::Vector3d> strips_along(const Field& field, const StripOptions& options) {
+std::vector<Eigen::Vector3d> strips_along(const Field& field, double ground_m,
+                                          const StripOptions& options) {
   const double strips = strips_needed(field, options);
   const double strip_m = field.bounds.sizes().x() + 2 * options.run_up_m;
   std::vector<Eigen::Vector3d> path;
@@ -62,7 +63,7 @@ std::vector<Eigen::Vector3d> strips_along(const Field& field, const StripOptions
       const Eigen::Vector2d place =
           field.world_from_field *
           Eigen::Vector2d(field.bounds.center().x() + end * strip_m / 2, across);
-      path.emplace_back(place.x(), place.y(), options.height_m);
+      path.emplace_back(place.x(), place.y(), ground_m + options.altitude_m);
     }
   }
   return path;
@@ -82,7 +83,7 @@ void require_length(const std::vector<Field>& fields, const StripOptions& option
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas,
+std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas, double ground_m,
                                          const StripOptions& options) {
   check(!areas.empty(), "strips have something to cover");
   const double heading = heading_of_strips(areas, options);
@@ -90,9 +91,9 @@ std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas,
   if (options.pattern == Pattern::crosshatch)
     fields.push_back(field_with_heading(areas, heading + EIGEN_PI / 2));
   require_length(fields, options);
-  std::vector<Eigen::Vector3d> path = strips_along(fields.front(), options);
+  std::vector<Eigen::Vector3d> path = strips_along(fields.front(), ground_m, options);
   if (options.pattern == Pattern::crosshatch) {
-    std::vector<Eigen::Vector3d> across = strips_along(fields.back(), options);
+    std::vector<Eigen::Vector3d> across = strips_along(fields.back(), ground_m, options);
     const Eigen::Vector3d& end = path.back();
     if ((across.back() - end).norm() < (across.front() - end).norm()) std::ranges::reverse(across);
     path.insert(path.end(), across.begin(), across.end());

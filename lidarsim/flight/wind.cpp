@@ -2,6 +2,7 @@
 #include "flight/wind.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 

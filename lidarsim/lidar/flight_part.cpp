@@ -2,20 +2,18 @@
 #include "lidar/flight_part.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.h"
+#include "core/parse.h"
 
 namespace plotscan::lidar {
 
 FlightPart flight_part(const std::string& text) {
-  FlightPart part{.number = 0, .of = 0};
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, part.number);
-  const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
-  const auto of = slash ? std::from_chars(number.ptr + 1, end, part.of) : number;
-  const bool read = slash && of.ec == std::errc() && of.ptr == end;
-  if (!read || part.number < 1 || part.number > part.of || part.of > kMostParts) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string of = text.substr(std::min(slash + 1, text.size()));
+  const FlightPart part{.number = parsed<int>(text.substr(0, slash)).value_or(0),
+                        .of = parsed<int>(of).value_or(0)};
+  if (part.number < 1 || part.number > part.of || part.of > kMostParts) {
     throw InputError("--part \"" + text +
                      "\" must be I/N, such as 1/4: the I-th of N parts, N up to " +
                      std::to_string(kMostParts));

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
 #include "core/csv.h"
 #include "core/error.h"
 #include "flight/waypoint_file.h"
@@ -131,15 +129,10 @@ std::optional<double> ground_at(const Scene& scene, const Eigen::Vector3d& place
 }
 
 std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
-                                         const FlightPlanOptions& options) {
+                                         const flight::StripOptions& options) {
   require_within("altitude", options.altitude_m, kMinAltitude_m, kMaxAltitude_m);
   require_within("spacing", options.spacing_m, 0.1, 1000);
-  std::vector<Eigen::Vector3d> path =
-      flight::strips_over(site.areas, {.height_m = ground_of(site) + options.altitude_m,
-                                       .spacing_m = options.spacing_m,
-                                       .run_up_m = options.run_up_m,
-                                       .pattern = options.pattern,
-                                       .heading_rad = options.heading_rad});
+  std::vector<Eigen::Vector3d> path = flight::strips_over(site.areas, ground_of(site), options);
   require_clearance(scene, path);
   return path;
 }

@@ -14,21 +14,12 @@
 
 namespace plotscan::lidar {
 
-// How to fly strips over a site's areas, for example a farm's plots.
-struct FlightPlanOptions {
-  double altitude_m = 8;  // above the mean ground under the areas, 0.5 to 120
-  double spacing_m = 6;   // between neighbouring strips, 0.1 to 1000
-  double run_up_m = 1;    // strips reach this far beyond the areas, so that they pass at full speed
-  flight::Pattern pattern = flight::Pattern::lawnmower;
-  std::optional<double> heading_rad = {};  // of the strips, as in StripOptions
-};
-
 // Plans flight::strips_over the site's areas. Returns the strips' ends, world frame, metres. Throws
-// InputError when the site has no area or no ground under them, an option is out of its range, the
-// path is longer than 100 km, or anything in the scene within half a metre to the side of the path
-// reaches up to its height.
+// InputError when the site has no area or no ground under them, the altitude is not 0.5 to 120 m or
+// the spacing not 0.1 to 1000 m, the path is longer than 100 km, or anything in the scene within
+// half a metre to the side of the path reaches up to its height.
 std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
-                                         const FlightPlanOptions& options);
+                                         const flight::StripOptions& options);
 
 // The waypoints of a file (flight::read_waypoints), world frame. Altitudes count from the ground
 // below each, the first surface labelled ground from above. Throws InputError, naming the file,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/fly.h"
 
-#include <cmath>
 #include <memory>
 
 #include "core/angle.h"

@@ -50,7 +50,7 @@ struct FlyOptions {
   Eigen::Vector3d mount_rpy_deg = {0, 90, 0};
   std::string pose_error = "none";      // a preset's name
   flight::PoseErrors pose_errors = {};  // added to the preset's (flight::combined)
-  // Formats of further files beside cloud.pcd, named as in record::write_formats.
+  // Formats of further files beside cloud.pcd, named as in record::finish_scan.
   std::vector<std::string> formats = {};
   FlightPart part = {};  // the part that is scanned; record::join_scans joins the parts
   std::uint64_t seed = 1;

@@ -108,24 +108,11 @@ Hit Scene::hit_of(const Eigen::Vector3f& direction, const Meeting& met) const {
 void Scene::cast(std::span<const Ray> rays, float max_range_m, std::span<Hit> hits) const {
   check(hits.size() >= rays.size(), "every ray has room for its hit");
   RTCScene world = trees_->world.get();
-  RTCRayHit query;
-  query.ray.time = 0;
-  query.ray.mask = ~0u;
-  query.ray.flags = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Ray& ray = rays[i];
     hits[i].range_m = std::numeric_limits<float>::infinity();
     if (goes_to_the_sky(ray)) continue;
-    query.ray.org_x = ray.origin_m.x();
-    query.ray.org_y = ray.origin_m.y();
-    query.ray.org_z = ray.origin_m.z();
-    query.ray.tnear = 0;
-    query.ray.dir_x = ray.direction.x();
-    query.ray.dir_y = ray.direction.y();
-    query.ray.dir_z = ray.direction.z();
-    query.ray.tfar = max_range_m;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCRayHit query = query_of(ray.origin_m, ray.direction, 0, max_range_m);
     intersect(world, query, ray.time_s);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     const bool in_instance = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;

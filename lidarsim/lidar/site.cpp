@@ -4,26 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "lidar/scene.h"
 
 namespace plotscan::lidar {
 namespace {
 
+std::optional<double> mean_of_any(const std::vector<double>& values) {
+  return values.empty() ? std::nullopt : std::optional(mean(values));
+}
+
 std::optional<double> mean_ground(const farm::Farm& farm) {
-  double sum = 0;
-  int count = 0;
+  std::vector<double> heights_m;
   const auto add = [&](const Eigen::Vector2d& place) {
-    const auto height = farm.terrain.height(place.x(), place.y());
-    if (!height) return;
-    sum += *height;
-    ++count;
+    if (const auto height = farm.terrain.height(place.x(), place.y())) heights_m.push_back(*height);
   };
   for (const farm::Plot& plot : farm.plots) {
     add(plot.box.center);
     for (const Eigen::Vector2d& corner : plot.box.corners()) add(corner);
   }
-  if (count == 0) return std::nullopt;
-  return sum / count;
+  return mean_of_any(heights_m);
 }
 
 bool is_plant(const PlacedMesh& placed) {
@@ -95,15 +95,12 @@ std::optional<double> mean_height(const SceneContent& ground, const Eigen::Align
   }
   std::vector<Hit> hits(rays.size());
   scene.cast(rays, top - scene.bottom_m() + 1, hits);
-  double sum = 0;
-  int count = 0;
+  std::vector<double> heights_m;
   for (const Hit& hit : hits) {
-    if (!std::isfinite(hit.range_m)) continue;
-    sum += static_cast<double>(top) - static_cast<double>(hit.range_m);
-    ++count;
+    if (std::isfinite(hit.range_m))
+      heights_m.push_back(static_cast<double>(top) - static_cast<double>(hit.range_m));
   }
-  if (count == 0) return std::nullopt;
-  return sum / count;
+  return mean_of_any(heights_m);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/text.h"
-#include "record/scan_folder.h"
 #include "scan/las_crs.h"
 #include "scan/trajectory.h"
 

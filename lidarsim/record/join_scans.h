@@ -12,7 +12,7 @@
 namespace plotscan::record {
 
 struct JoinOptions {
-  std::vector<std::string> formats = {};  // further files, named as in write_formats
+  std::vector<std::string> formats = {};  // further files, named as in finish_scan
   bool replace = false;                   // replaces an existing scan
 };
 
@@ -25,7 +25,7 @@ struct JoinSummary {
 // Joins the scan folders of all parts of one flight (lidarsim fly --part), given in any order, into
 // the folder that the whole flight would have written, byte for byte. Memory does not grow with the
 // points. Throws InputError on a folder that is no part or was changed, on parts of different
-// flights, on a part that is missing or given twice, and as write_formats and OutputFolder do.
+// flights, on a part that is missing or given twice, and as finish_scan and OutputFolder do.
 JoinSummary join_scans(const std::vector<std::filesystem::path>& parts,
                        const std::filesystem::path& scan, const JoinOptions& options,
                        const ProgressReport& progress = {});

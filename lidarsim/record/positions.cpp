@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 #include <vector>
-
-#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/statistics.h"
@@ -106,15 +103,10 @@ std::uint64_t stream(const Source& source, const scan::CloudSystem& system,
 }
 
 void take_time(const Source& source, double time_s, scan::CloudFacts& facts) {
-  if (!facts.time_s) facts.time_s = {time_s, time_s};
-  auto& [first, last] = *facts.time_s;
-  first = std::min(first, time_s);
-  last = std::max(last, time_s);
+  scan::extend(facts.time_s, time_s);
   constexpr double kCentury_s = 3.2e9;  // a time beyond is none
-  if (!source.info.start || std::abs(time_s) > kCentury_s) return;
-  const UtcTime time = later(*source.info.start, time_s);
-  if (!facts.utc) facts.utc = {time, time};
-  facts.utc = {std::min((*facts.utc)[0], time), std::max((*facts.utc)[1], time)};
+  if (source.info.start && std::abs(time_s) <= kCentury_s)
+    scan::extend(facts.utc, later(*source.info.start, time_s));
 }
 
 void add_facts(const Source& source, const scan::PositionSink& sink, scan::CloudFacts& facts) {

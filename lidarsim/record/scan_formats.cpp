@@ -39,19 +39,14 @@ void require_formats(const std::vector<std::string>& formats, const sensor::Sens
   }
 }
 
-void write_formats(const std::vector<std::string>& formats,
-                   const std::filesystem::path& scan_folder) {
-  for (const std::string& name : formats) {
-    const std::string stem = format_of(name).needs_flight ? "flight." : "cloud.";
-    if (name != "pcd") convert_within(scan_folder, scan_folder / (stem + name), {.replace = true});
-  }
-}
-
 void finish_scan(const std::filesystem::path& scan_folder, const Manifest& manifest,
                  const std::vector<std::string>& formats) {
   write_manifest(scan_folder, manifest);
   if (formats.empty()) return;
-  write_formats(formats, scan_folder);
+  for (const std::string& name : formats) {
+    const std::string stem = format_of(name).needs_flight ? "flight." : "cloud.";
+    if (name != "pcd") convert_within(scan_folder, scan_folder / (stem + name), {.replace = true});
+  }
   write_manifest(scan_folder, manifest);
 }
 

@@ -21,13 +21,9 @@ std::vector<std::string> further_formats();
 // not send.
 void require_formats(const std::vector<std::string>& formats, const sensor::Sensor& sensor);
 
-// Writes the files. Each is what convert() makes from the folder with its default options. Throws
-// InputError as require_formats and convert do.
-void write_formats(const std::vector<std::string>& formats,
-                   const std::filesystem::path& scan_folder);
-
 // Completes a scan folder that lacks only its manifest: writes the manifest, then the further
-// formats, which need the whole folder; the manifest lists them too. Throws as write_formats does.
+// formats, which need the whole folder; the manifest lists them too. Each is what convert() makes
+// of the folder with its default options. Throws InputError as require_formats and convert do.
 void finish_scan(const std::filesystem::path& scan_folder, const Manifest& manifest,
                  const std::vector<std::string>& formats);
 

@@ -5,39 +5,12 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scan/field_names.h"
+#include "scan/fields.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 
 namespace plotscan::scan {
 namespace {
-
-// A field besides x, y and z, and its index among the fields that are read.
-struct Column {
-  const ScalarField* field = nullptr;
-  std::size_t place = 0;
-
-  bool there() const { return field != nullptr; }
-  double of(std::span<const double> row) const { return row[place]; }
-};
-
-// The fields to read: x, y and z first.
-struct Columns {
-  std::vector<ScalarField> fields;
-  Column returned, classified, withheld, time;
-
-  explicit Columns(const CloudLayout& layout) {
-    for (const char* axis : {"x", "y", "z"}) fields.push_back(*layout.find(axis));
-    const auto add = [&](Column& column, const std::vector<std::string>& names) {
-      column = {find_field(layout, names), fields.size()};
-      if (column.there()) fields.push_back(*column.field);
-    };
-    add(returned, {"returnnumber"});
-    add(classified, {"classification"});
-    if (layout.is_las) add(withheld, {std::string(las::kWithheld)});
-    add(time, plain_names_of("time"));
-  }
-};
 
 // NaN and negative numbers count as 0.
 std::size_t bin_of(double number) {
@@ -46,14 +19,20 @@ std::size_t bin_of(double number) {
 
 bool is_noise(double number) { return number == las::kLowNoise || number == las::kHighNoise; }
 
-// Collects facts from rows, one after the other.
+// Collects facts from the rows of one file. Knows which fields are to be read: x, y and z first.
 class FactFinder {
  public:
-  FactFinder(const CloudLayout& layout, const Columns& columns, CloudFacts& facts)
-      : is_las_(layout.is_las), columns_(columns), facts_(facts) {
-    if (columns.returned.there() && !facts.returns) facts.returns.emplace();
-    if (columns.classified.there() && !facts.classes) facts.classes.emplace();
+  FactFinder(const CloudLayout& layout, CloudFacts& facts)
+      : fields_(layout.coordinates()), facts_(facts) {
+    returned_ = add(find_field(layout, {"returnnumber"}));
+    classified_ = add(find_field(layout, {"classification"}));
+    if (layout.is_las) withheld_ = add(layout.find(las::kWithheld));
+    time_ = add(find_field(layout, known_field("time").plain_names));
+    if (returned_ && !facts.returns) facts.returns.emplace();
+    if (classified_ && !facts.classes) facts.classes.emplace();
   }
+
+  const std::vector<ScalarField>& fields() const { return fields_; }
 
   // The position in metres; not finite where the point is left out.
   Eigen::Vector3d take(std::span<const double> row) {
@@ -66,25 +45,28 @@ class FactFinder {
     ++facts_.points;
     facts_.bounds.extend(point);
     facts_.bounds_m.extend(point_m);
-    if (columns_.returned.there()) ++(*facts_.returns)[bin_of(columns_.returned.of(row))];
-    if (columns_.classified.there()) ++(*facts_.classes)[bin_of(columns_.classified.of(row))];
-    if (is_las_ && (columns_.withheld.of(row) != 0 || is_noise(columns_.classified.of(row))))
-      ++facts_.marked;
-    if (columns_.time.there()) take_time(columns_.time.of(row) * time_unit_s(*columns_.time.field));
+    if (returned_) ++(*facts_.returns)[bin_of(row[*returned_])];
+    if (classified_) ++(*facts_.classes)[bin_of(row[*classified_])];
+    if (withheld_ && (row[*withheld_] != 0 || is_noise(row[*classified_]))) ++facts_.marked;
+    if (time_) take_time(row[*time_] * time_unit_s(fields_[*time_]));
     return point_m;
   }
 
  private:
-  void take_time(double time_s) {
-    if (!std::isfinite(time_s)) return;
-    if (!facts_.time_s) facts_.time_s = {time_s, time_s};
-    auto& [first, last] = *facts_.time_s;
-    first = std::min(first, time_s);
-    last = std::max(last, time_s);
+  // Where the field lies in a row, if the file has it.
+  using Place = std::optional<std::size_t>;
+  Place add(const ScalarField* field) {
+    if (field == nullptr) return std::nullopt;
+    fields_.push_back(*field);
+    return fields_.size() - 1;
   }
 
-  bool is_las_;
-  const Columns& columns_;
+  void take_time(double time_s) {
+    if (std::isfinite(time_s)) extend(facts_.time_s, time_s);
+  }
+
+  std::vector<ScalarField> fields_;
+  Place returned_, classified_, withheld_, time_;
   CloudFacts& facts_;
 };
 
@@ -101,13 +83,13 @@ void add_file(const std::filesystem::path& file, const PositionSink& sink, Cloud
     facts.format = layout.format;
     for (const ScalarField& field : layout.fields) facts.fields.push_back(field.name);
   }
-  const Columns columns(layout);
-  FactFinder finder(layout, columns, facts);
+  FactFinder finder(layout, facts);
+  const std::vector<ScalarField>& fields = finder.fields();
   std::vector<Eigen::Vector3d> positions;
-  read_rows(file, layout, columns.fields, [&](std::span<const double> rows) {
+  read_rows(file, layout, fields, [&](std::span<const double> rows) {
     positions.clear();
-    for (std::size_t i = 0; i < rows.size(); i += columns.fields.size()) {
-      const Eigen::Vector3d position = finder.take(rows.subspan(i, columns.fields.size()));
+    for (std::size_t i = 0; i < rows.size(); i += fields.size()) {
+      const Eigen::Vector3d position = finder.take(rows.subspan(i, fields.size()));
       if (position.allFinite()) positions.push_back(position);
     }
     if (!positions.empty()) sink(positions);

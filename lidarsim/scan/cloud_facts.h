@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -34,6 +35,13 @@ struct CloudFacts {
   std::optional<std::array<double, 2>> time_s = {};
   std::optional<std::array<UtcTime, 2>> utc = {};
 };
+
+// Widens a range so that it holds the value.
+template <class Value>
+void extend(std::optional<std::array<Value, 2>>& range, Value value) {
+  if (!range) range = {value, value};
+  range = {std::min((*range)[0], value), std::max((*range)[1], value)};
+}
 
 // Reads a cloud once, and passes its positions to the sink as read_positions does, but of all
 // classes and of marked points, too. Format and fields are those of the first file. Throws

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <sstream>
+
+#include <fmt/format.h>
 
 #include "core/error.h"
 #include "core/parse.h"
 #include "core/text.h"
-#include "scan/field_names.h"
+#include "scan/fields.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/foreign_file.h"
 #include "scan/internal/las_format.h"
@@ -133,19 +134,11 @@ class PointFilter {
   std::array<bool, 256> left_out_{};
 };
 
-// "2, 9".
-std::string numbers_text(const std::vector<int>& numbers) {
-  std::vector<std::string> texts;
-  texts.reserve(numbers.size());
-  for (const int number : numbers) texts.push_back(std::to_string(number));
-  return joined(texts, ", ");
-}
-
 // Streams one file to the sink and adds it to the summary, whose system the file has.
 void read_file(const std::filesystem::path& file, const CloudFiles& cloud,
                const PositionOptions& options, const PositionSink& sink, CloudSummary& summary) {
   const CloudLayout layout = read_cloud_header(file);
-  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
+  std::vector<ScalarField> fields = layout.coordinates();
   const PointFilter filter(file, layout, cloud, options, fields);
   std::vector<Eigen::Vector3d> positions;
   read_rows(file, layout, fields, [&](std::span<const double> rows) {
@@ -183,8 +176,6 @@ const ScalarField* CloudLayout::find(std::string_view name) const {
   const auto found = std::ranges::find(fields, name, &ScalarField::name);
   return found == fields.end() ? nullptr : &*found;
 }
-
-double time_unit_s(const ScalarField& time) { return time.kind == 'F' ? 1 : 1e-9; }
 
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
@@ -280,7 +271,7 @@ CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
     throw InputError(cloud.name() + ": no point of the cloud has finite x, y and z");
   if (summary.points == 0 && !cloud.only_classes.empty())
     throw InputError(cloud.name() + ": no point is of the classes that are to be read: " +
-                     numbers_text(cloud.only_classes));
+                     fmt::format("{}", fmt::join(cloud.only_classes, ", ")));
   if (summary.points == 0) {
     throw InputError(cloud.name() + ": all points of the cloud are marked as withheld or noise" +
                      (summary.left_out > 0 ? ", or of a class to leave out" : ""));

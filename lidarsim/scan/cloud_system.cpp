@@ -13,8 +13,6 @@
 namespace plotscan::scan {
 namespace {
 
-// How many points are searched for a finite one.
-constexpr std::uint64_t kFirstPoints = 8192;
 // Up to this distance from its meridian UTM is exact to a millimetre; much farther it is
 // meaningless.
 constexpr double kFarthest_deg = 12;
@@ -25,25 +23,15 @@ GeodeticPoint geodetic(const Eigen::Vector3d& lon_lat_z) {
           .altitude_m = lon_lat_z.z()};
 }
 
-Eigen::Vector3d first_finite(const std::filesystem::path& cloud, const CloudLayout& layout) {
-  const std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  std::optional<Eigen::Vector3d> first;
-  read_rows(
-      cloud, layout, fields,
-      [&](std::span<const double> rows) {
-        for (std::size_t i = 0; i < rows.size() && !first; i += 3) {
-          const Eigen::Vector3d point(rows[i], rows[i + 1], rows[i + 2]);
-          if (point.allFinite()) first = point;
-        }
-      },
-      kFirstPoints);
+Eigen::Vector3d first_point(const std::filesystem::path& cloud, const CloudLayout& layout) {
+  const auto first = first_finite(cloud, layout, layout.coordinates());
   if (!first) throw InputError(cloud, "none of its first points has finite x, y and z");
-  return *first;
+  return Eigen::Vector3d(first->data());
 }
 
 void project(const std::filesystem::path& cloud, const CloudLayout& layout, const CloudFiles& given,
              CloudSystem& system) {
-  const Eigen::Vector3d first = first_finite(cloud, layout);
+  const Eigen::Vector3d first = first_point(cloud, layout);
   if (std::abs(first.x()) > 360 || first.y() < -80 || first.y() > 84) {
     throw InputError(cloud,
                      std::string(given.crs ? "is in degrees, as --crs " + *given.crs + " says"
@@ -119,7 +107,7 @@ CloudSystem given_system(const std::filesystem::path& cloud, const CloudLayout& 
   if (is_geographic(system.crs)) {
     project(cloud, layout, given, system);
   } else {
-    require_within_utm(cloud, system.crs, first_finite(cloud, layout));
+    require_within_utm(cloud, system.crs, first_point(cloud, layout));
     note_units(false, system);
   }
   return system;
@@ -135,7 +123,7 @@ void note_web_mercator(const std::filesystem::path& cloud, const CloudLayout& la
   system.notes.push_back(fmt::format(
       "EPSG:3857 (Web Mercator) stretches x and y, here {:.2f} times: plots come out as much "
       "too large; project the cloud first, for instance to UTM",
-      std::cosh(first_finite(cloud, layout).y() / kRadius_m)));
+      std::cosh(first_point(cloud, layout).y() / kRadius_m)));
 }
 
 CloudSystem stated_system(const std::filesystem::path& cloud, const CloudLayout& layout,

@@ -2,14 +2,11 @@
 #include "scan/point_reader.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
-#include <limits>
 
 #include "core/csv.h"
 #include "core/error.h"
-#include "scan/field_names.h"
+#include "scan/fields.h"
 #include "scan/internal/cloud_layout.h"
 #include "scan/internal/las_format.h"
 #include "scan/las_crs.h"
@@ -19,28 +16,6 @@ namespace {
 
 constexpr double kOriginStep_m = 1000;
 constexpr const char* kGpsTime = "gps_time";  // as read_las_header names it
-// How many rows are searched for a finite point.
-constexpr std::uint64_t kFirstRows = 8192;
-
-// Puts a field's number into a point; false when it does not fit.
-using Put = bool (*)(LabelledPoint&, double);
-
-template <class Whole>
-bool assign_whole(Whole& field, double value) {
-  const double rounded = std::round(value);
-  if (!(rounded >= 0 && rounded <= std::numeric_limits<Whole>::max())) return false;
-  field = static_cast<Whole>(rounded);
-  return true;
-}
-
-PointClass class_of(double number) {
-  if (number == 0) return PointClass::unlabelled;
-  if (number == 1) return PointClass::ground;
-  if (number == 2) return PointClass::crop;
-  if (number == 3) return PointClass::weed;
-  return PointClass::other;
-}
-
 // ASPRS' standard classes: 0 and 1 are unclassified, 2 ground, 3 to 5 vegetation.
 PointClass class_of_asprs(double number) {
   if (number == 0 || number == 1) return PointClass::unlabelled;
@@ -48,44 +23,13 @@ PointClass class_of_asprs(double number) {
   return number >= 3 && number <= 5 ? PointClass::crop : PointClass::other;
 }
 
-struct KnownField {
-  std::string name;  // in Plotscan's PCD and PLY files
-  Put put;
-};
-
-const std::vector<KnownField>& known_fields() {
-  static const std::vector<KnownField> fields = {
-      {"intensity",
-       [](LabelledPoint& p, double v) {
-         p.intensity = static_cast<float>(v);
-         return std::isfinite(p.intensity);
-       }},
-      {"ring", [](LabelledPoint& p, double v) { return assign_whole(p.ring, v); }},
-      {"time",
-       [](LabelledPoint& p, double v) {
-         p.time = v;
-         return std::isfinite(v);
-       }},
-      {"return_number",
-       [](LabelledPoint& p, double v) { return assign_whole(p.return_number, v); }},
-      {"return_count", [](LabelledPoint& p, double v) { return assign_whole(p.return_count, v); }},
-      {"class",
-       [](LabelledPoint& p, double v) {
-         p.label = class_of(v);
-         return true;
-       }},
-      {"plot", [](LabelledPoint& p, double v) { return assign_whole(p.plot, v); }},
-      {"plant", [](LabelledPoint& p, double v) { return assign_whole(p.plant, v); }},
-  };
-  return fields;
-}
-
 // Replaces the field "class" in files that do not have it.
 const KnownField& asprs_class() {
-  static const KnownField field = {"class", [](LabelledPoint& p, double v) {
-                                     p.label = class_of_asprs(v);
-                                     return true;
-                                   }};
+  static const KnownField field = {
+      .name = "class", .plain_names = {"classification"}, .put = [](LabelledPoint& p, double v) {
+        p.label = class_of_asprs(v);
+        return true;
+      }};
   return field;
 }
 
@@ -106,13 +50,13 @@ double unit_of(const KnownField& known, const ScalarField& field) {
 
 Selection select(const CloudLayout& layout) {
   Selection selection;
-  for (const char* axis : {"x", "y", "z"}) selection.fields.push_back(*layout.find(axis));
+  selection.fields = layout.coordinates();
   for (const KnownField& named : known_fields()) {
     const KnownField* known = &named;
-    const ScalarField* field = find_field(layout, plain_names_of(named.name));
+    const ScalarField* field = find_field(layout, named.plain_names);
     if (field == nullptr && named.name == "class") {
       known = &asprs_class();
-      field = find_field(layout, {"classification"});
+      field = find_field(layout, known->plain_names);
     }
     if (field == nullptr) continue;
     selection.fields.push_back(*field);
@@ -123,42 +67,10 @@ Selection select(const CloudLayout& layout) {
 
 Eigen::Vector3d position(std::span<const double> row) { return {row[0], row[1], row[2]}; }
 
-// The first finite point at the beginning of the cloud, zero if there is none, and its GPS time if
-// the file has it.
-struct FirstPoint {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  std::optional<double> time_s = {};
-};
-
-FirstPoint first_point(const std::filesystem::path& cloud, const CloudLayout& layout) {
-  std::vector<ScalarField> fields = {*layout.find("x"), *layout.find("y"), *layout.find("z")};
-  const ScalarField* time = layout.find(kGpsTime);
-  if (time != nullptr) fields.push_back(*time);
-  std::optional<FirstPoint> first;
-  read_rows(
-      cloud, layout, fields,
-      [&](std::span<const double> rows) {
-        for (std::size_t i = 0; i < rows.size() && !first; i += fields.size()) {
-          const auto row = rows.subspan(i, fields.size());
-          if (!position(row).allFinite()) continue;
-          first = {.position_m = position(row)};
-          if (time != nullptr) first->time_s = row.back();
-        }
-      },
-      kFirstRows);
-  return first.value_or(FirstPoint{});
-}
-
 bool has_float_coordinates(const CloudLayout& layout) {
-  return std::ranges::all_of(std::array{"x", "y", "z"}, [&](const char* axis) {
-    const ScalarField& field = *layout.find(axis);
+  return std::ranges::all_of(layout.coordinates(), [](const ScalarField& field) {
     return field.kind == 'F' && field.size == 4;
   });
-}
-
-// The whole second of UTC at or before an adjusted GPS time.
-std::optional<UtcTime> second_of(double adjusted_s) {
-  return utc_of_adjusted_gps(std::floor(adjusted_s));
 }
 
 // What to add to the file's times to get seconds from info.start.
@@ -204,10 +116,13 @@ CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
                  .start = layout.start,
                  .crs_wkt = crs_wkt_of(layout)};
   if (!has_float_coordinates(layout)) {
-    const FirstPoint first = first_point(cloud, layout);
-    info.origin_m = origin_near(first.position_m);
-    if (layout.adjusted_gps_time && first.time_s && !info.start)
-      info.start = second_of(*first.time_s);
+    std::vector<ScalarField> fields = layout.coordinates();
+    const ScalarField* time = layout.find(kGpsTime);
+    if (time != nullptr) fields.push_back(*time);
+    const auto first = first_finite(cloud, layout, fields);
+    if (first) info.origin_m = origin_near(position(*first));
+    if (first && layout.adjusted_gps_time && time != nullptr && !info.start)
+      info.start = utc_of_adjusted_gps(std::floor(first->back()));
   }
   for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);
   return info;

@@ -61,6 +61,7 @@ void RecordFile::write_bytes(std::span<const char> bytes) {
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail();
     bytes = bytes.subspan(static_cast<std::size_t>(written));
+    written_ += static_cast<std::size_t>(written);
   }
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "core/text.h"
+#include "core/text_file.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::scan {
@@ -23,10 +23,14 @@ const std::vector<std::string>& columns() {
   return names;
 }
 
-StampedPose pose_from(const std::array<double, kColumns>& v) {
-  return {.time_s = v[0],
-          .position_m = {v[1], v[2], v[3]},
-          .attitude = Eigen::Quaterniond(v[7], v[4], v[5], v[6])};
+// Appends the pose of a line's numbers; returns what is wrong with it, "" if nothing is.
+std::string append_pose(const std::array<double, kColumns>& v, std::vector<StampedPose>& poses) {
+  const double previous_s =
+      poses.empty() ? -std::numeric_limits<double>::infinity() : poses.back().time_s;
+  poses.push_back({.time_s = v[0],
+                   .position_m = {v[1], v[2], v[3]},
+                   .attitude = Eigen::Quaterniond(v[7], v[4], v[5], v[6])});
+  return pose_error(poses.back(), previous_s);
 }
 
 double parse_number(const std::filesystem::path& file, std::size_t line, const std::string& word) {
@@ -38,7 +42,6 @@ double parse_number(const std::filesystem::path& file, std::size_t line, const s
 std::vector<StampedPose> read_tum(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<StampedPose> poses;
-  double previous_s = -std::numeric_limits<double>::infinity();
   std::size_t line_number = 0;
   for (std::string line; std::getline(in, line);) {
     ++line_number;
@@ -55,26 +58,19 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& file) {
           file, line_number,
           "has " + std::to_string(count) + " numbers; the 8 of t x y z qx qy qz qw are expected");
     }
-    const StampedPose pose = pose_from(values);
-    const std::string error = pose_error(pose, previous_s);
+    const std::string error = append_pose(values, poses);
     if (!error.empty()) throw InputError(file, line_number, error);
-    previous_s = pose.time_s;
-    poses.push_back(pose);
   }
   return poses;
 }
 
 std::vector<StampedPose> read_trajectory_csv(const std::filesystem::path& file) {
   std::vector<StampedPose> poses;
-  double previous_s = -std::numeric_limits<double>::infinity();
   read_csv(file, columns(), {}, [&](const CsvRow& row) {
     std::array<double, kColumns> values{};
     for (std::size_t i = 0; i < kColumns; ++i) values[i] = row.number(i);
-    const StampedPose pose = pose_from(values);
-    const std::string error = pose_error(pose, previous_s);
+    const std::string error = append_pose(values, poses);
     if (!error.empty()) row.fail(0, ": " + error);
-    previous_s = pose.time_s;
-    poses.push_back(pose);
   });
   return poses;
 }
@@ -92,18 +88,18 @@ bool has_commas(const std::filesystem::path& file) {
 }
 
 void write_poses(const std::filesystem::path& file, const Trajectory& trajectory,
-                 const std::string& header, char separator) {
-  std::ofstream out(file, std::ios::binary);
-  out << header << '\n';
+                 std::string_view header, std::string_view separator) {
+  TextFile out(file);
+  out << header << "\n";
   for (const StampedPose& pose : trajectory.poses()) {
     const Eigen::Vector3d& p = pose.position_m;
     const Eigen::Quaterniond& q = pose.attitude;
     const std::array<double, kColumns> values = {pose.time_s, p.x(), p.y(), p.z(),
                                                  q.x(),       q.y(), q.z(), q.w()};
     for (std::size_t i = 0; i < kColumns; ++i)
-      out << format_number(values[i]) << (i + 1 < kColumns ? separator : '\n');
+      out << values[i] << (i + 1 < kColumns ? separator : "\n");
   }
-  if (!out.flush()) throw WriteError(file);
+  out.close();
 }
 
 }  // namespace
@@ -118,11 +114,11 @@ Trajectory read_trajectory(const std::filesystem::path& file) {
 }
 
 void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
-  write_poses(file, trajectory, "t_s,x_m,y_m,z_m,qx,qy,qz,qw", ',');
+  write_poses(file, trajectory, "t_s,x_m,y_m,z_m,qx,qy,qz,qw", ",");
 }
 
 void write_tum(const std::filesystem::path& file, const Trajectory& trajectory) {
-  write_poses(file, trajectory, "# t x y z qx qy qz qw", ' ');
+  write_poses(file, trajectory, "# t x y z qx qy qz qw", " ");
 }
 
 }  // namespace plotscan::scan

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "core/progress.h"
 #include "record/open_source.h"

@@ -3,10 +3,16 @@
 
 #include <array>
 
-#include "sensor/per_laser.h"
+#include <Eigen/Core>
+
 #include "sensor/sensor.h"
 
 namespace plotscan::sensor {
+
+// One number per laser, in the order of firing. Vectors are stored by component, so that several
+// lasers are computed at once.
+using PerLaser = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxLasers, 1>;
+using VectorPerLaser = std::array<PerLaser, 3>;
 
 // The directions of a laser beam along x after two wedge prisms that turn about x, refracted by
 // Snell's law at each surface; after Brazeal, Wilkinson and Hochmair, "A Rigorous Observation Model

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "scan/trajectory.h"
-#include "sensor/per_laser.h"
 #include "sensor/risley.h"
 #include "sensor/sensor.h"
 

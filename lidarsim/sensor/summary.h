@@ -10,29 +10,13 @@
 
 namespace plotscan::sensor {
 
-// A sensor's main figures, as in a data sheet.
-struct SensorSummary {
-  std::string name;
-  std::string title;
-  int channels = 0;
-  double shots_per_s = 0;  // at the default spin
-  double min_range_m = 0;
-  double max_range_m = 0;
-  // Only of a spinning sensor, which sees all around: its lowest and highest laser, and its spin.
-  double least_elevation_deg = 0;
-  double most_elevation_deg = 0;
-  double min_spin_hz = 0;
-  double max_spin_hz = 0;
-  double default_spin_hz = 0;
-  bool is_risley = false;
-  double cone_deg = 0;  // of a Risley scanner: the full angle of its field of view; else 0
-};
-
-SensorSummary summary_of(const Sensor& sensor);
+// Sensors' main figures, as in a data sheet.
 
 // A table as text: a line of headings, then one line per sensor.
-std::vector<std::string> summary_lines(const std::vector<SensorSummary>& summaries);
+std::vector<std::string> summary_lines(const std::vector<Sensor>& sensors);
 
-nlohmann::json summary_json(const SensorSummary& summary);
+// `shots_per_second` is at the default spin. A spinning sensor, which sees all around, has its
+// lowest and highest laser and its spin; a Risley scanner the full angle of its field of view.
+nlohmann::json summary_json(const Sensor& sensor);
 
 }  // namespace plotscan::sensor

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/internal/program_completion.h"
-
 #include <algorithm>
 #include <vector>
 
 #include "core/internal/program_declarations.h"
+#include "core/internal/program_pages.h"
 #include "core/text.h"
 
 namespace plotscan {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <vector>
 
 #include "core/internal/program_declarations.h"
 #include "core/text.h"

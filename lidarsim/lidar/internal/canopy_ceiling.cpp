@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/extent.h"
+
 namespace plotscan::lidar {
 namespace {
 
@@ -104,8 +106,7 @@ void CanopyCeiling::sort_plants() {
 std::vector<CanopyCeiling::Standing> CanopyCeiling::plants_near(const RayGrid& grid) const {
   std::vector<Standing> near;
   if (plants_.empty()) return near;
-  Eigen::AlignedBox2d around;
-  for (const Eigen::Vector2d& corner : grid.box.corners()) around.extend(corner);
+  const Eigen::AlignedBox2d around = extent_of(std::array{grid.box});
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m_);
   const auto low = column_and_row(around.min() - reach);
   const auto high = column_and_row(around.max() + reach);
@@ -160,8 +161,7 @@ void CanopyCeiling::raise(const Standing& plant, const RayGrid& grid,
 
 std::optional<std::vector<float>> CanopyCeiling::over(const RayGrid& grid,
                                                       const std::vector<Standing>& near) const {
-  Eigen::AlignedBox2d around;
-  for (const Eigen::Vector2d& corner : grid.box.corners()) around.extend(corner);
+  const Eigen::AlignedBox2d around = extent_of(std::array{grid.box});
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m_);
   if (border_.may_meet({around.min() - margin, around.max() + margin})) return std::nullopt;
   if (!farm_.terrain.height(grid.box.center.x(), grid.box.center.y())) return std::nullopt;

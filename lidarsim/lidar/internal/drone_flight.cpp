@@ -28,10 +28,10 @@ flight::Pattern pattern_of(const FlyOptions& options) {
 std::vector<flight::Waypoint> plan(const Site& site, const Scene& scene, const FlyOptions& options,
                                    const flight::MotionLimits& limits) {
   if (options.waypoints) return plan_waypoints(scene, *options.waypoints);
-  FlightPlanOptions strips{.altitude_m = options.altitude_m,
-                           .spacing_m = options.spacing_m,
-                           .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits),
-                           .pattern = pattern_of(options)};
+  flight::StripOptions strips{.altitude_m = options.altitude_m,
+                              .spacing_m = options.spacing_m,
+                              .run_up_m = flight::RestToRest::run_up(options.speed_m_s, limits),
+                              .pattern = pattern_of(options)};
   if (options.heading_deg) strips.heading_rad = radians(*options.heading_deg);
   return flight::waypoints_at(plan_strips(site, scene, strips));
 }

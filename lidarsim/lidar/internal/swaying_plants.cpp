@@ -54,25 +54,6 @@ Eigen::Vector3f bent_normal(const StemLink& link, const Eigen::Vector3f& rest) {
   return {rest.x(), rest.y(), (rest.z() - link.sideways.dot(rest.head<2>())) / link.upward};
 }
 
-RTCRayHit query_of(const LocalRay& ray, float begin, float end) {
-  RTCRayHit query;
-  query.ray.org_x = ray.origin_m.x();
-  query.ray.org_y = ray.origin_m.y();
-  query.ray.org_z = ray.origin_m.z();
-  query.ray.tnear = begin;
-  query.ray.dir_x = ray.direction.x();
-  query.ray.dir_y = ray.direction.y();
-  query.ray.dir_z = ray.direction.z();
-  query.ray.time = 0;
-  query.ray.tfar = end;
-  query.ray.mask = ~0u;
-  query.ray.id = 0;
-  query.ray.flags = 0;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
 }  // namespace
 
 Geometry SwayingPlants::add(RTCDevice device, RTCScene mesh_tree, const mesh::Mesh& mesh,
@@ -141,9 +122,8 @@ bool SwayingPlants::meets(const Plant& plant, double time_s, RTCRayHit& ray) {
     const float end = std::min(span.end, ray.ray.tfar);
     if (begin > end) continue;
     const LocalRay rest = at_rest(link, local);
-    RTCRayHit query =
-        query_of({plant.mesh_from_world * rest.origin_m, plant.mesh_from_world * rest.direction},
-                 begin, end);
+    RTCRayHit query = query_of(plant.mesh_from_world * rest.origin_m,
+                               plant.mesh_from_world * rest.direction, begin, end);
     intersect(plant.mesh_tree, query, time_s);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     ray.ray.tfar = query.ray.tfar;

@@ -45,7 +45,7 @@ Format pcap_format() {
           .needs_packets = true,
           .open = open_pcap,
           .create = [](const path& file, const Source& source, const WriteOptions&) {
-            return std::make_unique<PcapWriter>(file, *source.flight);
+            return create_pcap(file, *source.flight);
           }};
 }
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
 #include <pcl/io/lzf.h>
 
@@ -17,53 +15,6 @@ namespace {
 
 // LZF encodes at most 264 bytes in a back reference of 3.
 constexpr std::uint64_t kMaxLzfRatio = 88;
-
-// The bytes of a number as an unsigned integer of its size.
-template <class Bits>
-Bits load(const char* bytes, bool swap) {
-  Bits bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  if (!swap || sizeof bits == 1) return bits;
-  if constexpr (sizeof bits == 2) return __builtin_bswap16(bits);
-  if constexpr (sizeof bits == 4) return __builtin_bswap32(bits);
-  if constexpr (sizeof bits == 8) return __builtin_bswap64(bits);
-  return bits;
-}
-
-template <class Bits>
-double integer(char kind, Bits bits) {
-  return kind == 'I' ? static_cast<double>(static_cast<std::make_signed_t<Bits>>(bits))
-                     : static_cast<double>(bits);
-}
-
-double number(const ScalarField& field, const char* bytes, bool swap) {
-  switch (field.size) {
-    case 1:
-      return integer(field.kind, load<std::uint8_t>(bytes, swap));
-    case 2:
-      return integer(field.kind, load<std::uint16_t>(bytes, swap));
-    case 4: {
-      const auto bits = load<std::uint32_t>(bytes, swap);
-      return field.kind == 'F' ? std::bit_cast<float>(bits) : integer(field.kind, bits);
-    }
-    default: {
-      const auto bits = load<std::uint64_t>(bytes, swap);
-      return field.kind == 'F' ? std::bit_cast<double>(bits) : integer(field.kind, bits);
-    }
-  }
-}
-
-}  // namespace
-
-double decode(const ScalarField& field, const char* bytes, bool swap) {
-  double value = number(field, bytes, swap);
-  if (field.bits > 0)
-    value = (static_cast<unsigned>(value) >> field.shift) & ((1u << field.bits) - 1);
-  const bool scaled = field.scale != 1 || field.add != 0;
-  return scaled ? value * field.scale + field.add : value;
-}
-
-namespace {
 
 // Detects floats in the wrong byte order: their exponents are random, so some 40 % of them are no
 // plausible lengths. Throws InputError if more than a tenth of the coordinates is not plausible.
@@ -192,6 +143,22 @@ void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
 #endif
   }
   throw std::logic_error("unknown kind of cloud body");
+}
+
+std::optional<std::vector<double>> first_finite(const std::filesystem::path& file,
+                                                const CloudLayout& layout,
+                                                std::span<const ScalarField> fields) {
+  constexpr std::uint64_t kSearched = 8192;
+  std::optional<std::vector<double>> first;
+  const auto search = [&](std::span<const double> rows) {
+    for (std::size_t i = 0; i < rows.size() && !first; i += fields.size()) {
+      const auto row = rows.subspan(i, fields.size());
+      if (Eigen::Vector3d(row[0], row[1], row[2]).allFinite())
+        first.emplace(row.begin(), row.end());
+    }
+  };
+  read_rows(file, layout, fields, search, kSearched);
+  return first;
 }
 
 }  // namespace plotscan::scan

@@ -16,6 +16,7 @@
 #include "core/coordinate_units.h"
 #include "core/utc_time.h"
 #include "scan/cloud_system.h"
+#include "scan/fields.h"
 
 namespace plotscan::scan {
 
@@ -24,21 +25,6 @@ enum class CloudBody {
   binary,      // one record a point
   compressed,  // PCD: LZF over field after field
   laz,         // LAS records as LASzip packs them
-};
-
-// Where one number of a point lies, and how it is read: value = number * scale + add.
-struct ScalarField {
-  std::string name;
-  char kind = 'F';         // I: signed, U: unsigned, F: float
-  std::size_t size = 4;    // of one element, bytes: 1, 2, 4 or 8; a float has 4 or 8
-  std::size_t count = 1;   // elements
-  std::size_t column = 0;  // of an ascii line
-  std::size_t offset = 0;  // in a binary record, bytes
-  // LAS packs several numbers in a byte: this one has `bits` bits from bit `shift` on; 0: all.
-  int shift = 0;
-  int bits = 0;
-  double scale = 1;
-  double add = 0;
 };
 
 struct CloudLayout {
@@ -76,6 +62,8 @@ struct CloudLayout {
   std::string crs() const;
   // The field of that name; nullptr if there is none.
   const ScalarField* find(std::string_view name) const;
+  // x, y and z, which every layout has.
+  std::vector<ScalarField> coordinates() const { return {*find("x"), *find("y"), *find("z")}; }
 };
 
 // Reads a cloud's header line by line, counting lines. Refuses what is no text.
@@ -130,12 +118,8 @@ CloudLayout read_cloud_header(const std::filesystem::path& file);
 void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 
 // The first field that is one readable number and has one of the names; earlier names take
-// precedence. Names are plain ones (field_names.h). nullptr when there is none.
+// precedence. Names are plain ones (fields.h). nullptr when there is none.
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
-
-// The unit of a field of times in seconds: ROS drivers write seconds (floats) or whole numbers of
-// nanoseconds.
-double time_unit_s(const ScalarField& time);
 
 // The instant of a LAS file's adjusted GPS time; nothing outside of the century from 1980.
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
@@ -149,5 +133,11 @@ using RowSink = std::function<void(std::span<const double> rows)>;
 void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
                std::span<const ScalarField> fields, const RowSink& sink,
                std::uint64_t limit = kMaxPoints);
+
+// The first row of these fields, x, y and z in front, whose coordinates are finite; nothing if
+// there is none at the cloud's beginning.
+std::optional<std::vector<double>> first_finite(const std::filesystem::path& file,
+                                                const CloudLayout& layout,
+                                                std::span<const ScalarField> fields);
 
 }  // namespace plotscan::scan

@@ -43,9 +43,6 @@ class Rows {
   std::vector<double> numbers_;
 };
 
-// The value of the field whose number lies at `bytes`; `swap`: in the other byte order.
-double decode(const ScalarField& field, const char* bytes, bool swap);
-
 // Reads one point a line, from the current position of `in`.
 void read_ascii(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
                 const Wanted& wanted);

@@ -154,21 +154,13 @@ bool has_quoted_numbers(std::string_view line) {
 }
 
 // Throws InputError where the line is a point whose numbers are written in another way.
-void refuse_other_numbers(const std::filesystem::path& file, const HeaderLines& lines,
-                          std::string_view line) {
-  if (has_decimal_commas(line)) {
-    throw InputError(file, lines.line(),
-                     "has numbers with decimal commas; write them with points (sed 'y/,/./')");
-  }
-  if (has_quoted_numbers(line)) {
-    throw InputError(file, lines.line(),
-                     "has numbers in quotes; write them without (sed 's/\"//g')");
-  }
-  if (has_set_off_thousands(line)) {
-    throw InputError(file, lines.line(),
-                     "has numbers whose thousands are set off, such as 1,234.5; write them as "
-                     "1234.5");
-  }
+void refuse_other_numbers(const HeaderLines& lines, std::string_view line) {
+  if (has_decimal_commas(line))
+    lines.fail("has numbers with decimal commas; write them with points (sed 'y/,/./')");
+  if (has_quoted_numbers(line))
+    lines.fail("has numbers in quotes; write them without (sed 's/\"//g')");
+  if (has_set_off_thousands(line))
+    lines.fail("has numbers whose thousands are set off, such as 1,234.5; write them as 1234.5");
 }
 
 // The lines before the points, and the first point.
@@ -213,7 +205,7 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
       header.first_point = line;
       return header;
     }
-    if (!is_comment(line)) refuse_other_numbers(file, lines, line);
+    if (!is_comment(line)) refuse_other_numbers(lines, line);
     take_header_line(lines, line, header);
   }
   throw InputError(file,

@@ -17,7 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 using testing::message_of;
 
-std::vector<Eigen::Vector3d> strips_over(const farm::Farm& farm, const FlightPlanOptions& options) {
+std::vector<Eigen::Vector3d> strips_over(const farm::Farm& farm,
+                                         const flight::StripOptions& options) {
   return plan_strips(site_of(farm), Scene(scene_content(farm)), options);
 }
 
@@ -139,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Headings, StripsOver, ::testing::Values(0.0, 0.4, -1.2,
 
 TEST(FlightPlan, ImpossibleFlightsAreRefused) {
   const farm::Farm farm = plots_on_a_grid(0);
-  const auto refusal = [](const farm::Farm& over, const FlightPlanOptions& options) {
+  const auto refusal = [](const farm::Farm& over, const flight::StripOptions& options) {
     return message_of<InputError>([&] { strips_over(over, options); });
   };
   EXPECT_THAT(refusal(farm, {.altitude_m = 0}), HasSubstr("altitude 0 m must be in [0.5, 120]"));

@@ -83,7 +83,7 @@ TEST(Site, NothingMayReachUpToThePath) {
                        .placed = {sheet_at({0, 0, 0}, 100, 100, PointClass::ground),
                                   sheet_at({0, 0, 0.1}, 20, 1, PointClass::crop),
                                   sheet_at({3, 0.4, 6}, 0.2, 0.2, PointClass::other)}};
-  const FlightPlanOptions options{.altitude_m = 5, .spacing_m = 6, .run_up_m = 1};
+  const flight::StripOptions options{.altitude_m = 5, .spacing_m = 6, .run_up_m = 1};
   const Site site = site_of("w", content);
   EXPECT_THROW(plan_strips(site, Scene(content), options), InputError);
   content.placed[2] = sheet_at({3, 0.8, 6}, 0.2, 0.2, PointClass::other);

@@ -30,9 +30,9 @@ using testing::TemporaryFolder;
 
 void write_pcap(const std::filesystem::path& file, const FlightRecord& flight,
                 std::span<const scan::LabelledPoint> points) {
-  PcapWriter writer(file, flight);
-  writer.write(points);
-  writer.close();
+  const auto writer = create_pcap(file, flight);
+  writer->write(points);
+  writer->close();
 }
 
 struct ReadPcap {

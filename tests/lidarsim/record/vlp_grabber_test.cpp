@@ -44,9 +44,9 @@ std::vector<pcl::PointXYZI> grabbed(const std::filesystem::path& file, std::size
 TEST(VlpGrabber, SeesTheFlightsRangesAndAngles) {
   const FlownScan scan;
   const auto file = scan.folder.path() / "flight.pcap";
-  PcapWriter writer(file, scan.flight);
-  writer.write(scan.points);
-  writer.close();
+  const auto writer = create_pcap(file, scan.flight);
+  writer->write(scan.points);
+  writer->close();
   // It hands a sweep on when the next one begins: the last is not seen. The azimuth is that of the
   // firing sequence, as it does not turn on from laser to laser.
   const std::vector<Measured> all = testing::measured(scan);

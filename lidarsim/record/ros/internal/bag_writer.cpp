@@ -6,6 +6,7 @@
 #include "record/ros/internal/bag_format.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
+#include "scan/record_file.h"
 
 namespace plotscan::record::ros {
 namespace {
@@ -66,16 +67,14 @@ class BagWriter : public FileWriter {
  public:
   BagWriter(const std::filesystem::path& file, std::vector<Topic> topics)
       : out_(file), topics_(std::move(topics)), seen_(topics_.size()) {
-    out_.write(kBagMagic);
-    header_at_ = out_.offset();
-    out_.write(file_header(0));
+    out_.append(beginning(0));
   }
 
   Version version() const override { return Version::ros1; }
 
   void write(std::size_t topic, Time time, std::string_view message) override {
     const auto id = static_cast<std::uint32_t>(topic);
-    if (chunk_.empty()) info_ = {.offset = out_.offset(), .first = time, .last = time, .counts{}};
+    if (chunk_.empty()) info_ = {.offset = out_.size(), .first = time, .last = time, .counts{}};
     if (!seen_[topic]) append_connection(chunk_, id, topics_[topic]);
     seen_[topic] = true;
     TopicIndex& index = index_[id];
@@ -88,24 +87,23 @@ class BagWriter : public FileWriter {
 
   void close() override {
     end_chunk();
-    const std::uint64_t index_at = out_.offset();
+    const std::uint64_t index_at = out_.size();
     std::string tail;
     for (std::size_t topic = 0; topic < topics_.size(); ++topic)
       if (seen_[topic]) append_connection(tail, static_cast<std::uint32_t>(topic), topics_[topic]);
     for (const ChunkInfo& chunk : chunks_) append_chunk_info(tail, chunk);
-    out_.write(tail);
-    out_.overwrite(header_at_, file_header(index_at));
-    out_.close();
+    out_.append(tail);
+    out_.close(beginning(index_at));
   }
 
  private:
-  std::string file_header(std::uint64_t index_at) const {
+  std::string beginning(std::uint64_t index_at) const {
     const auto topics = static_cast<std::uint32_t>(std::ranges::count(seen_, true));
     const Fields header = Fields(BagOp::file_header)
                               .add("index_pos", index_at)
                               .add("conn_count", topics)
                               .add("chunk_count", static_cast<std::uint32_t>(chunks_.size()));
-    std::string bytes;
+    std::string bytes(kBagMagic);
     const std::size_t lengths = 2 * sizeof(std::uint32_t);
     append_record(bytes, header,
                   std::string(kFileHeaderSize - header.bytes().size() - lengths, ' '));
@@ -127,7 +125,7 @@ class BagWriter : public FileWriter {
           index.entries);
       info_.counts[id] = index.count;
     }
-    out_.write(bytes);
+    out_.append(bytes);
     chunks_.push_back(std::move(info_));
     chunk_.clear();
     index_.clear();
@@ -146,10 +144,9 @@ class BagWriter : public FileWriter {
                   counts);
   }
 
-  BinaryOutput out_;
+  scan::RecordFile out_;
   std::vector<Topic> topics_;
   std::vector<bool> seen_;
-  std::uint64_t header_at_ = 0;
   std::string chunk_;
   ChunkInfo info_;
   std::map<std::uint32_t, TopicIndex> index_;  // of the chunk, by topic

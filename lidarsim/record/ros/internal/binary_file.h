@@ -7,7 +7,6 @@
 #include <fstream>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -23,77 +22,6 @@ template <class... Values>
 std::string bytes_of(const Values&... values) {
   return ros::encode(ros::Version::ros1, values...);
 }
-
-// A file written from its beginning to its end.
-class BinaryOutput {
- public:
-  explicit BinaryOutput(const std::filesystem::path& path)
-      : path_(path), out_(path, std::ios::binary) {
-    if (!out_) fail();
-  }
-
-  std::uint64_t offset() const { return offset_; }
-  void write(std::string_view bytes) {
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!out_) fail();
-    offset_ += bytes.size();
-  }
-  // Replaces bytes that were written; what follows still goes to the file's end.
-  void overwrite(std::uint64_t at, std::string_view bytes) {
-    out_.seekp(static_cast<std::streamoff>(at));
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out_.seekp(0, std::ios::end);
-    if (!out_) fail();
-  }
-  void close() {
-    out_.close();
-    if (!out_) fail();
-  }
-
- private:
-  [[noreturn]] void fail() const { throw WriteError(path_); }
-
-  std::filesystem::path path_;
-  std::ofstream out_;
-  std::uint64_t offset_ = 0;
-};
-
-// A file read from its beginning to its end. Throws InputError where it ends too early.
-class BinaryInput {
- public:
-  explicit BinaryInput(const std::filesystem::path& path) : path_(path) {
-    require_file(path);
-    in_.open(path, std::ios::binary);
-    left_ = std::filesystem::file_size(path);
-  }
-
-  std::uint64_t left() const { return left_; }
-  // The next bytes; valid until the next call.
-  std::span<const char> read(std::uint64_t size) {
-    if (size > left_) {
-      fail("is truncated or broken: " + std::to_string(size) + " bytes are promised, " +
-           std::to_string(left_) + " are left");
-    }
-    buffer_.resize(size);
-    in_.read(buffer_.data(), static_cast<std::streamsize>(size));
-    if (!in_) fail("cannot be read to its end");
-    left_ -= size;
-    return buffer_;
-  }
-  template <class Number>
-  Number number() {
-    Number value;
-    std::memcpy(&value, read(sizeof value).data(), sizeof value);
-    return value;
-  }
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(path_, what); }
-
- private:
-  std::filesystem::path path_;
-  std::ifstream in_;
-  std::uint64_t left_ = 0;
-  std::vector<char> buffer_;
-};
 
 // Bytes read from their beginning to their end. Throws InputError where they end too early.
 class RecordReader {
@@ -125,6 +53,41 @@ class RecordReader {
 
  private:
   std::span<const char> bytes_;
+};
+
+// A file read from its beginning to its end. Throws InputError where it ends too early.
+class BinaryInput {
+ public:
+  explicit BinaryInput(const std::filesystem::path& path) : path_(path) {
+    require_file(path);
+    in_.open(path, std::ios::binary);
+    left_ = std::filesystem::file_size(path);
+  }
+
+  std::uint64_t left() const { return left_; }
+  // The next bytes; valid until the next call.
+  std::span<const char> read(std::uint64_t size) {
+    if (size > left_) {
+      fail("is truncated or broken: " + std::to_string(size) + " bytes are promised, " +
+           std::to_string(left_) + " are left");
+    }
+    buffer_.resize(size);
+    in_.read(buffer_.data(), static_cast<std::streamsize>(size));
+    if (!in_) fail("cannot be read to its end");
+    left_ -= size;
+    return buffer_;
+  }
+  template <class Number>
+  Number number() {
+    return RecordReader(read(sizeof(Number))).number<Number>();
+  }
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(path_, what); }
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream in_;
+  std::uint64_t left_ = 0;
+  std::vector<char> buffer_;
 };
 
 }  // namespace plotscan::record

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "record/ros/messages.h"
+#include "scan/fields.h"
 #include "scan/point.h"
 
 namespace plotscan::record {
@@ -41,9 +42,9 @@ class CloudPoints {
   scan::LabelledPoint point(std::size_t index) const;
 
  private:
-  struct Field {
-    std::size_t offset = 0;
-    std::uint8_t datatype = 0;
+  struct Member {
+    const scan::KnownField* known;
+    scan::ScalarField field;
   };
   // How the cloud counts its points' times.
   struct Clock {
@@ -52,17 +53,15 @@ class CloudPoints {
 
     double since_stamp_s(double time) const { return unit_s * time - stamp_s; }
   };
-  std::optional<Field> field(const ros::PointField* found) const;
-  std::optional<Clock> clock_of(const Field& time) const;
-  const std::uint8_t* bytes_of(std::size_t index) const;
-  double number(const std::uint8_t* point, const Field& field) const;
-  template <class Value>
-  void set(Value& value, const std::uint8_t* point, const std::optional<Field>& field) const;
+  scan::ScalarField scalar_of(const ros::PointField& field) const;
+  std::optional<Clock> find_clock() const;
+  double number(std::size_t index, const scan::ScalarField& field) const;
 
   const ros::PointCloud2& cloud_;
   std::size_t size_ = 0;
-  std::optional<Field> x_, y_, z_, intensity_, ring_, time_, return_number_, return_count_, class_,
-      plot_, plant_;
+  std::array<scan::ScalarField, 3> axes_;
+  std::vector<Member> members_;  // but for the time
+  std::optional<scan::ScalarField> time_;
   std::optional<Clock> clock_;  // absent: the cloud has no times that are understood
 };
 

@@ -8,6 +8,7 @@
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/definitions.h"
 #include "record/ros/internal/mcap_format.h"
+#include "scan/record_file.h"
 
 namespace plotscan::record::ros {
 namespace {
@@ -81,7 +82,7 @@ class McapWriter : public FileWriter {
     end_chunk();
     std::string bytes;
     append_record(bytes, McapOp::data_end, bytes_of(data_crc_));
-    out_.write(bytes);
+    out_.append(bytes);
     write_summary();
     out_.close();
   }
@@ -115,7 +116,7 @@ class McapWriter : public FileWriter {
     if (chunk_.empty()) return;
     ChunkIndex chunk{.first_ns = chunk_first_.ns,
                      .last_ns = last_.ns,
-                     .offset = out_.offset(),
+                     .offset = out_.size(),
                      .index_offsets = {},
                      .size = chunk_.size()};
     std::string bytes;
@@ -137,7 +138,7 @@ class McapWriter : public FileWriter {
 
   // The summary: schemas, channels, chunk indexes, statistics, where each group lies, the footer.
   void write_summary() {
-    const std::uint64_t begin = out_.offset();
+    const std::uint64_t begin = out_.size();
     std::string bytes;
     std::string offsets;
     const auto group = [&](McapOp op, const std::string& records) {
@@ -157,7 +158,7 @@ class McapWriter : public FileWriter {
     bytes += offsets;
     bytes += bytes_of(McapOp::footer, kMcapFooterSize, begin, offsets_begin);
     bytes += bytes_of(mcap_crc(bytes));
-    out_.write(bytes + std::string(kMcapMagic));
+    out_.append(bytes + std::string(kMcapMagic));
   }
 
   std::string statistics_record() const {
@@ -187,10 +188,10 @@ class McapWriter : public FileWriter {
 
   void write_data(const std::string& bytes) {
     data_crc_ = mcap_crc(bytes, data_crc_);
-    out_.write(bytes);
+    out_.append(bytes);
   }
 
-  BinaryOutput out_;
+  scan::RecordFile out_;
   std::vector<Topic> topics_;
   std::map<std::string, std::uint16_t> schemas_;  // id by type
   std::vector<std::uint64_t> counts_;             // messages by topic

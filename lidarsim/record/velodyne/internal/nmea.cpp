@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 
 namespace plotscan::record {
 namespace {
@@ -41,17 +41,11 @@ unsigned nmea_checksum(std::string_view characters) {
 }
 
 std::string gprmc(const GpsFix& fix) {
-  const sys_days day = floor<days>(fix.time);
-  const year_month_day date(day);
-  const hh_mm_ss clock(floor<seconds>(fix.time - day));
-  const auto two_digits = [](auto value) { return fmt::format("{:02}", static_cast<int>(value)); };
+  const std::tm clock = fmt::gmtime(floor<seconds>(fix.time.time_since_epoch()).count());
   const std::string text =
-      "GPRMC," + two_digits(clock.hours().count()) + two_digits(clock.minutes().count()) +
-      two_digits(clock.seconds().count()) + (fix.position ? ",A," : ",V,") + position_text(fix) +
-      "," + two_digits(static_cast<unsigned>(date.day())) +
-      two_digits(static_cast<unsigned>(date.month())) +
-      two_digits(static_cast<int>(date.year()) % 100) + ",,," + (fix.position ? "A" : "N");
-  return "$" + text + fmt::format("*{:02X}", nmea_checksum(text));
+      fmt::format("GPRMC,{:%H%M%S},{},{},{:%d%m%y},,,{}", clock, fix.position ? 'A' : 'V',
+                  position_text(fix), clock, fix.position ? 'A' : 'N');
+  return fmt::format("${}*{:02X}", text, nmea_checksum(text));
 }
 
 }  // namespace plotscan::record

@@ -54,18 +54,16 @@ class FrameFile {
   std::unique_ptr<pcap_dumper_t, ClosePcap> file_;
 };
 
-}  // namespace
-
-class PcapWriter::Recording {
+class PcapWriter : public scan::PointWriter {
  public:
-  Recording(const std::filesystem::path& path, const FlightRecord& flight)
+  PcapWriter(const std::filesystem::path& path, const FlightRecord& flight)
       : flight_(flight),
         encoder_(flight_, [this](const SentPacket& packet) { send(packet); }),
         file_(path) {}
 
-  VelodyneEncoder& encoder() { return encoder_; }
+  void write(std::span<const scan::LabelledPoint> points) override { encoder_.write(points); }
 
-  void close() {
+  void close() override {
     encoder_.close();
     file_.close();
   }
@@ -85,15 +83,11 @@ class PcapWriter::Recording {
   std::uint64_t sent_ = 0;
 };
 
-PcapWriter::PcapWriter(const std::filesystem::path& path, const FlightRecord& flight)
-    : recording_(std::make_unique<Recording>(path, flight)) {}
+}  // namespace
 
-PcapWriter::~PcapWriter() = default;
-
-void PcapWriter::write(std::span<const scan::LabelledPoint> points) {
-  recording_->encoder().write(points);
+std::unique_ptr<scan::PointWriter> create_pcap(const std::filesystem::path& path,
+                                               const FlightRecord& flight) {
+  return std::make_unique<PcapWriter>(path, flight);
 }
-
-void PcapWriter::close() { recording_->close(); }
 
 }  // namespace plotscan::record
