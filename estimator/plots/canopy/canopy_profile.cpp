@@ -120,53 +120,63 @@ CanopyProfile profile_along_r(const RowView& view, std::span<const Band> across)
   return profile;
 }
 
-ProfileSums::ProfileSums(const CanopyProfile& profile) {
-  for (auto* sums : {&weight_, &y_, &yy_, &x_, &xx_, &xy_}) sums->assign(1, 0);
+ProfileSums::ProfileSums(const CanopyProfile& profile) : up_to_(1) {
+  up_to_.reserve(profile.mean.size() + 1);
+  Sums sums;
   for (std::size_t i = 0; i < profile.mean.size(); ++i) {
     const double w = profile.weight[i], y = profile.mean[i], x = static_cast<double>(i) + 0.5;
-    weight_.push_back(weight_.back() + w);
-    y_.push_back(y_.back() + w * y);
-    yy_.push_back(yy_.back() + w * y * y);
-    x_.push_back(x_.back() + w * x);
-    xx_.push_back(xx_.back() + w * x * x);
-    xy_.push_back(xy_.back() + w * x * y);
+    sums.weight += w;
+    sums.y += w * y;
+    sums.yy += w * y * y;
+    sums.x += w * x;
+    sums.xx += w * x * x;
+    sums.xy += w * x * y;
+    up_to_.push_back(sums);
   }
 }
 
+ProfileSums::Sums ProfileSums::over(int begin, int end) const {
+  const Sums &low = up_to_[static_cast<std::size_t>(begin)],
+             &high = up_to_[static_cast<std::size_t>(end)];
+  return {.weight = high.weight - low.weight,
+          .y = high.y - low.y,
+          .yy = high.yy - low.yy,
+          .x = high.x - low.x,
+          .xx = high.xx - low.xx,
+          .xy = high.xy - low.xy};
+}
+
 double ProfileSums::mean(int begin, int end) const {
-  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
-  const double weight = weight_[e] - weight_[b];
-  return weight > 0 ? (y_[e] - y_[b]) / weight : 0;
+  const Sums sums = over(begin, end);
+  return sums.weight > 0 ? sums.y / sums.weight : 0;
 }
 
 double ProfileSums::centroid(int begin, int end) const {
-  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
-  const double canopy = y_[e] - y_[b];
-  return canopy > 0 ? (xy_[e] - xy_[b]) / canopy : 0.5 * (begin + end);
+  const Sums sums = over(begin, end);
+  return sums.y > 0 ? sums.xy / sums.y : 0.5 * (begin + end);
 }
 
 double ProfileSums::squares(int begin, int end, double level) const {
-  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
-  return yy_[e] - yy_[b] - 2 * level * (y_[e] - y_[b]) + level * level * (weight_[e] - weight_[b]);
+  const Sums sums = over(begin, end);
+  return sums.yy - 2 * level * sums.y + level * level * sums.weight;
 }
 
 double ProfileSums::squares(int begin, int end, double from, double to) const {
   if (begin >= end) return 0;
-  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
+  const Sums sums = over(begin, end);
   const double slope = (to - from) / (end - begin), start = from - slope * begin;
-  return squares(begin, end, start) - 2 * slope * (xy_[e] - xy_[b]) +
-         2 * start * slope * (x_[e] - x_[b]) + slope * slope * (xx_[e] - xx_[b]);
+  return squares(begin, end, start) - 2 * slope * sums.xy + 2 * start * slope * sums.x +
+         slope * slope * sums.xx;
 }
 
 ProfileSums::Stretch ProfileSums::even(int begin, int end) const {
-  const auto b = static_cast<std::size_t>(begin), e = static_cast<std::size_t>(end);
-  const double weight = weight_[e] - weight_[b], y = y_[e] - y_[b];
-  const double level = weight > 0 ? y / weight : 0;
-  return {level, yy_[e] - yy_[b] - level * y};
+  const Sums sums = over(begin, end);
+  const double level = sums.weight > 0 ? sums.y / sums.weight : 0;
+  return {level, sums.yy - level * sums.y};
 }
 
 void ProfileSums::free_ends(double piece_price) {
-  until_.assign(weight_.size(), 0);
+  until_.assign(up_to_.size(), 0);
   from_ = until_;
   for (int end = 0; end <= cells(); ++end) {
     double least = even(0, end).misfit;

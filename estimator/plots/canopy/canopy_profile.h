@@ -26,7 +26,7 @@ class ProfileSums {
  public:
   explicit ProfileSums(const CanopyProfile& profile);
 
-  int cells() const { return static_cast<int>(weight_.size()) - 1; }
+  int cells() const { return static_cast<int>(up_to_.size()) - 1; }
   // Weighted mean over the cells [begin, end); 0 where none was seen.
   double mean(int begin, int end) const;
   // Where the canopy over the cells has its middle.
@@ -53,7 +53,13 @@ class ProfileSums {
   void free_ends(double piece_price);
 
  private:
-  std::vector<double> weight_, y_, yy_, x_, xx_, xy_;
+  // Weighted sums over cells: of x, a cell's middle, and y, the canopy there.
+  struct Sums {
+    double weight = 0, y = 0, yy = 0, x = 0, xx = 0, xy = 0;
+  };
+  Sums over(int begin, int end) const;
+
+  std::vector<Sums> up_to_;           // by cell: over all before it
   std::vector<double> until_, from_;  // by cell: misfit of free ends; empty where they are even
 };
 

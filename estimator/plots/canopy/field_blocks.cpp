@@ -38,6 +38,8 @@ constexpr double kClosedMean = 0.9, kClosedLeast = 0.7;  // of the well covered 
 // Of another crop, that hang together. Fewer are a plot or two whose gaps leaves close: 20.
 constexpr std::size_t kLeastClosed_blocks = 64;
 
+constexpr int kScannedCells = 5;  // of a block's side
+
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 
 // Counts of heights in bins 10 % wide.
@@ -198,6 +200,23 @@ FieldBlocks::FieldBlocks(std::span<const Eigen::Vector3f> points, double noise_m
                       .top_m = block.heights.quantile(kBlockTop),
                       .highest_m = block.heights.quantile(1)});
   }
+  mark_scanned(points);
+}
+
+void FieldBlocks::mark_scanned(std::span<const Eigen::Vector3f> points) {
+  scanned_.resize(facts_.size() * kScannedCells * kScannedCells);
+  for (const Eigen::Vector3f& point : points)
+    if (point.allFinite() && !facts_[number_of(point)].seldom_seen)
+      scanned_[number_of(point, kScannedCells)] = true;
+}
+
+bool FieldBlocks::is_scanned(const Eigen::Vector2d& place) const {
+  const Eigen::Array2d blocks = ((place - low_) / block_m_).array();
+  const double along_y = static_cast<double>(along_y_);
+  const double along_x = static_cast<double>(facts_.size()) / std::max(1.0, along_y);
+  if ((blocks < 0).any() || blocks.x() >= along_x || blocks.y() >= along_y) return false;
+  const Eigen::Vector3d point(place.x(), place.y(), 0);
+  return scanned_[number_of(point.cast<float>(), kScannedCells)];
 }
 
 Eigen::Vector2d FieldBlocks::middle_of(std::size_t number, int per_side) const {

@@ -43,6 +43,8 @@ class FieldBlocks {
            static_cast<std::size_t>(at.y());
   }
   Eigen::Vector2d middle_of(std::size_t number, int per_side = 1) const;
+  // Whether the cell at a place, 0.2 m wide in blocks of 1 m, was scanned as densely as a field is.
+  bool is_scanned(const Eigen::Vector2d& place) const;
   // The height of the lowest returns that count as no ground.
   double low_m() const { return low_m_; }
   // The heights that the crop may have, most likely first: that below which half of the volume has
@@ -79,10 +81,13 @@ class FieldBlocks {
   std::vector<bool> followed_on(std::vector<bool> closed, double least_cover) const;
   std::vector<bool> with_beside(const std::vector<bool>& closed) const;
 
+  void mark_scanned(std::span<const Eigen::Vector3f> points);
+
   Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
   double block_m_ = 1, low_m_ = 0;
   std::size_t along_y_ = 0;
   std::vector<BlockFacts> facts_;
+  std::vector<bool> scanned_;  // by cell
 };
 
 }  // namespace plotscan::plots

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -36,18 +35,6 @@ void mark_rows(const Lattice& lattice, std::vector<bool>& marked) {
 }
 
 }  // namespace
-
-bool is_cut_off(const Lattice& lattice, const Place& place) {
-  constexpr double kBeside_m = 0.3, kLeastShare = 0.25;
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int beyond = static_cast<int>(std::lround(kBeside_m / lattice.view.cell_m()));
-  const auto share = [&](int ra, int rb, int ca, int cb) {
-    return lattice.view.seen_cells(ra, rb, ca, cb) / std::max(1.0, 1.0 * (rb - ra) * (cb - ca));
-  };
-  const double least = kLeastShare * share(r0, r1, c0, c1);
-  return share(r0 - beyond, r0, c0, c1) < least || share(r1, r1 + beyond, c0, c1) < least ||
-         share(r0, r1, c0 - beyond, c0) < least || share(r0, r1, c1, c1 + beyond) < least;
-}
 
 std::vector<bool> without_edge(const Lattice& lattice) {
   std::vector<bool> marked(lattice.places.size(), false);

@@ -9,9 +9,6 @@
 
 namespace plotscan::plots {
 
-// Whether the ground beyond one of a plot's sides was not scanned.
-bool is_cut_off(const Lattice& lattice, const Place& place);
-
 // By place: whether the canopy of its row or column does not end at one side of the boxes, where
 // that of others does. Such plots are narrower or wider than the others, as guard plots are, or
 // another crop touches them.

@@ -41,11 +41,34 @@ ProfileSums::Stretch gap_between(const ProfileSums& sums, int blur, int end, dou
 // A place where a band may begin, with its level on every profile.
 struct Start {
   int begin = 0;
-  std::vector<Level> levels;
-  double misfit = 0;
-  double cost = 0;   // of the best bands up to this one
-  double least = 0;  // cost of the cheapest start up to this one
-  int before = -1;   // the start before it
+  std::span<const Level> levels = {};
+  double canopy = 0, misfit = 0;  // sums of the levels'
+  double cost = 0;                // of the best bands up to this one
+  double least = 0;               // cost of the cheapest start up to this one
+  int before = -1;                // the start before it
+};
+
+// The levels of starts, one after the other. They stay where they are.
+class Levels {
+ public:
+  Levels(std::span<const ProfileSums> profiles, std::size_t starts) : profiles_(profiles) {
+    levels_.reserve(starts * profiles.size());
+  }
+
+  Start start_at(int begin, const BandShape& shape) {
+    Start start{.begin = begin};
+    for (const ProfileSums& sums : profiles_) {
+      const Level& level = levels_.emplace_back(level_of(sums, shape, begin));
+      start.canopy += level.canopy;
+      start.misfit += level.misfit;
+    }
+    start.levels = std::span(levels_).last(profiles_.size());
+    return start;
+  }
+
+ private:
+  std::span<const ProfileSums> profiles_;
+  std::vector<Level> levels_;
 };
 
 double highest_mean(const ProfileSums& sums, int width) {
@@ -57,40 +80,27 @@ double highest_mean(const ProfileSums& sums, int width) {
 // A band that rises at its begin and falls at its end, on the profiles together.
 bool stands_out(std::span<const ProfileSums> profiles, const BandShape& shape, const Start& start) {
   const int end = start.begin + shape.size;
-  double level = 0, before = 0, after = 0;
-  for (std::size_t i = 0; i < profiles.size(); ++i) {
-    const ProfileSums& sums = profiles[i];
-    level += start.levels[i].canopy;
+  double before = 0, after = 0;
+  for (const ProfileSums& sums : profiles) {
     before += sums.mean(std::max(0, start.begin - shape.blur - 2), start.begin - shape.blur);
     after += sums.mean(end + shape.blur, std::min(sums.cells(), end + shape.blur + 2));
   }
-  return std::max(before, after) < kMostGap * level;
+  return std::max(before, after) < kMostGap * start.canopy;
 }
 
-std::vector<Start> starts_on(std::span<const ProfileSums> profiles, const BandShape& shape) {
+std::vector<Start> starts_on(std::span<const ProfileSums> profiles, const BandShape& shape,
+                             Levels& levels) {
   const int cells = profiles.front().cells();
   double least = 0;
   for (const ProfileSums& sums : profiles)
     least += kLeastLevel * highest_mean(sums, std::min(shape.size, cells));
   std::vector<Start> starts;
   for (int begin = shape.blur + 1; begin + shape.size + shape.blur < cells; ++begin) {
-    Start start{.begin = begin, .levels = {}};
-    double canopy = 0;
-    for (const ProfileSums& sums : profiles) {
-      start.levels.push_back(level_of(sums, shape, begin));
-      start.misfit += start.levels.back().misfit;
-      canopy += start.levels.back().canopy;
-    }
-    if (canopy < least || start.misfit == kNever) continue;
-    if (stands_out(profiles, shape, start)) starts.push_back(std::move(start));
+    const Start start = levels.start_at(begin, shape);
+    if (start.canopy < least || start.misfit == kNever) continue;
+    if (stands_out(profiles, shape, start)) starts.push_back(start);
   }
   return starts;
-}
-
-double level_of(const Start& start) {
-  double level = 0;
-  for (const Level& own : start.levels) level += own.canopy;
-  return level;
 }
 
 // The gap on all profiles together; a null pointer stands for the line's begin or end.
@@ -114,7 +124,7 @@ double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, c
                 const Start* to) {
   const ProfileSums::Stretch gap = gap_between(profiles, shape, from, to);
   const double lower =
-      std::min(from != nullptr ? level_of(*from) : kNever, to != nullptr ? level_of(*to) : kNever);
+      std::min(from != nullptr ? from->canopy : kNever, to != nullptr ? to->canopy : kNever);
   return gap.level > kMostGap * lower ? kNever : gap.misfit;
 }
 
@@ -153,7 +163,8 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
                         int least_gap, double price) {
   Segmentation none{.shape = shape, .begins = {}, .misfit = kNever, .parameters = 0};
   if (shape.size < 2 * shape.blur + 1) return none;
-  std::vector<Start> starts = starts_on(profiles, shape);
+  Levels levels(profiles, static_cast<std::size_t>(profiles.front().cells()));
+  std::vector<Start> starts = starts_on(profiles, shape, levels);
   const double band_price = price * parameters_of_band(profiles.size());
   const int least_step = shape.size + std::max(least_gap, 2 * shape.blur + 1);
   std::size_t others = 0;  // that end before the start
@@ -185,14 +196,11 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
 Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& shape,
                       std::vector<int> begins) {
   Segmentation bands{.shape = shape, .begins = std::move(begins), .misfit = 0, .parameters = 0};
+  Levels levels(profiles, bands.begins.size());
   std::vector<Start> starts;
   for (const int begin : bands.begins) {
-    Start start{.begin = begin, .levels = {}};
-    for (const ProfileSums& sums : profiles) {
-      start.levels.push_back(level_of(sums, shape, begin));
-      bands.misfit += start.levels.back().misfit;
-    }
-    starts.push_back(std::move(start));
+    starts.push_back(levels.start_at(begin, shape));
+    bands.misfit += starts.back().misfit;
   }
   for (std::size_t i = 0; i <= starts.size(); ++i) {
     bands.misfit += gap_between(profiles, shape, i > 0 ? &starts[i - 1] : nullptr,

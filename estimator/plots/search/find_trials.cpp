@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "plots/canopy/field_blocks.h"
+#include "plots/search/internal/scan_edge.h"
 #include "plots/search/internal/told_layout.h"
 #include "plots/search/internal/trial_area.h"
 #include "plots/search/internal/trials_beside.h"
@@ -106,7 +108,8 @@ PlotField trial_told(const ScannedField& field) {
   PlotField told = look_in_all_ways(field).best.field;
   if (is_clear(told)) return told;
   for (const Hints& hints : fewer_hints(field.hints)) {
-    const ScannedField less{field.points, field.noise_m, hints, field.threads, field.ground_error};
+    const ScannedField less{field.points, field.blocks,  field.noise_m,
+                            hints,        field.threads, field.ground_error};
     for (const PlotField& shown :
          hints.tell_layout() ? std::vector{look_in_all_ways(less).best.field} : trials_shown(less))
       if (!shown.plots.empty() && shown.rival.empty() && is_as_told(shown.fit->layout, field.hints))
@@ -115,14 +118,24 @@ PlotField trial_told(const ScannedField& field) {
   return told;
 }
 
+// Marks the plots at which the scanned area ends.
+void mark_cut_off(std::vector<PlotField>& trials, const FieldBlocks& blocks) {
+  const auto is_scanned = [&](const Eigen::Vector2d& place) { return blocks.is_scanned(place); };
+  for (PlotField& trial : trials)
+    for (FoundPlot& plot : trial.plots) plot.cut_off = is_cut_off(plot.box, is_scanned);
+}
+
 }  // namespace
 
 std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, double noise_m,
                                    const Hints& hints, int threads,
                                    const GroundError& ground_error) {
-  const ScannedField field{points, noise_m, hints, threads, ground_error};
-  if (hints.tell_layout()) return {trial_told(field)};
-  return trials_shown(field);
+  const FieldBlocks blocks(points, noise_m, threads);
+  const ScannedField field{points, blocks, noise_m, hints, threads, ground_error};
+  std::vector<PlotField> trials =
+      hints.tell_layout() ? std::vector{trial_told(field)} : trials_shown(field);
+  mark_cut_off(trials, blocks);
+  return trials;
 }
 
 }  // namespace plotscan::plots

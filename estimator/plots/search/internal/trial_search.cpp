@@ -26,7 +26,8 @@ namespace {
 
 constexpr double kAxisCell_m = 0.1;  // of the raster on which the heading is sought
 constexpr double kCell_m = 0.05;
-constexpr double kLeastLeaves_m = 0.12;  // lower are clods and the lowest weeds
+constexpr double kLeastLeaves_m = 0.12;  // lower are clods and the lowest weeds,
+constexpr double kMostOfTop = 0.5;       // but in a crop lower than twice this, leaves too
 constexpr double kLeavesFrom = 0.25;     // of the crop's height: lower may be weeds
 
 constexpr const char* kNoCanopy = "no canopy stands out from the ground here";
@@ -106,7 +107,6 @@ std::vector<FoundPlot> plots_on(const Lattice& lattice, const TrialLayout& layou
                      .box = layout.box(layout.places[i]),
                      .box_error = error,
                      .confidence = field_confidence * clearness,
-                     .cut_off = is_cut_off(lattice, place),
                      .without_edge = edgeless[i]});
   }
   // Whichever axis the search took for that of the rows.
@@ -173,7 +173,8 @@ std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
 Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
                 LineModel model, int threads) {
   const Frame frame = frame_of(axes);
-  const double low_m = std::max(kLeastLeaves_m, 4 * noise_m);
+  const double low_m =
+      std::max(std::min(kLeastLeaves_m, kMostOfTop * field.scale().high_m), 4 * noise_m);
   const double leaves_m = std::max(low_m, kLeavesFrom * field.scale().high_m);
   const std::array scales = {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
@@ -270,9 +271,7 @@ bool explains_all(const Look& look) {
 class TrialSearch {
  public:
   explicit TrialSearch(const ScannedField& scanned)
-      : scanned_(scanned),
-        blocks_(scanned.points, scanned.noise_m, scanned.threads),
-        tops_m_(blocks_.crop_tops_m()) {}
+      : scanned_(scanned), tops_m_(scanned.blocks.crop_tops_m()) {}
 
   void look_in_every_canopy(LineModel model, const std::vector<bool>& others = {}) {
     for (const double top_m : tops_m_) look({.top_m = top_m, .others = others}, model);
@@ -280,7 +279,7 @@ class TrialSearch {
 
   // Another crop may stand beside the plots.
   void look_beside_closed_canopy() {
-    for (const std::vector<bool>& others : blocks_.closed()) {
+    for (const std::vector<bool>& others : scanned_.blocks.closed()) {
       look_in_every_canopy(LineModel::free_ends, others);
       if (holds_most(best())) return;
     }
@@ -292,17 +291,16 @@ class TrialSearch {
 
  private:
   void look(const Crop& crop, LineModel model) {
-    const auto& [points, noise_m, hints, threads, ground_error] = scanned_;
-    const FieldCanopy field(points, blocks_, crop, threads, ground_error);
+    const auto& [points, blocks, noise_m, hints, threads, ground_error] = scanned_;
+    const FieldCanopy field(points, blocks, crop, threads, ground_error);
     const std::vector<Look> looks = looks_at(field, noise_m, hints, model, threads);
     looks_.insert(looks_.end(), looks.begin(), looks.end());
     Look look = clearest(looks);
-    look.field.others_m2 = blocks_.covered_m2(crop.others);
+    look.field.others_m2 = blocks.covered_m2(crop.others);
     if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
   }
 
   const ScannedField& scanned_;
-  FieldBlocks blocks_;
   std::vector<double> tops_m_;
   std::vector<Look> looks_;
   std::optional<Look> best_;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "plots/canopy/field_blocks.h"
 #include "plots/ground_error.h"
 #include "plots/hints.h"
 #include "plots/plot_field.h"
@@ -18,6 +19,7 @@ namespace plotscan::plots {
 // A field as it was scanned, and what is known of it. Keeps references.
 struct ScannedField {
   std::span<const Eigen::Vector3f> points;  // x, y, height above the ground, metres
+  const FieldBlocks& blocks;                // of the points
   double noise_m = 0;                       // sigma of the heights
   const Hints& hints;
   int threads = 1;

@@ -56,22 +56,29 @@ std::vector<Eigen::Vector3f> rest_of(const ScannedField& field, const Trials& tr
   return points_outside(field.points, areas);
 }
 
-ScannedField with_points(ScannedField field, std::span<const Eigen::Vector3f> points) {
-  field.points = points;
-  return field;
+FieldBlocks blocks_of(const ScannedField& field, std::span<const Eigen::Vector3f> points) {
+  return {points, field.noise_m, field.threads};
+}
+
+// The same field with other points, of these blocks.
+ScannedField with_points(const ScannedField& field, std::span<const Eigen::Vector3f> points,
+                         const FieldBlocks& blocks) {
+  return {points, blocks, field.noise_m, field.hints, field.threads, field.ground_error};
 }
 
 // What shows beside the trials, whatever else stands there.
 Look look_beside(const ScannedField& field, const Trials& trials) {
   const std::vector<Eigen::Vector3f> rest = rest_of(field, trials);
-  return look_once(with_points(field, rest));
+  const FieldBlocks blocks = blocks_of(field, rest);
+  return look_once(with_points(field, rest, blocks));
 }
 
 // What shows where some of the trials stand, with all others taken away.
 Look look_at(const ScannedField& field, const Trials& trials,
              const std::vector<const SeenTrial*>& some) {
   const std::vector<Eigen::Vector3f> rest = rest_of(field, trials, some);
-  return look_twice(with_points(field, rest));
+  const FieldBlocks blocks = blocks_of(field, rest);
+  return look_twice(with_points(field, rest, blocks));
 }
 
 // Adds one trial after the other, each in what the ones before leave of the canopy. It need not
@@ -246,7 +253,8 @@ double expected_plots(const std::vector<SeenTrial>& trials) {
 
 std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& looks) {
   const std::vector<Eigen::Vector3f> points = thinned(field.points, kEnoughPerM2);
-  const ScannedField thin = with_points(field, points);
+  const FieldBlocks blocks = blocks_of(field, points);
+  const ScannedField thin = with_points(field, points, blocks);
   Trials best;
   for (const Look& start : starts_of(looks)) {
     if (shows_one_of(best, start)) continue;

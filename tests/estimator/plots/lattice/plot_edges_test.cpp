@@ -87,17 +87,5 @@ TEST(WithoutEdge, IsNoPlotWhereNoSideShowsOne) {
   EXPECT_THAT(without_edge(lattice_of(trial, raster)), Each(false));
 }
 
-// The ground ends 5 cm beyond the last column's sides: there, and nowhere else, plots are cut off.
-TEST(IsCutOff, ArePlotsAtTheEdgeOfTheScan) {
-  const TrialLayout trial = known_trial({0, 0, 0});
-  const Eigen::Vector2d far = trial.box(trial.places.back()).center;
-  const CanopyRaster raster = raster_of(far.x() + 3, far.y() + 0.8, [&](double x, double y) {
-    return in_plot(trial, x, y) ? 0.9 : 0.05;
-  });
-  const Lattice lattice = lattice_of(trial, raster);
-  for (const Place& place : lattice.places)
-    EXPECT_EQ(is_cut_off(lattice, place), place.column == 4) << place.row << ' ' << place.column;
-}
-
 }  // namespace
 }  // namespace plotscan::plots
