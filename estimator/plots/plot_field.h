@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/plot_box.h"
+#include "core/statistics.h"
 #include "core/trial_layout.h"
 
 namespace plotscan::plots {
@@ -31,7 +32,10 @@ struct FieldSigns {
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
   double straightness = 0;   // the same of all canopy in and around them (squareness.h)
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
-  double unevenness = 0;     // spread over mean of the canopy, a square metre at a time, in plots
+  // Scatter of these returns in small patches, in sigmas of the noise (roughness.h); NaN: not
+  // known.
+  double patch_scatter = kNaN;
+  double unevenness = 0;       // spread over mean of the canopy, a square metre at a time, in plots
   double mean_unevenness = 0;  // the same of the plots' mean
   double aspect = 0;           // length of a plot over its width and that width's standard error
   double pitch_m = 0;          // from one plot to the next along their width; 0: no other

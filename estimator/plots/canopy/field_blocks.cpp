@@ -9,11 +9,11 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "core/statistics.h"
+#include "plots/canopy/patch.h"
 
 namespace plotscan::plots {
 namespace {
@@ -63,30 +63,6 @@ class HeightCounts {
   static constexpr double kPerLog = 10.5;  // steps a factor e
   double least_m_;
   std::array<std::uint32_t, 64> counts_{};
-};
-
-// Returns of a patch as if they lay on a plane; metres.
-class Patch {
- public:
-  void add(const Eigen::Vector3f& point) {
-    ++count_;
-    sum_ += point;
-    products_ += point * point.transpose();
-  }
-  float count() const { return count_; }
-  float mean_height() const { return sum_.z() / std::max(1.0F, count_); }
-  // Standard deviation of the returns about the best plane through them, of any orientation.
-  double sd_about_plane() const {
-    const Eigen::Matrix3d covariance =
-        (products_ - sum_ * sum_.transpose() / count_).cast<double>();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, axes.eigenvalues()(0)) / std::max(1.0, count_ - 3.0));
-  }
-
- private:
-  float count_ = 0;
-  Eigen::Vector3f sum_ = Eigen::Vector3f::Zero();
-  Eigen::Matrix3f products_ = Eigen::Matrix3f::Zero();
 };
 
 // Number of patches along a block's side with which the usual patch holds enough returns.

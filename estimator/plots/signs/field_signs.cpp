@@ -21,10 +21,13 @@
 namespace plotscan::plots {
 namespace {
 
-constexpr double kCanopyPiece_m = 1;         // of a plot, in which canopy is taken
-constexpr double kNear_m = 1.5;              // of a plot, where surfaces are looked for
-constexpr double kMostSurface = 0.1;         // walls and roofs: 0.14 and more; crops up to 0.02
-constexpr double kLeastRoughness = 0.08;     // tables: up to 0.02; cars: from 0.03
+constexpr double kCanopyPiece_m = 1;      // of a plot, in which canopy is taken
+constexpr double kNear_m = 1.5;           // of a plot, where surfaces are looked for
+constexpr double kMostSurface = 0.1;      // walls and roofs: 0.14 and more; crops up to 0.02
+constexpr double kLeastRoughness = 0.08;  // tables: up to 0.02; cars: from 0.03
+// In sigmas of the noise. Cars and furniture: 0.8 to 1.0; maize: 1.6 and more, other crops 2.4 (13
+// fields).
+constexpr double kLeastPatchScatter = 1.25;
 constexpr double kRoughnessOfCrops = 0.115;  // and more; a torn sheet: 0.09
 // Length of a plot over its width: longer ones may be rows. Plots of drawn trials: up to 9.0; vine
 // rows, whole or in equal parts: 10.7 and more. But rows of a crop are not wider than this from one
@@ -209,6 +212,7 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
                     double evidence) {
   const Pieces pieces(lattice);
   const Squareness squareness = squareness_of(lattice);
+  const Roughness tops = roughness(lattice, field.points(), noise_m);
   const double sides = std::hypot(lattice.r.size_m, lattice.c.size_m);
   return {.plots = lattice.places.size(),
           .held_share = held_share(lattice),
@@ -216,7 +220,8 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
           .surface_share = field.surface_share(centres_of(lattice), sides / 2 + kNear_m),
           .squareness = squareness.of_outline,
           .straightness = squareness.of_canopy,
-          .roughness = roughness(lattice, field.points(), noise_m),
+          .roughness = tops.of_height,
+          .patch_scatter = tops.in_patches,
           .unevenness = unevenness_of(lattice, pieces),
           .mean_unevenness = spread_over_mean(pieces.of_mean_plot()),
           .aspect = least_aspect(lattice),
@@ -228,7 +233,8 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 }
 
 std::string no_plots_because(const FieldSigns& signs) {
-  if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness)
+  if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness ||
+      signs.patch_scatter < kLeastPatchScatter)
     return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
   if (are_rows(signs) || signs.least_gap_m < kLeastGapSeen_m || signs.gap_cover > kMostGapCover)
     return "rows of a crop or a vineyard lie here, not plots";

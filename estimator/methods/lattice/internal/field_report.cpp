@@ -75,6 +75,7 @@ json signs_json(const plots::FieldSigns& signs) {
           {"pitch_m", signs.pitch_m},
           {"passage", signs.passage},
           {"roughness", signs.roughness},
+          {"patch_scatter", signs.patch_scatter},
           {"unevenness", signs.unevenness},
           {"mean_unevenness", signs.mean_unevenness},
           {"least_gap_m", signs.least_gap_m},

@@ -12,10 +12,19 @@
 
 namespace plotscan::plots {
 
-// Median over the places of the scatter of their upper returns about a plane, over their height.
-// Upper are those above half the height, which is the 95th percentile in the middle four fifths of
-// the place. The sensor's noise, sigma noise_m, is taken out where it is known to be small beside
-// the height. `points` are (x, y, height above the ground), metres. NaN where no place has enough.
-double roughness(const Lattice& lattice, std::span<const Eigen::Vector3f> points, double noise_m);
+// Of the upper returns of places: those above half the height, which is the 95th percentile in the
+// middle four fifths of the place. NaN where no place has enough.
+struct Roughness {
+  // Median over the places of the scatter about a plane, over the height. The sensor's noise is
+  // taken out where it is known to be small beside the height.
+  double of_height = 0;
+  // The same of the median scatter in small patches, each about a plane of its own, in sigmas of
+  // the noise. NaN too where noise may hide the scatter of a canopy.
+  double in_patches = 0;
+};
+
+// `points` are (x, y, height above the ground), metres, with noise of sigma noise_m.
+Roughness roughness(const Lattice& lattice, std::span<const Eigen::Vector3f> points,
+                    double noise_m);
 
 }  // namespace plotscan::plots

@@ -235,6 +235,27 @@ TEST(FieldSigns, DecideWithoutRoughness) {
   EXPECT_EQ(no_plots_because(signs), "");
 }
 
+// Parked cars have steps, as crops are rough; but on their roofs there is no more than noise.
+TEST(FieldSigns, TellCarsFromPlots) {
+  FieldSigns signs{.plots = 36,
+                   .held_share = 0.94,
+                   .filled_share = 0.97,
+                   .surface_share = 0.05,
+                   .squareness = 1.19,
+                   .straightness = 14,
+                   .roughness = 0.128,
+                   .unevenness = 0.3,
+                   .mean_unevenness = 0.16,
+                   .aspect = 2.4,
+                   .least_gap_m = 0.6,
+                   .evidence = 156};
+  EXPECT_EQ(no_plots_because(signs), "") << "where it is not known";
+  signs.patch_scatter = 1.7;
+  EXPECT_EQ(no_plots_because(signs), "");
+  signs.patch_scatter = 1.0;
+  EXPECT_THAT(no_plots_because(signs), ::testing::HasSubstr("smooth surfaces"));
+}
+
 // What would be rows of a crop may be plots that touch, if they hold the canopy.
 TEST(FieldSigns, AllowPlotsThatTouch) {
   FieldSigns signs{.plots = 40,
