@@ -65,6 +65,8 @@ json fit_json(const plots::FieldFit& fit) {
   return report;
 }
 
+json null_if_unknown(double value) { return std::isnan(value) ? json() : json(value); }
+
 json signs_json(const plots::FieldSigns& signs) {
   return {{"held_share", signs.held_share},
           {"filled_share", signs.filled_share},
@@ -74,8 +76,8 @@ json signs_json(const plots::FieldSigns& signs) {
           {"aspect", signs.aspect},
           {"pitch_m", signs.pitch_m},
           {"passage", signs.passage},
-          {"roughness", signs.roughness},
-          {"patch_scatter", signs.patch_scatter},
+          {"roughness", null_if_unknown(signs.roughness)},
+          {"patch_scatter", null_if_unknown(signs.patch_scatter)},
           {"unevenness", signs.unevenness},
           {"mean_unevenness", signs.mean_unevenness},
           {"least_gap_m", signs.least_gap_m},
