@@ -192,7 +192,8 @@ bool FieldBlocks::is_scanned(const Eigen::Vector2d& place) const {
   const double along_x = static_cast<double>(facts_.size()) / std::max(1.0, along_y);
   if ((blocks < 0).any() || blocks.x() >= along_x || blocks.y() >= along_y) return false;
   const Eigen::Vector3d point(place.x(), place.y(), 0);
-  return scanned_[number_of(point.cast<float>(), kScannedCells)];
+  const std::size_t cell = number_of(point.cast<float>(), kScannedCells);
+  return cell < scanned_.size() && scanned_[cell];
 }
 
 Eigen::Vector2d FieldBlocks::middle_of(std::size_t number, int per_side) const {

@@ -62,6 +62,7 @@ void measure_plot(estimate::PlotEstimate& plot, const std::vector<Eigen::Vector3
 void measure_heights(std::vector<estimate::PlotEstimate>& plots, Points raw, Points voxels,
                      const Options& options) {
   std::vector<PlotBox> boxes;
+  boxes.reserve(plots.size());
   for (const estimate::PlotEstimate& plot : plots)
     boxes.push_back(lengthened(plot.box, options.extend_m));
   const auto raw_by_plot = cloud::points_in_boxes(raw, boxes);
