@@ -38,7 +38,7 @@ constexpr double kClosedMean = 0.9, kClosedLeast = 0.7;  // of the well covered 
 // Of another crop, that hang together. Fewer are a plot or two whose gaps leaves close: 20.
 constexpr std::size_t kLeastClosed_blocks = 64;
 
-constexpr int kScannedCells = 5;  // of a block's side
+constexpr int kScannedCells = 20;  // of a block's side
 
 constexpr auto kNoBlock = std::numeric_limits<std::uint32_t>::max();
 

@@ -43,7 +43,8 @@ class FieldBlocks {
            static_cast<std::size_t>(at.y());
   }
   Eigen::Vector2d middle_of(std::size_t number, int per_side = 1) const;
-  // Whether the cell at a place, 0.2 m wide in blocks of 1 m, was scanned as densely as a field is.
+  // Whether the cell at a place, 5 cm wide in blocks of 1 m, has returns; those of a survey's
+  // margin do not count.
   bool is_scanned(const Eigen::Vector2d& place) const;
   // The height of the lowest returns that count as no ground.
   double low_m() const { return low_m_; }

@@ -11,7 +11,7 @@ namespace {
 // The scanned area ends at a side beside which less than this was scanned, of what was in the plot,
 // so far out and also farther: else the shadow of a canopy, or water, lies there.
 constexpr double kLeastScanned = 0.25, kBesidePlot_m = 0.3, kFartherOut_m = 2;
-constexpr double kScannedStep_m = 0.1;
+constexpr double kScannedStep_m = 0.05;
 
 using IsScanned = std::function<bool(const Eigen::Vector2d& place)>;
 

@@ -311,6 +311,14 @@ TEST(FindPlots, FindsPlotsThatAreMuchLower) {
   expect_those(boxes, find_plots(points, 0.02, {}, 2));
 }
 
+// Seedlings of 4 to 12 cm, seen by a sensor of little noise.
+TEST(FindPlots, FindsSeedlings) {
+  const std::vector<PlotBox> boxes = Trial{}.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
+  for (Eigen::Vector3f& point : points) point.z() *= 0.15F;
+  expect_those(boxes, find_plots(points, 0.003, {}, 2));
+}
+
 // Young plants at random in rows of 0.2 x 1.1 m across the plots, with bare ground between: the
 // rows are not the plots.
 TEST(FindPlots, FindsYoungPlotsOfShortRowsAcross) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/search/internal/scan_edge.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "estimator/plots/known_trial.h"
+#include "estimator/plots/trial_cloud.h"
 #include <gtest/gtest.h>
 
 namespace plotscan::plots {
@@ -43,6 +44,15 @@ TEST(IsCutOff, IsNoPlotBesideAGapInTheScan) {
   };
   for (const TrialPlace& place : trial.places)
     EXPECT_FALSE(is_cut_off(trial.box(place), [&](const auto& at) { return !is_water(at); }));
+}
+
+// A cloud that ends 5 cm beyond the outer columns' sides, at y = 5.5 m on either side.
+TEST(IsCutOff, IsSaidOfThePlotsFound) {
+  const PlotField field =
+      find_plots(cloud_over(Trial{.heading_rad = 0}.boxes(), everywhere, 12, 5.55), 0.02, {}, 2);
+  ASSERT_EQ(field.plots.size(), 18u);
+  for (const FoundPlot& plot : field.plots)
+    EXPECT_EQ(plot.cut_off, std::abs(plot.box.center.y()) > 4) << plot.box.center.transpose();
 }
 
 }  // namespace

@@ -61,12 +61,12 @@ TEST(Roughness, IsNotKnownOfFewReturns) {
 
 // A car's roof and bonnet: the plot is rough, but nothing more than noise is in its patches.
 TEST(PatchScatter, OfASteppedSurfaceIsThatOfTheNoise) {
-  constexpr double kNoise_m = 0.01;
+  constexpr double kOfSensor_m = 0.01;
   const TrialLayout trial = known_trial({0, 0});
   const CanopyRaster raster = canopy_of(trial);
-  std::vector<Eigen::Vector3f> points = tops_over(trial, 0, kNoise_m, 2000);
+  std::vector<Eigen::Vector3f> points = tops_over(trial, 0, kOfSensor_m, 2000);
   for (Eigen::Vector3f& point : points) point.z() += std::fmod(point.x(), 1.6F) < 0.8F ? 0.5F : 0;
-  const Roughness tops = roughness(lattice_of(trial, raster), points, kNoise_m);
+  const Roughness tops = roughness(lattice_of(trial, raster), points, kOfSensor_m);
   EXPECT_GT(tops.of_height, 0.1);
   EXPECT_NEAR(tops.in_patches, 1, 0.15);
 }
