@@ -72,15 +72,12 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                            manifest_of(arguments), program.progress("exporting"));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const gazebo::EntityCounts& counts = summary.counts;
-  program.result({{"folder", arguments.output},
-                  {"plants", summary.plants},
-                  {"models", counts.models},
-                  {"links", counts.links},
-                  {"visuals", counts.visuals},
-                  {"collisions", counts.collisions},
-                  {"triangles", counts.triangles},
-                  {"bytes", summary.bytes},
-                  {"seconds", elapsed.count()}});
+  nlohmann::json result = gazebo::counts_json(counts);
+  result.update({{"folder", arguments.output},
+                 {"plants", summary.plants},
+                 {"bytes", summary.bytes},
+                 {"seconds", elapsed.count()}});
+  program.result(result);
   program.say(
       fmt::format("{}: {} plants merged by {}, {:.1f} MB, {} triangles, {} models, {} "
                   "links, {} visuals, {} collisions, in {:.2f} s",
@@ -108,24 +105,20 @@ void add_export_command(Program& program) {
       command, "--merge", arguments->merge,
       "what becomes one model: the plants of a plot (a mesh a material), of a row, or each plant "
       "(slow to load where there are thousands)",
-      kMerges)
-      ->capture_default_str();
+      kMerges);
   add_choice(command, "--lod", arguments->lod,
              "light: plants of at most about 300 triangles; scan: the meshes that lidarsim scans",
-             kDetails)
-      ->capture_default_str();
+             kDetails);
   add_choice(
       command, "--collision", arguments->collision,
       "of the plants: none, a box around each plot's canopy (or each plant), or their meshes; "
       "the terrain always collides",
-      kCollisions)
-      ->capture_default_str();
+      kCollisions);
   command.add_flag("--drone", arguments->drone,
                    "a quadrotor with a VLP-16, and a script that flies it along a trajectory.csv");
   add_choice(command, "--lidar", arguments->lidar,
              "the drone's in Gazebo Classic: gpu sees what is drawn and needs a display; cpu sees "
              "collisions (--collision mesh or box) and needs none",
-             kLidars)
-      ->capture_default_str();
+             kLidars);
   command.add_flag("--force", arguments->force, "replace a world that is already there");
 }

@@ -81,9 +81,8 @@ void say_cultivars(const Program& program, const std::vector<farm::CultivarSumma
     return several_trials ? fmt::format("{:>5}  ", text) : "";
   };
   std::size_t width = std::char_traits<char>::length("cultivar");
-  for (const farm::CultivarSummary& cultivar : cultivars) {
+  for (const farm::CultivarSummary& cultivar : cultivars)
     width = std::max(width, cultivar.name.size());
-  }
   const auto padded = [&](const std::string& name) {
     return name + std::string(width - name.size(), ' ');
   };
@@ -137,9 +136,8 @@ farm::Farm generate_from(const Program& program, const Arguments& arguments) {
 }
 
 void say_notes(const Program& program, const farm::Farm& made) {
-  for (const farm::PlantModel& model : made.models) {
+  for (const farm::PlantModel& model : made.models)
     for (const std::string& note : model.notes) program.say("note: " + note);
-  }
 }
 
 void run_generate(const Program& program, const Arguments& arguments) {

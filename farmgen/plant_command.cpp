@@ -188,7 +188,6 @@ void add_plant_command(Program& program) {
       ->expected(1)
       ->take_all();
   plant.add_option("--detail", arguments->detail, "scan: every leaf's shape; light: few triangles")
-      ->capture_default_str()
       ->check(CLI::IsMember({"scan", "light"}));
   plant.add_flag("--textured", arguments->options.textured,
                  "pictures of the organs' surfaces in place of plain colours");

@@ -41,9 +41,8 @@ void require_no_search(const std::map<std::string, SettingValue>& given,
                        const std::vector<MethodSetting<Options>>& table) {
   for (const MethodSetting<Options>& setting : table) {
     if (setting.searches && given.contains(setting.key))
-      throw InputError(setting.key +
-                       " is of the search for plots; boxes are given, and none is "
-                       "searched for");
+      throw InputError(fmt::format(
+          "{} is of the search for plots; boxes are given, and none is searched for", setting.key));
   }
 }
 
@@ -92,10 +91,9 @@ cloud::FieldCloud field_of(const PointsView& points, const methods::lattice::Opt
 }
 
 void require_classes(const std::vector<int>& classes) {
-  for (const int number : classes) {
+  for (const int number : classes)
     if (number < 0 || number > 255)
       throw InputError(fmt::format("leave_out_classes has {}; ASPRS classes are 0 to 255", number));
-  }
 }
 
 CloudFiles files_of(const EstimateFilesOptions& options) {
@@ -103,8 +101,8 @@ CloudFiles files_of(const EstimateFilesOptions& options) {
   CloudFiles cloud;
   if (const auto unit_m = unit_named(options.units.value_or(""))) cloud.units = {*unit_m, *unit_m};
   if (options.units && !cloud.units)
-    throw InputError("units are " + joined(unit_symbols(), ", ") + "; not \"" + *options.units +
-                     "\"");
+    throw InputError(
+        fmt::format("units are {}; not \"{}\"", joined(unit_symbols(), ", "), *options.units));
   cloud.crs = options.crs;
   cloud.recording = {
       .trajectory = options.trajectory, .sensor = options.sensor, .topic = options.topic};

@@ -5,6 +5,7 @@
 #include "boundary/values.h"
 
 #include "core/data_folder.h"
+#include "core/list_of.h"
 #include "farm/summary.h"
 #include "lidar/make_farm.h"
 #include "score/score.h"
@@ -42,16 +43,14 @@ FarmSummary generate_farm(const std::filesystem::path& description,
 
 std::vector<TruePlot> read_truth(const std::filesystem::path& farm) {
   return boundary::guarded([&] {
-    std::vector<TruePlot> plots;
-    for (const score::TruePlot& plot : score::read_truth(farm)) {
-      plots.push_back({.id = plot.id.text(),
-                       .trial = plot.trial,
-                       .row = plot.row,
-                       .column = plot.column,
-                       .box = boundary::outer(plot.box),
-                       .heights_m = plot.heights_m});
-    }
-    return plots;
+    return list_of(score::read_truth(farm), [](const score::TruePlot& plot) {
+      return TruePlot{.id = plot.id.text(),
+                      .trial = plot.trial,
+                      .row = plot.row,
+                      .column = plot.column,
+                      .box = boundary::outer(plot.box),
+                      .heights_m = plot.heights_m};
+    });
   });
 }
 

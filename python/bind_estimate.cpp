@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bind.h"
+#include "members.h"
 #include "plotscan/clouds.h"
 #include "plotscan/estimate.h"
 #include "points_of.h"
@@ -24,43 +25,23 @@ py::object parsed(const std::string& json) {
 }
 
 void bind_plots(py::module_& module) {
-  py::class_<Box>(module, "Box")
-      .def(py::init<double, double, double, double, double>(), py::arg("center_x_m"),
-           py::arg("center_y_m"), py::arg("width_m"), py::arg("length_m"), py::arg("heading_deg"))
-      .def_readwrite("center_x_m", &Box::center_x_m)
-      .def_readwrite("center_y_m", &Box::center_y_m)
-      .def_readwrite("width_m", &Box::width_m)
-      .def_readwrite("length_m", &Box::length_m)
-      .def_readwrite("heading_deg", &Box::heading_deg);
-  py::class_<BoxError>(module, "BoxError")
-      .def_readonly("along_m", &BoxError::along_m)
-      .def_readonly("across_m", &BoxError::across_m)
-      .def_readonly("width_m", &BoxError::width_m)
-      .def_readonly("length_m", &BoxError::length_m)
-      .def_readonly("heading_deg", &BoxError::heading_deg);
-  py::class_<Height>(module, "Height")
-      .def_readonly("value_m", &Height::value_m)
-      .def_readonly("standard_error_m", &Height::standard_error_m)
-      .def_readonly("low95_m", &Height::low95_m)
-      .def_readonly("high95_m", &Height::high95_m);
-  py::class_<Plot>(module, "Plot")
-      .def_readonly("id", &Plot::id)
-      .def_readonly("trial", &Plot::trial)
-      .def_readonly("row", &Plot::row)
-      .def_readonly("column", &Plot::column)
-      .def_readonly("box", &Plot::box)
-      .def_readonly("box_error", &Plot::box_error)
-      .def_readonly("points", &Plot::points)
-      .def_readonly("heights", &Plot::heights)
-      .def_readonly("confidence", &Plot::confidence)
-      .def_readonly("flags", &Plot::flags);
+  settable(py::class_<Box>(module, "Box")
+               .def(py::init<double, double, double, double, double>(), py::arg("center_x_m"),
+                    py::arg("center_y_m"), py::arg("width_m"), py::arg("length_m"),
+                    py::arg("heading_deg")),
+           PLOTSCAN_MEMBERS(Box, center_x_m, center_y_m, width_m, length_m, heading_deg));
+  readable(py::class_<BoxError>(module, "BoxError"),
+           PLOTSCAN_MEMBERS(BoxError, along_m, across_m, width_m, length_m, heading_deg));
+  readable(py::class_<Height>(module, "Height"),
+           PLOTSCAN_MEMBERS(Height, value_m, standard_error_m, low95_m, high95_m));
+  readable(py::class_<Plot>(module, "Plot"),
+           PLOTSCAN_MEMBERS(Plot, id, trial, row, column, box, box_error, points, heights,
+                            confidence, flags));
 }
 
 void bind_results(py::module_& module) {
-  py::class_<GroundGrid>(module, "GroundGrid")
-      .def_readonly("x_m", &GroundGrid::x_m)
-      .def_readonly("y_m", &GroundGrid::y_m)
-      .def_readonly("cell_m", &GroundGrid::cell_m)
+  readable(py::class_<GroundGrid>(module, "GroundGrid"),
+           PLOTSCAN_MEMBERS(GroundGrid, x_m, y_m, cell_m))
       .def_property_readonly("z_m",
                              [](const py::object& grid) {
                                return grid_array(grid, grid.cast<const GroundGrid&>().z_m);
@@ -68,12 +49,8 @@ void bind_results(py::module_& module) {
       .def_property_readonly("sd_m", [](const py::object& grid) {
         return grid_array(grid, grid.cast<const GroundGrid&>().sd_m);
       });
-  py::class_<FieldEstimate>(module, "FieldEstimate")
-      .def_readonly("method", &FieldEstimate::method)
-      .def_readonly("plots", &FieldEstimate::plots)
-      .def_readonly("why_no_plots", &FieldEstimate::why_no_plots)
-      .def_readonly("ground", &FieldEstimate::ground)
-      .def_readonly("crs", &FieldEstimate::crs)
+  readable(py::class_<FieldEstimate>(module, "FieldEstimate"),
+           PLOTSCAN_MEMBERS(FieldEstimate, method, plots, why_no_plots, ground, crs))
       .def_property_readonly("geojson",
                              [](const FieldEstimate& estimate) { return parsed(estimate.geojson); })
       .def_property_readonly("diagnostics", [](const FieldEstimate& estimate) {
@@ -82,38 +59,14 @@ void bind_results(py::module_& module) {
 }
 
 void bind_options(py::module_& module) {
-  py::class_<Setting>(module, "Setting")
-      .def_readonly("key", &Setting::key)
-      .def_readonly("help", &Setting::help)
-      .def_readonly("usual", &Setting::usual)
-      .def_readonly("choices", &Setting::choices);
-  py::class_<EstimateOptions>(module, "EstimateOptions")
-      .def(py::init<>())
-      .def_readwrite("crop_box", &EstimateOptions::crop_box)
-      .def_readwrite("boxes", &EstimateOptions::boxes)
-      .def_readwrite("settings", &EstimateOptions::settings)
-      .def_readwrite("threads", &EstimateOptions::threads);
-  py::class_<EstimateFilesOptions>(module, "EstimateFilesOptions")
-      .def(py::init<>())
-      .def_readwrite("field", &EstimateFilesOptions::field)
-      .def_readwrite("method", &EstimateFilesOptions::method)
-      .def_readwrite("boxes", &EstimateFilesOptions::boxes)
-      .def_readwrite("id", &EstimateFilesOptions::id)
-      .def_readwrite("units", &EstimateFilesOptions::units)
-      .def_readwrite("crs", &EstimateFilesOptions::crs)
-      .def_readwrite("trajectory", &EstimateFilesOptions::trajectory)
-      .def_readwrite("sensor", &EstimateFilesOptions::sensor)
-      .def_readwrite("mount_rpy_deg", &EstimateFilesOptions::mount_rpy_deg)
-      .def_readwrite("topic", &EstimateFilesOptions::topic)
-      .def_readwrite("leave_out_classes", &EstimateFilesOptions::leave_out_classes)
-      .def_readwrite("first_number", &EstimateFilesOptions::first_number)
-      .def_readwrite("numbering", &EstimateFilesOptions::numbering)
-      .def_readwrite("first_corner", &EstimateFilesOptions::first_corner)
-      .def_readwrite("plot_names", &EstimateFilesOptions::plot_names)
-      .def_readwrite("measured", &EstimateFilesOptions::measured)
-      .def_readwrite("csv", &EstimateFilesOptions::csv)
-      .def_readwrite("seed", &EstimateFilesOptions::seed)
-      .def_readwrite("replace", &EstimateFilesOptions::replace);
+  readable(py::class_<Setting>(module, "Setting"),
+           PLOTSCAN_MEMBERS(Setting, key, help, usual, choices));
+  settable(py::class_<EstimateOptions>(module, "EstimateOptions").def(py::init<>()),
+           PLOTSCAN_MEMBERS(EstimateOptions, crop_box, boxes, settings, threads));
+  settable(py::class_<EstimateFilesOptions>(module, "EstimateFilesOptions").def(py::init<>()),
+           PLOTSCAN_MEMBERS(EstimateFilesOptions, field, method, boxes, id, units, crs, trajectory,
+                            sensor, mount_rpy_deg, topic, leave_out_classes, first_number,
+                            numbering, first_corner, plot_names, measured, csv, seed, replace));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "farmfolder/read_farm.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
@@ -53,10 +54,9 @@ void draw(const Program& program, const PictureArguments& arguments) {
   require_picture(arguments.png, inputs);
   const farm::Farm farm = farmfolder::read_farm(arguments.farm);
   std::vector<PlotBox> boxes;
-  if (arguments.plots) {
+  if (arguments.plots)
     for (const PlotFeature& plot : read_plot_features(plot_map_of(*arguments.plots)))
       boxes.push_back(plot.box);
-  }
   std::optional<fs::path> cloud;
   if (arguments.scan) cloud = file_or_inside(*arguments.scan, "cloud.pcd");
   view::draw_picture(farm, cloud, boxes, arguments.png, arguments.options);
@@ -74,9 +74,8 @@ struct PlantsArguments {
 void draw_plants(const Program& program, const PlantsArguments& arguments) {
   require_picture(arguments.png, arguments.meshes);
   if (!arguments.labels.empty() && arguments.labels.size() != arguments.meshes.size()) {
-    throw InputError("--labels names " + std::to_string(arguments.labels.size()) +
-                     " plants where there are " + std::to_string(arguments.meshes.size()) +
-                     " meshes");
+    throw InputError(fmt::format("--labels names {} plants where there are {} meshes",
+                                 arguments.labels.size(), arguments.meshes.size()));
   }
   mesh::MeshImportOptions import;
   if (!arguments.up.empty()) import.up = arguments.up == "y" ? mesh::UpAxis::y : mesh::UpAxis::z;
@@ -101,9 +100,8 @@ struct EstimateArguments {
 };
 
 estimate::Estimate estimate_with_ground(const fs::path& folder) {
-  if (!fs::is_directory(folder)) {
+  if (!fs::is_directory(folder))
     throw InputError(folder, "is no estimate folder, as estimator run writes it");
-  }
   estimate::Estimate estimate = estimate::read_estimate(folder);
   if (!fs::exists(folder / "ground.asc")) {
     throw InputError(folder,

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/parse.h"
 #include "core/text.h"
 
@@ -17,26 +20,20 @@ std::string Parameter::allowed() const {
 
 const Stage& Cultivar::stage(const std::string& name) const {
   const std::string& wanted = name.empty() ? default_stage : name;
-  std::vector<std::string> known;
-  for (const Stage& each : stages) {
-    if (each.name == wanted) return each;
-    known.push_back(each.name);
-  }
-  throw InputError("stage " + wanted + " is not one of " + crop + "'s, which are " +
-                   joined(known, ", "));
+  const auto found = std::ranges::find(stages, wanted, &Stage::name);
+  if (found != stages.end()) return *found;
+  throw InputError(fmt::format("stage {} is not one of {}'s, which are {}", wanted, crop,
+                               joined(list_of(stages, &Stage::name), ", ")));
 }
 
 namespace {
 
 const Parameter& parameter_named(const Cultivar& cultivar, const std::string& assignment) {
   const std::string name = assignment.substr(0, assignment.find('='));
-  std::vector<std::string> known;
-  for (const Parameter& parameter : cultivar.parameters) {
-    if (name == parameter.name) return parameter;
-    known.push_back(parameter.name);
-  }
-  throw InputError("--set " + assignment + ": " + name + " is not a known key; known are " +
-                   joined(known, ", "));
+  const auto found = std::ranges::find(cultivar.parameters, name, &Parameter::name);
+  if (found != cultivar.parameters.end()) return *found;
+  throw InputError(fmt::format("--set {}: {} is not a known key; known are {}", assignment, name,
+                               joined(list_of(cultivar.parameters, &Parameter::name), ", ")));
 }
 
 double assigned_value(const Parameter& parameter, const std::string& assignment) {
@@ -44,8 +41,8 @@ double assigned_value(const Parameter& parameter, const std::string& assignment)
   const auto value = parsed<double>(std::string_view(assignment).substr(begin));
   if (!value || !parameter.range.contains(*value) ||
       (parameter.whole() && *value != std::floor(*value))) {
-    throw InputError("--set " + assignment + ": " + parameter.name + " is to be " +
-                     parameter.allowed());
+    throw InputError(
+        fmt::format("--set {}: {} is to be {}", assignment, parameter.name, parameter.allowed()));
   }
   return *value;
 }
@@ -73,5 +70,9 @@ double Traits::operator[](const std::string& name) const {
 int Traits::count(const std::string& name) const { return static_cast<int>((*this)[name]); }
 
 double Traits::radians(const std::string& name) const { return plotscan::radians((*this)[name]); }
+
+double Traits::vary(double value, RandomStream& random) const {
+  return value * (1 + (*this)["variation"] * random.uniform(-1, 1));
+}
 
 }  // namespace plotscan::crop

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/random.h"
 #include "core/range.h"
 
 namespace plotscan::crop {
@@ -18,9 +19,9 @@ struct Parameter {
   double value = 0;       // unused where every stage has its own
   bool by_stage = false;  // every stage gives its value
   Range range{};
-  std::string unit;  // "m", "deg", "share", ...; "count": whole numbers
-  std::string meaning;
-  std::string source;
+  std::string unit = {};  // "m", "deg", "share", ...; "count": whole numbers
+  std::string meaning = {};
+  std::string source = {};
 
   bool whole() const { return unit == "count"; }
   // "a whole number in [3, 30]"
@@ -30,12 +31,12 @@ struct Parameter {
 // A growth stage: the parameters that it changes, and published facts of a default plot at it.
 struct Stage {
   std::string name;
-  std::string meaning;
-  std::map<std::string, double> values;  // of the parameters by stage
-  Range height_m{};                      // of the canopy
+  std::string meaning = {};
+  std::map<std::string, double> values = {};  // of the parameters by stage
+  Range height_m{};                           // of the canopy
   Range leaf_area_index{};
   Range leaf_inclination_deg{};  // mean over the leaf area, from the horizontal
-  std::string source;
+  std::string source = {};
 };
 
 // A crop as its file describes it.
@@ -74,6 +75,8 @@ class Traits {
   double operator[](const std::string& name) const;
   int count(const std::string& name) const;
   double radians(const std::string& name) const;  // of a parameter in degrees
+  // The value with the cultivar's `variation` from organ to organ.
+  double vary(double value, RandomStream& random) const;
 
  private:
   std::map<std::string, double> values_;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/csv.h"
+#include "core/list_of.h"
 #include "core/text.h"
 #include "core/yaml_section.h"
 #include "crop/cultivar.h"
@@ -24,7 +25,7 @@ class CultivarFile {
   Cultivar read() {
     const std::string crop = file_.text("crop");
     const std::string wanted = complete_ ? file_.file().stem().string() : cultivar_.crop;
-    if (crop != wanted) file_.fail("crop", "is " + crop + ", but the plant is a " + wanted);
+    if (crop != wanted) file_.fail("crop", "is {}, but the plant is a {}", crop, wanted);
     cultivar_.crop = crop;
     cultivar_.species = text(file_, "species", cultivar_.species);
     if (given("sources")) sources_ = file_.section("sources").keys();
@@ -32,9 +33,8 @@ class CultivarFile {
     if (given("colours")) read_colours(file_.section("colours"));
     if (file_.has("reflectance")) read_reflectance(file_.section("reflectance"));
     if (given("parameters")) read_parameters(file_.section("parameters"));
-    if (given("stages")) {
+    if (given("stages"))
       for (const YamlSection& stage : file_.list("stages", kMostStages)) read_stage(stage);
-    }
     require_values_in_ranges();
     cultivar_.default_stage = text(file_, "default_stage", cultivar_.default_stage);
     stage_named(cultivar_.default_stage, file_, "default_stage");
@@ -63,8 +63,8 @@ class CultivarFile {
     std::string named = text(section, "source", kept);
     const std::string key = named.substr(0, named.find(','));
     if (complete_ && std::find(sources_.begin(), sources_.end(), key) == sources_.end()) {
-      section.fail("source", "\"" + key + "\" is not one of the file's sources, which are " +
-                                 joined(sources_, ", "));
+      section.fail("source", "\"{}\" is not one of the file's sources, which are {}", key,
+                   joined(sources_, ", "));
     }
     return named;
   }
@@ -80,9 +80,8 @@ class CultivarFile {
 
   void read_colours(const YamlSection& colours) {
     for (const std::string& name : colours.keys()) {
-      if (!complete_ && !cultivar_.colours.contains(name)) {
-        colours.fail(name, "is not a material of " + cultivar_.crop);
-      }
+      if (!complete_ && !cultivar_.colours.contains(name))
+        colours.fail(name, "is not a material of {}", cultivar_.crop);
       const std::vector<double> rgb = colours.numbers(name, 3, {0, 1});
       cultivar_.colours[name] = Eigen::Vector3d(rgb[0], rgb[1], rgb[2]).cast<float>();
     }
@@ -90,28 +89,18 @@ class CultivarFile {
 
   void read_reflectance(const YamlSection& reflectance) {
     for (const std::string& name : reflectance.keys()) {
-      if (!cultivar_.colours.contains(name)) {
-        reflectance.fail(name, "is not a material of " + cultivar_.crop);
-      }
+      if (!cultivar_.colours.contains(name))
+        reflectance.fail(name, "is not a material of {}", cultivar_.crop);
       cultivar_.reflectance[name] = static_cast<float>(reflectance.number(name, {0, 1}));
     }
   }
 
   void read_parameters(const YamlSection& parameters) {
-    std::vector<std::string> known;
-    for (const Parameter& each : cultivar_.parameters) known.push_back(each.name);
-    parameters.allow_only(complete_ ? parameters.keys() : known);
+    parameters.allow_only(complete_ ? parameters.keys()
+                                    : list_of(cultivar_.parameters, &Parameter::name));
     for (const std::string& name : parameters.keys()) {
-      if (complete_)
-        cultivar_.parameters.push_back({.name = name,
-                                        .value = 0,
-                                        .by_stage = false,
-                                        .range = kAnyNumber,
-                                        .unit = "",
-                                        .meaning = "",
-                                        .source = ""});
-      const auto parameter = std::find_if(cultivar_.parameters.begin(), cultivar_.parameters.end(),
-                                          [&](const Parameter& each) { return each.name == name; });
+      if (complete_) cultivar_.parameters.push_back({.name = name, .range = kAnyNumber});
+      const auto parameter = std::ranges::find(cultivar_.parameters, name, &Parameter::name);
       read_parameter(parameters.section(name), *parameter);
     }
   }
@@ -119,42 +108,35 @@ class CultivarFile {
   void read_parameter(const YamlSection& section, Parameter& parameter) const {
     parameter.range = range(section, "range", parameter.range, parameter.range);
     const std::string unit = text(section, "unit", parameter.unit);
-    if (!complete_ && unit != parameter.unit) {
-      section.fail("unit", "is " + parameter.unit + ", not " + unit);
-    }
+    if (!complete_ && unit != parameter.unit)
+      section.fail("unit", "is {}, not {}", parameter.unit, unit);
     parameter.unit = unit;
     parameter.meaning = text(section, "meaning", parameter.meaning);
     parameter.source = source(section, parameter.source);
     if (complete_) parameter.by_stage = !section.has("value");
     if (!section.has("value")) return;
-    if (parameter.by_stage) {
-      section.fail("value", "is given by each stage: set it under stages");
-    }
+    if (parameter.by_stage) section.fail("value", "is given by each stage: set it under stages");
     parameter.value = value(section, "value", parameter);
   }
 
   static double value(const YamlSection& section, const std::string& key,
                       const Parameter& parameter) {
     const double number = section.number(key, parameter.range);
-    if (parameter.whole() && number != std::floor(number)) {
-      section.fail(key, "is to be " + parameter.allowed());
-    }
+    if (parameter.whole() && number != std::floor(number))
+      section.fail(key, "is to be {}", parameter.allowed());
     return number;
   }
 
   Stage& stage_named(const std::string& name, const YamlSection& section, const char* key) {
-    const auto stage = std::find_if(cultivar_.stages.begin(), cultivar_.stages.end(),
-                                    [&](const Stage& each) { return each.name == name; });
-    if (stage == cultivar_.stages.end()) {
-      section.fail(key, "\"" + name + "\" is not a stage of " + cultivar_.crop);
-    }
+    const auto stage = std::ranges::find(cultivar_.stages, name, &Stage::name);
+    if (stage == cultivar_.stages.end())
+      section.fail(key, "\"{}\" is not a stage of {}", name, cultivar_.crop);
     return *stage;
   }
 
   void read_stage(const YamlSection& section) {
     const std::string name = section.text("name");
-    if (complete_)
-      cultivar_.stages.push_back(Stage{.name = name, .meaning = "", .values = {}, .source = ""});
+    if (complete_) cultivar_.stages.push_back({.name = name});
     Stage& stage = stage_named(name, section, "name");
     stage.meaning = text(section, "meaning", stage.meaning);
     stage.height_m = range(section, "height_m", {0, 10}, stage.height_m);
@@ -167,9 +149,8 @@ class CultivarFile {
 
   void read_values(const YamlSection& values, Stage& stage) const {
     std::vector<std::string> known;
-    for (const Parameter& parameter : cultivar_.parameters) {
+    for (const Parameter& parameter : cultivar_.parameters)
       if (parameter.by_stage) known.push_back(parameter.name);
-    }
     values.allow_only(known);
     for (const Parameter& parameter : cultivar_.parameters) {
       if (!parameter.by_stage || !(complete_ || values.has(parameter.name))) continue;
@@ -181,9 +162,8 @@ class CultivarFile {
   void require_values_in_ranges() const {
     for (const Parameter& parameter : cultivar_.parameters) {
       if (!parameter.by_stage) require_in_range(parameter, parameter.value);
-      for (const Stage& stage : cultivar_.stages) {
+      for (const Stage& stage : cultivar_.stages)
         if (parameter.by_stage) require_in_range(parameter, stage.values.at(parameter.name));
-      }
     }
   }
 
@@ -191,7 +171,7 @@ class CultivarFile {
     if (parameter.range.contains(value)) return;
     file_.section("parameters")
         .section(parameter.name)
-        .fail("range", "leaves out the crop's value " + format_number(value) + ": give another");
+        .fail("range", "leaves out the crop's value {}: give another", format_number(value));
   }
 
   const YamlSection& file_;

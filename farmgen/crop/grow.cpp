@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crop/grow.h"
 
+#include <fmt/core.h>
+
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
 #include "crop/internal/crop_files.h"
 #include "crop/internal/form.h"
@@ -25,10 +28,9 @@ const std::vector<Crop>& known_crops() {
 }
 
 const Crop& crop_named(const std::string& name) {
-  for (const Crop& crop : known_crops()) {
-    if (name == crop.name) return crop;
-  }
-  throw InputError("crop " + name + " is not known; known are " + joined(crops(), ", "));
+  const auto found = std::ranges::find(known_crops(), name, &Crop::name);
+  if (found != known_crops().end()) return *found;
+  throw InputError(fmt::format("crop {} is not known; known are {}", name, joined(crops(), ", ")));
 }
 
 void grow_organs(Form form, const Traits& traits, std::uint64_t seed, PlantBuilder& plant) {
@@ -44,16 +46,10 @@ void grow_organs(Form form, const Traits& traits, std::uint64_t seed, PlantBuild
 
 }  // namespace
 
-std::vector<std::string> crops() {
-  std::vector<std::string> names;
-  for (const Crop& crop : known_crops()) names.emplace_back(crop.name);
-  return names;
-}
+std::vector<std::string> crops() { return list_of<std::string>(known_crops(), &Crop::name); }
 
 std::vector<std::string> stages(const std::string& crop) {
-  std::vector<std::string> names;
-  for (const Stage& stage : cultivar(crop).stages) names.push_back(stage.name);
-  return names;
+  return list_of(cultivar(crop).stages, &Stage::name);
 }
 
 Cultivar cultivar(const std::string& crop, const std::string& file) {

@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 
 namespace plotscan::crop {
 namespace {
@@ -22,27 +23,22 @@ constexpr double kTextureGrid = 1e-4;
 std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
   count = std::clamp<std::size_t>(count, 2, size);
   std::vector<std::size_t> indices;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i)
     indices.push_back((2 * i * (size - 1) + count - 1) / (2 * (count - 1)));
-  }
   return indices;
 }
 
 template <class Value>
 std::vector<Value> picked(const std::vector<Value>& values,
                           const std::vector<std::size_t>& indices) {
-  std::vector<Value> kept;
-  kept.reserve(indices.size());
-  for (const std::size_t index : indices) kept.push_back(values[index]);
-  return kept;
+  return list_of(indices, [&](std::size_t index) { return values[index]; });
 }
 
 // The share of the path's length at each of its points.
 std::vector<double> length_shares(const std::vector<Vector3d>& path) {
   std::vector<double> shares = {0};
-  for (std::size_t i = 1; i < path.size(); ++i) {
+  for (std::size_t i = 1; i < path.size(); ++i)
     shares.push_back(shares.back() + (path[i] - path[i - 1]).norm());
-  }
   for (double& share : shares) share /= std::max(shares.back(), kGrid_m);
   shares.back() = 1;
   return shares;
@@ -50,8 +46,7 @@ std::vector<double> length_shares(const std::vector<Vector3d>& path) {
 
 // A stalk of no length, as of a leaflet that sits on its petiole.
 bool is_point(const std::vector<Vector3d>& path) {
-  return std::all_of(path.begin(), path.end(),
-                     [&](const Vector3d& point) { return point == path.front(); });
+  return std::ranges::count(path, path.front()) == std::ssize(path);
 }
 
 // The path's direction at a point: of the line between its neighbours.
@@ -68,9 +63,8 @@ Vector3d perpendicular(const Vector3d& vector, const Vector3d& axis) {
 
 double flat_area(const std::vector<Vector3d>& midrib, const std::vector<double>& half_width_m) {
   double area = 0;
-  for (std::size_t i = 1; i < midrib.size(); ++i) {
+  for (std::size_t i = 1; i < midrib.size(); ++i)
     area += (midrib[i] - midrib[i - 1]).norm() * (half_width_m[i] + half_width_m[i - 1]);
-  }
   return area;
 }
 
@@ -220,12 +214,10 @@ void PlantBuilder::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t 
 void PlantBuilder::use(const std::string& material) {
   const auto colour = colours_.find(material);
   check(colour != colours_.end(), "the crop's file has a colour of " + material);
-  const auto same = [&](const mesh::Material& each) { return each.name == material; };
-  const auto found = std::find_if(mesh_.materials.begin(), mesh_.materials.end(), same);
+  const auto found = std::ranges::find(mesh_.materials, material, &mesh::Material::name);
   material_ = static_cast<std::uint16_t>(found - mesh_.materials.begin());
-  if (found == mesh_.materials.end()) {
+  if (found == mesh_.materials.end())
     mesh_.materials.push_back({.name = material, .colour = colour->second, .texture = {}});
-  }
 }
 
 }  // namespace plotscan::crop

@@ -10,14 +10,10 @@
 namespace plotscan::description {
 namespace {
 
-constexpr Range kLatitude = {-89, 89};  // at a pole there is no north
-constexpr Range kLongitude = {-180, 180};
-constexpr Range kAltitude = {-1000, 10000};
-
 Anchor read_anchor(const YamlSection& section) {
-  return {.latitude_deg = section.number("latitude_deg", kLatitude),
-          .longitude_deg = section.number("longitude_deg", kLongitude),
-          .altitude_m = section.number("altitude_m", kAltitude, 0.0)};
+  return {.latitude_deg = section.number("latitude_deg", {-89, 89}),  // at a pole there is no north
+          .longitude_deg = section.number("longitude_deg", {-180, 180}),
+          .altitude_m = section.number("altitude_m", {-1000, 10000}, 0.0)};
 }
 
 planting::LayoutDescription read_layout(const YamlSection& section) {
@@ -37,9 +33,8 @@ void read_explicit_plants(const YamlSection& root, planting::FarmDescription& de
   const YamlSection section = root.section("layout");
   description.layout = read_layout(section);
   read_models(section, description.models);
-  if (!description.trials.empty() && description.layout->plots) {
+  if (!description.trials.empty() && description.layout->plots)
     section.fail("plots", "takes the place of the plot grid; give one of the two");
-  }
 }
 
 }  // namespace

@@ -34,9 +34,8 @@ double placed_height(const PlantModel& model, const Plant& plant, double ground_
       plant.rotation.toRotationMatrix() * plant.scale.asDiagonal().toDenseMatrix();
   const Eigen::RowVector3d up = linear.row(2);
   double highest = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3f& vertex : model.mesh.vertices) {
+  for (const Eigen::Vector3f& vertex : model.mesh.vertices)
     highest = std::max(highest, up.dot(vertex.cast<double>()));
-  }
   return foot + highest;
 }
 
@@ -45,9 +44,8 @@ PlotHeights plot_heights(const std::vector<double>& plant_heights, std::uint64_t
   if (plant_heights.empty()) return {};
   std::vector<double> hand;
   for (const std::size_t plant :
-       sample(plant_heights.size(), kHandMeasured, {seed, random_purpose("plot/hand3"), plot_id})) {
+       sample(plant_heights.size(), kHandMeasured, {seed, random_purpose("plot/hand3"), plot_id}))
     hand.push_back(plant_heights[plant]);
-  }
   return {.mean = mean(plant_heights),
           .max = quantile(plant_heights, 1.0),
           .p50 = quantile(plant_heights, 0.5),

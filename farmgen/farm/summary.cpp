@@ -13,6 +13,8 @@
 #include <Eigen/Geometry>
 
 #include "core/extent.h"
+#include "core/list_of.h"
+#include "core/statistics.h"
 #include "mesh/measure.h"
 
 namespace plotscan::farm {
@@ -20,10 +22,8 @@ namespace {
 
 Spread spread_of(const std::vector<double>& values) {
   if (values.empty()) return {};
-  double total = 0;
-  for (const double value : values) total += value;
-  const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-  return {.min = *least, .mean = total / static_cast<double>(values.size()), .max = *greatest};
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return {.min = least, .mean = mean(values), .max = greatest};
 }
 
 void summarise_terrain(const terrain::Terrain& terrain, FarmSummary& summary) {
@@ -60,9 +60,8 @@ struct CultivarSums {
 
 CultivarSummary summary_of(const CultivarSums& sums) {
   CultivarSummary summary = sums.summary;
-  if (summary.plants > 0) {
+  if (summary.plants > 0)
     summary.height_mean_m = sums.heights_m / static_cast<double>(summary.plants);
-  }
   summary.plants_per_m2 = static_cast<double>(summary.plants) / sums.area_m2;
   summary.leaf_area_index = sums.leaves_m2 / sums.area_m2;
   return summary;
@@ -90,10 +89,7 @@ std::vector<CultivarSummary> summarise_cultivars(const std::vector<Plot>& plots,
     const auto leaves = leaves_m2.find(plot.id);
     if (leaves != leaves_m2.end()) sums.leaves_m2 += leaves->second;
   }
-  std::vector<CultivarSummary> summaries;
-  summaries.reserve(cultivars.size());
-  for (const auto& [place, sums] : cultivars) summaries.push_back(summary_of(sums));
-  return summaries;
+  return list_of(cultivars, [](const auto& entry) { return summary_of(entry.second); });
 }
 
 }  // namespace
@@ -103,10 +99,8 @@ FarmSummary summarise(const Farm& farm) {
   summarise_terrain(farm.terrain, summary);
   const double plots_m2 = summarise_plots(farm.plots, summary);
   summary.models = farm.models.size();
-  std::vector<mesh::ScaledArea> leaves;
-  for (const PlantModel& model : farm.models) {
-    leaves.push_back(mesh::ScaledArea::of_leaves(model.mesh));
-  }
+  const auto leaves = list_of(
+      farm.models, [](const PlantModel& model) { return mesh::ScaledArea::of_leaves(model.mesh); });
   std::vector<double> heights;
   heights.reserve(farm.plants.size());
   PlotLeaves plot_leaves_m2;

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "core/list_of.h"
+
 namespace plotscan::farm {
 
 std::vector<SurfaceClass> classes_of_models(const Farm& farm) {
@@ -11,10 +13,7 @@ std::vector<SurfaceClass> classes_of_models(const Farm& farm) {
     std::optional<SurfaceClass>& label = first.at(plant.model);
     if (!label) label = class_of(plant.kind);
   }
-  std::vector<SurfaceClass> classes;
-  classes.reserve(first.size());
-  for (const auto& label : first) classes.push_back(label.value_or(SurfaceClass::crop));
-  return classes;
+  return list_of(first, [](const auto& label) { return label.value_or(SurfaceClass::crop); });
 }
 
 }  // namespace plotscan::farm

@@ -8,20 +8,25 @@
 #include <string>
 #include <unordered_set>
 
+#include <fmt/core.h>
+
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/plot_features.h"
 #include "core/text_file.h"
 
 namespace plotscan::farmfolder {
 namespace {
 
-struct HeightAttribute {
+template <class Heights>
+struct Attribute {
   const char* name;
-  double farm::PlotHeights::*value;
+  double Heights::*value;
 };
-constexpr std::array<HeightAttribute, 7> kHeights = {
+
+constexpr std::array<Attribute<farm::PlotHeights>, 7> kHeights = {
     {{"height_mean_m", &farm::PlotHeights::mean},
      {"height_max_m", &farm::PlotHeights::max},
      {"height_p50_m", &farm::PlotHeights::p50},
@@ -30,11 +35,7 @@ constexpr std::array<HeightAttribute, 7> kHeights = {
      {"height_p99_m", &farm::PlotHeights::p99},
      {"height_hand3_m", &farm::PlotHeights::hand3}}};
 
-struct CanopyAttribute {
-  const char* name;
-  double farm::CanopyHeights::*value;
-};
-constexpr std::array<CanopyAttribute, 2> kCanopies = {
+constexpr std::array<Attribute<farm::CanopyHeights>, 2> kCanopies = {
     {{"canopy_p95_m", &farm::CanopyHeights::p95}, {"canopy_p99_m", &farm::CanopyHeights::p99}}};
 
 // The attributes of one feature, with errors that name the file and the feature.
@@ -59,12 +60,10 @@ class Attributes {
     return found->get<std::string>();
   }
 
-  std::uint32_t whole(const char* name, double low) const {
+  std::uint32_t whole(const char* name, int low) const {
     const double value = number(name);
-    if (value != std::floor(value) || value < low || value > kMost) {
-      fail(name, "is not a whole number in [" + std::to_string(static_cast<int>(low)) + ", " +
-                     std::to_string(static_cast<std::uint32_t>(kMost)) + "]");
-    }
+    if (value != std::floor(value) || value < low || value > kMost)
+      fail(name, fmt::format("is not a whole number in [{}, {:.0f}]", low, kMost));
     return static_cast<std::uint32_t>(value);
   }
 
@@ -77,22 +76,13 @@ class Attributes {
   static constexpr double kMost = std::numeric_limits<std::int32_t>::max();
 
   [[noreturn]] void fail(const char* name, const std::string& what) const {
-    throw InputError(file_, "feature " + std::to_string(feature_) + ": " + name + " " + what);
+    throw InputError(file_, "feature {}: {} {}", feature_, name, what);
   }
 
   const std::filesystem::path& file_;
   std::size_t feature_;
   const nlohmann::json& values_;
 };
-
-void require_different_ids(const std::filesystem::path& path,
-                           const std::vector<farm::Plot>& plots) {
-  std::unordered_set<std::uint32_t> ids;
-  for (const farm::Plot& plot : plots) {
-    if (!ids.insert(plot.id).second)
-      throw InputError(path, "plot " + std::to_string(plot.id) + " is given twice");
-  }
-}
 
 // The attributes of a plot in truth/plots.geojson, besides its box (docs/farm-format.md).
 nlohmann::json plot_attributes(const farm::Plot& plot) {
@@ -104,9 +94,8 @@ nlohmann::json plot_attributes(const farm::Plot& plot) {
       {"weeds", plot.weed_count},   {"lodging_deg", plot.lodging_rad / kDegrees}};
   if (plot.trial > 0) attributes["trial_number"] = plot.trial;
   for (const auto& [name, value] : kHeights) attributes[name] = plot.heights.*value;
-  if (plot.canopy) {
+  if (plot.canopy)
     for (const auto& [name, value] : kCanopies) attributes[name] = *plot.canopy.*value;
-  }
   return attributes;
 }
 
@@ -119,12 +108,47 @@ std::optional<farm::CanopyHeights> canopy_of(const Attributes& attributes) {
 }
 
 std::vector<PlotFeature> features_of(const std::vector<farm::Plot>& plots) {
-  std::vector<PlotFeature> features;
-  features.reserve(plots.size());
-  for (const farm::Plot& plot : plots) {
-    features.push_back({.box = plot.box, .properties = plot_attributes(plot)});
+  return list_of(plots, [](const farm::Plot& plot) {
+    return PlotFeature{.box = plot.box, .properties = plot_attributes(plot)};
+  });
+}
+
+// The plot with that box at the `place` in its file. If it is not `whole`, its box counts, and
+// numbers that it lacks are replaced.
+farm::Plot plot_of(const Attributes& attributes, const PlotBox& box, std::uint32_t place,
+                   bool whole) {
+  const auto number = [&](const char* name, std::uint32_t otherwise) {
+    return whole ? attributes.whole(name, 1) : attributes.whole_or(name, otherwise);
+  };
+  farm::Plot plot{.id = number("plot_number", place),
+                  .trial = static_cast<int>(attributes.whole_or("trial_number", 0)),
+                  .row = static_cast<int>(number("row_number", 1)),
+                  .column = static_cast<int>(number("col_number", place)),
+                  .box = box,
+                  .plant_count = whole ? attributes.whole("plants", 0) : 0,
+                  .heights = {},
+                  .rep = static_cast<int>(number("rep_number", 1)),
+                  .block = static_cast<int>(number("block_number", 1))};
+  if (whole || attributes.has("accession_name")) plot.accession = attributes.text("accession_name");
+  if (!whole) return plot;
+  plot.missing_plants = attributes.whole("plants_missing", 0);
+  plot.weed_count = attributes.whole("weeds", 0);
+  plot.lodging_rad = attributes.number("lodging_deg") * kDegrees;
+  for (const auto& [name, value] : kHeights) plot.heights.*value = attributes.number(name);
+  plot.canopy = canopy_of(attributes);
+  return plot;
+}
+
+std::vector<farm::Plot> plots_in(const std::filesystem::path& path, bool whole) {
+  std::vector<farm::Plot> plots;
+  std::unordered_set<std::uint32_t> ids;
+  for (const PlotFeature& feature : read_plot_features(path)) {
+    const auto place = static_cast<std::uint32_t>(plots.size() + 1);
+    plots.push_back(plot_of({path, place, feature.properties}, feature.box, place, whole));
   }
-  return features;
+  for (const farm::Plot& plot : plots)
+    if (!ids.insert(plot.id).second) throw InputError(path, "plot {} is given twice", plot.id);
+  return plots;
 }
 
 }  // namespace
@@ -142,51 +166,11 @@ void write_plots_wgs84(const std::filesystem::path& path, const std::vector<farm
 }
 
 std::vector<farm::Plot> read_plots(const std::filesystem::path& path) {
-  std::vector<farm::Plot> plots;
-  for (const PlotFeature& feature : read_plot_features(path)) {
-    const Attributes attributes(path, plots.size() + 1, feature.properties);
-    farm::Plot plot{.id = attributes.whole("plot_number", 1),
-                    .trial = static_cast<int>(attributes.whole_or("trial_number", 0)),
-                    .row = static_cast<int>(attributes.whole("row_number", 1)),
-                    .column = static_cast<int>(attributes.whole("col_number", 1)),
-                    .box = feature.box,
-                    .plant_count = attributes.whole("plants", 0),
-                    .heights = {},
-                    .rep = static_cast<int>(attributes.whole("rep_number", 1)),
-                    .block = static_cast<int>(attributes.whole("block_number", 1)),
-                    .accession = attributes.text("accession_name"),
-                    .missing_plants = attributes.whole("plants_missing", 0),
-                    .weed_count = attributes.whole("weeds", 0),
-                    .lodging_rad = attributes.number("lodging_deg") * kDegrees};
-    for (const auto& [name, value] : kHeights) plot.heights.*value = attributes.number(name);
-    plot.canopy = canopy_of(attributes);
-    plots.push_back(std::move(plot));
-  }
-  require_different_ids(path, plots);
-  return plots;
+  return plots_in(path, true);
 }
 
 std::vector<farm::Plot> read_plot_boxes(const std::filesystem::path& path) {
-  std::vector<farm::Plot> plots;
-  for (const PlotFeature& feature : read_plot_features(path)) {
-    const auto place = static_cast<std::uint32_t>(plots.size() + 1);
-    const Attributes attributes(path, place, feature.properties);
-    farm::Plot plot{.id = attributes.whole_or("plot_number", place),
-                    .trial = static_cast<int>(attributes.whole_or("trial_number", 0)),
-                    .row = static_cast<int>(attributes.whole_or("row_number", 1)),
-                    .column = static_cast<int>(attributes.whole_or("col_number", place)),
-                    .box = feature.box,
-                    .plant_count = 0,
-                    .heights = {},
-                    .rep = static_cast<int>(attributes.whole_or("rep_number", 1)),
-                    .block = static_cast<int>(attributes.whole_or("block_number", 1))};
-    if (feature.properties.contains("accession_name")) {
-      plot.accession = attributes.text("accession_name");
-    }
-    plots.push_back(std::move(plot));
-  }
-  require_different_ids(path, plots);
-  return plots;
+  return plots_in(path, false);
 }
 
 void write_trial_layout(const std::filesystem::path& path, const std::string& trial,
@@ -202,9 +186,8 @@ void write_trial_layout(const std::filesystem::path& path, const std::string& tr
     if (several_trials) out << plot.trial << ",";
     out << plot.block << "," << plot.rep << "," << plot.row << "," << plot.column;
     for (const double value : {plot.box.center.x(), plot.box.center.y(), plot.box.width_m,
-                               plot.box.length_m, plot.box.heading_rad / kDegrees}) {
+                               plot.box.length_m, plot.box.heading_rad / kDegrees})
       out << "," << value;
-    }
     out << "\n";
   }
   out.close();

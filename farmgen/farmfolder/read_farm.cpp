@@ -40,7 +40,7 @@ double share_of(const fs::path& folder, const nlohmann::json& value) {
   const auto share = value.get<double>();
   if (share >= 0 && share <= 1) return share;
   throw InputError(folder / "manifest.json",
-                   "results.soil_reflectance is " + value.dump() + "; it is to be in [0, 1]");
+                   "results.soil_reflectance is {}; it is to be in [0, 1]", value.dump());
 }
 
 FarmRecord read_record(const fs::path& folder) {
@@ -87,8 +87,7 @@ std::vector<farm::PlantModel> read_plant_models(const fs::path& folder, const Fa
 void require_count(const fs::path& file, const std::string& what, std::size_t found,
                    std::size_t expected) {
   if (found == expected) return;
-  throw InputError(file, "has " + std::to_string(found) + " " + what + "; the farm has " +
-                             std::to_string(expected));
+  throw InputError(file, "has {} {}; the farm has {}", found, what, expected);
 }
 
 struct PlantCounts {
@@ -104,9 +103,8 @@ void require_consistent(const fs::path& truth, const farm::Farm& farm) {
     if (plant.plot == 0) continue;
     const auto count = counts.find(plant.plot);
     if (count == counts.end()) {
-      throw InputError(truth / "plants.csv", "plant " + std::to_string(plant.id) + " is in plot " +
-                                                 std::to_string(plant.plot) +
-                                                 ", which plots.geojson lacks");
+      throw InputError(truth / "plants.csv", "plant {} is in plot {}, which plots.geojson lacks",
+                       plant.id, plant.plot);
     }
     ++(plant.kind == farm::PlantKind::weed ? count->second.weeds : count->second.crop);
   }

@@ -3,13 +3,15 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
+#include "core/text_file.h"
 
 namespace plotscan::farmfolder {
 namespace {
@@ -20,11 +22,11 @@ constexpr std::size_t kVertexBytes = 3 * sizeof(double);
 constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
 
 std::string header(std::size_t vertices, std::size_t faces) {
-  return "ply\nformat binary_little_endian 1.0\ncomment metres, x east, y north, z up\n"
-         "element vertex " +
-         std::to_string(vertices) +
-         "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-         std::to_string(faces) + "\nproperty list uchar uint vertex_indices\nend_header\n";
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment metres, x east, y north, z up\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      vertices, faces);
 }
 
 // The count in the line "element NAME COUNT"; the line's own text is checked by comparing the whole
@@ -41,16 +43,13 @@ std::size_t element_count(const std::string& text, const std::string& element) {
 
 void write_terrain(const std::filesystem::path& path, const terrain::Terrain& terrain) {
   std::string data = header(terrain.vertices().size(), terrain.triangles().size());
-  for (const Eigen::Vector3d& vertex : terrain.vertices()) {
+  for (const Eigen::Vector3d& vertex : terrain.vertices())
     data.append(reinterpret_cast<const char*>(vertex.data()), kVertexBytes);
-  }
   for (const auto& triangle : terrain.triangles()) {
     data += '\3';
     data.append(reinterpret_cast<const char*>(triangle.data()), kFaceBytes - 1);
   }
-  std::ofstream out(path, std::ios::binary);
-  out.write(data.data(), static_cast<std::streamsize>(data.size()));
-  if (!out.flush()) throw WriteError(path);
+  write_text_file(path, data);
 }
 
 terrain::Terrain read_terrain(const std::filesystem::path& path) {
@@ -58,17 +57,14 @@ terrain::Terrain read_terrain(const std::filesystem::path& path) {
   const std::size_t vertex_count = element_count(data, "vertex");
   const std::size_t face_count = element_count(data, "face");
   const std::string expected = header(vertex_count, face_count);
-  if (!data.starts_with(expected)) {
+  if (!data.starts_with(expected))
     throw InputError(path, "is not a terrain written by farmgen (its PLY header is another)");
-  }
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
   const bool countable = vertex_count <= kMost && face_count <= kMost;
   const std::size_t size = expected.size() + vertex_count * kVertexBytes + face_count * kFaceBytes;
   if (!countable || data.size() != size) {
-    throw InputError(path, "has " + std::to_string(data.size()) + " bytes; its header, with " +
-                               std::to_string(vertex_count) + " vertices and " +
-                               std::to_string(face_count) + " faces, makes " +
-                               std::to_string(size));
+    throw InputError(path, "has {} bytes; its header, with {} vertices and {} faces, makes {}",
+                     data.size(), vertex_count, face_count, size);
   }
   const char* next = data.data() + expected.size();
   std::vector<Eigen::Vector3d> vertices(vertex_count);

@@ -65,9 +65,7 @@ void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceC
   xml.text("pose", sdfxml::sdf_numbers(
                        {box.center.x(), box.center.y(), box.center.z(), 0, 0, box.heading_rad}));
   xml.open("geometry");
-  xml.open("box");
-  xml.text("size", sdfxml::sdf_numbers({box.size.x(), box.size.y(), box.size.z()}));
-  xml.close();
+  xml.texts("box", {{"size", sdfxml::sdf_numbers({box.size.x(), box.size.y(), box.size.z()})}});
   xml.close();
   write_class(xml, label);
   xml.close();

@@ -6,15 +6,13 @@
 #include <utility>
 
 #include "sdfxml/elements.h"
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "core/output_folder.h"
-#include "gazebo/internal/drone.h"
-#include "gazebo/internal/fly_script.h"
-#include "gazebo/internal/readme.h"
 #include "gazebo/internal/world_file.h"
 
 namespace plotscan::gazebo {
@@ -32,8 +30,9 @@ void require_different_names(const farm::Farm& farm, const std::vector<PlantGrou
   for (const PlantGroups& group : groups) taken.insert(group.name);
   for (const farm::PlantModel& model : farm.models) {
     if (!taken.insert(model.name).second) {
-      throw InputError("plant model \"" + model.name +
-                       "\" is called as another model of the world; give it another `name`");
+      throw InputError(fmt::format(
+          "plant model \"{}\" is called as another model of the world; give it another `name`",
+          model.name));
     }
   }
 }
@@ -57,9 +56,7 @@ EntityCounts write_models(const ModelFolder& models, const farm::Farm& farm,
                           const ExportOptions& options, const ProgressReport& progress) {
   EntityCounts counts = write_terrain_model(models, farm);
   counts += write_merged_plants(models, farm, groups, surfaces, options, progress);
-  if (options.drone) {
-    counts += write_drone_model(models, options.lidar, farm.anchor.has_value());
-  }
+  if (options.drone) counts += write_drone_model(models, options.lidar, farm.anchor.has_value());
   return counts;
 }
 
@@ -72,21 +69,9 @@ EntityCounts write_worlds(const fs::path& folder, const World& world) {
 
 std::uint64_t folder_bytes(const fs::path& folder) {
   std::uint64_t bytes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) bytes += entry.file_size();
-  }
   return bytes;
-}
-
-nlohmann::json results_of(const EntityCounts& counts, const farm::Farm& farm) {
-  return {{"name", farm.name},
-          {"plots", farm.plots.size()},
-          {"plants", farm.plants.size()},
-          {"models", counts.models},
-          {"links", counts.links},
-          {"visuals", counts.visuals},
-          {"collisions", counts.collisions},
-          {"triangles", counts.triangles}};
 }
 
 ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
@@ -110,7 +95,9 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
   if (options.drone) write_fly_script(output.path() / "fly_drone.sh", farm.name, options.gazebo);
   write_readme(output.path() / "README.md", farm, options, summary.counts);
   origin.seed = farm.seed;
-  origin.results = results_of(summary.counts, farm);
+  origin.results = counts_json(summary.counts);
+  origin.results.update(
+      {{"name", farm.name}, {"plots", farm.plots.size()}, {"plants", farm.plants.size()}});
   write_manifest(output.path(), origin);
   summary.bytes = folder_bytes(output.path());
   output.commit();

@@ -70,10 +70,9 @@ CollisionBox box_around(const PlantGroup& group, const PlantSurfaces& surfaces) 
     const Eigen::Affine3d box_from_plant = link_from_box.inverse() *
                                            Eigen::Translation3d(-group.origin) *
                                            farm::world_from_plant(*plant);
-    for (const Surface& surface : surfaces.models[plant->model]) {
+    for (const Surface& surface : surfaces.models[plant->model])
       for (const Eigen::Vector3f& v : surface.vertices)
         box.extend(box_from_plant * v.cast<double>());
-    }
   }
   return {.center = link_from_box * box.center(),
           .size = box.sizes(),
@@ -90,10 +89,9 @@ class MergedPlants {
   // The meshes of a link, one a material.
   std::vector<MergedMesh> write_meshes(const std::string& model, const PlantGroup& group) const {
     std::set<std::size_t> materials;
-    for (const farm::Plant* plant : group.plants) {
+    for (const farm::Plant* plant : group.plants)
       for (const Surface& surface : surfaces_.models[plant->model])
         materials.insert(surface.material);
-    }
     std::vector<MergedMesh> meshes;
     meshes.reserve(materials.size());
     for (const std::size_t material : materials)
@@ -129,10 +127,9 @@ class MergedPlants {
     for (const farm::Plant* plant : group.plants) {
       const Eigen::Affine3d link_from_plant =
           Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
-      for (const Surface& surface : surfaces_.models[plant->model]) {
+      for (const Surface& surface : surfaces_.models[plant->model])
         if (surface.material == material)
           obj.add(surface, link_from_plant, one_sided && !surface.closed);
-      }
     }
     obj.close();
     return {.material = material, .file = stem + ".obj", .triangles = obj.triangles()};
@@ -201,6 +198,14 @@ EntityCounts& EntityCounts::operator+=(const EntityCounts& other) {
   collisions += other.collisions;
   triangles += other.triangles;
   return *this;
+}
+
+nlohmann::json counts_json(const EntityCounts& counts) {
+  return {{"models", counts.models},
+          {"links", counts.links},
+          {"visuals", counts.visuals},
+          {"collisions", counts.collisions},
+          {"triangles", counts.triangles}};
 }
 
 std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const farm::Farm& farm,

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "core/progress.h"
 #include "farm/farm.h"
 #include "gazebo/elements.h"
@@ -23,6 +25,9 @@ struct EntityCounts {
 
   EntityCounts& operator+=(const EntityCounts& other);
 };
+
+// The counts as manifests hold them and --json prints them.
+nlohmann::json counts_json(const EntityCounts& counts);
 
 // What a world that is made of single plants has to know of a plant's mesh.
 struct SinglePlant {

@@ -11,7 +11,6 @@
 #include "gazebo/internal/includes.h"
 #include "gazebo/internal/load_world.h"
 #include "gazebo/internal/resources.h"
-#include "gazebo/internal/world_bytes.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -25,10 +24,8 @@ void require_near(const Eigen::AlignedBox3d& box, const Eigen::Affine3d& world_f
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Vector3d place =
         world_from_mesh * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    if (!(place.cwiseAbs().maxCoeff() <= kFarthest_m)) {
-      throw InputError(file, what + " reaches further than " + fmt::format("{:.0f}", kFarthest_m) +
-                                 " m from the origin");
-    }
+    if (!(place.cwiseAbs().maxCoeff() <= kFarthest_m))
+      throw InputError(file, "{} reaches further than {:.0f} m from the origin", what, kFarthest_m);
   }
 }
 
@@ -54,7 +51,7 @@ WorldVisuals load_apart(const fs::path& file, const Includes& includes,
   try {
     return world_visuals_of(bytes);
   } catch (const std::runtime_error& error) {
-    throw InputError(what + ": its reader failed: " + error.what());
+    throw InputError(fmt::format("{}: its reader failed: {}", what, error.what()));
   }
 }
 

@@ -58,9 +58,8 @@ bool is_closed(const Surface& surface) {
 Surface surface_of(const mesh::Mesh& mesh, std::uint16_t material, bool textured) {
   mesh::Mesh part{.vertices = mesh.vertices, .triangles = {}};
   if (textured) part.texture_coordinates = mesh.texture_coordinates;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (mesh.material_of(i) == material) part.triangles.push_back(mesh.triangles[i]);
-  }
   part = mesh::compact(part);
   return {.vertices = std::move(part.vertices),
           .normals = {},

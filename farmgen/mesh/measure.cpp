@@ -17,9 +17,8 @@ bool is_leaf(const Material& material) { return names_leaf(material.name); }
 
 double mesh_height(const Mesh& mesh) {
   double highest = -std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
     highest = std::max(highest, static_cast<double>(vertex.z()));
-  }
   return highest;
 }
 
@@ -30,9 +29,8 @@ ScaledArea::ScaledArea(const Mesh& mesh) {
 ScaledArea ScaledArea::of_leaves(const Mesh& mesh) {
   if (std::none_of(mesh.materials.begin(), mesh.materials.end(), is_leaf)) return ScaledArea(mesh);
   ScaledArea area;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (is_leaf(mesh.materials[mesh.material_of(i)])) area.add(mesh, mesh.triangles[i]);
-  }
   return area;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <stdexcept>
 
+#include <fmt/core.h>
+
 #include "core/bytes.h"
 #include "core/error.h"
 #include "core/isolated.h"
@@ -59,7 +61,7 @@ Mesh read_apart(const std::filesystem::path& path, const std::string& extension,
   } catch (const InputError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    throw InputError(what + ": its reader failed: " + error.what());
+    throw InputError(fmt::format("{}: its reader failed: {}", what, error.what()));
   }
 }
 
@@ -69,14 +71,13 @@ Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& opt
                  std::vector<std::string>* notes) {
   require_file(path);
   const std::string extension = lower_extension(path);
-  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end()) {
+  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
     throw InputError(path, "is not a mesh format that is read: OBJ, DAE, glTF, GLB, PLY, STL");
-  }
   require_glb_length(path);
   Mesh mesh = read_apart(path, extension, options, notes);
   if (mesh.triangles.empty()) {
-    throw InputError(path, "has no triangle with an area" +
-                               (options.object.empty() ? "" : " in an object " + options.object));
+    throw InputError(path, "has no triangle with an area{}",
+                     options.object.empty() ? "" : " in an object " + options.object);
   }
   if (options.foot == MeshFoot::lowest) put_lowest_at_zero(mesh);
   return mesh;

@@ -24,6 +24,8 @@ struct MeshImportOptions {
   double unit_m = 1;
   MeshFoot foot = MeshFoot::origin;
   std::string object = {};  // reads the file's object of this name alone; empty: all
+
+  bool operator==(const MeshImportOptions&) const = default;
 };
 
 // Reads a triangle mesh from an OBJ, DAE, glTF (.gltf, .glb), PLY or STL file. Polygons are

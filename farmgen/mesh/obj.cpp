@@ -15,12 +15,6 @@ namespace {
 // Matt for readers of the plain model and of the physically based one (roughness, metallic).
 constexpr std::string_view kMatt = "Ks 0 0 0\nPr 0.8\nPm 0\n";
 
-void write_image(const std::filesystem::path& folder, const Image& image) {
-  TextFile file(folder / image.name);
-  file << image.bytes;
-  file.close();
-}
-
 void write_triangles(TextFile& out, const Mesh& mesh, std::size_t material) {
   const bool textured = !mesh.texture_coordinates.empty();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -77,8 +71,9 @@ void write_mtl(const std::filesystem::path& path, const std::vector<MtlEntry>& e
 }
 
 void write_images(const std::filesystem::path& folder, const Material& material) {
-  if (material.texture) write_image(folder, *material.texture);
-  if (material.mask) write_image(folder, *material.mask->image());
+  const auto write = [&](const Image& image) { write_text_file(folder / image.name, image.bytes); };
+  if (material.texture) write(*material.texture);
+  if (material.mask) write(*material.mask->image());
 }
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
@@ -94,12 +89,10 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
   TextFile out(path);
   out << "# metres, z up\n";
   if (!names.empty()) out << "mtllib " << library.filename().string() << "\n";
-  for (const Eigen::Vector3f& v : mesh.vertices) {
+  for (const Eigen::Vector3f& v : mesh.vertices)
     out << "v " << v.x() << " " << v.y() << " " << v.z() << "\n";
-  }
-  for (const Eigen::Vector2f& uv : mesh.texture_coordinates) {
+  for (const Eigen::Vector2f& uv : mesh.texture_coordinates)
     out << "vt " << uv.x() << " " << uv.y() << "\n";
-  }
   for (std::size_t material = 0; material < std::max<std::size_t>(1, names.size()); ++material) {
     if (!names.empty()) out << "usemtl " << names[material] << "\n";
     write_triangles(out, mesh, material);

@@ -82,9 +82,8 @@ bool holds(std::string_view name, std::string_view word) {
 }  // namespace
 
 std::optional<float> reflectance_by_name(std::string_view name) {
-  for (const Word& word : kWords) {
+  for (const Word& word : kWords)
     if (holds(name, word.text)) return word.reflectance;
-  }
   return {};
 }
 

@@ -77,9 +77,8 @@ std::vector<Part> parts_of(const Mesh& mesh) {
   std::vector<Part> list;
   for (auto& [key, part] : parts) {
     const std::set<unsigned> own(part.indices.begin(), part.indices.end());
-    for (const unsigned vertex : farthest) {
+    for (const unsigned vertex : farthest)
       if (own.contains(vertex)) part.farthest.push_back(vertex);
-    }
     list.push_back(std::move(part));
   }
   return list;
@@ -118,9 +117,8 @@ double area_of(const std::vector<Eigen::Vector3f>& vertices, const Indices& indi
 
 Indices largest_triangle(const std::vector<Eigen::Vector3f>& vertices, const Indices& indices) {
   std::size_t largest = 0;
-  for (std::size_t i = 3; i + 2 < indices.size(); i += 3) {
+  for (std::size_t i = 3; i + 2 < indices.size(); i += 3)
     if (area_of(vertices, indices, i) > area_of(vertices, indices, largest)) largest = i;
-  }
   return {indices[largest], indices[largest + 1], indices[largest + 2]};
 }
 

@@ -9,15 +9,13 @@
 #include <utility>
 
 #include "farmfolder/plot_table.h"
-#include "planting/internal/plant_layout.h"
-#include "planting/internal/plant_models.h"
-#include "planting/internal/sown_plants.h"
-#include "planting/internal/weeds.h"
+#include "planting/internal/plants.h"
 #include "planting/plot_layout.h"
 #include "terrain/make_terrain.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/stage.h"
 #include "core/statistics.h"
 #include "farm/heights.h"
@@ -25,17 +23,11 @@
 namespace plotscan::planting {
 namespace {
 
-std::vector<PlotBox> boxes_of(const std::vector<farm::Plot>& plots) {
-  std::vector<PlotBox> boxes;
-  boxes.reserve(plots.size());
-  for (const farm::Plot& plot : plots) boxes.push_back(plot.box);
-  return boxes;
-}
-
 terrain::MadeTerrain made_terrain(const FarmDescription& description,
                                   const std::vector<farm::Plot>& plots, std::uint64_t seed) {
   const Stage stage("terrain");
-  return terrain::make_terrain(description.terrain, boxes_of(plots), seed, description.source);
+  return terrain::make_terrain(description.terrain, list_of(plots, &farm::Plot::box), seed,
+                               description.source);
 }
 
 std::vector<farm::PlantModel> made_models(const FarmDescription& description) {
@@ -73,10 +65,8 @@ void require_plots_left(const FarmDescription& description, const std::vector<fa
   for (std::size_t place = 0; place < trials; ++place) {
     if (std::ranges::count(plots, trial_number(place, trials), &farm::Plot::trial) > 0) continue;
     const std::string section = trials > 1 ? "trials." + std::to_string(place) + ".plots" : "plots";
-    throw InputError(description.source,
-                     section + ": all " +
-                         std::to_string(plots_of(description.trials[place].plots)) +
-                         " are missing; a lower missing_rate leaves some");
+    throw InputError(description.source, "{}: all {} are missing; a lower missing_rate leaves some",
+                     section, plots_of(description.trials[place].plots));
   }
 }
 
@@ -90,9 +80,9 @@ void require_plots_apart(const FarmDescription& description, const std::vector<f
   if (!pair) return;
   const std::string two = fmt::format("plots {} and {} overlap", pair->first, pair->second);
   if (is_table) throw InputError(*description.layout->plots, two);
-  throw InputError(description.source, "trials: " + two +
-                                           "; another position_m, or another heading_deg, keeps "
-                                           "the trials apart");
+  throw InputError(description.source,
+                   "trials: {}; another position_m, or another heading_deg, keeps the trials apart",
+                   two);
 }
 
 std::vector<farm::Plot> planted_plots(const std::vector<SownPlot>& sown) {

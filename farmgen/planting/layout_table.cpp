@@ -95,13 +95,12 @@ class LayoutRows {
     Eigen::Vector3d scale;
     for (int axis = 0; axis < 3; ++axis) {
       const auto column = static_cast<Column>(Column::scale_x + axis);
-      if (has(row, column) && has(row, Column::scale)) {
+      if (has(row, column) && has(row, Column::scale))
         row.fail(places_[column], "is given beside scale; give one of the two");
-      }
       scale[axis] = number(row, column, uniform);
       if (kPlantScale.contains(scale[axis])) continue;
-      row.fail(places_[has(row, column) ? column : Column::scale],
-               "is not in " + kPlantScale.text());
+      row.fail(places_[has(row, column) ? column : Column::scale], "is not in {}",
+               kPlantScale.text());
     }
     return scale;
   }
@@ -120,7 +119,7 @@ class LayoutRows {
     if (found == models_.end()) {
       std::string known;
       for (const auto& [name, index] : models_) known += (known.empty() ? "" : ", ") + name;
-      row.fail(places_[Column::model], "is not one of the models " + known);
+      row.fail(places_[Column::model], "is not one of the models {}", known);
     }
     return static_cast<std::uint32_t>(found->second);
   }
@@ -135,8 +134,8 @@ class LayoutRows {
 
   LayoutPlant plant_of(const CsvRow& row, long long expected_id) const {
     if (has(row, Column::id) && row.integer(places_[Column::id], 1, kGreatestId) != expected_id) {
-      row.fail(places_[Column::id], "is not " + std::to_string(expected_id) +
-                                        ": plants are numbered from 1 in the table's order");
+      row.fail(places_[Column::id], "is not {}: plants are numbered from 1 in the table's order",
+               expected_id);
     }
     LayoutPlant plant;
     plant.model = model_of(row);
@@ -146,9 +145,8 @@ class LayoutRows {
       row.fail(places_[Column::z], "is more than 100 km from the world's origin");
     plant.scale = scale_of(row);
     plant.rotation = rotation_of(row);
-    if (has(row, Column::plot)) {
+    if (has(row, Column::plot))
       plant.plot = static_cast<std::uint32_t>(row.integer(places_[Column::plot], 0, kGreatestId));
-    }
     plant.kind = kind_of(row);
     plant.line = row.line();
     return plant;

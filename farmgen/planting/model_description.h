@@ -18,6 +18,8 @@ struct GrownPlant {
   std::string stage;  // empty: the crop's default stage
   std::uint64_t seed = 1;
   std::vector<std::string> assignments = {};  // "key=value"
+
+  bool operator==(const GrownPlant&) const = default;
 };
 
 // An entry of a list of models in farm.yaml (docs/farm-format.md): a mesh file or a grown plant.
@@ -28,6 +30,8 @@ struct ModelDescription {
   std::optional<std::filesystem::path> light = {};  // the same plant in few triangles
   std::optional<GrownPlant> grown = {};             // then there are no files
   std::map<std::string, float> reflectance = {};    // of materials by their names; over the model's
+
+  bool operator==(const ModelDescription&) const = default;
 };
 
 }  // namespace plotscan::planting

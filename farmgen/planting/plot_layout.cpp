@@ -32,13 +32,11 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
   const std::string where = fmt::format("plots: a corner of plot {} at ({}, {})", plot.id,
                                         metres(corner.x()), metres(corner.y()));
   if (outside <= 0)
-    throw InputError(source, where + " lies over a hole in the terrain, or beyond its edge");
+    throw InputError(source, "{} lies over a hole in the terrain, or beyond its edge", where);
   double needed_half_side = 0;
-  for (const farm::Plot& each : plots) {
-    for (const Eigen::Vector2d& point : each.box.corners()) {
+  for (const farm::Plot& each : plots)
+    for (const Eigen::Vector2d& point : each.box.corners())
       needed_half_side = std::max(needed_half_side, point.cwiseAbs().maxCoeff());
-    }
-  }
   throw InputError(
       source, fmt::format("{} lies {} off the terrain, which spans x {} to {}, y {} to {}; these "
                           "plots need a square terrain of side {}, or fewer, smaller or "
@@ -57,11 +55,10 @@ Eigen::Vector2d pitch_of(const PlotGridDescription& grid) {
 // The directions along a row and from row to row, as columns.
 Eigen::Matrix2d axes_of(const PlotGridDescription& grid) {
   Eigen::Matrix2d axes = Eigen::Rotation2Dd(grid.heading_rad).toRotationMatrix();
-  if (grid.pitch) {
+  if (grid.pitch)
     axes << grid.pitch->column_m.normalized(), grid.pitch->row_m.normalized();
-  } else if (grid.skew_rad != 0) {
+  else if (grid.skew_rad != 0)
     axes.col(1) = Eigen::Rotation2Dd(grid.skew_rad) * axes.col(1).eval();
-  }
   return axes;
 }
 
@@ -189,9 +186,8 @@ PlotFinder::PlotFinder(const std::vector<farm::Plot>& plots) : plots_(plots) {
   std::vector<terrain::TriangleGrid::Triangle> triangles;
   for (const farm::Plot& plot : plots) {
     const auto first = static_cast<std::uint32_t>(corners.size());
-    for (const Eigen::Vector2d& corner : plot.box.corners()) {
+    for (const Eigen::Vector2d& corner : plot.box.corners())
       corners.emplace_back(corner.x(), corner.y(), 0);
-    }
     triangles.push_back({first, first + 1, first + 2});
     triangles.push_back({first, first + 2, first + 3});
   }
@@ -201,10 +197,9 @@ PlotFinder::PlotFinder(const std::vector<farm::Plot>& plots) : plots_(plots) {
 std::uint32_t PlotFinder::plot_at(const Eigen::Vector2d& point) const {
   if (!grid_) return 0;
   std::size_t first = plots_.size();
-  for (const std::uint32_t triangle : grid_->candidates(point.x(), point.y())) {
+  for (const std::uint32_t triangle : grid_->candidates(point.x(), point.y()))
     if (plots_[triangle / 2].box.contains(point))
       first = std::min<std::size_t>(first, triangle / 2);
-  }
   return first < plots_.size() ? plots_[first].id : 0;
 }
 

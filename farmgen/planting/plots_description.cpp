@@ -16,9 +16,7 @@ std::uint32_t last_number(const PlotGridDescription& grid) {
 }
 
 std::uint32_t columns_of(const PlotGridDescription& grid) {
-  std::uint32_t columns = 0;
-  for (const PlotRowDescription& row : grid.rows) columns = std::max(columns, row.plots);
-  return columns;
+  return grid.rows.empty() ? 0 : std::ranges::max(grid.rows, {}, &PlotRowDescription::plots).plots;
 }
 
 }  // namespace plotscan::planting

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/random.h"
 
 namespace plotscan::planting {
@@ -15,46 +18,41 @@ std::uint64_t first_index(std::uint32_t trial) { return std::uint64_t{trial} << 
 
 // Every order as likely as another (Fisher and Yates).
 void shuffle(std::vector<std::size_t>& values, RandomStream random) {
-  for (std::size_t left = values.size(); left > 1; --left) {
+  for (std::size_t left = values.size(); left > 1; --left)
     std::swap(values[left - 1], values[random.below(left)]);
-  }
 }
 
 // Blocks of one plot a cultivar, each of plots that follow each other in the order given.
 void number_blocks(const std::vector<farm::Plot*>& plots, std::size_t cultivars) {
   if (plots.size() % cultivars != 0) {
-    throw InputError("makes no whole blocks: " + std::to_string(plots.size()) +
-                     " plots are not a multiple of " + std::to_string(cultivars) +
-                     " cultivars; random and cycle need no blocks");
+    throw InputError(
+        fmt::format("makes no whole blocks: {} plots are not a multiple of {} cultivars; random "
+                    "and cycle need no blocks",
+                    plots.size(), cultivars));
   }
-  for (std::size_t i = 0; i < plots.size(); ++i) {
+  for (std::size_t i = 0; i < plots.size(); ++i)
     plots[i]->block = static_cast<int>(i / cultivars) + 1;
-  }
 }
 
-// Blocks of whole rows or columns, `line` being the plot's.
-void number_blocks_by_lines(std::vector<farm::Plot*> plots, int farm::Plot::*line,
-                            const char* lines, std::size_t cultivars) {
+// Blocks of whole rows or columns: of a `line` of that name.
+void number_blocks_by_lines(std::vector<farm::Plot*> plots, int farm::Plot::*line, const char* name,
+                            std::size_t cultivars) {
   std::stable_sort(plots.begin(), plots.end(),
                    [&](const farm::Plot* a, const farm::Plot* b) { return a->*line < b->*line; });
   number_blocks(plots, cultivars);
   for (std::size_t i = cultivars; i < plots.size(); i += cultivars) {
     const farm::Plot& before = *plots[i - 1];
     if (before.*line != plots[i]->*line) continue;
-    throw InputError("makes no blocks of whole " + std::string(lines) + ": " +
-                     std::to_string(cultivars) + " cultivars end within " +
-                     std::string(lines, std::char_traits<char>::length(lines) - 1) + " " +
-                     std::to_string(before.*line));
+    throw InputError(fmt::format("makes no blocks of whole {0}s: {1} cultivars end within {0} {2}",
+                                 name, cultivars, before.*line));
   }
 }
 
 void make_blocks(BlockBy by, std::size_t cultivars, std::vector<farm::Plot>& plots) {
-  std::vector<farm::Plot*> all;
-  all.reserve(plots.size());
-  for (farm::Plot& plot : plots) all.push_back(&plot);
+  const auto all = list_of(plots, [](farm::Plot& plot) { return &plot; });
   if (by == BlockBy::plots) return number_blocks(all, cultivars);
-  if (by == BlockBy::rows) return number_blocks_by_lines(all, &farm::Plot::row, "rows", cultivars);
-  number_blocks_by_lines(all, &farm::Plot::column, "columns", cultivars);
+  if (by == BlockBy::rows) return number_blocks_by_lines(all, &farm::Plot::row, "row", cultivars);
+  number_blocks_by_lines(all, &farm::Plot::column, "column", cultivars);
 }
 
 // The cultivars of each block in an order of the block's own.
@@ -78,8 +76,8 @@ std::vector<std::size_t> randomised_blocks(const std::vector<farm::Plot>& plots,
 
 std::vector<std::size_t> listed(const DesignDescription& design, std::size_t plots) {
   if (design.list.size() == plots) return design.list;
-  throw InputError("list names the cultivars of " + std::to_string(design.list.size()) +
-                   " plots; the grid has " + std::to_string(plots));
+  throw InputError(fmt::format("list names the cultivars of {} plots; the grid has {}",
+                               design.list.size(), plots));
 }
 
 std::vector<std::size_t> drawn(const DesignDescription& design, std::size_t cultivars,
@@ -92,9 +90,8 @@ std::vector<std::size_t> drawn(const DesignDescription& design, std::size_t cult
   }
   std::vector<std::size_t> assigned(plots.size());
   for (std::size_t i = 0; i < assigned.size(); ++i) assigned[i] = i % cultivars;
-  if (design.design == TrialDesign::random) {
+  if (design.design == TrialDesign::random)
     shuffle(assigned, {seed, random_purpose("trial/random"), first_index(trial)});
-  }
   return assigned;
 }
 

@@ -56,9 +56,8 @@ void write_mesh_geometry(XmlWriter& xml, const std::string& uri, const Eigen::Ve
   xml.open("geometry");
   xml.open("mesh");
   xml.text("uri", uri);
-  if (scale != Eigen::Vector3d::Ones()) {
+  if (scale != Eigen::Vector3d::Ones())
     xml.text("scale", sdf_numbers({scale.x(), scale.y(), scale.z()}));
-  }
   xml.close();
   xml.close();
 }

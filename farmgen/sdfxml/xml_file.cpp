@@ -44,6 +44,13 @@ void XmlWriter::text(const char* element, const std::string& value) {
   close();
 }
 
+void XmlWriter::texts(const char* element,
+                      std::initializer_list<std::pair<const char*, std::string>> values) {
+  open(element);
+  for (const auto& [name, value] : values) text(name, value);
+  close();
+}
+
 XmlFile::XmlFile(const std::filesystem::path& path)
     : XmlFile(path, std::fopen(path.c_str(), "wb")) {}
 

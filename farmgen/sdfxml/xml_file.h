@@ -21,6 +21,9 @@ class XmlWriter {
   void close();
   // <element>value</element>
   void text(const char* element, const std::string& value);
+  // An element that holds such elements.
+  void texts(const char* element,
+             std::initializer_list<std::pair<const char*, std::string>> values);
 
  protected:
   class Printer;

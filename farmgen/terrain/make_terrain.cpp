@@ -7,15 +7,14 @@
 #include <utility>
 
 #include "terrain/extent.h"
-#include "terrain/internal/heightmap.h"
+#include "terrain/internal/bases.h"
 #include "terrain/internal/lattice.h"
-#include "terrain/internal/random_terrain.h"
 #include "terrain/internal/refine.h"
-#include "terrain/internal/xyz_file.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "mesh/mesh_import.h"
 
 namespace plotscan::terrain {
@@ -38,11 +37,10 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 Terrain mesh_terrain(const TerrainDescription& description) {
   const mesh::Mesh mesh = mesh::import_mesh(*description.mesh, description.mesh_options);
-  std::vector<Eigen::Vector3d> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const Eigen::Vector3f& vertex : mesh.vertices) vertices.push_back(vertex.cast<double>());
   try {
-    return {std::move(vertices), mesh.triangles};
+    return {list_of<Eigen::Vector3d>(mesh.vertices,
+                                     [](const Eigen::Vector3f& v) { return v.cast<double>(); }),
+            mesh.triangles};
   } catch (const InputError& error) {
     throw InputError(*description.mesh, error.what());
   }

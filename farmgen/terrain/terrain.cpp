@@ -2,10 +2,13 @@
 #include "terrain/terrain.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
+#include "core/list_of.h"
+#include "core/plot_box.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -18,31 +21,27 @@ using Vertices = std::vector<Eigen::Vector3d>;
 // same.
 constexpr double kEdgeTolerance = 1e-9;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 // Twice the signed area seen from above.
 double double_area(const Vertices& vertices, const Triangle& triangle) {
   const Eigen::Vector2d a = vertices[triangle[0]].head<2>();
   const Eigen::Vector2d b = vertices[triangle[1]].head<2>();
   const Eigen::Vector2d c = vertices[triangle[2]].head<2>();
-  return cross(b - a, c - a);
+  return plane_cross(b - a, c - a);
 }
 
 void require_sound(const Vertices& vertices, const std::vector<Triangle>& triangles) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].allFinite())
-      throw InputError("terrain vertex " + std::to_string(i) + " is not finite");
+      throw InputError(fmt::format("terrain vertex {} is not finite", i));
     if (vertices[i].cwiseAbs().maxCoeff() > kFarthest_m)
-      throw InputError("terrain vertex " + std::to_string(i) +
-                       " is more than 100 km from the farm's centre");
+      throw InputError(
+          fmt::format("terrain vertex {} is more than 100 km from the farm's centre", i));
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t vertex : triangles[i]) {
       if (vertex < vertices.size()) continue;
-      throw InputError("terrain triangle " + std::to_string(i) + " names vertex " +
-                       std::to_string(vertex) + " of " + std::to_string(vertices.size()));
+      throw InputError(
+          fmt::format("terrain triangle {} names vertex {} of {}", i, vertex, vertices.size()));
     }
   }
 }
@@ -52,9 +51,8 @@ std::vector<Triangle> facing_up(const Vertices& vertices, std::vector<Triangle> 
   std::erase_if(triangles,
                 [&](const Triangle& triangle) { return double_area(vertices, triangle) == 0; });
   if (triangles.empty()) throw InputError("terrain has no triangle with an area seen from above");
-  for (Triangle& triangle : triangles) {
+  for (Triangle& triangle : triangles)
     if (double_area(vertices, triangle) < 0) std::swap(triangle[1], triangle[2]);
-  }
   return triangles;
 }
 
@@ -65,7 +63,7 @@ Eigen::Vector3d barycentric(const Vertices& vertices, const Triangle& triangle,
   const Eigen::Vector2d a = vertices[triangle[0]].head<2>() - point;
   const Eigen::Vector2d b = vertices[triangle[1]].head<2>() - point;
   const Eigen::Vector2d c = vertices[triangle[2]].head<2>() - point;
-  const Eigen::Vector3d shares(cross(b, c), cross(c, a), cross(a, b));
+  const Eigen::Vector3d shares(plane_cross(b, c), plane_cross(c, a), plane_cross(a, b));
   return shares / shares.sum();
 }
 
@@ -92,11 +90,10 @@ std::optional<double> Terrain::height(double x, double y) const {
   for (const std::uint32_t index : grid_.candidates(x, y)) {
     const auto [z, share] = place_in(index, point);
     if (!(share >= least_share)) continue;
-    if (share >= 0) {
+    if (share >= 0)
       highest = std::max(z, highest.value_or(z));
-    } else {
+    else
       nearest = z;
-    }
     least_share = std::min(share, 0.0);
   }
   return highest ? highest : nearest;
@@ -115,11 +112,9 @@ std::optional<double> Terrain::height_near(double x, double y, std::uint32_t& tr
 }
 
 mesh::Mesh mesh_of(const Terrain& terrain) {
-  mesh::Mesh mesh{.vertices = {}, .triangles = terrain.triangles()};
-  mesh.vertices.reserve(terrain.vertices().size());
-  for (const Eigen::Vector3d& vertex : terrain.vertices())
-    mesh.vertices.emplace_back(vertex.cast<float>());
-  return mesh;
+  const auto single = [](const Eigen::Vector3d& vertex) { return vertex.cast<float>(); };
+  return {.vertices = list_of<Eigen::Vector3f>(terrain.vertices(), single),
+          .triangles = terrain.triangles()};
 }
 
 }  // namespace plotscan::terrain

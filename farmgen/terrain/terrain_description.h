@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <vector>
 
 #include "mesh/mesh_import.h"
 
@@ -75,8 +74,5 @@ struct TerrainDescription {
   std::optional<std::array<double, 2>> detail_m;
   std::optional<double> reflectance;  // diffuse, at 903 nm, in [0, 1]
 };
-
-// The files that the terrain is made from.
-std::vector<std::filesystem::path> terrain_files(const TerrainDescription& description);
 
 }  // namespace plotscan::terrain

@@ -56,9 +56,8 @@ void for_each_overlapped_cell(const Corners& corners, const std::array<std::uint
     if (range.isEmpty()) continue;
     const std::uint32_t last_column = cell_of(range.max().x() + kMargin, size[0]);
     for (std::uint32_t column = cell_of(range.min().x() - kMargin, size[0]); column <= last_column;
-         ++column) {
+         ++column)
       visit(column, row);
-    }
   }
 }
 
@@ -142,9 +141,8 @@ TriangleGrid::TriangleGrid(const std::vector<Eigen::Vector3d>& vertices,
   std::vector<std::uint32_t> all(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     all[i] = i;
-    for (const std::uint32_t vertex : triangles[i]) {
+    for (const std::uint32_t vertex : triangles[i])
       box.extend(Eigen::Vector2d(vertices[vertex].head<2>()));
-    }
   }
   Builder{*this, vertices, triangles}.divide(box, all, 0);
 }

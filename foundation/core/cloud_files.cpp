@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -49,7 +50,7 @@ std::vector<fs::path> cloud_files_of(const std::vector<fs::path>& paths) {
     if (fs::is_regular_file(path / "cloud.pcd")) {
       files.push_back(path / "cloud.pcd");
     } else if (fs::is_directory(path)) {
-      for (const fs::path& tile : tiles_of(path)) files.push_back(tile);
+      std::ranges::move(tiles_of(path), std::back_inserter(files));
     } else {
       require_file(path);
       files.push_back(path);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "core/list_of.h"
 
 namespace plotscan {
 namespace {
@@ -25,10 +26,7 @@ constexpr std::array<NamedUnit, 5> kNamedUnits = {{{"m", "metres", 1},
 }  // namespace
 
 std::vector<std::string> unit_symbols() {
-  std::vector<std::string> symbols;
-  symbols.reserve(kNamedUnits.size());
-  for (const NamedUnit& unit : kNamedUnits) symbols.emplace_back(unit.symbol);
-  return symbols;
+  return list_of<std::string>(kNamedUnits, &NamedUnit::symbol);
 }
 
 std::optional<double> unit_named(const std::string& symbol) {

@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 // The whole text of a table. It must be UTF-8, since its values go into JSON.
 std::string table_text(const std::filesystem::path& file) {
   const std::string text = read_text(file);
@@ -40,9 +34,8 @@ class TableText {
       : file_(file), text_(table_text(file)), comments_(comments) {
     skip_lines_without_fields();
     const std::string_view header = rest_of_line();
-    for (const char separator : {'\t', ';', ','}) {
+    for (const char separator : {'\t', ';', ','})
       if (header.find(separator) != std::string_view::npos) separator_ = separator;
-    }
   }
 
   // The next record; nothing at the end of the text. InputError if it has not as many fields as the
@@ -59,9 +52,8 @@ class TableText {
     ++line_;
     if (columns_ == 0) columns_ = record.fields.size();
     if (record.fields.size() != columns_) {
-      throw InputError(file_, record.line,
-                       "has " + std::to_string(record.fields.size()) +
-                           " fields; the header names " + std::to_string(columns_));
+      throw InputError(file_, record.line, "has {} fields; the header names {}",
+                       record.fields.size(), columns_);
     }
     return record;
   }
@@ -73,7 +65,7 @@ class TableText {
 
   void skip_lines_without_fields() {
     while (at_ < text_.size()) {
-      const std::string_view line = trimmed(rest_of_line());
+      const std::string_view line = without_blanks(rest_of_line());
       const bool comment = comments_ == Comments::skipped && line.starts_with('#');
       if (!line.empty() && !comment) return;
       at_ = std::min(at_ + rest_of_line().size() + 1, text_.size());
@@ -88,7 +80,7 @@ class TableText {
     const std::size_t end = text_.find_first_of(std::string{separator_, '\n'}, at_);
     const std::string_view text = std::string_view(text_).substr(at_, end - at_);
     at_ = std::min(end, text_.size());
-    return std::string(trimmed(text));
+    return std::string(without_blanks(text));
   }
 
   std::string quoted_field(std::size_t start) {
@@ -98,9 +90,8 @@ class TableText {
       const bool closes = text_[at] == '"' && (at + 1 == text_.size() || text_[at + 1] != '"');
       if (closes) {
         at_ = std::min(text_.find_first_of(std::string{separator_, '\n'}, at), text_.size());
-        if (!trimmed(std::string_view(text_).substr(at + 1, at_ - at - 1)).empty())
-          throw InputError(file_, line_,
-                           "there is text behind the closing quote of \"" + text + '"');
+        if (!without_blanks(std::string_view(text_).substr(at + 1, at_ - at - 1)).empty())
+          throw InputError(file_, line_, "there is text behind the closing quote of \"{}\"", text);
         return text;
       }
       if (text_[at] == '"') ++at;  // a doubled quote stands for one
@@ -123,8 +114,8 @@ void require_own_names(const std::filesystem::path& file, const CsvTable::Line& 
   for (auto name = header.fields.begin(); name != header.fields.end(); ++name) {
     if (name->empty() || std::find(header.fields.begin(), name, *name) != name) {
       throw InputError(file, header.line,
-                       "column " + std::to_string(name - header.fields.begin() + 1) +
-                           " is called \"" + *name + "\"; every column has a name of its own");
+                       "column {} is called \"{}\"; every column has a name of its own",
+                       name - header.fields.begin() + 1, *name);
     }
   }
 }
@@ -138,7 +129,7 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file,
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto found = std::ranges::find(header.fields, wanted[i]);
     if (found == header.fields.end() && i < required)
-      throw InputError(file, header.line, "column \"" + wanted[i] + "\" is missing");
+      throw InputError(file, header.line, "column \"{}\" is missing", wanted[i]);
     places.push_back(found == header.fields.end()
                          ? kAbsent
                          : static_cast<std::size_t>(found - header.fields.begin()));
@@ -146,8 +137,8 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file,
   require_own_names(file, header);
   for (const std::string& name : header.fields) {
     if (std::ranges::find(wanted, name) == wanted.end())
-      throw InputError(file, header.line,
-                       "unknown column \"" + name + "\"; known are " + joined(wanted, ","));
+      throw InputError(file, header.line, "unknown column \"{}\"; known are {}", name,
+                       joined(wanted, ","));
   }
   return places;
 }
@@ -161,14 +152,11 @@ std::string format_number(double value) {
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string field = "\"";
-  for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
-  return field + "\"";
+  return '"' + with_escapes(text, {{'"', "\"\""}}) + '"';
 }
 
 void CsvRow::fail(std::size_t column, const std::string& what) const {
-  throw InputError(file_, line_,
-                   columns_[column] + " \"" + std::string(fields_[column]) + "\" " + what);
+  throw InputError(file_, line_, "{} \"{}\" {}", columns_[column], fields_[column], what);
 }
 
 double CsvRow::number(std::size_t column) const {
@@ -181,9 +169,7 @@ double CsvRow::number(std::size_t column) const {
 long long CsvRow::integer(std::size_t column, long long low, long long high) const {
   const auto value = parsed<long long>(fields_[column]);
   if (!value) fail(column, "is not a whole number");
-  if (*value < low || *value > high) {
-    fail(column, "is not in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
-  }
+  if (*value < low || *value > high) fail(column, "is not in [{}, {}]", low, high);
   return *value;
 }
 
@@ -195,7 +181,7 @@ void read_csv(const std::filesystem::path& file, const std::vector<std::string>&
   TableText records(file, Comments::skipped);
   const std::optional<CsvTable::Line> header = records.next();
   if (!header)
-    throw InputError(file, "is empty; the header line " + joined(columns, ",") + " is expected");
+    throw InputError(file, "is empty; the header line {} is expected", joined(columns, ","));
   const std::vector<std::size_t> places = places_in_header(file, *header, wanted, columns.size());
   std::vector<std::string_view> fields(wanted.size());
   while (const std::optional<CsvTable::Line> record = records.next()) {

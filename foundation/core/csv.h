@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
 namespace plotscan {
 
 // The shortest text that reads back as the same number ("0.1", "1e-07"); "nan" for NaN.
@@ -30,6 +32,11 @@ class CsvRow {
   long long integer(std::size_t column, long long low, long long high) const;
   // InputError naming file, line and the column's name.
   [[noreturn]] void fail(std::size_t column, const std::string& what) const;
+  template <class... Arguments>
+  [[noreturn]] void fail(std::size_t column, fmt::format_string<Arguments...> what,
+                         Arguments&&... arguments) const {
+    fail(column, fmt::vformat(what, fmt::make_format_args(arguments...)));
+  }
 
  private:
   const std::filesystem::path& file_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <dlfcn.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -69,15 +70,17 @@ void require_no_mere_name(const fs::path& name, const fs::path& room) {
     if (entry.path().extension() == ".yaml") shipped.push_back(entry.path().stem().string());
   std::ranges::sort(shipped);
   if (!shipped.empty())
-    throw InputError(name, "no such file, and none of the shipped ones: " + joined(shipped, ", "));
+    throw InputError(name, "no such file, and none of the shipped ones: {}", joined(shipped, ", "));
 }
 
 }  // namespace
 
 fs::path data_folder() {
   if (const auto folder = known_folder()) return *folder;
-  throw InputError("Plotscan's data (worlds, models) lie nowhere near " + own_file().string() +
-                   "; set PLOTSCAN_DATA to their folder, share/plotscan of the installation");
+  throw InputError(
+      fmt::format("Plotscan's data (worlds, models) lie nowhere near {}; set PLOTSCAN_DATA to "
+                  "their folder, share/plotscan of the installation",
+                  own_file().string()));
 }
 
 fs::path found_file(const fs::path& name, const fs::path& room) {

@@ -86,10 +86,8 @@ std::filesystem::path path_inside(const std::filesystem::path& root,
                                   const std::filesystem::path& relative,
                                   const std::filesystem::path& source) {
   const std::filesystem::path normal = relative.lexically_normal();
-  if (normal.empty() || normal.is_absolute() || *normal.begin() == "..") {
-    throw InputError(source,
-                     "path \"" + relative.string() + "\" leaves its folder " + root.string());
-  }
+  if (normal.empty() || normal.is_absolute() || *normal.begin() == "..")
+    throw InputError(source, "path \"{}\" leaves its folder {}", relative.string(), root.string());
   return root / normal;
 }
 

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/core.h>
+
 namespace plotscan {
 
 // Bad input: a file, a line of it, a value, an argument. The message says which one, what is wrong
@@ -17,6 +19,15 @@ class InputError : public std::runtime_error {
   InputError(const std::filesystem::path& file, const std::string& message);
   // "file:line: message", lines counted from 1
   InputError(const std::filesystem::path& file, std::size_t line, const std::string& message);
+  // The same with a message that holds arguments: "has {} fields".
+  template <class... Arguments>
+  InputError(const std::filesystem::path& file, fmt::format_string<Arguments...> message,
+             Arguments&&... arguments)
+      : InputError(file, fmt::vformat(message, fmt::make_format_args(arguments...))) {}
+  template <class... Arguments>
+  InputError(const std::filesystem::path& file, std::size_t line,
+             fmt::format_string<Arguments...> message, Arguments&&... arguments)
+      : InputError(file, line, fmt::vformat(message, fmt::make_format_args(arguments...))) {}
 };
 
 // The input is sound, but nothing that is to be measured can be seen in it. The message says why,

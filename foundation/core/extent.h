@@ -16,10 +16,9 @@ Eigen::AlignedBox2d extent_of(
     const Items& items, const Member& box = {},
     const Eigen::Rotation2Dd& frame_from_world = Eigen::Rotation2Dd::Identity()) {
   Eigen::AlignedBox2d extent;
-  for (const auto& item : items) {
+  for (const auto& item : items)
     for (const Eigen::Vector2d& corner : std::invoke(box, item).corners())
       extent.extend(frame_from_world * corner);
-  }
   return extent;
 }
 

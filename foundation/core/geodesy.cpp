@@ -8,6 +8,7 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <GeographicLib/TransverseMercator.hpp>
 #include <GeographicLib/UTMUPS.hpp>
+#include <fmt/core.h>
 
 #include "core/csv.h"
 #include "core/error.h"
@@ -52,8 +53,9 @@ GeodeticPoint geodetic_from_world(const Anchor& anchor, const Eigen::Vector3d& p
 UtmZone utm_zone(const GeodeticPoint& point) {
   const int number = GeographicLib::UTMUPS::StandardZone(point.latitude_deg, point.longitude_deg);
   if (number < GeographicLib::UTMUPS::MINUTMZONE) {
-    throw InputError("latitude " + format_number(point.latitude_deg) +
-                     " lies outside UTM, which reaches from 80 degrees south to 84 north");
+    throw InputError(
+        fmt::format("latitude {} lies outside UTM, which reaches from 80 degrees south to 84 north",
+                    format_number(point.latitude_deg)));
   }
   return {.number = number, .north = point.latitude_deg >= 0};
 }

@@ -242,7 +242,7 @@ std::string run_isolated(const std::string& what, const IsolationLimits& limits,
   Ending ending = run_until_it_ends(limits, work);
   const bool ended = ending.reception == Reception::whole && WIFEXITED(ending.status) &&
                      WEXITSTATUS(ending.status) == 0 && !ending.received.empty();
-  if (!ended) throw InputError(what + ": its reader " + reason_of(ending, limits));
+  if (!ended) throw InputError(fmt::format("{}: its reader {}", what, reason_of(ending, limits)));
   std::string received = std::move(ending.received);
   const auto outcome = static_cast<Outcome>(received.front());
   received.erase(0, 1);
@@ -252,11 +252,10 @@ std::string run_isolated(const std::string& what, const IsolationLimits& limits,
     case Outcome::bad_input:
       throw InputError(received);
     case Outcome::no_memory:
-      throw InputError(what + ": its reader needs more than " +
-                       fmt::format("{:.1f}", static_cast<double>(limits.memory_bytes) / 1e9) +
-                       " GB of memory");
+      throw InputError(fmt::format("{}: its reader needs more than {:.1f} GB of memory", what,
+                                   static_cast<double>(limits.memory_bytes) / 1e9));
     default:
-      throw InputError(what + ": its reader failed: " + received);
+      throw InputError(fmt::format("{}: its reader failed: {}", what, received));
   }
 }
 

@@ -19,8 +19,7 @@ std::string read_json_text(const std::filesystem::path& path) {
       ++depth;
     else if (!quoted && (text[i] == ']' || text[i] == '}'))
       --depth;
-    if (depth > kDeepest)
-      throw InputError(path, "is nested deeper than " + std::to_string(kDeepest));
+    if (depth > kDeepest) throw InputError(path, "is nested deeper than {}", kDeepest);
   }
   return text;
 }
@@ -34,7 +33,7 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   try {
     return nlohmann::json::parse(read_json_text(path));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(path, "not JSON: " + json_reason(error));
+    throw InputError(path, "not JSON: {}", json_reason(error));
   }
 }
 

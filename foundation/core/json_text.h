@@ -12,6 +12,13 @@ namespace plotscan {
 // nested deeper than 100 levels: code that walks through it recurses once per level.
 std::string read_json_text(const std::filesystem::path& path);
 
+// The document as files and --json hold it: a line for each value. Bytes that are no UTF-8 are
+// replaced.
+template <class Json>
+std::string json_lines(const Json& document) {
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 // What the library says is wrong, without the name of its exception.
 std::string json_reason(const nlohmann::json::exception& error);
 

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/format.h"
 #include "core/json_text.h"
+#include "core/text_file.h"
 
 namespace plotscan {
 namespace fs = std::filesystem;
@@ -40,9 +41,8 @@ std::string file_hash(const fs::path& path) {
   XXH3_128bits_reset(state.get());
   std::ifstream in(path, std::ios::binary);
   std::vector<char> buffer(1 << 20);
-  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0) {
+  while (in.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || in.gcount() > 0)
     XXH3_128bits_update(state.get(), buffer.data(), static_cast<std::size_t>(in.gcount()));
-  }
   XXH128_canonical_t canonical;
   XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
   return fmt::format("{:02x}", fmt::join(canonical.digest, ""));
@@ -58,17 +58,14 @@ void write_manifest(const fs::path& folder, const Manifest& manifest) {
   document["results"] = manifest.results;
   document["hash"] = "xxh128";
   document["inputs"] = manifest.earlier_inputs;
-  for (const fs::path& input : manifest.inputs) {
+  for (const fs::path& input : manifest.inputs)
     document["inputs"].push_back({{"file", input.filename().string()}, {"hash", file_hash(input)}});
-  }
   document["outputs"] = nlohmann::json::array();
   for (const fs::path& file : files_below(folder)) {
     document["outputs"].push_back(
         {{"file", file.generic_string()}, {"hash", file_hash(folder / file)}});
   }
-  std::ofstream out(folder / "manifest.json");
-  out << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  if (!out.flush()) throw WriteError(folder / "manifest.json");
+  write_text_file(folder / "manifest.json", json_lines(document));
 }
 
 nlohmann::json read_manifest(const fs::path& folder) {
@@ -106,7 +103,7 @@ void require_unchanged(const fs::path& folder, const std::string& part) {
       }
     }
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json", "lists no outputs: " + json_reason(error));
+    throw InputError(folder / "manifest.json", "lists no outputs: {}", json_reason(error));
   }
 }
 
@@ -117,7 +114,7 @@ std::vector<fs::path> unlisted_files(const fs::path& folder) {
     for (const nlohmann::json& output : manifest.value("outputs", nlohmann::json::array()))
       listed.insert(fs::path(output.at("file").get<std::string>()));
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(folder / "manifest.json", "lists no outputs: " + json_reason(error));
+    throw InputError(folder / "manifest.json", "lists no outputs: {}", json_reason(error));
   }
   std::vector<fs::path> unlisted;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

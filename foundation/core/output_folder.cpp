@@ -27,7 +27,7 @@ bool is_taken(const fs::path& path) {
   if (!fs::exists(path, error)) return false;
   if (!fs::is_directory(path, error)) throw InputError(path, "exists and is not a folder");
   const bool empty = fs::is_empty(path, error);
-  if (error) throw InputError(path, "cannot be read: " + error.message());
+  if (error) throw InputError(path, "cannot be read: {}", error.message());
   return !empty;
 }
 
@@ -53,8 +53,8 @@ void require_own_folder(const fs::path& folder, const std::string& command) {
   if (!plotscan)
     throw InputError(folder, "exists and was not written by plotscan; choose another folder");
   if (manifest["command"] != command) {
-    throw InputError(folder, "exists and was not written by " + command + " but by " +
-                                 manifest["command"].dump() + "; choose another folder");
+    throw InputError(folder, "exists and was not written by {} but by {}; choose another folder",
+                     command, manifest["command"].dump());
   }
 }
 
@@ -67,10 +67,11 @@ void require_replaceable_folder(const fs::path& folder, const std::string& comma
   if (strangers.empty()) return;
   const std::size_t more = strangers.size() - std::min(strangers.size(), kNamed);
   strangers.resize(strangers.size() - more);
-  throw InputError(folder, "is not replaced: it holds what " + command + " did not write (" +
-                               joined(strangers, ", ") +
-                               (more > 0 ? " and " + std::to_string(more) + " more" : "") +
-                               "); move that away, or choose another folder");
+  throw InputError(folder,
+                   "is not replaced: it holds what {} did not write ({}{}); move that away, or "
+                   "choose another folder",
+                   command, joined(strangers, ", "),
+                   more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
 void require_apart(const fs::path& output, std::span<const fs::path> inputs) {
@@ -79,12 +80,10 @@ void require_apart(const fs::path& output, std::span<const fs::path> inputs) {
     const fs::path in =
         resolved(input.filename() == "manifest.json" ? fs::absolute(input).parent_path() : input);
     if (out == in) throw InputError(output, "is the input; choose another place");
-    if (is_within(out, in)) {
-      throw InputError(output,
-                       "lies in the input " + in.string() + "; choose a place outside of it");
-    }
+    if (is_within(out, in))
+      throw InputError(output, "lies in the input {}; choose a place outside of it", in.string());
     if (is_within(in, out))
-      throw InputError(output, "holds the input " + in.string() + "; choose another place");
+      throw InputError(output, "holds the input {}; choose another place", in.string());
   }
 }
 
@@ -101,7 +100,7 @@ OutputFolder::OutputFolder(const fs::path& final_path, bool replace, const std::
   fs::remove_all(path(), error);
   fs::create_directories(path(), error);
   if (is_of_disk(error.value())) throw WriteError(final_path, error.value());
-  if (error) throw InputError(final_path, "cannot be created: " + error.message());
+  if (error) throw InputError(final_path, "cannot be created: {}", error.message());
 }
 
 void OutputFolder::commit() {

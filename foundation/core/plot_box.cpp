@@ -10,10 +10,6 @@
 namespace plotscan {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 using Polygon = std::vector<Eigen::Vector2d>;
 
 // The part of the polygon to the left of the line from `a` to `b`.
@@ -22,21 +18,19 @@ Polygon clip_left_of(const Polygon& polygon, const Eigen::Vector2d& a, const Eig
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& from = polygon[i];
     const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
-    const double from_side = cross(b - a, from - a);
-    const double to_side = cross(b - a, to - a);
+    const double from_side = plane_cross(b - a, from - a);
+    const double to_side = plane_cross(b - a, to - a);
     if (from_side >= 0) kept.push_back(from);
-    if ((from_side >= 0) != (to_side >= 0)) {
+    if ((from_side >= 0) != (to_side >= 0))
       kept.emplace_back(from + (to - from) * (from_side / (from_side - to_side)));
-    }
   }
   return kept;
 }
 
 double area(const Polygon& polygon) {
   double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  }
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    twice += plane_cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return twice / 2;
 }
 
@@ -90,9 +84,8 @@ double intersection_area(const PlotBox& a, const PlotBox& b) {
   const auto a_corners = centred.corners();
   Polygon polygon(a_corners.begin(), a_corners.end());
   const auto edges = other.corners();
-  for (std::size_t i = 0; i < edges.size() && !polygon.empty(); ++i) {
+  for (std::size_t i = 0; i < edges.size() && !polygon.empty(); ++i)
     polygon = clip_left_of(polygon, edges[i], edges[(i + 1) % edges.size()]);
-  }
   return area(polygon);
 }
 

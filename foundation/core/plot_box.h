@@ -26,6 +26,11 @@ struct PlotBox {
   std::array<Eigen::Vector2d, 4> corners() const;
 };
 
+// The area of the parallelogram that two vectors span: above 0 where `b` lies to the left of `a`.
+inline double plane_cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // Standard errors of a box along its own axes. They are independent of each other: in that frame
 // the box's covariance matrix is diagonal.
 struct PlotBoxError {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <utility>
 
 #include <fmt/core.h>
@@ -16,6 +15,7 @@
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
 #include "core/place_json.h"
+#include "core/text_file.h"
 
 namespace plotscan {
 namespace {
@@ -77,12 +77,6 @@ json collection(const std::vector<PlotFeature>& plots, const std::string& coordi
           {"features", std::move(features)}};
 }
 
-void write_document(const std::filesystem::path& path, const json& document) {
-  std::ofstream out(path);
-  out << document.dump(1, ' ', false, json::error_handler_t::replace) << '\n';
-  if (!out.flush()) throw WriteError(path);
-}
-
 bool has_exact_box(const json& properties) {
   return std::ranges::all_of(kBoxProperties, [&](const char* name) {
     return properties.contains(name) && properties[name].is_number();
@@ -95,10 +89,10 @@ const json& polygon_ring(const json& feature, const std::string& which) {
   const json& geometry = feature.contains("geometry") ? feature["geometry"] : kNone;
   const std::string type = geometry.is_object() ? geometry.value("type", "") : "null";
   if (type == "Polygon") return geometry.at("coordinates").at(0);
-  if (type == "MultiPolygon" && geometry.at("coordinates").size() == 1) {
+  if (type == "MultiPolygon" && geometry.at("coordinates").size() == 1)
     return geometry.at("coordinates").at(0).at(0);
-  }
-  throw InputError(which + " has geometry \"" + type + "\"; a plot is a Polygon of four corners");
+  throw InputError(
+      fmt::format("{} has geometry \"{}\"; a plot is a Polygon of four corners", which, type));
 }
 
 PlotBox rectangle_of(const json& ring, const Projection& metres, const std::string& which) {
@@ -107,8 +101,9 @@ PlotBox rectangle_of(const json& ring, const Projection& metres, const std::stri
     corners.push_back(metres({position.at(0).get<double>(), position.at(1).get<double>()}));
   const std::optional<RectangleFit> fit = fit_rectangle(corners);
   if (!fit) {
-    throw InputError(which + " has " + std::to_string(ring.size()) +
-                     " positions; a plot's polygon has 4 corners, and at most 1000 positions");
+    throw InputError(fmt::format(
+        "{} has {} positions; a plot's polygon has 4 corners, and at most 1000 positions", which,
+        ring.size()));
   }
   const double allowed_m = rectangle_tolerance_m(fit->box);
   if (fit->off_m > allowed_m) {
@@ -123,9 +118,8 @@ PlotBox rectangle_of(const json& ring, const Projection& metres, const std::stri
 void require_sound(const PlotBox& box, const std::string& which) {
   const bool finite = box.center.allFinite() && std::isfinite(box.width_m) &&
                       std::isfinite(box.length_m) && std::isfinite(box.heading_rad);
-  if (!finite || box.width_m <= 0 || box.length_m <= 0) {
-    throw InputError(which + " has no finite box of positive width and length");
-  }
+  if (!finite || box.width_m <= 0 || box.length_m <= 0)
+    throw InputError(fmt::format("{} has no finite box of positive width and length", which));
 }
 
 // A polygon that was moved in a GIS, its old box still among its attributes, would be silently
@@ -139,19 +133,18 @@ void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::st
     });
   });
   if (same) return;
-  throw InputError(which +
-                   ": its polygon is not the box that its properties center_x_m, center_y_m, "
-                   "width_m, length_m and "
-                   "heading_deg give; remove these five where the polygon is right");
+  throw InputError(fmt::format(
+      "{}: its polygon is not the box that its properties center_x_m, center_y_m, width_m, "
+      "length_m and heading_deg give; remove these five where the polygon is right",
+      which));
 }
 
 // "trial.geojson: feature 3", with the id that people know the plot by.
 std::string name_of(const std::filesystem::path& path, std::size_t place, const PlotFeature& plot) {
-  std::string feature = path.string() + ": feature " + std::to_string(place);
-  for (const std::string& property : plot_id_properties()) {
+  const std::string feature = fmt::format("{}: feature {}", path.string(), place);
+  for (const std::string& property : plot_id_properties())
     if (const auto id = id_in(plot, property))
-      return feature.append(" (").append(property).append(" \"").append(id->text()).append("\")");
-  }
+      return fmt::format("{} ({} \"{}\")", feature, property, id->text());
   return feature;
 }
 
@@ -184,7 +177,7 @@ std::optional<CoordinateUnits> units_of(const json& document, const std::filesys
                               .vertical_m = document[kUnits].at("z").get<double>()};
   const bool sound = units.horizontal_m > 0 && std::isfinite(units.horizontal_m) &&
                      units.vertical_m > 0 && std::isfinite(units.vertical_m);
-  if (!sound) throw InputError(path, std::string(kUnits) + ": x_y and z must be metres above 0");
+  if (!sound) throw InputError(path, "{}: x_y and z must be metres above 0", kUnits);
   return units;
 }
 
@@ -214,9 +207,8 @@ bool within_degrees(const json& coordinates) {
 bool is_in_degrees(const json& document, bool over_utm) {
   const std::string stated = stated_crs(document);
   if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;
-  if (document.contains("coordinate_system") && document["coordinate_system"].is_string()) {
+  if (document.contains("coordinate_system") && document["coordinate_system"].is_string())
     return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
-  }
   if (!over_utm) return false;
   return std::ranges::all_of(document.at("features"), [](const json& feature) {
     return feature.contains("geometry") && feature["geometry"].is_object() &&
@@ -253,14 +245,15 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
   if (is_in_degrees(document, utm.has_value())) {
     if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
     throw InputError(path,
-                     "is in longitude and latitude, which are converted only to UTM's metres, " +
-                         (crs.empty() ? "and no such system is known here (estimator run: --crs)"
-                                      : "and the cloud is in " + crs) +
-                         "; give the map in the cloud's coordinates");
+                     "is in longitude and latitude, which are converted only to UTM's metres, {}; "
+                     "give the map in the cloud's coordinates",
+                     crs.empty() ? "and no such system is known here (estimator run: --crs)"
+                                 : "and the cloud is in " + crs);
   }
   if (!may_be_same(stated_crs(document), crs)) {
-    throw InputError(path, "is in the coordinate system " + stated_crs(document) +
-                               ", and the cloud is in " + crs + "; give the map in the latter");
+    throw InputError(
+        path, "is in the coordinate system {}, and the cloud is in {}; give the map in the latter",
+        stated_crs(document), crs);
   }
   const std::optional<CoordinateUnits> units = units_of(document, path);
   return {.metres = from_units(units ? units->horizontal_m : unit_m)};
@@ -277,8 +270,8 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
 }
 
 [[noreturn]] void fail_foreign(const std::filesystem::path& path, const json::exception& error) {
-  throw InputError(
-      path, "is no map of plots, a GeoJSON FeatureCollection of polygons: " + json_reason(error));
+  throw InputError(path, "is no map of plots, a GeoJSON FeatureCollection of polygons: {}",
+                   json_reason(error));
 }
 
 }  // namespace
@@ -303,16 +296,17 @@ json plot_collection(const std::vector<PlotFeature>& plots, const std::string& c
 
 void write_plot_features(const std::filesystem::path& path, const std::vector<PlotFeature>& plots,
                          const std::string& crs, const std::optional<CoordinateUnits>& units) {
-  write_document(path, plot_collection(plots, crs, units));
+  write_text_file(path, json_lines(plot_collection(plots, crs, units)));
 }
 
 void write_plot_features_wgs84(const std::filesystem::path& path,
                                const std::vector<PlotFeature>& plots,
                                const Projection& lonlat_deg_from_world) {
-  write_document(path, collection(plots,
+  write_text_file(
+      path, json_lines(collection(plots,
                                   std::string(kDegreesStated) +
                                       " in degrees; attributes in local metres, x east, y north",
-                                  lonlat_deg_from_world));
+                                  lonlat_deg_from_world)));
 }
 
 const std::vector<std::string>& plot_id_properties() {
@@ -342,8 +336,8 @@ PlacedPlots read_plot_features(const std::filesystem::path& path, const std::str
                                double unit_m) {
   require_file(path);
   if (std::filesystem::file_size(path) > kMostBytes) {
-    throw InputError(path, "has " + std::to_string(std::filesystem::file_size(path)) +
-                               " bytes; plots are read from up to " + std::to_string(kMostBytes));
+    throw InputError(path, "has {} bytes; plots are read from up to {}",
+                     std::filesystem::file_size(path), kMostBytes);
   }
   try {
     return plot_features_of(json::parse(read_json_text(path)), path, crs, unit_m);

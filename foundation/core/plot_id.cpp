@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "core/list_of.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -26,10 +27,7 @@ nlohmann::json PlotId::json() const {
 }
 
 std::string joined(const std::vector<PlotId>& ids) {
-  std::vector<std::string> texts;
-  texts.reserve(ids.size());
-  for (const PlotId& id : ids) texts.push_back(id.text());
-  return joined(texts, ", ");
+  return joined(list_of(ids, &PlotId::text), ", ");
 }
 
 }  // namespace plotscan

@@ -48,11 +48,10 @@ std::string printable(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = character_length(text);
     const std::string_view character = text.substr(0, length == 0 ? 1 : length);
-    if (length > 0 && !is_control(character)) {
+    if (length > 0 && !is_control(character))
       shown += character;
-    } else {
+    else
       for (const char byte : character) shown += fmt::format("\\x{:02x}", byte & 0xff);
-    }
     text.remove_prefix(character.size());
   }
   return shown;

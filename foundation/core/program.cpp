@@ -23,6 +23,7 @@
 #include "core/internal/program_help.h"
 #include "core/internal/program_pages.h"
 #include "core/internal/progress_display.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/nearest_name.h"
 #include "core/parse.h"
@@ -234,8 +235,7 @@ void Program::log(const std::string& line) const {
 }
 
 void Program::result(const nlohmann::json& document) const {
-  if (common_.json)
-    std::cout << document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  if (common_.json) std::cout << json_lines(document);
 }
 
 void Program::announce(const std::string& line) const {

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <string_view>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/parse.h"
 #include "core/text.h"
 
@@ -15,19 +18,14 @@ namespace {
 template <class Number>
 Number number_of(const std::string& name, std::string_view text, const char* kind) {
   const auto value = parsed<Number>(text);
-  if (!value) throw InputError(name + " \"" + std::string(text) + "\" is not " + kind);
+  if (!value) throw InputError(fmt::format("{} \"{}\" is not {}", name, text, kind));
   return *value;
 }
 
 template <class Number>
 std::vector<Number> numbers_of(const std::string& name, std::string_view text, const char* kind) {
-  std::vector<Number> values;
-  for (std::size_t begin = 0;;) {
-    const std::size_t comma = text.find(',', begin);
-    values.push_back(number_of<Number>(name, text.substr(begin, comma - begin), kind));
-    if (comma == std::string_view::npos) return values;
-    begin = comma + 1;
-  }
+  return list_of(split(text, ','),
+                 [&](const std::string& part) { return number_of<Number>(name, part, kind); });
 }
 
 }  // namespace
@@ -38,31 +36,13 @@ nlohmann::json setting_json(const Eigen::Vector3d& value) {
 
 void require_in_range(const std::string& name, double value, const Range& range) {
   if (range.contains(value)) return;
-  throw InputError(name + " " + format_number(value) + " must be in " + range.text());
-}
-
-void require_in_range(const std::string& name, const std::optional<double>& value,
-                      const Range& range) {
-  if (value) require_in_range(name, *value, range);
-}
-
-void require_in_range(const std::string& name, const std::optional<int>& value,
-                      const Range& range) {
-  if (value) require_in_range(name, static_cast<double>(*value), range);
-}
-
-void require_in_range(const std::string& name, const std::vector<int>& values, const Range& range) {
-  for (const int value : values) require_in_range(name, static_cast<double>(value), range);
-}
-
-void require_in_range(const std::string& name, const Eigen::Vector3d& values, const Range& range) {
-  for (const double value : values) require_in_range(name, value, range);
+  throw InputError(fmt::format("{} {} must be in {}", name, format_number(value), range.text()));
 }
 
 void require_chosen(const std::string& name, const std::optional<std::string>& value,
                     const std::vector<std::string>& choices) {
   if (!value || choices.empty() || std::ranges::count(choices, *value) > 0) return;
-  throw InputError(name + " \"" + *value + "\" must be one of " + joined(choices, ", "));
+  throw InputError(fmt::format("{} \"{}\" must be one of {}", name, *value, joined(choices, ", ")));
 }
 
 void read_setting(const std::string& name, const std::string& text, double& value) {
@@ -85,7 +65,7 @@ void read_setting(const std::string& name, const std::string& text, std::vector<
 void read_setting(const std::string& name, const std::string& text, std::array<double, 4>& values) {
   const std::vector<double> numbers = numbers_of<double>(name, text, "four numbers with commas");
   if (numbers.size() != values.size())
-    throw InputError(name + " \"" + text + "\" is not four numbers with commas");
+    throw InputError(fmt::format("{} \"{}\" is not four numbers with commas", name, text));
   std::ranges::copy(numbers, values.begin());
 }
 

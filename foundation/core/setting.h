@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -80,11 +81,16 @@ nlohmann::json setting_json(const Eigen::Vector3d& value);
 
 // Throw InputError, "NAME 200 must be in [0.5, 120]", "NAME \"x\" must be one of a, b".
 void require_in_range(const std::string& name, double value, const Range& range);
-void require_in_range(const std::string& name, const std::optional<double>& value,
-                      const Range& range);
-void require_in_range(const std::string& name, const std::optional<int>& value, const Range& range);
-void require_in_range(const std::string& name, const std::vector<int>& values, const Range& range);
-void require_in_range(const std::string& name, const Eigen::Vector3d& values, const Range& range);
+template <class Number>
+void require_in_range(const std::string& name, const std::optional<Number>& value,
+                      const Range& range) {
+  if (value) require_in_range(name, *value, range);
+}
+template <class Numbers>
+requires std::ranges::range<Numbers>
+void require_in_range(const std::string& name, const Numbers& values, const Range& range) {
+  for (const double value : values) require_in_range(name, value, range);
+}
 void require_chosen(const std::string& name, const std::optional<std::string>& value,
                     const std::vector<std::string>& choices);
 

@@ -37,4 +37,11 @@ class TextFile {
   std::ofstream out_;
 };
 
+// Writes a file that holds the text. Throws WriteError when it cannot be written.
+inline void write_text_file(const std::filesystem::path& path, std::string_view text) {
+  TextFile file(path);
+  file << text;
+  file.close();
+}
+
 }  // namespace plotscan

@@ -12,9 +12,7 @@ namespace {
 double angle_of(const Eigen::Vector2d& axis) { return std::atan2(axis.y(), axis.x()); }
 
 int highest(const std::vector<TrialPlace>& places, int TrialPlace::*number) {
-  int most = 0;
-  for (const TrialPlace& place : places) most = std::max(most, place.*number);
-  return most;
+  return places.empty() ? 0 : std::ranges::max(places, {}, number).*number;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include <fmt/core.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include "core/error.h"
@@ -17,16 +18,6 @@
 
 namespace plotscan {
 namespace {
-
-std::vector<std::string> split_path(const std::string& path) {
-  std::vector<std::string> steps;
-  for (std::size_t begin = 0;;) {
-    const auto dot = path.find('.', begin);
-    steps.push_back(path.substr(begin, dot - begin));
-    if (dot == std::string::npos) return steps;
-    begin = dot + 1;
-  }
-}
 
 std::string path_below(const std::string& path, const std::string& key) {
   if (path.empty() || key.empty()) return path + key;
@@ -40,18 +31,21 @@ YAML::Node child(YAML::Node node, const std::string& path, const std::string& st
   if (node.IsSequence()) {
     const auto index = parsed<std::size_t>(step);
     if (!index || *index >= node.size()) {
-      throw InputError("--set " + assignment + ": \"" + step + "\" is not an index of a list of " +
-                       std::to_string(node.size()) + " entries (from 0)");
+      throw InputError(
+          fmt::format("--set {}: \"{}\" is not an index of a list of {} entries (from 0)",
+                      assignment, step, node.size()));
     }
     return node[*index];
   }
   if (node.IsScalar()) {
-    throw InputError("--set " + assignment + ": \"" + step + "\" names a part of the plain value " +
-                     node.Scalar());
+    throw InputError(fmt::format("--set {}: \"{}\" names a part of the plain value {}", assignment,
+                                 step, node.Scalar()));
   }
   if (!path.empty() && parsed<std::size_t>(step)) {
-    throw InputError("--set " + assignment + ": there is no list " + path + " of which " + step +
-                     " would be an entry; set the whole list, as in --set " + path + "=[...]");
+    throw InputError(
+        fmt::format("--set {}: there is no list {} of which {} would be an entry; set the whole "
+                    "list, as in --set {}=[...]",
+                    assignment, path, step, path));
   }
   return node[step];
 }
@@ -59,20 +53,22 @@ YAML::Node child(YAML::Node node, const std::string& path, const std::string& st
 void apply_override(const YAML::Node& root, const std::string& assignment) {
   const auto equals = assignment.find('=');
   if (equals == 0 || equals == std::string::npos) {
-    throw InputError("--set " + assignment + ": expected key=value, as in terrain.relief_m=0.5");
+    throw InputError(
+        fmt::format("--set {}: expected key=value, as in terrain.relief_m=0.5", assignment));
   }
   YAML::Node node;
   node.reset(root);
   std::string path;
-  for (const std::string& step : split_path(assignment.substr(0, equals))) {
-    if (step.empty()) throw InputError("--set " + assignment + ": the key has an empty part");
+  for (const std::string& step : split(assignment.substr(0, equals), '.')) {
+    if (step.empty())
+      throw InputError(fmt::format("--set {}: the key has an empty part", assignment));
     node.reset(child(node, path, step, assignment));
     path = path_below(path, step);
   }
   try {
     node = YAML::Load(assignment.substr(equals + 1));
   } catch (const YAML::Exception& error) {
-    throw InputError("--set " + assignment + ": " + error.msg);
+    throw InputError(fmt::format("--set {}: {}", assignment, error.msg));
   }
 }
 
@@ -81,8 +77,7 @@ constexpr std::size_t kMostBytes = 4'000'000;
 
 void require_size(std::uintmax_t bytes, const std::filesystem::path& file) {
   if (bytes <= kMostBytes) return;
-  throw InputError(file, "has " + std::to_string(bytes) + " bytes; YAML is read up to " +
-                             std::to_string(kMostBytes));
+  throw InputError(file, "has {} bytes; YAML is read up to {}", bytes, kMostBytes);
 }
 
 // Keeps where a document begins, and nothing of what it holds.
@@ -122,7 +117,8 @@ YAML::Node parse_map(const std::string& text, const std::filesystem::path& file)
     refuse_second_document(text, file);
     return root;
   } catch (const YAML::Exception& error) {
-    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), "not YAML: " + error.msg);
+    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), "not YAML: {}",
+                     error.msg);
   }
 }
 
@@ -166,9 +162,8 @@ void YamlDocument::fail(const YAML::Mark& mark, const std::string& path,
   for (auto assignment = overrides_.rbegin(); assignment != overrides_.rend(); ++assignment) {
     const std::string key = assignment->substr(0, assignment->find('='));
     const bool made = mark.is_null() && key.starts_with(path + ".");  // the file has no such part
-    if (path == key || path.starts_with(key + ".") || made) {
-      throw InputError("--set " + *assignment + ": " + text);
-    }
+    if (path == key || path.starts_with(key + ".") || made)
+      throw InputError(fmt::format("--set {}: {}", *assignment, text));
   }
   throw InputError(file_, static_cast<std::size_t>(std::max(mark.line, 0) + 1), text);
 }
@@ -281,10 +276,8 @@ double YamlSection::number(const std::string& key, Range range,
   const auto text = scalar(key, !fallback);
   if (!text) return *fallback;
   const auto value = parsed<double>(*text);
-  if (!value) fail(key, "\"" + *text + "\" is not a number; allowed are " + range.text());
-  if (!range.contains(*value)) {
-    fail(key, *text + " is not in " + range.text());
-  }
+  if (!value) fail(key, "\"{}\" is not a number; allowed are {}", *text, range.text());
+  if (!range.contains(*value)) fail(key, "{} is not in {}", *text, range.text());
   return *value;
 }
 
@@ -292,17 +285,16 @@ std::int64_t YamlSection::integer(const std::string& key, std::int64_t low, std:
                                   std::optional<std::int64_t> fallback) const {
   const auto text = scalar(key, !fallback);
   if (!text) return *fallback;
-  const std::string allowed = "[" + std::to_string(low) + ", " + std::to_string(high) + "]";
   const auto value = parsed<std::int64_t>(*text);
-  if (!value) fail(key, "\"" + *text + "\" is not a whole number in " + allowed);
-  if (*value < low || *value > high) fail(key, *text + " is not in " + allowed);
+  if (!value) fail(key, "\"{}\" is not a whole number in [{}, {}]", *text, low, high);
+  if (*value < low || *value > high) fail(key, "{} is not in [{}, {}]", *text, low, high);
   return *value;
 }
 
 std::uint64_t YamlSection::unsigned_integer(const std::string& key) const {
   const auto text = scalar(key, true);
   const auto value = parsed<std::uint64_t>(*text);
-  if (!value) fail(key, "\"" + *text + "\" is not a whole number in [0, 18446744073709551615]");
+  if (!value) fail(key, "\"{}\" is not a whole number in [0, 18446744073709551615]", *text);
   return *value;
 }
 
@@ -319,7 +311,7 @@ std::size_t YamlSection::choice(const std::string& key, const std::vector<std::s
   const auto text = scalar(key, !fallback);
   if (!text) return *fallback;
   const auto found = std::find(names.begin(), names.end(), *text);
-  if (found == names.end()) fail(key, "\"" + *text + "\" is not one of " + joined(names, ", "));
+  if (found == names.end()) fail(key, "\"{}\" is not one of {}", *text, joined(names, ", "));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -338,7 +330,7 @@ std::vector<double> YamlSection::numbers(const std::string& key, std::size_t cou
   const bool listed =
       list.IsSequence() && list.size() == count &&
       std::all_of(list.begin(), list.end(), [](const auto& entry) { return entry.IsScalar(); });
-  if (!listed) fail(key, "is not a list of " + counted + " numbers in " + range.text());
+  if (!listed) fail(key, "is not a list of {} numbers in {}", counted, range.text());
   std::vector<double> all;
   std::vector<std::string> texts;
   for (const auto& entry : list) {
@@ -347,8 +339,8 @@ std::vector<double> YamlSection::numbers(const std::string& key, std::size_t cou
     if (number && range.contains(*number)) all.push_back(*number);
   }
   if (all.size() < count) {
-    fail(key, "[" + joined(texts, ", ") + "] is not " + (count == 2 ? "a pair of" : counted) +
-                  " numbers in " + range.text());
+    fail(key, "[{}] is not {} numbers in {}", joined(texts, ", "),
+         count == 2 ? "a pair of" : counted, range.text());
   }
   return all;
 }
@@ -364,9 +356,8 @@ std::vector<YamlSection> YamlSection::list(const std::string& key, std::size_t l
                                            const std::string& scalar_key) const {
   const YAML::Node list = value(key);
   if (!list.IsDefined()) fail_missing(key);
-  if (!list.IsSequence() || list.size() == 0 || list.size() > longest) {
-    fail(key, "is not a list of 1 to " + std::to_string(longest) + " entries");
-  }
+  if (!list.IsSequence() || list.size() == 0 || list.size() > longest)
+    fail(key, "is not a list of 1 to {} entries", longest);
   std::vector<YamlSection> entries;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string path = path_below(path_of(key), std::to_string(i));

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
 #include <yaml-cpp/yaml.h>
 
 #include "core/range.h"
@@ -101,6 +102,12 @@ class YamlSection {
 
   // Throws InputError at the line of the key, or of the section if the key is missing.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  // The same with a message that holds arguments: "has {} entries".
+  template <class... Arguments>
+  [[noreturn]] void fail(const std::string& key, fmt::format_string<Arguments...> message,
+                         Arguments&&... arguments) const {
+    fail(key, fmt::vformat(message, fmt::make_format_args(arguments...)));
+  }
   const std::filesystem::path& file() const { return document_->file(); }
 
  private:

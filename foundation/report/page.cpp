@@ -48,17 +48,8 @@ void take_blobs(json& value, std::vector<Bytes>& blobs) {
 
 // JSON in which nothing can end or begin an element of HTML. Bytes that are no UTF-8 are replaced.
 std::string script_safe(const json& document) {
-  const std::string text = document.dump(-1, ' ', true, json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<' || c == '>' || c == '&') {
-      safe += c == '<' ? "\\u003c" : c == '>' ? "\\u003e" : "\\u0026";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
+  return with_escapes(document.dump(-1, ' ', true, json::error_handler_t::replace),
+                      {{'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}});
 }
 
 }  // namespace

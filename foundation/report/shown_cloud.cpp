@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
+#include <utility>
+
+#include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/random.h"
 
 namespace plotscan::report {
@@ -13,8 +16,7 @@ namespace plotscan::report {
 CloudSample::CloudSample(std::size_t most)
     : most_(most), highest_lot_(std::numeric_limits<std::uint64_t>::max()) {
   if (most < 1 || most > kMostPoints)
-    throw InputError("a page shows 1 to " + std::to_string(kMostPoints) + " points, not " +
-                     std::to_string(most));
+    throw InputError(fmt::format("a page shows 1 to {} points, not {}", kMostPoints, most));
 }
 
 void CloudSample::add(const ShownPoint& point) {
@@ -35,11 +37,7 @@ void CloudSample::keep_lowest() {
 
 std::vector<ShownPoint> CloudSample::take() {
   keep_lowest();
-  std::vector<ShownPoint> points;
-  points.reserve(drawn_.size());
-  for (const Drawn& drawn : drawn_) points.push_back(drawn.point);
-  drawn_ = {};
-  return points;
+  return list_of(std::exchange(drawn_, {}), &Drawn::point);
 }
 
 }  // namespace plotscan::report

@@ -5,6 +5,8 @@
 
 #include "boundary/values.h"
 
+#include "core/json_text.h"
+#include "core/list_of.h"
 #include "core/plot_features.h"
 
 namespace plotscan::boundary {
@@ -59,29 +61,22 @@ GroundGrid outer_ground(const ground::Surface& surface) {
           .sd_m = surface.sd_m};
 }
 
-// Bytes that are no UTF-8 are replaced.
-std::string text_of(const nlohmann::json& document, int indent) {
-  return document.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 }  // namespace
 
 FieldEstimate outer(const estimate::Estimate& estimate) {
-  FieldEstimate made{.method = estimate.method};
-  for (const estimate::PlotEstimate& plot : estimate.plots) made.plots.push_back(outer_plot(plot));
+  FieldEstimate made{.method = estimate.method, .plots = list_of(estimate.plots, outer_plot)};
   made.why_no_plots = estimate.diagnostics.why_no_plots;
   if (estimate.ground) made.ground = outer_ground(*estimate.ground);
   made.crs = estimate.crs;
-  made.geojson =
-      text_of(plot_collection(features_of(estimate), estimate.crs, estimate.units), 1) + "\n";
-  made.diagnostics = text_of(to_json(estimate.diagnostics), -1);
+  made.geojson = json_lines(plot_collection(features_of(estimate), estimate.crs, estimate.units));
+  // Bytes that are no UTF-8 are replaced.
+  made.diagnostics =
+      to_json(estimate.diagnostics).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return made;
 }
 
 estimate::Estimate inner(const FieldEstimate& estimate) {
-  estimate::Estimate made{.method = estimate.method};
-  for (const Plot& plot : estimate.plots) made.plots.push_back(inner_plot(plot));
-  return made;
+  return {.method = estimate.method, .plots = list_of(estimate.plots, inner_plot)};
 }
 
 }  // namespace plotscan::boundary

@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/setting.h"
 #include "core/text.h"
 
@@ -73,9 +74,8 @@ void take(const std::string& owner, const std::map<std::string, SettingValue>& g
     const std::string& key = entry.first;
     const auto found = std::ranges::find(table, key, &TableEntry::key);
     if (found == table.end()) {
-      std::vector<std::string> keys;
-      for (const TableEntry& known : table) keys.push_back(known.key);
-      throw InputError(fmt::format("{} has no \"{}\"; it has {}", owner, key, joined(keys, ", ")));
+      throw InputError(fmt::format("{} has no \"{}\"; it has {}", owner, key,
+                                   joined(list_of(table, &TableEntry::key), ", ")));
     }
     const std::string name = fmt::format("{}'s {}", owner, key);
     std::visit([&](const auto& setting) { take(name, entry.second, setting.of(options)); },

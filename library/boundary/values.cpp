@@ -2,8 +2,9 @@
 #include "boundary/values.h"
 
 #include <algorithm>
-#include <string>
 #include <thread>
+
+#include <fmt/core.h>
 
 #include "core/angle.h"
 #include "core/error.h"
@@ -43,8 +44,8 @@ BoxError outer(const PlotBoxError& error) {
 
 int threads_of(int threads) {
   if (threads < 0)
-    throw InputError("threads is " + std::to_string(threads) +
-                     "; it is 0 (one for each processor) or more");
+    throw InputError(
+        fmt::format("threads is {}; it is 0 (one for each processor) or more", threads));
   if (threads != 0) return threads;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

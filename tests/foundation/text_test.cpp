@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/list_of.h"
+
 namespace plotscan {
 namespace {
 
@@ -22,6 +24,32 @@ TEST(LowerExtension, IsOfTheNameWithItsDot) {
   EXPECT_EQ(lower_extension("FIELD.v2.LAS"), ".las");
   EXPECT_EQ(lower_extension("FIELD.LAS/cloud"), "");
   EXPECT_EQ(lower_case("Z\xC3\x84 9"), "z\xC3\x84 9");  // ASCII alone
+}
+
+TEST(Text, IsSplitAtEverySeparator) {
+  using List = std::vector<std::string>;
+  EXPECT_EQ(split("a,,b,", ','), (List{"a", "", "b", ""}));
+  EXPECT_EQ(split("", ','), List{""});
+}
+
+TEST(Text, LosesTheBlanksAtItsEndsAlone) {
+  EXPECT_EQ(without_blanks(" \t a b\r"), "a b");
+  EXPECT_EQ(without_blanks(" \t"), "");
+  EXPECT_EQ(without_blanks("\na\n", "\n"), "a");
+}
+
+TEST(Text, HasItsEscapesInOneGo) {
+  EXPECT_EQ(with_escapes("a\\'b", {{'\\', "\\\\"}, {'\'', "\\'"}}), "a\\\\\\'b");
+  EXPECT_EQ(with_escapes("ab", {{'a', "b"}, {'b', ""}}), "b");
+}
+
+TEST(ListOf, GivesAMemberOrWhatAFunctionMakesOfEachItem) {
+  const std::vector<std::pair<int, const char*>> items = {{1, "one"}, {2, "two"}};
+  EXPECT_EQ(list_of(items, &std::pair<int, const char*>::first), (std::vector{1, 2}));
+  EXPECT_EQ(list_of(items, [](const auto& item) { return 0.5 * item.first; }),
+            (std::vector{0.5, 1.0}));
+  EXPECT_EQ(list_of<std::string>(items, &std::pair<int, const char*>::second),
+            (std::vector<std::string>{"one", "two"}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "scan/cloud_reader.h"
 #include "view/internal/axes.h"
 #include "view/internal/box_labels.h"
@@ -98,8 +99,8 @@ void add_boxes(Page& page, const Axes& axes, const estimate::Estimate& estimate,
   for (const bool with_flags : {false, true}) {
     for (const estimate::PlotEstimate& plot : estimate.plots) {
       if (plot.flags.empty() == with_flags) continue;
-      std::vector<Eigen::Vector2d> outline;
-      for (const Eigen::Vector2d& corner : plot.box.corners()) outline.push_back(axes.at(corner));
+      auto outline =
+          list_of(plot.box.corners(), [&](const auto& corner) { return axes.at(corner); });
       outline.push_back(outline.front());
       outline.push_back(outline[1]);  // so that the first corner is closed
       // White beside it keeps the line apart from a dark canopy.
@@ -138,9 +139,8 @@ void add_title(Page& page, const FieldPage& layout, const estimate::Estimate& es
     entries.push_back(
         {.colour = kPlotColour, .width_px = 0.12 * em, .meaning = "plot with its number"});
   }
-  if (flagged(estimate) > 0) {
+  if (flagged(estimate) > 0)
     entries.push_back({.colour = kFlaggedColour, .width_px = 0.17 * em, .meaning = "flagged plot"});
-  }
   if (groundless) {
     entries.push_back({.mark = LegendEntry::Mark::area,
                        .colour = kNoGroundColour,

@@ -23,6 +23,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "view/internal/camera.h"
 #include "view/internal/display.h"
 #include "view/internal/plant_layout.h"
@@ -88,11 +89,10 @@ void add_text(vtkRenderer& renderer, const std::string& text, const Eigen::Vecto
   style.SetFontSize(kSamples * font_px);
   style.SetColor(0.15, 0.15, 0.15);
   style.SetVerticalJustificationToCentered();
-  if (centred) {
+  if (centred)
     style.SetJustificationToCentered();
-  } else {
+  else
     style.SetJustificationToRight();
-  }
   actor->SetPosition(kSamples * place_px.x(), kSamples * place_px.y());
   renderer.AddActor2D(actor);
 }
@@ -175,10 +175,9 @@ void aim_at(vtkRenderer& renderer, const Sheet& sheet) {
 // Farther from its foot than any plant reaches.
 double depth_behind(const std::vector<PicturedPlant>& plants) {
   float reach = 0;
-  for (const PicturedPlant& plant : plants) {
+  for (const PicturedPlant& plant : plants)
     for (const Eigen::Vector3f& vertex : plant.mesh.vertices)
       reach = std::max(reach, vertex.norm());
-  }
   return 1.1 * reach;
 }
 
@@ -190,9 +189,8 @@ void draw_plants(const std::vector<PicturedPlant>& plants, const std::filesystem
   const Display display;
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is thrown, not printed
   const View view = view_from({options.azimuth_deg, options.elevation_deg});
-  std::vector<PlantExtent> extents;
-  extents.reserve(plants.size());
-  for (const PicturedPlant& plant : plants) extents.push_back(plant_extent(plant, view));
+  const auto extents =
+      list_of(plants, [&](const PicturedPlant& plant) { return plant_extent(plant, view); });
   const Eigen::Vector2d size_px(options.width_px, options.height_px);
   const PlantLayout layout = lay_out(extents, size_px, static_cast<std::size_t>(options.columns));
   const Sheet sheet{view, size_px, layout.px_per_m, depth_behind(plants)};

@@ -9,6 +9,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "scan/cloud_reader.h"
@@ -45,9 +46,9 @@ const estimate::PlotEstimate& plot_named(const estimate::Estimate& estimate, con
   const auto found = std::ranges::find(estimate.plots, id, &estimate::PlotEstimate::id);
   if (found != estimate.plots.end()) return *found;
   if (estimate.plots.empty()) throw InputError("the estimate has no plots");
-  throw InputError("there is no plot " + id.text() + "; the estimate's " +
-                   std::to_string(estimate.plots.size()) + " plots are " +
-                   estimate.plots.front().id.text() + " to " + estimate.plots.back().id.text());
+  throw InputError(fmt::format("there is no plot {}; the estimate's {} plots are {} to {}",
+                               id.text(), estimate.plots.size(), estimate.plots.front().id.text(),
+                               estimate.plots.back().id.text()));
 }
 
 // What is drawn of a plot.
@@ -60,8 +61,7 @@ struct Scene {
 };
 
 Eigen::AlignedBox2d shown_part(const Scene& scene, double beyond_m) {
-  std::vector<double> z;
-  for (const Eigen::Vector2d& point : scene.points.points()) z.push_back(point.y());
+  auto z = list_of(scene.points.points(), [](const Eigen::Vector2d& point) { return point.y(); });
   double low = quantile(z, kStray);
   double high = quantile(std::move(z), 1 - kStray);
   for (const ProfilePoint& point : scene.ground) {
@@ -70,9 +70,8 @@ Eigen::AlignedBox2d shown_part(const Scene& scene, double beyond_m) {
     high = std::max(high, point.z_m);
   }
   for (const HeightLine& height : scene.heights) {
-    for (const ProfilePoint& point : scene.ground_inside) {
+    for (const ProfilePoint& point : scene.ground_inside)
       if (!std::isnan(point.z_m)) high = std::max(high, point.z_m + height.high_m);
-    }
   }
   const double air = 0.04 * std::max(0.1, high - low);
   return {Eigen::Vector2d(-beyond_m, low - air),
@@ -170,11 +169,11 @@ void add_ground(Page& page, const PlotPage& layout, const Profile& ground) {
     };
   };
   for (const ProfileRun& run : runs_of(ground, false)) {
-    page.band(places_of(run, error_places(-kInterval)), places_of(run, error_places(kInterval)),
-              kInk, 0.28);
+    page.band(list_of(run, error_places(-kInterval)), list_of(run, error_places(kInterval)), kInk,
+              0.28);
   }
   for (const ProfileRun& run : runs_of(ground, true)) {
-    page.line(places_of(run, error_places(0)),
+    page.line(list_of(run, error_places(0)),
               {.colour = kInk,
                .width_px = 0.12 * layout.text_px,
                .dash_px = run.front().seen ? 0 : 0.3 * layout.text_px});
@@ -221,8 +220,10 @@ void draw_plot(const std::filesystem::path& cloud, const estimate::Estimate& est
   files.units = estimate.units;
   scan::read_positions(files, [&](auto points) { scene.points.add(points); });
   if (scene.points.points().empty()) {
-    throw InputError(cloud, "has no point in plot " + id.text() +
-                                "; is it the cloud of this estimate, in the same coordinates?");
+    throw InputError(
+        cloud,
+        "has no point in plot {}; is it the cloud of this estimate, in the same coordinates?",
+        id.text());
   }
   const PlotPage layout = lay_out_plot(scene, options);
 

@@ -97,7 +97,7 @@ class MaizePlant {
     node_m_.assign(1, 0);
     for (int rank = 1; rank <= leaves_; ++rank) {
       RandomStream random(seed_, random_purpose("maize/internode"), rank);
-      const double length = vary(internode_m(rank), random);
+      const double length = traits_.vary(internode_m(rank), random);
       // The stem turns a little at each node, away from its leaf.
       const Vector3d aside = direction(leaf_azimuth(rank), 0) * (kink * random.uniform());
       stem_.add(length * (direction(lean_azimuth_rad_, kUpright - lean) - aside).normalized());
@@ -108,9 +108,8 @@ class MaizePlant {
     stem_.add(std::max(top, 1e-3) * direction(lean_azimuth_rad_, kUpright - lean));
     const int points = 2 * leaves_;
     Tube stem{.path = stem_.part(0, stem_.length_m(), points), .radius_m = {}};
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < points; ++i)
       stem.radius_m.push_back(radius_m(stem_.length_m() * i / (points - 1)));
-    }
     stem.light_points = mature() ? 4 : 2;
     plant_.tube(stem, "stem");
   }
@@ -136,22 +135,23 @@ class MaizePlant {
     const double share = static_cast<double>(rank) / leaves_;
     const double open = 1.35 - 0.6 * share;
     const double bending = 1.15 - 0.5 * std::max(0.0, share - 0.5) / 0.5;
-    return {.collar = stem_.at(collar_m(rank)),
-            .azimuth_rad = leaf_azimuth(rank),
-            .elevation_rad = kUpright - vary(traits_.radians("blade_angle_deg") * open, random),
-            .bend_rad = vary(traits_.radians("blade_bend_deg") * bending, random),
-            .bend_exponent = 1.7,
-            .twist_rad = 0.5 * random.uniform(-1, 1),
-            .undulation_rad = traits_.radians("undulation_deg"),
-            .undulation_waves = 3,
-            .undulation_phase = 2 * kPi * random.uniform(),
-            .length_m = vary(blade_m(rank), random),
-            .width_m = vary(blade_width_m(rank), random),
-            .base_width_share = 0.6,
-            .widest_at = 0.4,
-            .fold_rad = traits_.radians("fold_deg"),
-            .points = 15,
-            .light_points = 6};
+    return {
+        .collar = stem_.at(collar_m(rank)),
+        .azimuth_rad = leaf_azimuth(rank),
+        .elevation_rad = kUpright - traits_.vary(traits_.radians("blade_angle_deg") * open, random),
+        .bend_rad = traits_.vary(traits_.radians("blade_bend_deg") * bending, random),
+        .bend_exponent = 1.7,
+        .twist_rad = 0.5 * random.uniform(-1, 1),
+        .undulation_rad = traits_.radians("undulation_deg"),
+        .undulation_waves = 3,
+        .undulation_phase = 2 * kPi * random.uniform(),
+        .length_m = traits_.vary(blade_m(rank), random),
+        .width_m = traits_.vary(blade_width_m(rank), random),
+        .base_width_share = 0.6,
+        .widest_at = 0.4,
+        .fold_rad = traits_.radians("fold_deg"),
+        .points = 15,
+        .light_points = 6};
   }
 
   void grow_leaf(int rank) {
@@ -202,9 +202,9 @@ class MaizePlant {
         std::clamp(static_cast<int>(std::lround(traits_["ear_node_share"] * leaves_)), 1, leaves_);
     const double node = node_m_[static_cast<std::size_t>(rank)];
     const double azimuth = leaf_azimuth(rank);
-    const double angle = vary(traits_.radians("ear_angle_deg"), random);
-    const double length = vary(traits_["ear_m"] * vigour_, random);
-    const double widest = vary(traits_["ear_radius_m"] * vigour_, random);
+    const double angle = traits_.vary(traits_.radians("ear_angle_deg"), random);
+    const double length = traits_.vary(traits_["ear_m"] * vigour_, random);
+    const double widest = traits_.vary(traits_["ear_radius_m"] * vigour_, random);
     const Vector3d axis = direction(azimuth, kUpright - angle);
     const Vector3d base = stem_.at(node) + direction(azimuth, 0) * radius_m(node);
     constexpr int kPoints = 8;
@@ -255,7 +255,7 @@ class MaizePlant {
     for (int branch = 0; branch < branches; ++branch) {
       // On the spike's lower third, the lowest the longest.
       const double share = static_cast<double>(branch) / branches;
-      const double reach = length * vary(0.75 - 0.25 * share, random);
+      const double reach = length * traits_.vary(0.75 - 0.25 * share, random);
       const double azimuth = branch * 137.5 * kDegrees + random.uniform(-0.3, 0.3);
       grow_tassel_branch(base + share * 0.33 * length * axis, azimuth, reach, random);
     }
@@ -264,7 +264,7 @@ class MaizePlant {
   void grow_tassel_branch(const Vector3d& foot, double azimuth, double reach,
                           RandomStream& random) {
     constexpr int kPieces = 4;
-    const double angle = vary(traits_.radians("tassel_angle_deg"), random);
+    const double angle = traits_.vary(traits_.radians("tassel_angle_deg"), random);
     const double droop = random.uniform(0.1, 0.9);
     Tube tube{.path = {foot}, .radius_m = {0.002}, .sides = 4, .light_points = 3, .light_sides = 2};
     for (int i = 1; i <= kPieces; ++i) {
@@ -274,10 +274,6 @@ class MaizePlant {
       tube.radius_m.push_back(i == kPieces ? 0.001 : 0.0032);
     }
     plant_.tube(tube, "tassel");
-  }
-
-  double vary(double value, RandomStream& random) const {
-    return value * (1 + traits_["variation"] * random.uniform(-1, 1));
   }
 
   const Traits& traits_;

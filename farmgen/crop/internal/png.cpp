@@ -15,11 +15,9 @@ std::string png_of(const Raster& raster, const Palette& palette) {
             static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height),
         "a raster's size");
   std::vector<std::uint8_t> pixels;
-  for (const std::uint8_t shade : raster.shades) {
-    for (const float share : palette[shade]) {
+  for (const std::uint8_t shade : raster.shades)
+    for (const float share : palette[shade])
       pixels.push_back(static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F))));
-    }
-  }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(raster.width);

@@ -73,7 +73,7 @@ class Soybean {
       const double azimuth = leaf_azimuth(shoot, node, random);
       grow_node(shoot, node, path.back(), azimuth, random);
       // The stem leans away from each leaf in turn.
-      const double zigzag = organs_.vary(traits_.radians("zigzag_deg"), random);
+      const double zigzag = traits_.vary(traits_.radians("zigzag_deg"), random);
       const Vector3d turned = shoot.heading - std::sin(zigzag) * direction(azimuth, 0);
       const double upright = main ? 0 : std::min(1.0, kBranchUpturn * node);
       heading = ((1 - upright) * turned.normalized() + upright * Vector3d::UnitZ()).normalized();
@@ -87,9 +87,9 @@ class Soybean {
                         static_cast<std::uint64_t>(branch));
     const int node = branch + 1;  // the axils of the lowest trifoliolate leaves
     RandomStream leaf(seed_, random_purpose("soybean/node"), static_cast<std::uint64_t>(node));
-    organs_.vary(1, leaf);  // the internode's, so that the azimuth is that of the leaf
+    traits_.vary(1, leaf);  // the internode's, so that the azimuth is that of the leaf
     const double azimuth = leaf_azimuth(stem, node, leaf) + 0.3 * random.uniform(-1, 1);
-    const double angle = organs_.vary(traits_.radians("branch_angle_deg"), random);
+    const double angle = traits_.vary(traits_.radians("branch_angle_deg"), random);
     grow_axis({.number = branch,
                .nodes = std::max(1, traits_.count("branch_nodes") + 1 - branch),
                .first_azimuth = azimuth + kPi / 2,
@@ -121,7 +121,7 @@ class Soybean {
                                   : traits_["internode_m"] *
                                         profile(shoot, node, "internode_low_share") *
                                         unfolding("internode_young_share", node - shoot.nodes + 2);
-    return organs_.vary(grown, random) * shoot.vigour;
+    return traits_.vary(grown, random) * shoot.vigour;
   }
 
   // Node 1 of the main stem stands across the first trifoliolate leaf.
@@ -163,7 +163,7 @@ class Soybean {
   // One of the two simple leaves of node 1.
   void grow_unifoliolate(const Shoot& shoot, const Vector3d& point, double azimuth,
                          const char* material, RandomStream& random) {
-    const double length = organs_.vary(traits_["unifoliolate_m"], random) * shoot.vigour;
+    const double length = traits_.vary(traits_["unifoliolate_m"], random) * shoot.vigour;
     organs_.unifoliolate({.node = point,
                           .azimuth_rad = azimuth,
                           .length_m = length,
@@ -176,18 +176,18 @@ class Soybean {
 
   void grow_leaf(const Shoot& shoot, int node, const Vector3d& point, double azimuth,
                  const char* material, RandomStream& random) {
-    const double size = organs_.vary(traits_["leaflet_length_m"], random) * shoot.vigour *
+    const double size = traits_.vary(traits_["leaflet_length_m"], random) * shoot.vigour *
                         profile(shoot, node, "leaflet_low_share") *
                         unfolding("leaf_young_share", node - shoot.nodes);
     // Petioles and internodes are still lengthening when the leaf is full grown.
-    const double petiole = organs_.vary(traits_["petiole_m"], random) * shoot.vigour *
+    const double petiole = traits_.vary(traits_["petiole_m"], random) * shoot.vigour *
                            profile(shoot, node, "petiole_low_share") *
                            unfolding("petiole_young_share", node - shoot.nodes + 1);
     const int highest = shoot.nodes + traits_.count("unfolding_leaves");
     const double lowness = std::min(1.0, (highest - node) / kLeavesToLow);
     const double top = traits_.radians("petiole_top_angle_deg");
     const double low = traits_.radians("petiole_low_angle_deg");
-    const double angle = organs_.vary(top + (low - top) * lowness, random);
+    const double angle = traits_.vary(top + (low - top) * lowness, random);
     organs_.trifoliolate({.node = point,
                           .azimuth_rad = azimuth,
                           .length_m = size,

@@ -46,7 +46,7 @@ void SoybeanOrgans::trifoliolate(const SoybeanLeaf& leaf, RandomStream& random) 
   leaflet(tip, leaf.azimuth_rad, leaf.length_m, 1, leaf.material, random);
   const double aside = traits_.radians("lateral_azimuth_deg");
   for (const int side : {-1, 1}) {
-    const double azimuth = leaf.azimuth_rad + side * vary(aside, random);
+    const double azimuth = leaf.azimuth_rad + side * traits_.vary(aside, random);
     leaflet(end, azimuth, leaf.length_m * traits_["lateral_share"], 1, leaf.material, random);
   }
 }
@@ -54,7 +54,7 @@ void SoybeanOrgans::trifoliolate(const SoybeanLeaf& leaf, RandomStream& random) 
 // Bends outward along its length; returns its end.
 Vector3d SoybeanOrgans::petiole(const SoybeanLeaf& leaf, RandomStream& random) {
   constexpr int kPieces = 3;
-  const double bend = vary(traits_.radians("petiole_bend_deg"), random);
+  const double bend = traits_.vary(traits_.radians("petiole_bend_deg"), random);
   std::vector<Vector3d> path = {leaf.node};
   for (int i = 0; i < kPieces; ++i) {
     const double share = (i + 0.5) / kPieces - 0.5;
@@ -81,7 +81,7 @@ void SoybeanOrgans::leaflet(const Vector3d& base, double azimuth_rad, double len
                             double width_factor, const char* material, RandomStream& random) {
   const double tilt = traits_.radians("leaflet_tilt_deg");
   const double dip = traits_.radians("leaflet_droop_deg") + tilt * random.uniform(-1, 1);
-  const double bend = vary(traits_.radians("leaflet_bend_deg"), random);
+  const double bend = traits_.vary(traits_.radians("leaflet_bend_deg"), random);
   const double roll = tilt * random.uniform(-1, 1);
   const double half = length_m * traits_["leaflet_width_ratio"] * width_factor / 2;
   const Vector3d level = direction(azimuth_rad + kPi / 2, 0);
@@ -105,7 +105,7 @@ void SoybeanOrgans::pods(const Vector3d& axil, double azimuth_rad, double length
   const double drawn = traits_["pods_per_node"] + random.uniform(-1.5, 1.5);
   const int count = std::clamp(static_cast<int>(std::lround(drawn)), 1, 5);
   for (int i = 0; i < count; ++i) {
-    const double length = vary(length_m, random);
+    const double length = traits_.vary(length_m, random);
     const double azimuth = azimuth_rad + 1.1 * random.uniform(-1, 1);
     const double elevation = random.uniform(-0.9, 0.6);
     if (plant_.light() && i > 0) continue;  // one stands for the cluster

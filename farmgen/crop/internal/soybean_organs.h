@@ -36,11 +36,6 @@ class SoybeanOrgans {
   void pods(const Eigen::Vector3d& axil, double azimuth_rad, double length_m, RandomStream& random);
   void flowers(const Eigen::Vector3d& axil, double azimuth_rad, RandomStream& random);
 
-  // The value with the cultivar's variation from organ to organ.
-  double vary(double value, RandomStream& random) const {
-    return value * (1 + traits_["variation"] * random.uniform(-1, 1));
-  }
-
  private:
   Eigen::Vector3d petiole(const SoybeanLeaf& leaf, RandomStream& random);
   void stalk(const std::vector<Eigen::Vector3d>& path, double radius_m);

@@ -135,12 +135,12 @@ class WheatShoot {
     const double spread = traits_.radians("azimuth_spread_deg") * random.uniform(-1, 1);
     return {.collar = axis_.at(collar_m(rank)),
             .azimuth_rad = plane_rad_ + rank * kPi + spread,
-            .elevation_rad = kUpright - vary(traits_.radians("blade_angle_deg"), random),
+            .elevation_rad = kUpright - traits_.vary(traits_.radians("blade_angle_deg"), random),
             .bend_rad = traits_.radians("blade_bend_deg") * random.uniform(0.5, 1.25),
             .bend_exponent = random.uniform(1.3, 2.8),
             .twist_rad = traits_.radians("blade_twist_deg") * random.uniform(-1, 1),
-            .length_m = vary(vigour_ * traits_["blade_m"] * lengths.at(rank), random),
-            .width_m = vary(vigour_ * traits_["blade_width_m"] * widths.at(rank), random),
+            .length_m = traits_.vary(vigour_ * traits_["blade_m"] * lengths.at(rank), random),
+            .width_m = traits_.vary(vigour_ * traits_["blade_width_m"] * widths.at(rank), random),
             .base_width_share = 0.75,
             .widest_at = 0.35,
             .points = 8,
@@ -185,10 +185,6 @@ class WheatShoot {
                     .awn_m = vigour_ * traits_["awn_m"],
                     .material = ripe() ? "ripe_ear" : "ear"},
                    axis_, random, plant_);
-  }
-
-  double vary(double value, RandomStream& random) const {
-    return value * (1 + traits_["variation"] * random.uniform(-1, 1));
   }
 
   const Traits& traits_;

@@ -6,6 +6,7 @@
 #include "description/internal/sections.h"
 #include "description/internal/values.h"
 
+#include "core/list_of.h"
 #include "core/yaml_section.h"
 #include "crop/grow.h"
 
@@ -30,8 +31,8 @@ std::map<std::string, float> read_reflectance(const YamlSection& section) {
 std::map<std::string, float> read_crop_reflectance(const YamlSection& section,
                                                    const std::string& crop) {
   if (!section.has("reflectance")) return {};
-  std::vector<std::string> materials;
-  for (const auto& [material, colour] : crop::cultivar(crop).colours) materials.push_back(material);
+  const auto materials =
+      list_of(crop::cultivar(crop).colours, [](const auto& colour) { return colour.first; });
   section.section("reflectance").allow_only(materials);
   return read_reflectance(section);
 }
@@ -57,9 +58,8 @@ planting::GrownPlant read_grown_plant(const YamlSection& section) {
   }
   if (section.has("seed")) plant.seed = section.unsigned_integer("seed");
   if (!section.has("set")) return plant;
-  for (const YamlSection& entry : section.list("set", kMostAssignments, "assignment")) {
+  for (const YamlSection& entry : section.list("set", kMostAssignments, "assignment"))
     plant.assignments.push_back(entry.text("assignment"));
-  }
   return plant;
 }
 
@@ -78,11 +78,10 @@ std::vector<planting::ModelDescription> read_grown_models(const YamlSection& sec
     planting::GrownPlant plant = first;
     plant.seed += static_cast<std::uint64_t>(i);
     std::string own = name;
-    if (!section.has("name")) {
+    if (!section.has("name"))
       own += "_s" + std::to_string(plant.seed);
-    } else if (section.has("variants")) {
+    else if (section.has("variants"))
       own += "_" + std::to_string(i + 1);
-    }
     planting::ModelDescription& model = models.emplace_back();
     model.name = own;
     model.grown = std::move(plant);
@@ -95,22 +94,9 @@ std::vector<planting::ModelDescription> read_entry(const YamlSection& section) {
   std::vector<planting::ModelDescription> models =
       section.has("crop") ? read_grown_models(section)
                           : std::vector<planting::ModelDescription>{read_mesh_model(section)};
-  for (const planting::ModelDescription& model : models) {
+  for (const planting::ModelDescription& model : models)
     if (model.name == "terrain") section.fail("name", "\"terrain\" is the terrain's own name");
-  }
   return models;
-}
-
-bool same(const planting::GrownPlant& a, const planting::GrownPlant& b) {
-  return a.crop == b.crop && a.stage == b.stage && a.seed == b.seed &&
-         a.assignments == b.assignments;
-}
-
-bool same(const planting::ModelDescription& a, const planting::ModelDescription& b) {
-  const bool same_grown = a.grown && b.grown ? same(*a.grown, *b.grown) : !a.grown && !b.grown;
-  return same_grown && a.mesh == b.mesh && a.light == b.light && a.options.up == b.options.up &&
-         a.options.unit_m == b.options.unit_m && a.options.foot == b.options.foot &&
-         a.reflectance == b.reflectance;
 }
 
 }  // namespace
@@ -122,20 +108,18 @@ std::vector<std::uint32_t> read_models(const YamlSection& section,
   for (const YamlSection& entry : section.list("models", kMostModels, "mesh")) {
     for (planting::ModelDescription& model : read_entry(entry)) {
       if (!names.insert(model.name).second) {
+        section.fail("models", "has two models named \"{}\"; give one of them another name",
+                     model.name);
+      }
+      const auto known = std::ranges::find(models, model.name, &planting::ModelDescription::name);
+      if (known != models.end() && *known != model) {
         section.fail("models",
-                     "has two models named \"" + model.name + "\"; give one of them another name");
+                     "names a model \"{}\", and another list names another one so; give one of "
+                     "them another name",
+                     model.name);
       }
-      const auto known = std::find_if(models.begin(), models.end(),
-                                      [&](const auto& other) { return other.name == model.name; });
-      if (known != models.end() && !same(*known, model)) {
-        section.fail("models", "names a model \"" + model.name +
-                                   "\", and another list names another one so; give one of them "
-                                   "another name");
-      }
-      if (known == models.end() && models.size() == kMostModels) {
-        section.fail("models",
-                     "make more than " + std::to_string(kMostModels) + " models in the whole farm");
-      }
+      if (known == models.end() && models.size() == kMostModels)
+        section.fail("models", "make more than {} models in the whole farm", kMostModels);
       places.push_back(static_cast<std::uint32_t>(known - models.begin()));
       if (known == models.end()) models.push_back(std::move(model));
     }

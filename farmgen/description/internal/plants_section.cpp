@@ -9,21 +9,15 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::description {
 namespace {
 
-constexpr Range kJitter = {0, 10};
-constexpr Range kPlantDensity = {0, 10000};
-constexpr Range kPlantHeight = {0.01, 20};
-constexpr Range kDeviation = {0, 10};
 constexpr Range kPlantShare = {0, 1};
-constexpr Range kGaps = {0, 100};
-constexpr Range kGapLength = {0, 1000};
 constexpr Range kLean = {0, 90};
-constexpr Range kDirection = {-360, 360};
 constexpr std::int64_t kMostPlantsPerPlot = 1'000'000;
 constexpr std::size_t kMostCultivars = 10'000;
 
@@ -54,16 +48,13 @@ std::uint32_t read_count(const Inherited& section, const planting::PlotGridDescr
   const bool is_dense = section.has_own("density_m2");
   const YamlSection& where =
       counts || is_dense ? own : section.at(section.has("count") ? "count" : "density_m2");
-  if (where.has("count") && where.has("density_m2")) {
+  if (where.has("count") && where.has("density_m2"))
     where.fail("density_m2", "is given beside count; give one of the two");
-  }
-  if (!where.has("density_m2")) {
+  if (!where.has("density_m2"))
     return static_cast<std::uint32_t>(where.integer("count", 0, kMostPlantsPerPlot));
-  }
-  const double plants = where.number("density_m2", kPlantDensity) * grid.width_m * grid.length_m;
-  if (plants > static_cast<double>(kMostPlantsPerPlot)) {
+  const double plants = where.number("density_m2", {0, 10000}) * grid.width_m * grid.length_m;
+  if (plants > static_cast<double>(kMostPlantsPerPlot))
     where.fail("density_m2", "makes more than 1000000 plants a plot");
-  }
   return static_cast<std::uint32_t>(std::llround(plants));
 }
 
@@ -72,22 +63,19 @@ void read_pattern(const Inherited& section, planting::CultivarDescription& culti
     cultivar.pattern = planting::PlantPattern::drilled;
     cultivar.drill_rows =
         static_cast<std::uint32_t>(section.at("drill_rows").integer("drill_rows", 1, 10'000));
-    cultivar.jitter_m = section.at("jitter_m").number("jitter_m", kJitter, 0.0);
+    cultivar.jitter_m = section.at("jitter_m").number("jitter_m", {0, 10}, 0.0);
     cultivar.yaw_of_row = section.at("yaw").choice("yaw", {"random", "row"}, 0) == 1;
   }
-  for (const char* key : {"drill_rows", "jitter_m", "yaw"}) {
-    if (section.has_own(key) && cultivar.pattern == planting::PlantPattern::random) {
+  for (const char* key : {"drill_rows", "jitter_m", "yaw"})
+    if (section.has_own(key) && cultivar.pattern == planting::PlantPattern::random)
       section.own().fail(key, "belongs to pattern: drilled; the pattern is random");
-    }
-  }
 }
 
 planting::HeightDescription read_height(const YamlSection& section) {
-  const planting::HeightDescription height{.mean_m = section.number("mean", kPlantHeight),
-                                           .sd_m = section.number("sd", kDeviation)};
-  if (height.sd_m > 0.3 * height.mean_m) {
+  const planting::HeightDescription height{.mean_m = section.number("mean", {0.01, 20}),
+                                           .sd_m = section.number("sd", {0, 10})};
+  if (height.sd_m > 0.3 * height.mean_m)
     section.fail("sd", "is more than 0.3 of the mean; plants without height would be drawn");
-  }
   return height;
 }
 
@@ -95,14 +83,12 @@ planting::MissingDescription read_missing(const YamlSection& section,
                                           const planting::PlotGridDescription& grid) {
   const planting::MissingDescription missing{
       .rate = section.number("rate", kPlantShare, 0.0),
-      .gaps_per_plot = section.number("gaps_per_plot", kGaps, 0.0),
-      .gap_length_m = section.number("gap_length_m", kGapLength, 0.0)};
-  if (missing.gap_length_m > grid.length_m) {
+      .gaps_per_plot = section.number("gaps_per_plot", {0, 100}, 0.0),
+      .gap_length_m = section.number("gap_length_m", {0, 1000}, 0.0)};
+  if (missing.gap_length_m > grid.length_m)
     section.fail("gap_length_m", "is longer than the plots");
-  }
-  if (missing.gaps_per_plot > 0 && missing.gap_length_m == 0) {
+  if (missing.gaps_per_plot > 0 && missing.gap_length_m == 0)
     section.fail("gap_length_m", "has to be above 0 where there are gaps");
-  }
   return missing;
 }
 
@@ -114,9 +100,8 @@ planting::LodgingDescription read_lodging(const YamlSection& section) {
       .min_angle_rad = least * kDegrees,
       .max_angle_rad = greatest * kDegrees,
       .spread_rad = section.number("spread_deg", kLean, 10.0) * kDegrees};
-  if (section.has("direction_deg")) {
-    lodging.direction_rad = section.number("direction_deg", kDirection) * kDegrees;
-  }
+  if (section.has("direction_deg"))
+    lodging.direction_rad = section.number("direction_deg", {-360, 360}) * kDegrees;
   return lodging;
 }
 
@@ -127,15 +112,12 @@ planting::CultivarDescription read_cultivar(const Inherited& section,
   cultivar.count = read_count(section, grid);
   read_pattern(section, cultivar);
   std::tie(cultivar.min_scale, cultivar.max_scale) = scale_at(section.at("scale"));
-  if (section.has("height_m")) {
+  if (section.has("height_m"))
     cultivar.height = read_height(section.at("height_m").section("height_m"));
-  }
-  if (section.has("missing")) {
+  if (section.has("missing"))
     cultivar.missing = read_missing(section.at("missing").section("missing"), grid);
-  }
-  if (section.has("lodging")) {
+  if (section.has("lodging"))
     cultivar.lodging = read_lodging(section.at("lodging").section("lodging"));
-  }
   cultivar.models = read_models(section.at("models"), models);
   return cultivar;
 }
@@ -146,25 +128,20 @@ void read_cultivars(const YamlSection& section, const planting::PlotGridDescript
   std::size_t with_own_models = 0;
   for (const YamlSection& entry : section.list("cultivars", kMostCultivars)) {
     const std::string name = name_at(entry, "name");
-    for (const planting::CultivarDescription& other : plants.cultivars) {
-      if (other.name == name) entry.fail("name", "\"" + name + "\" is another cultivar's too");
-    }
+    for (const planting::CultivarDescription& other : plants.cultivars)
+      if (other.name == name) entry.fail("name", "\"{}\" is another cultivar's too", name);
     plants.cultivars.push_back(read_cultivar({entry, section}, grid, models));
     plants.cultivars.back().name = name;
     with_own_models += entry.has("models") ? 1 : 0;
   }
-  if (section.has("models") && with_own_models == plants.cultivars.size()) {
+  if (section.has("models") && with_own_models == plants.cultivars.size())
     section.fail("models", "are not used: every cultivar has its own");
-  }
 }
 
 void read_list(const YamlSection& section, planting::PlantsDescription& plants) {
-  for (const YamlSection& entry : section.list("list", kMostPlots, "cultivar")) {
-    std::vector<std::string> names;
-    for (const planting::CultivarDescription& cultivar : plants.cultivars)
-      names.push_back(cultivar.name);
+  const auto names = list_of(plants.cultivars, &planting::CultivarDescription::name);
+  for (const YamlSection& entry : section.list("list", kMostPlots, "cultivar"))
     plants.design.list.push_back(entry.choice("cultivar", names));
-  }
 }
 
 // `reps`, where it is given, has to be what the plots make.
@@ -172,9 +149,8 @@ void require_replicates(const YamlSection& section, const planting::PlotGridDesc
                         std::size_t cultivars) {
   const auto reps = static_cast<std::uint64_t>(section.integer("reps", 1, kMostPlots));
   if (reps * cultivars == planting::plots_of(grid)) return;
-  section.fail("reps", std::to_string(reps) + " of " + std::to_string(cultivars) +
-                           " cultivars are " + std::to_string(reps * cultivars) +
-                           " plots; the grid has " + std::to_string(planting::plots_of(grid)));
+  section.fail("reps", "{} of {} cultivars are {} plots; the grid has {}", reps, cultivars,
+               reps * cultivars, planting::plots_of(grid));
 }
 
 void read_design(const YamlSection& section, const planting::PlotGridDescription& grid,
@@ -184,12 +160,10 @@ void read_design(const YamlSection& section, const planting::PlotGridDescription
       section.choice("design", {"rcbd", "random", "cycle", "list"}, 0));
   design.block_by =
       static_cast<planting::BlockBy>(section.choice("block_by", {"plots", "rows", "columns"}, 0));
-  if (section.has("block_by") && design.design != planting::TrialDesign::rcbd) {
+  if (section.has("block_by") && design.design != planting::TrialDesign::rcbd)
     section.fail("block_by", "belongs to design: rcbd");
-  }
-  if (section.has("list") != (design.design == planting::TrialDesign::list)) {
+  if (section.has("list") != (design.design == planting::TrialDesign::list))
     section.fail("list", "and design: list belong together");
-  }
   if (design.design == planting::TrialDesign::list) read_list(section, plants);
   if (section.has("reps")) require_replicates(section, grid, plants.cultivars.size());
   std::vector<std::string> names(plants.cultivars.size());
@@ -204,7 +178,7 @@ void read_design(const YamlSection& section, const planting::PlotGridDescription
   for (const std::size_t cultivar : assigned) sown[cultivar] = true;
   for (std::size_t i = 0; i < sown.size(); ++i) {
     if (sown[i]) continue;
-    section.fail("cultivars", "leave \"" + plants.cultivars[i].name + "\" without a plot");
+    section.fail("cultivars", "leave \"{}\" without a plot", plants.cultivars[i].name);
   }
 }
 
@@ -215,9 +189,8 @@ void require_countable(const YamlSection& section, const planting::PlotGridDescr
   section.fail(section.has("cultivars")    ? "cultivars"
                : section.has("density_m2") ? "density_m2"
                                            : "count",
-               "makes " + std::to_string(total) + " plants in " +
-                   std::to_string(planting::plots_of(grid)) + " plots; at most " +
-                   std::to_string(kMostSeedsOfFarm) + " are allowed");
+               "makes {} plants in {} plots; at most {} are allowed", total,
+               planting::plots_of(grid), kMostSeedsOfFarm);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/plot_box.h"
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
 
@@ -18,9 +19,7 @@ constexpr Range kPlotSize = {0.05, 1000};
 constexpr Range kGap = {0, 1000};
 constexpr Range kPitch = {-10000, 10000};
 constexpr Range kPlace = {-100000, 100000};
-constexpr Range kHeading = {-360, 360};
 constexpr Range kSkew = {-45, 45};
-constexpr Range kShare = {0, 1};
 constexpr std::size_t kMostRows = 10'000;
 constexpr std::int64_t kLargestFirstNumber = 1'000'000'000;
 
@@ -35,39 +34,35 @@ void read_rows(const YamlSection& section, planting::PlotGridDescription& grid) 
     grid.rows.push_back({plots, row.number("offset_m", kPlace, 0.0)});
   }
   if (planting::plots_of(grid) > kMostPlots) {
-    section.fail("rows", "hold " + std::to_string(planting::plots_of(grid)) + " plots; at most " +
-                             std::to_string(kMostPlots) + " are allowed");
+    section.fail("rows", "hold {} plots; at most {} are allowed", planting::plots_of(grid),
+                 kMostPlots);
   }
 }
 
 void read_pitch(const YamlSection& section, planting::PlotGridDescription& grid) {
-  for (const char* key : {"gap_width_m", "gap_length_m", "heading_deg", "skew_deg"}) {
-    if (section.has(key)) section.fail("pitch", std::string("takes the place of ") + key);
-  }
+  for (const char* key : {"gap_width_m", "gap_length_m", "heading_deg", "skew_deg"})
+    if (section.has(key)) section.fail("pitch", "takes the place of {}", key);
   const YamlSection pitch = section.section("pitch");
   grid.pitch = {vector_at(pitch, "column_m", kPitch), vector_at(pitch, "row_m", kPitch)};
   const auto& [column, row] = *grid.pitch;
-  const double across = column.x() * row.y() - column.y() * row.x();
-  if (std::abs(across) <= column.norm() * row.norm() * std::cos(kSkew.high * kDegrees)) {
+  if (std::abs(plane_cross(column, row)) <=
+      column.norm() * row.norm() * std::cos(kSkew.high * kDegrees))
     section.fail("pitch", "has steps less than 45 degrees apart, or none");
-  }
 }
 
 void read_alleys(const YamlSection& section, planting::PlotGridDescription& grid) {
   const std::int64_t rows = static_cast<std::int64_t>(grid.rows.size());
   for (const YamlSection& alley : section.list("alleys", kMostPlots)) {
-    if (alley.has("after_row") == alley.has("after_column")) {
+    if (alley.has("after_row") == alley.has("after_column"))
       alley.fail("after_row", "or after_column has to be given, one of the two");
-    }
     const bool is_row = alley.has("after_row");
     const char* key = is_row ? "after_row" : "after_column";
     const std::int64_t last = (is_row ? rows : planting::columns_of(grid)) - 1;
     if (last < 1) alley.fail(key, "has no place: there is only one");
     const auto after = static_cast<std::uint32_t>(alley.integer(key, 1, last));
     auto& alleys = is_row ? grid.row_alleys_m : grid.column_alleys_m;
-    if (!alleys.emplace(after, alley.number("width_m", kGap)).second) {
-      alley.fail(key, std::to_string(after) + " has an alley already");
-    }
+    if (!alleys.emplace(after, alley.number("width_m", kGap)).second)
+      alley.fail(key, "{} has an alley already", after);
   }
 }
 
@@ -75,17 +70,14 @@ void read_missing(const YamlSection& section, planting::PlotGridDescription& gri
   const std::int64_t first = grid.first_number;
   const std::int64_t last = first + static_cast<std::int64_t>(planting::plots_of(grid)) - 1;
   if (section.has("missing")) {
-    for (const YamlSection& entry : section.list("missing", kMostPlots, "number")) {
+    for (const YamlSection& entry : section.list("missing", kMostPlots, "number"))
       grid.missing.push_back(static_cast<std::uint32_t>(entry.integer("number", first, last)));
-    }
     std::sort(grid.missing.begin(), grid.missing.end());
     const auto twice = std::adjacent_find(grid.missing.begin(), grid.missing.end());
-    if (twice != grid.missing.end()) {
-      section.fail("missing", "names plot " + std::to_string(*twice) + " twice");
-    }
+    if (twice != grid.missing.end()) section.fail("missing", "names plot {} twice", *twice);
     if (grid.missing.size() == planting::plots_of(grid)) section.fail("missing", "leaves no plot");
   }
-  grid.missing_rate = section.number("missing_rate", kShare, 0.0);
+  grid.missing_rate = section.number("missing_rate", {0, 1}, 0.0);
 }
 
 // Plots that lean against each other stay apart only when the steps are long enough.
@@ -93,10 +85,10 @@ void require_plots_apart(const YamlSection& section, const planting::PlotGridDes
   const double column_step =
       grid.pitch ? grid.pitch->column_m.norm() : grid.width_m + grid.gap_width_m;
   const double row_step = grid.pitch ? grid.pitch->row_m.norm() : grid.length_m + grid.gap_length_m;
-  const double cosine = grid.pitch ? std::abs(grid.pitch->column_m.x() * grid.pitch->row_m.y() -
-                                              grid.pitch->column_m.y() * grid.pitch->row_m.x()) /
-                                         (column_step * row_step)
-                                   : std::cos(grid.skew_rad);
+  const double cosine = grid.pitch
+                            ? std::abs(plane_cross(grid.pitch->column_m, grid.pitch->row_m)) /
+                                  (column_step * row_step)
+                            : std::cos(grid.skew_rad);
   constexpr double kRounding = 1e-9;
   const auto overlap = [&](double step, double size, const char* what) {
     if (step + kRounding >= size) return;
@@ -106,9 +98,8 @@ void require_plots_apart(const YamlSection& section, const planting::PlotGridDes
   };
   overlap(column_step * cosine, grid.width_m, "wide");
   overlap(row_step, grid.length_m, "long");
-  for (const auto& [column, alley_m] : grid.column_alleys_m) {
+  for (const auto& [column, alley_m] : grid.column_alleys_m)
     overlap((grid.width_m + alley_m) * cosine, grid.width_m, "wide, at an alley");
-  }
   // Where the axes are perpendicular, rows that keep apart do so however they are shifted.
   if (cosine > 1 - kRounding) return;
   if (const auto pair = planting::overlapping_plots(planting::grid_plots(grid))) {
@@ -129,16 +120,15 @@ planting::PlotGridDescription read_plot_grid(const YamlSection& section,
   grid.gap_length_m = section.number("gap_length_m", kGap, 0.0);
   grid.random_heading = section.text("heading_deg", "0") == "random";
   if (!grid.random_heading)
-    grid.heading_rad = section.number("heading_deg", kHeading, 0.0) * kDegrees;
+    grid.heading_rad = section.number("heading_deg", {-360, 360}, 0.0) * kDegrees;
   grid.skew_rad = section.number("skew_deg", kSkew, 0.0) * kDegrees;
   const auto [x, y] = section.pair("position_m", kPlace, std::pair{0.0, 0.0});
   grid.position_m = {x, y};
   read_rows(section, grid);
   if (section.has("pitch")) read_pitch(section, grid);
   if (section.has("alleys")) read_alleys(section, grid);
-  if (section.choice("numbering", {"rows", "serpentine"}, 0) == 1) {
+  if (section.choice("numbering", {"rows", "serpentine"}, 0) == 1)
     grid.numbering = PlotNumbering::serpentine;
-  }
   grid.first_number = static_cast<std::uint32_t>(
       section.integer("first_number", 1, kLargestFirstNumber, first_number));
   require_plots_apart(section, grid);

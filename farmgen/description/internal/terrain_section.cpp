@@ -11,23 +11,13 @@ namespace plotscan::description {
 namespace {
 
 constexpr Range kSide = {1, 100000};
-constexpr Range kTerrainHeight = {-10000, 10000};
 constexpr Range kRelief = {0, 1000};
-constexpr Range kAngle = {-360, 360};
-constexpr Range kPercent = {0, 100};
-constexpr Range kWavelength = {0.5, 100000};
-constexpr Range kSpacing = {0.05, 100};
-constexpr Range kOffset = {-100, 100};
-constexpr Range kDepth = {0, 10};
-constexpr Range kClodHeight = {0, 1};
-constexpr Range kClodSize = {0.01, 10};
-constexpr Range kStep = {0.005, 1000};
 constexpr std::int64_t kMostVertices = 1'000'000;
 
 const std::vector<std::string> kBases = {"mesh", "heightmap", "xyz"};
 
 double angle_at(const YamlSection& section, const std::string& key) {
-  return section.number(key, kAngle, 0.0) * kDegrees;
+  return section.number(key, {-360, 360}, 0.0) * kDegrees;
 }
 
 terrain::HeightmapDescription read_heightmap(const YamlSection& section) {
@@ -41,7 +31,7 @@ terrain::HeightmapDescription read_heightmap(const YamlSection& section) {
   } else {
     heightmap.size_x_m = section.number("side_m", kSide);
   }
-  const auto [black, white] = section.pair("height_m", kTerrainHeight);
+  const auto [black, white] = section.pair("height_m", {-10000, 10000});
   heightmap.black_m = black;
   heightmap.white_m = white;
   return heightmap;
@@ -65,7 +55,7 @@ void read_base(const YamlSection& section, terrain::TerrainDescription& terrain)
   std::string base;
   for (const std::string& key : kBases) {
     if (!section.has(key)) continue;
-    if (!base.empty()) section.fail(key, "takes the place of " + base + "; give one of the two");
+    if (!base.empty()) section.fail(key, "takes the place of {}; give one of the two", base);
     base = key;
   }
   if (base == "mesh") {
@@ -81,12 +71,12 @@ void read_base(const YamlSection& section, terrain::TerrainDescription& terrain)
 }
 
 terrain::SlopeDescription read_slope(const YamlSection& section) {
-  return {.gradient = section.number("percent", kPercent) / 100,
+  return {.gradient = section.number("percent", {0, 100}) / 100,
           .direction_rad = angle_at(section, "direction_deg")};
 }
 
 terrain::RollingDescription read_rolling(const YamlSection& section) {
-  const auto [shortest, longest] = section.pair("wavelength_m", kWavelength);
+  const auto [shortest, longest] = section.pair("wavelength_m", {0.5, 100000});
   if (shortest > longest)
     section.fail("wavelength_m", "is not [shortest, longest]: the first is the longer");
   return {.rms_m = section.number("rms_m", kRelief), .shortest_m = shortest, .longest_m = longest};
@@ -94,16 +84,16 @@ terrain::RollingDescription read_rolling(const YamlSection& section) {
 
 terrain::FurrowsDescription read_furrows(const YamlSection& section) {
   const bool trapezoid = section.choice("profile", {"sine", "trapezoid"}, 0) == 1;
-  return {.spacing_m = section.number("spacing_m", kSpacing),
-          .depth_m = section.number("depth_m", kDepth),
+  return {.spacing_m = section.number("spacing_m", {0.05, 100}),
+          .depth_m = section.number("depth_m", {0, 10}),
           .heading_rad = angle_at(section, "heading_deg"),
-          .offset_m = section.number("offset_m", kOffset, 0.0),
+          .offset_m = section.number("offset_m", {-100, 100}, 0.0),
           .profile = trapezoid ? terrain::FurrowProfile::trapezoid : terrain::FurrowProfile::sine};
 }
 
 terrain::ClodsDescription read_clods(const YamlSection& section) {
-  return {.height_m = section.number("height_m", kClodHeight),
-          .size_m = section.number("size_m", kClodSize)};
+  return {.height_m = section.number("height_m", {0, 1}),
+          .size_m = section.number("size_m", {0.01, 10})};
 }
 
 // Parts without height need no vertices.
@@ -122,7 +112,7 @@ terrain::TerrainDescription read_terrain(const YamlSection& section) {
   if (section.has("rolling")) terrain.rolling = read_rolling(section.section("rolling"));
   if (section.has("furrows")) terrain.furrows = read_furrows(section.section("furrows"));
   if (section.has("clods")) terrain.clods = read_clods(section.section("clods"));
-  if (section.has("step_m")) terrain.step_m = section.number("step_m", kStep);
+  if (section.has("step_m")) terrain.step_m = section.number("step_m", {0.005, 1000});
   if (section.has("detail_m")) {
     const auto [x, y] = section.pair("detail_m", kSide);
     terrain.detail_m = {x, y};

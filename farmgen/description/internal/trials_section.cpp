@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <string>
 
 #include "description/internal/sections.h"
 
@@ -26,8 +25,8 @@ void require_new_numbers(const YamlSection& plots, const planting::PlotGridDescr
     const planting::PlotGridDescription& other = trials[place].plots;
     const std::uint32_t first = std::max(grid.first_number, other.first_number);
     if (first > std::min(planting::last_number(grid), planting::last_number(other))) continue;
-    plots.fail("first_number", "gives a plot the number " + std::to_string(first) +
-                                   ", which trial " + std::to_string(place + 1) + " has too");
+    plots.fail("first_number", "gives a plot the number {}, which trial {} has too", first,
+               place + 1);
   }
 }
 
@@ -39,14 +38,10 @@ void require_few_enough(const YamlSection& farm,
     plots += planting::plots_of(trial.plots);
     if (trial.plants) seeds += planting::most_seeds(trial.plots, *trial.plants);
   }
-  if (plots > kMostPlots) {
-    farm.fail("trials", "hold " + std::to_string(plots) + " plots; at most " +
-                            std::to_string(kMostPlots) + " are allowed");
-  }
-  if (seeds > kMostSeedsOfFarm) {
-    farm.fail("trials", "make " + std::to_string(seeds) + " plants; at most " +
-                            std::to_string(kMostSeedsOfFarm) + " are allowed");
-  }
+  if (plots > kMostPlots)
+    farm.fail("trials", "hold {} plots; at most {} are allowed", plots, kMostPlots);
+  if (seeds > kMostSeedsOfFarm)
+    farm.fail("trials", "make {} plants; at most {} are allowed", seeds, kMostSeedsOfFarm);
 }
 
 // A section with a trial's `plots` and, where it is sown, `plants`.
@@ -81,8 +76,7 @@ std::vector<planting::TrialDescription> read_trials(
     return {read_trial(farm, sown, 1, models)};
   }
   for (const char* key : {"plots", "plants"})
-    if (farm.has(key))
-      farm.fail("trials", std::string("takes the place of ") + key + "; give one of the two");
+    if (farm.has(key)) farm.fail("trials", "takes the place of {}; give one of the two", key);
   return read_list(farm, sown, models);
 }
 

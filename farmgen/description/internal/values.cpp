@@ -5,14 +5,13 @@
 
 #include "planting/plants_description.h"
 
+#include "mesh/obj.h"
+
 namespace plotscan::description {
 namespace {
 
-constexpr Range kUnit = {1e-6, 1e6};
-constexpr Range kReflectance = {0, 1};
 constexpr std::size_t kLongestName = 64;
-constexpr std::string_view kNameCharacters =
-    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+constexpr std::string_view kAlsoInNames = "-.";
 
 }  // namespace
 
@@ -20,9 +19,8 @@ std::filesystem::path file_at(const YamlSection& section, const std::string& key
   const std::string text = section.text(key);
   std::filesystem::path path = section.file().parent_path() / text;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    section.fail(key, "\"" + text + "\" is no file (looked for " + path.string() + ")");
-  }
+  if (!std::filesystem::is_regular_file(path, error))
+    section.fail(key, "\"{}\" is no file (looked for {})", text, path.string());
   return path;
 }
 
@@ -30,29 +28,25 @@ mesh::MeshImportOptions read_mesh_options(const YamlSection& section) {
   mesh::MeshImportOptions options;
   if (section.has("up"))
     options.up = section.choice("up", {"z", "y"}) == 0 ? mesh::UpAxis::z : mesh::UpAxis::y;
-  options.unit_m = section.number("unit_m", kUnit, options.unit_m);
+  options.unit_m = section.number("unit_m", {1e-6, 1e6}, options.unit_m);
   return options;
 }
 
 std::string name_at(const YamlSection& section, const std::string& key,
                     std::optional<std::string> fallback) {
-  if (fallback) {
-    for (char& c : *fallback) {
-      if (kNameCharacters.find(c) == std::string_view::npos) c = '_';
-    }
-  }
+  if (fallback) fallback = mesh::plain_name(*fallback, kAlsoInNames);
   std::string name = section.text(key, fallback);
   if (name.size() > kLongestName || name.front() == '.' ||
-      name.find_first_not_of(kNameCharacters) != std::string::npos) {
-    section.fail(key, "\"" + name +
-                          "\" is not a name: 1 to 64 letters, digits, '-', '_', '.', not beginning "
-                          "with '.'");
+      name != mesh::plain_name(name, kAlsoInNames)) {
+    section.fail(
+        key, "\"{}\" is not a name: 1 to 64 letters, digits, '-', '_', '.', not beginning with '.'",
+        name);
   }
   return name;
 }
 
 double reflectance_at(const YamlSection& section, const std::string& key) {
-  return section.number(key, kReflectance);
+  return section.number(key, {0, 1});
 }
 
 std::pair<double, double> scale_at(const YamlSection& section) {

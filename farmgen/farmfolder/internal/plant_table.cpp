@@ -40,7 +40,7 @@ farm::Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelInde
   constexpr long long kMost = std::numeric_limits<std::uint32_t>::max();
   farm::Plant plant;
   plant.id = static_cast<std::uint32_t>(row.integer(Column::id, 1, kMost));
-  if (plant.id != expected_id) row.fail(Column::id, "is not " + std::to_string(expected_id));
+  if (plant.id != expected_id) row.fail(Column::id, "is not {}", expected_id);
   plant.plot = static_cast<std::uint32_t>(row.integer(Column::plot, 0, kMost));
   plant.kind = kind_of(row);
   const auto model = models.find(std::string(row.text(Column::model)));
@@ -49,17 +49,14 @@ farm::Plant plant_of(const CsvRow& row, std::size_t expected_id, const ModelInde
   plant.position = {row.number(Column::x), row.number(Column::y), row.number(Column::z)};
   plant.rotation.coeffs() = Eigen::Vector4d(row.number(Column::qx), row.number(Column::qy),
                                             row.number(Column::qz), row.number(Column::qw));
-  if (std::abs(plant.rotation.norm() - 1) > kUnitTolerance) {
+  if (std::abs(plant.rotation.norm() - 1) > kUnitTolerance)
     row.fail(Column::qw, "and qx, qy, qz are not a unit quaternion");
-  }
   for (int axis = 0; axis < 3; ++axis) {
     plant.scale[axis] = row.number(Column::scale_x + axis);
-    if (plant.scale[axis] < 1 / kMostScale || plant.scale[axis] > kMostScale) {
+    if (plant.scale[axis] < 1 / kMostScale || plant.scale[axis] > kMostScale)
       row.fail(Column::scale_x + axis, "is not in [0.001, 1000]");
-    }
-    if (std::abs(plant.position[axis]) > terrain::kFarthest_m) {
+    if (std::abs(plant.position[axis]) > terrain::kFarthest_m)
       row.fail(Column::x + axis, "is more than 100 km from the farm's centre");
-    }
   }
   plant.height_m = row.number(Column::height);
   return plant;
@@ -72,9 +69,8 @@ void append_line(std::string& text, const farm::Plant& plant, std::string_view m
   for (const double value :
        {plant.position.x(), plant.position.y(), plant.position.z(), plant.rotation.x(),
         plant.rotation.y(), plant.rotation.z(), plant.rotation.w(), plant.scale.x(),
-        plant.scale.y(), plant.scale.z(), plant.height_m}) {
+        plant.scale.y(), plant.scale.z(), plant.height_m})
     text.append(",").append(NumberText(value));
-  }
   text += '\n';
 }
 

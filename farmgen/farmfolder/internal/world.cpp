@@ -9,6 +9,7 @@
 #include "farmfolder/internal/plant_visuals.h"
 #include "sdfxml/elements.h"
 
+#include "core/list_of.h"
 #include "core/ordered_texts.h"
 
 namespace plotscan::farmfolder {
@@ -54,10 +55,9 @@ std::vector<PlantsPiece> pieces_of(const std::map<std::uint32_t, PlantList>& by_
 void write_plants_by_plot(sdfxml::XmlFile& xml, const farm::Farm& farm, int threads,
                           const ProgressReport& progress) {
   constexpr int kOpenElements = 4;  // sdf, world, model, link
-  std::vector<std::string> uris;
-  for (const farm::PlantModel& model : farm.models) {
-    uris.push_back(model_mesh_path(model.name).generic_string());
-  }
+  const auto uris = list_of(farm.models, [](const farm::PlantModel& model) {
+    return model_mesh_path(model.name).generic_string();
+  });
   std::map<std::uint32_t, PlantList> by_plot;
   for (const farm::Plant& plant : farm.plants) by_plot[plant.plot].push_back(&plant);
   const std::vector<PlantsPiece> pieces = pieces_of(by_plot);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/internal/drone.h"
-
 #include <numbers>
 
 #include "sdfxml/elements.h"
 
 #include "core/angle.h"
+#include "gazebo/internal/world_file.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -31,8 +30,12 @@ class Drone {
     if (gazebo_ == Gazebo::classic) write_kinematics();
     write_body();
     write_lidar();
-    write_imu();
-    if (gps) write_gps();
+    open_sensor("imu", "imu", "100", "imu");
+    xml_.close();
+    if (gps) {
+      open_sensor("gps", gazebo_ == Gazebo::classic ? "gps" : "navsat", "5", "navsat");
+      xml_.close();
+    }
     xml_.close();
   }
 
@@ -45,13 +48,12 @@ class Drone {
     xml_.text("kinematic", "true");
     xml_.open("inertial");
     xml_.text("mass", "1.477");  // hector_quadrotor, as lidarsim's drone
-    xml_.open("inertia");
-    for (const auto& [key, value] :
-         {std::pair("ixx", "0.01152"), std::pair("ixy", "0"), std::pair("ixz", "0"),
-          std::pair("iyy", "0.01152"), std::pair("iyz", "0"), std::pair("izz", "0.0218")}) {
-      xml_.text(key, value);
-    }
-    xml_.close();
+    xml_.texts("inertia", {{"ixx", "0.01152"},
+                           {"ixy", "0"},
+                           {"ixz", "0"},
+                           {"iyy", "0.01152"},
+                           {"iyz", "0"},
+                           {"izz", "0.0218"}});
     xml_.close();
   }
 
@@ -91,19 +93,14 @@ class Drone {
   void write_box(const std::string& name, const std::string& pose, const std::string& size,
                  const Eigen::Vector3f& colour) {
     open_visual(name, pose);
-    xml_.open("box");
-    xml_.text("size", size);
-    xml_.close();
+    xml_.texts("box", {{"size", size}});
     close_visual(colour);
   }
 
   void write_cylinder(const std::string& name, const std::string& pose, double radius,
                       double length, const Eigen::Vector3f& colour) {
     open_visual(name, pose);
-    xml_.open("cylinder");
-    xml_.text("radius", sdf_numbers({radius}));
-    xml_.text("length", sdf_numbers({length}));
-    xml_.close();
+    xml_.texts("cylinder", {{"radius", sdf_numbers({radius})}, {"length", sdf_numbers({length})}});
     close_visual(colour);
   }
 
@@ -117,12 +114,10 @@ class Drone {
   }
 
   void write_angles(const char* axis, int samples, double min_rad, double max_rad) {
-    xml_.open(axis);
-    xml_.text("samples", std::to_string(samples));
-    xml_.text("resolution", "1");
-    xml_.text("min_angle", sdf_numbers({min_rad}));
-    xml_.text("max_angle", sdf_numbers({max_rad}));
-    xml_.close();
+    xml_.texts(axis, {{"samples", std::to_string(samples)},
+                      {"resolution", "1"},
+                      {"min_angle", sdf_numbers({min_rad})},
+                      {"max_angle", sdf_numbers({max_rad})}});
   }
 
   void write_lidar() {
@@ -139,27 +134,12 @@ class Drone {
     write_angles("horizontal", kAzimuths, -turn / 2, turn / 2 - turn / kAzimuths);
     write_angles("vertical", 16, -kElevation_rad, kElevation_rad);
     xml_.close();
-    xml_.open("range");
-    xml_.text("min", sdf_numbers({kMinRange_m}));
-    xml_.text("max", sdf_numbers({kMaxRange_m}));
-    xml_.text("resolution", sdf_numbers({kRangeStep_m}));
+    xml_.texts("range", {{"min", sdf_numbers({kMinRange_m})},
+                         {"max", sdf_numbers({kMaxRange_m})},
+                         {"resolution", sdf_numbers({kRangeStep_m})}});
+    xml_.texts("noise",
+               {{"type", "gaussian"}, {"mean", "0"}, {"stddev", sdf_numbers({kRangeNoise_m})}});
     xml_.close();
-    xml_.open("noise");
-    xml_.text("type", "gaussian");
-    xml_.text("mean", "0");
-    xml_.text("stddev", sdf_numbers({kRangeNoise_m}));
-    xml_.close();
-    xml_.close();
-    xml_.close();
-  }
-
-  void write_imu() {
-    open_sensor("imu", "imu", "100", "imu");
-    xml_.close();
-  }
-
-  void write_gps() {
-    open_sensor("gps", gazebo_ == Gazebo::classic ? "gps" : "navsat", "5", "navsat");
     xml_.close();
   }
 

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/internal/fly_script.h"
-
 #include "core/text_file.h"
-#include "gazebo/internal/drone.h"
 #include "gazebo/internal/world_file.h"
 
 namespace plotscan::gazebo {

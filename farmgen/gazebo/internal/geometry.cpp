@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "core/csv.h"
 #include "core/error.h"
 #include "gazebo/internal/shapes.h"
@@ -12,18 +14,12 @@ namespace plotscan::gazebo {
 namespace fs = std::filesystem;
 namespace {
 
-std::string key_of(const std::string& kind, std::initializer_list<double> sizes) {
-  std::string key = kind;
-  for (const double size : sizes) key += ' ' + format_number(size);
-  return key;
-}
-
 mesh::Mesh imported(const fs::path& file, const std::string& object, const fs::path& from,
                     const std::string& what, std::vector<std::string>& notes) {
   try {
     return mesh::import_mesh(file, {.object = object}, &notes);
   } catch (const InputError& error) {
-    throw InputError(from, what + ": mesh " + error.what());
+    throw InputError(from, "{}: mesh {}", what, error.what());
   }
 }
 
@@ -44,13 +40,13 @@ std::uint32_t ShapeCache::index(const std::string& key, Make&& make) {
 std::uint32_t ShapeCache::of_mesh(const ShapeSpec& given, const std::string& what) {
   const auto file = finder_.find(given.uri, given.from);
   if (!file)
-    throw InputError(given.from, what + ": mesh " + finder_.not_found(given.uri, given.from));
+    throw InputError(given.from, "{}: mesh {}", what, finder_.not_found(given.uri, given.from));
   const std::string key =
       file->string() + '\n' + given.submesh + (given.centred ? "\ncentred" : "");
   return index(key, [&] {
     mesh::Mesh read = imported(*file, given.submesh, given.from, what, notes_);
     if (given.centred) put_centre_at_origin(read);
-    if (std::find(files_.begin(), files_.end(), *file) == files_.end()) files_.push_back(*file);
+    if (std::ranges::find(files_, *file) == files_.end()) files_.push_back(*file);
     return read;
   });
 }
@@ -60,7 +56,7 @@ std::uint32_t ShapeCache::of_polyline(const ShapeSpec& given, const std::string&
     try {
       return extruded(given.loops, given.length_m);
     } catch (const InputError& error) {
-      throw InputError(world_, what + ": " + error.what());
+      throw InputError(world_, "{}: {}", what, error.what());
     }
   });
 }
@@ -78,7 +74,8 @@ std::uint32_t ShapeCache::of(const ShapeSpec& given, const std::string& what) {
     case ShapeKind::cylinder:
       return index("cylinder", unit_cylinder);
     case ShapeKind::capsule:
-      return index(key_of("capsule", {given.radius_m, given.length_m}),
+      return index(fmt::format("capsule {} {}", format_number(given.radius_m),
+                               format_number(given.length_m)),
                    [&] { return capsule(given.radius_m, given.length_m); });
     default:
       return of_polyline(given, what);

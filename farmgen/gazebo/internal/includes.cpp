@@ -11,18 +11,16 @@
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "gazebo/internal/quiet.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
 namespace {
 
-std::string trimmed(const char* text) {
-  const std::string_view blanks = " \t\r\n";
-  const std::string whole = text == nullptr ? "" : text;
-  const auto begin = whole.find_first_not_of(blanks);
-  if (begin == std::string::npos) return "";
-  return whole.substr(begin, whole.find_last_not_of(blanks) - begin + 1);
+std::string text_of(const tinyxml2::XMLElement* element) {
+  const char* text = element == nullptr ? nullptr : element->GetText();
+  return std::string(without_blanks(text == nullptr ? "" : text, " \t\r\n"));
 }
 
 // libsdformat takes up to 2.5 MB and 20 ms a model, more the more there are.
@@ -54,24 +52,19 @@ bool is_too_new(const std::string& version) {
 void require_sdf(const tinyxml2::XMLElement& root, const fs::path& file) {
   const std::string_view name = root.Name();
   if (name == "robot") return;  // URDF, which libsdformat reads, too
-  if (name != "sdf")
-    throw InputError(file, "is not an SDF file: its root is <" + std::string(name) + ">");
+  if (name != "sdf") throw InputError(file, "is not an SDF file: its root is <{}>", name);
   const char* version = root.Attribute("version");
   if (version == nullptr) throw InputError(file, "<sdf> has no version");
-  if (!is_version(version)) {
-    throw InputError(file, std::string("<sdf> has the version \"") + version +
-                               "\", which is no number such as 1.9");
-  }
-  if (is_too_new(version)) {
-    throw InputError(
-        file, std::string("is SDF ") + version + "; up to " + sdf::SDF::Version() + " is read");
-  }
+  if (!is_version(version))
+    throw InputError(file, "<sdf> has the version \"{}\", which is no number such as 1.9", version);
+  if (is_too_new(version))
+    throw InputError(file, "is SDF {}; up to {} is read", version, sdf::SDF::Version());
 }
 
 void load_xml(tinyxml2::XMLDocument& document, const fs::path& file, const std::string& refusal) {
   if (document.LoadFile(file.c_str()) == tinyxml2::XML_SUCCESS) return;
-  throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())),
-                   refusal + ": " + document.ErrorName());
+  throw InputError(file, static_cast<std::size_t>(std::max(1, document.ErrorLineNum())), "{}: {}",
+                   refusal, document.ErrorName());
 }
 
 // libsdformat crashes on a description of a model that lacks something.
@@ -84,16 +77,14 @@ void require_config(const fs::path& config) {
   bool readable = false;
   for (; sdf != nullptr; sdf = sdf->NextSiblingElement("sdf")) {
     const auto line = static_cast<std::size_t>(sdf->GetLineNum());
-    if (trimmed(sdf->GetText()).empty()) throw InputError(config, line, "<sdf> names no file");
+    if (text_of(sdf).empty()) throw InputError(config, line, "<sdf> names no file");
     const char* version = sdf->Attribute("version");
     if (version == nullptr || !is_version(version))
       throw InputError(config, line, "<sdf> has no version that is a number such as 1.9");
     readable = readable || !is_too_new(version);
   }
-  if (!readable) {
-    throw InputError(
-        config, std::string("names no file for SDF ") + sdf::SDF::Version() + " or an older one");
-  }
+  if (!readable)
+    throw InputError(config, "names no file for SDF {} or an older one", sdf::SDF::Version());
 }
 
 class Follower {
@@ -104,16 +95,14 @@ class Follower {
   std::uint64_t follow(const fs::path& file) {
     if (const auto known = models_.find(file); known != models_.end()) return known->second;
     require_file(file);
-    if (fs::file_size(file) > kMostBytes) {
-      throw InputError(file, "has " + std::to_string(fs::file_size(file)) +
-                                 " bytes; SDF is read up to " + std::to_string(kMostBytes));
-    }
+    if (fs::file_size(file) > kMostBytes)
+      throw InputError(file, "has {} bytes; SDF is read up to {}", fs::file_size(file), kMostBytes);
     tinyxml2::XMLDocument document;
     load_xml(document, file, "cannot be parsed as XML, which SDF is");
     if (document.RootElement() == nullptr) throw InputError(file, "holds no XML element");
     require_sdf(*document.RootElement(), file);
     if (open_.size() == kDeepest)
-      throw InputError(file, "is included by " + std::to_string(kDeepest) + " files in a row");
+      throw InputError(file, "is included by {} files in a row", kDeepest);
     open_.push_back(file);
     const std::uint64_t models = walk(*document.RootElement(), file);
     open_.pop_back();
@@ -134,9 +123,9 @@ class Follower {
       if (name == "world" || name == "model") models += walk(*child, file);
       if (models > kMostModels) {
         throw InputError(file, static_cast<std::size_t>(child->GetLineNum()),
-                         "more than " + std::to_string(kMostModels) +
-                             " models with those of includes; join them, as farmgen export "
-                             "--merge plot does");
+                         "more than {} models with those of includes; join them, as farmgen export "
+                         "--merge plot does",
+                         kMostModels);
       }
     }
     return models;
@@ -144,20 +133,19 @@ class Follower {
 
   std::uint64_t follow_include(const tinyxml2::XMLElement& include, const fs::path& file) {
     const auto line = static_cast<std::size_t>(include.GetLineNum());
-    const tinyxml2::XMLElement* element = include.FirstChildElement("uri");
-    const std::string uri = trimmed(element == nullptr ? nullptr : element->GetText());
+    const std::string uri = text_of(include.FirstChildElement("uri"));
     if (uri.empty()) throw InputError(file, line, "<include> has no <uri>");
     const auto found = finder_.find(uri, file);
-    if (!found) throw InputError(file, line, "<include> " + finder_.not_found(uri, file));
+    if (!found) throw InputError(file, line, "<include> {}", finder_.not_found(uri, file));
     const auto [known, is_new] = includes_.by_uri.try_emplace(uri, *found);
     if (known->second != *found) {
       throw InputError(file, line,
-                       "<include> " + uri + " means " + found->string() + " here and " +
-                           known->second.string() + " elsewhere; name them model://");
+                       "<include> {} means {} here and {} elsewhere; name them model://", uri,
+                       found->string(), known->second.string());
     }
     const fs::path sdf = fs::is_directory(*found) ? sdf_of_model(*found, file, line) : *found;
     if (std::find(open_.begin(), open_.end(), sdf) != open_.end())
-      throw InputError(file, line, "<include> " + uri + " goes round in a circle: " + circle(sdf));
+      throw InputError(file, line, "<include> {} goes round in a circle: {}", uri, circle(sdf));
     return follow(sdf);
   }
 
@@ -170,8 +158,8 @@ class Follower {
     const std::string sdf = sdf::getModelFilePath(folder.string());
     if (sdf.empty()) {
       throw InputError(file, line,
-                       "<include> leads to " + folder.string() +
-                           ", which has no model.config that names an SDF file");
+                       "<include> leads to {}, which has no model.config that names an SDF file",
+                       folder.string());
     }
     return fs::path(sdf).lexically_normal();
   }

@@ -41,10 +41,9 @@ namespace {
 // it.
 sdf::ParserConfig parser_config(const Includes& includes, const ResourceFinder& finder) {
   sdf::ParserConfig config;
-  for (const fs::path& folder : finder.folders()) {
+  for (const fs::path& folder : finder.folders())
     for (const char* scheme : {"model://", "package://"})
       config.AddURIPath(scheme, folder.string());
-  }
   for (const auto& [uri, path] : includes.by_uri) {
     const std::string name = uri.substr(0, uri.find_last_not_of('/') + 1);
     const std::string prefix = name.substr(0, name.rfind('/') + 1);  // empty: no slash
@@ -116,7 +115,7 @@ Eigen::Affine3d parent_from(const Element& element, const std::string& what, con
   Eigen::Affine3d transform = Eigen::Translation3d(p.X(), p.Y(), p.Z()) *
                               Eigen::Quaterniond(q.W(), q.X(), q.Y(), q.Z()).normalized();
   if (!transform.matrix().allFinite())
-    throw InputError(file, what + " has a pose that is not finite");
+    throw InputError(file, "{} has a pose that is not finite", what);
   return transform;
 }
 
@@ -145,9 +144,8 @@ struct Place {
 SurfaceClass kind_of(const sdf::Visual& visual, const Place& place) {
   if (visual.HasLaserRetro()) {
     for (const SurfaceClass kind :
-         {SurfaceClass::ground, SurfaceClass::crop, SurfaceClass::weed, SurfaceClass::other}) {
+         {SurfaceClass::ground, SurfaceClass::crop, SurfaceClass::weed, SurfaceClass::other})
       if (visual.LaserRetro() == static_cast<double>(kind)) return kind;
-    }
   }
   const sdf::GeometryType type = visual.Geom()->Type();
   const bool flat = type == sdf::GeometryType::PLANE || type == sdf::GeometryType::HEIGHTMAP;
@@ -164,9 +162,8 @@ bool carries_lidar(const sdf::Model& model) {
       if (type == sdf::SensorType::LIDAR || type == sdf::SensorType::GPU_LIDAR) return true;
     }
   }
-  for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
+  for (std::uint64_t i = 0; i < model.ModelCount(); ++i)
     if (carries_lidar(*model.ModelByIndex(i))) return true;
-  }
   return false;
 }
 
@@ -199,11 +196,10 @@ class WorldWalker {
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
       const sdf::Model& model = *world.ModelByIndex(i);
       // It would scan itself, or stand in the way of what flies in its place.
-      if (carries_lidar(model)) {
+      if (carries_lidar(model))
         ++scanners;
-      } else {
+      else
         add_model(model, Eigen::Affine3d::Identity(), {});
-      }
     }
     note(scanners, "model(s) with a lidar left out");
     note(world.ActorCount(), "actor(s) left out");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -49,5 +50,11 @@ struct WorldVisuals {
 // crashes on some files. Throws InputError as read_world does, but for meshes and distances.
 WorldVisuals load_world(const std::filesystem::path& file, const Includes& includes,
                         const ResourceFinder& finder);
+
+// A world's visuals as bytes, for another process of the same program.
+std::string bytes_of(const WorldVisuals& world);
+
+// The visuals back. Throws std::runtime_error where the bytes hold no visuals.
+WorldVisuals world_visuals_of(std::string_view bytes);
 
 }  // namespace plotscan::gazebo

@@ -123,9 +123,8 @@ void ObjFile::add(const Surface& surface, const Eigen::Affine3d& file_from_surfa
   const auto put_face = [&](std::array<std::uint32_t, 3> corners,
                             const std::vector<std::uint32_t>& normals) {
     buffer_ += 'f';
-    for (const std::uint32_t corner : corners) {
+    for (const std::uint32_t corner : corners)
       put_corner(vertices_ + corner + 1, textured ? uv + corner : 0, normals[corner]);
-    }
     buffer_ += '\n';
     ++triangles_;
   };

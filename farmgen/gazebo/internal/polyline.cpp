@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deque>
-#include <string>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/core.h>
 
 #include "core/error.h"
 #include "gazebo/internal/shapes.h"
@@ -33,8 +33,8 @@ Triangulation triangulated(const std::vector<std::vector<Eigen::Vector2d>>& loop
   std::size_t points = 0;
   for (const auto& loop : loops) points += loop.size();
   if (points > kMostPoints) {
-    throw InputError("a polyline has " + std::to_string(points) + " points; at most " +
-                     std::to_string(kMostPoints) + " are read");
+    throw InputError(
+        fmt::format("a polyline has {} points; at most {} are read", points, kMostPoints));
   }
   Triangulation triangulation;
   for (const auto& loop : loops) {
@@ -62,12 +62,11 @@ void count_loops(const Triangulation& triangulation) {
     open.pop_front();
     if (way.face->info().loops != kUnknown) continue;
     way.face->info().loops = way.loops;
-    for (int edge = 0; edge < 3; ++edge) {
+    for (int edge = 0; edge < 3; ++edge)
       if (way.face->is_constrained(edge))
         open.push_back({way.face->neighbor(edge), way.loops + 1});
       else
         open.push_front({way.face->neighbor(edge), way.loops});
-    }
   }
 }
 

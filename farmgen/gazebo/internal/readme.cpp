@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/internal/readme.h"
-
 #include "core/manifest.h"
 #include "core/text_file.h"
+#include "gazebo/internal/world_file.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -134,11 +133,10 @@ void write_readme(const std::filesystem::path& path, const farm::Farm& farm,
   if (options.merge == Merge::none) out << kSlowMerge;
   if (options.drone) {
     out << kDrone;
-    if (classic) {
+    if (classic)
       write_classic_drone(out, farm, options.lidar);
-    } else {
+    else
       out << kSimTopics;
-    }
   }
   out.close();
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <sstream>
 #include <string_view>
 
 #include "core/error.h"
@@ -20,10 +19,8 @@ constexpr std::array<const char*, 4> kVariables = {"SDF_PATH", "GZ_SIM_RESOURCE_
 void add_folders_of(const char* variable, std::vector<fs::path>& folders) {
   const char* value = std::getenv(variable);
   if (value == nullptr) return;
-  std::istringstream list(value);
-  for (std::string folder; std::getline(list, folder, ':');) {
+  for (const std::string& folder : split(value, ':'))
     if (!folder.empty()) folders.emplace_back(folder);
-  }
 }
 
 // Whether a name leads out of the folder that it is looked for in.
@@ -47,9 +44,8 @@ bool is_remote(const std::string& uri) {
 
 ResourceFinder::ResourceFinder(const fs::path& world, const std::vector<fs::path>& first)
     : folders_(first) {
-  for (const fs::path& folder : first) {
+  for (const fs::path& folder : first)
     if (!fs::is_directory(folder)) throw InputError(folder, "no such folder of resources");
-  }
   const fs::path folder = fs::absolute(world).lexically_normal().parent_path();
   folders_.insert(folders_.end(), {folder, folder / "models", folder.parent_path()});
   for (const char* variable : kVariables) add_folders_of(variable, folders_);
@@ -81,9 +77,8 @@ std::vector<fs::path> ResourceFinder::candidates(const std::string& uri,
 
 std::optional<fs::path> ResourceFinder::find(const std::string& uri, const fs::path& from) const {
   std::error_code error;
-  for (const fs::path& path : candidates(uri, from)) {
+  for (const fs::path& path : candidates(uri, from))
     if (fs::exists(path, error)) return path;
-  }
   return {};
 }
 
@@ -93,10 +88,9 @@ std::string ResourceFinder::not_found(const std::string& uri, const fs::path& fr
            "model://NAME, and give the folder that holds it with --resource-path";
   }
   std::vector<std::string> names;
-  for (const fs::path& path : candidates(uri, from)) {
+  for (const fs::path& path : candidates(uri, from))
     if (std::find(names.begin(), names.end(), path.string()) == names.end())
       names.push_back(path.string());
-  }
   if (names.empty() && (uri.starts_with("model://") || uri.starts_with("package://")))
     return uri + " leads out of the folders of models; name what lies in one";
   if (names.empty()) return uri + " has a scheme that is not known: model, package or file";

@@ -29,7 +29,7 @@ Eigen::Vector3d vector_of(const ignition::math::Vector3d& v) { return {v.X(), v.
 Eigen::Vector3d positive(const Eigen::Vector3d& sizes, const std::string& what,
                          const fs::path& world) {
   if (sizes.allFinite() && sizes.minCoeff() > 0) return sizes;
-  throw InputError(world, what + " has a size that is not positive and finite");
+  throw InputError(world, "{} has a size that is not positive and finite", what);
 }
 
 Eigen::Affine3d scaling(const Eigen::Vector3d& scale) {
@@ -67,7 +67,7 @@ ShapeSpec polyline(const sdf::ElementPtr& geometry, const std::string& what,
   bool finite = std::isfinite(spec.length_m) && spec.length_m > 0;
   for (const auto& loop : spec.loops)
     for (const Eigen::Vector2d& point : loop) finite = finite && point.allFinite();
-  if (!finite) throw InputError(world, what + " has a size that is not positive and finite");
+  if (!finite) throw InputError(world, "{} has a size that is not positive and finite", what);
   return spec;
 }
 
@@ -75,10 +75,10 @@ ShapeSpec of_mesh(const sdf::Mesh& given, const std::string& what, const fs::pat
   ShapeSpec spec{.kind = ShapeKind::mesh};
   spec.from = given.FilePath().empty() ? world : fs::path(given.FilePath());
   if (given.Uri().empty() || given.Uri() == kNoUri)
-    throw InputError(spec.from, what + ": <mesh> has no <uri>");
+    throw InputError(spec.from, "{}: <mesh> has no <uri>", what);
   const Eigen::Vector3d scale = vector_of(given.Scale());
   if (!scale.allFinite() || (scale.array() == 0).any())
-    throw InputError(spec.from, what + ": the mesh's scale has a number that is 0 or not finite");
+    throw InputError(spec.from, "{}: the mesh's scale has a number that is 0 or not finite", what);
   spec.uri = given.Uri();
   spec.submesh = given.Submesh();
   spec.centred = !given.Submesh().empty() && given.CenterSubmesh();
@@ -91,7 +91,8 @@ std::optional<ShapeSpec> of_element(const sdf::Geometry& geometry, const std::st
   const sdf::ElementPtr element = geometry.Element();
   if (!element) return {};
   if (element->HasElement("polyline")) return polyline(element, what, world);
-  if (element->HasElement("image")) throw InputError(world, what + ": <image> shapes are not read");
+  if (element->HasElement("image"))
+    throw InputError(world, "{}: <image> shapes are not read", what);
   return {};
 }
 
@@ -130,7 +131,7 @@ std::optional<ShapeSpec> shape_spec(const sdf::Visual& visual, const std::string
           .kind = ShapeKind::capsule, .radius_m = given.Radius(), .length_m = given.Length()};
     }
     case sdf::GeometryType::HEIGHTMAP:
-      throw InputError(world, what + ": heightmaps are not read; give the ground as a mesh");
+      throw InputError(world, "{}: heightmaps are not read; give the ground as a mesh", what);
     default:
       return of_element(geometry, what, world);
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/internal/world_bytes.h"
-
 #include <stdexcept>
 
 #include "core/bytes.h"
+#include "gazebo/internal/load_world.h"
 
 namespace plotscan::gazebo {
 namespace {

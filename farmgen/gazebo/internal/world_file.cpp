@@ -4,7 +4,6 @@
 #include "sdfxml/elements.h"
 #include "terrain/extent.h"
 
-#include "gazebo/internal/drone.h"
 #include "gazebo/internal/naming.h"
 
 namespace plotscan::gazebo {
@@ -26,15 +25,16 @@ class WorldFile {
     xml_.open("world", farm_.name);
     write_physics();
     if (names_ != PluginNames::none) write_systems();
-    write_scene();
+    xml_.texts(
+        "scene",
+        {{"ambient", "0.5 0.5 0.5 1"}, {"background", "0.65 0.78 0.92 1"}, {"shadows", "true"}});
     if (farm_.anchor) write_spherical_coordinates();
     sdfxml::write_sun(xml_);
     include(sdfxml::kTerrainModel, Eigen::Vector3d::Zero(), SurfaceClass::ground);
     for (const PlantGroups& group : world_.groups) include(group.name, group.origin, group.label);
     EntityCounts counts;
-    if (options_.merge == Merge::none) {
+    if (options_.merge == Merge::none)
       for (const farm::Plant& plant : farm_.plants) counts += write_plant(plant);
-    }
     if (options_.drone)
       include(kDroneModel, middle() + kWaiting_m * Eigen::Vector3d::UnitZ(), SurfaceClass::other);
     xml_.close();
@@ -85,24 +85,14 @@ class WorldFile {
     if (farm_.anchor) write_system("navsat", "NavSat");
   }
 
-  void write_scene() {
-    xml_.open("scene");
-    xml_.text("ambient", "0.5 0.5 0.5 1");
-    xml_.text("background", "0.65 0.78 0.92 1");
-    xml_.text("shadows", "true");
-    xml_.close();
-  }
-
   void write_spherical_coordinates() {
     const Anchor& anchor = *farm_.anchor;
-    xml_.open("spherical_coordinates");
-    xml_.text("surface_model", "EARTH_WGS84");
-    xml_.text("world_frame_orientation", "ENU");
-    xml_.text("latitude_deg", sdf_numbers({anchor.latitude_deg}));
-    xml_.text("longitude_deg", sdf_numbers({anchor.longitude_deg}));
-    xml_.text("elevation", sdf_numbers({anchor.altitude_m}));
-    xml_.text("heading_deg", "0");
-    xml_.close();
+    xml_.texts("spherical_coordinates", {{"surface_model", "EARTH_WGS84"},
+                                         {"world_frame_orientation", "ENU"},
+                                         {"latitude_deg", sdf_numbers({anchor.latitude_deg})},
+                                         {"longitude_deg", sdf_numbers({anchor.longitude_deg})},
+                                         {"elevation", sdf_numbers({anchor.altitude_m})},
+                                         {"heading_deg", "0"}});
   }
 
   // The label that Gazebo Sim's segmentation and bounding box cameras show. It stands in the world

@@ -18,10 +18,8 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <fmt/core.h>
 
 #include "core/error.h"
-#include "mesh/internal/import_materials.h"
 #include "mesh/internal/mesh_files.h"
 
 namespace plotscan::mesh {
@@ -121,10 +119,8 @@ Eigen::Affine3d model_from_file(const std::string& extension, const MeshImportOp
 
 Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned vertex,
                  const Eigen::Affine3d& model_from_node, bool textured) {
-  if (vertex >= part.mNumVertices) {
-    throw InputError(path, "a triangle names vertex " + std::to_string(vertex) + " of " +
-                               std::to_string(part.mNumVertices));
-  }
+  if (vertex >= part.mNumVertices)
+    throw InputError(path, "a triangle names vertex {} of {}", vertex, part.mNumVertices);
   const aiVector3D& v = part.mVertices[vertex];
   Corner corner = Corner::Zero();
   corner.head<3>() = (model_from_node * Eigen::Vector3d(v.x, v.y, v.z)).cast<float>();
@@ -133,10 +129,8 @@ Corner corner_of(const std::filesystem::path& path, const aiMesh& part, unsigned
     corner.tail<2>() << uv.x, uv.y;
   }
   if (!corner.head<3>().allFinite()) throw InputError(path, "a vertex is not finite");
-  if (corner.head<3>().cwiseAbs().maxCoeff() > kFarthest_m) {
-    throw InputError(path, "a vertex lies further than " + fmt::format("{:.0f}", kFarthest_m) +
-                               " m from the origin");
-  }
+  if (corner.head<3>().cwiseAbs().maxCoeff() > kFarthest_m)
+    throw InputError(path, "a vertex lies further than {:.0f} m from the origin", kFarthest_m);
   if (!corner.allFinite()) throw InputError(path, "a texture coordinate is not finite");
   return corner;
 }
@@ -157,16 +151,14 @@ void add_node(const std::filesystem::path& path, const aiScene& scene, const aiN
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;  // points and lines
       std::array<Corner, 3> corners;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 3; ++k)
         corners[k] = corner_of(path, part, face.mIndices[k], model_from_node, builder.textured());
-      }
       if (mirrored) std::swap(corners[1], corners[2]);  // their outside stays outside
       builder.add(corners, static_cast<std::uint16_t>(part.mMaterialIndex));
     }
   }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+  for (unsigned i = 0; i < node.mNumChildren; ++i)
     add_node(path, scene, *node.mChildren[i], model_from_node, object, builder);
-  }
 }
 
 void require_corners(const std::filesystem::path& path, const aiScene& scene) {
@@ -175,8 +167,8 @@ void require_corners(const std::filesystem::path& path, const aiScene& scene) {
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const unsigned corners = part.mFaces[f].mNumIndices;
       if (corners <= kMostCorners) continue;
-      throw InputError(path, "has a face of " + std::to_string(corners) + " corners; at most " +
-                                 std::to_string(kMostCorners) + " are read");
+      throw InputError(path, "has a face of {} corners; at most {} are read", corners,
+                       kMostCorners);
     }
   }
 }
@@ -195,7 +187,7 @@ const aiScene& read_scene(const std::filesystem::path& path, Assimp::Importer& i
   if (scene != nullptr && scene->mRootNode != nullptr) return *scene;
   if (std::string_view(importer.GetErrorString()).find("bad_alloc") != std::string_view::npos)
     throw std::bad_alloc();
-  throw InputError(path, std::string("cannot be read as a mesh: ") + importer.GetErrorString());
+  throw InputError(path, "cannot be read as a mesh: {}", importer.GetErrorString());
 }
 
 }  // namespace
@@ -205,9 +197,8 @@ Mesh read_with_assimp(const std::filesystem::path& path, const std::string& exte
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, options.up.has_value());
   const aiScene& scene = read_scene(path, importer);
-  if (scene.mNumMaterials > std::numeric_limits<std::uint16_t>::max()) {
+  if (scene.mNumMaterials > std::numeric_limits<std::uint16_t>::max())
     throw InputError(path, "has more than 65535 materials");
-  }
   MeshBuilder builder(materials_of(path, scene, notes));
   add_node(path, scene, *scene.mRootNode, model_from_file(extension, options), options.object,
            builder);

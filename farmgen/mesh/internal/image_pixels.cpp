@@ -17,8 +17,7 @@ bool is_jpeg(const std::string& bytes) { return bytes.starts_with("\xff\xd8\xff"
 void require_size(std::size_t width, std::size_t height, std::size_t most_pixels,
                   const std::filesystem::path& file) {
   if (width > 0 && height > 0 && width <= most_pixels / height) return;
-  throw InputError(file, "has " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels; at most " + std::to_string(most_pixels) + " are allowed");
+  throw InputError(file, "has {} x {} pixels; at most {} are allowed", width, height, most_pixels);
 }
 
 // libpng's simplified reader; it keeps what it allocates until it is freed.
@@ -53,11 +52,11 @@ class PngReader {
 Coverage decode_png(const std::string& bytes, std::size_t most_pixels,
                     const std::filesystem::path& file) {
   PngReader reader(bytes);
-  if (!reader.begun()) throw InputError(file, "is not a sound PNG: " + reader.message());
+  if (!reader.begun()) throw InputError(file, "is not a sound PNG: {}", reader.message());
   require_size(reader.width(), reader.height(), most_pixels, file);
   const std::size_t wanted = reader.has_alpha() ? 1 : 0;
   std::vector<std::uint8_t> pixels;
-  if (!reader.read(pixels)) throw InputError(file, "is not a sound PNG: " + reader.message());
+  if (!reader.read(pixels)) throw InputError(file, "is not a sound PNG: {}", reader.message());
   Coverage coverage{.width = reader.width(), .height = reader.height(), .values = {}};
   coverage.values.reserve(pixels.size() / 2);
   for (std::size_t i = wanted; i < pixels.size(); i += 2) coverage.values.push_back(pixels[i]);
@@ -124,12 +123,12 @@ class JpegReader {
 Coverage decode_jpeg(const std::string& bytes, std::size_t most_pixels,
                      const std::filesystem::path& file) {
   JpegReader reader(bytes);
-  if (!reader.begin()) throw InputError(file, "is not a sound JPEG: " + reader.message());
+  if (!reader.begin()) throw InputError(file, "is not a sound JPEG: {}", reader.message());
   require_size(reader.width(), reader.height(), most_pixels, file);
   Coverage coverage{.width = reader.width(), .height = reader.height(), .values = {}};
   coverage.values.resize(coverage.width * coverage.height);
   if (!reader.read(coverage.values.data()))
-    throw InputError(file, "is not a sound JPEG: " + reader.message());
+    throw InputError(file, "is not a sound JPEG: {}", reader.message());
   return coverage;
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/internal/import_materials.h"
-
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "mesh/alpha_mask.h"
+#include "mesh/internal/assimp_mesh.h"
 #include "mesh/internal/mtl_comments.h"
 #include "mesh/obj.h"
 
@@ -71,9 +70,8 @@ std::shared_ptr<const Image> texture_of(const std::filesystem::path& path, const
                                         const aiMaterial& material) {
   aiString name;
   if (material.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS &&
-      material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS) {
+      material.GetTexture(aiTextureType_BASE_COLOR, 0, &name) != aiReturn_SUCCESS)
     return nullptr;
-  }
   return found_image(path, scene, name.C_Str()).image;
 }
 
@@ -111,9 +109,8 @@ std::shared_ptr<const AlphaMask> mask_of(const std::filesystem::path& path, cons
   float cutoff = kAlphaCutoff;
   aiString mode;
   if (given.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS &&
-      std::string_view(mode.C_Str()) == "MASK") {
+      std::string_view(mode.C_Str()) == "MASK")
     given.Get(AI_MATKEY_GLTF_ALPHACUTOFF, cutoff);
-  }
   cutoff = stated_cutoff.value_or(cutoff);
   const std::filesystem::path file = path.parent_path() / image->name;
   auto mask = std::make_shared<const AlphaMask>(std::move(image), cutoff, file);
@@ -133,9 +130,8 @@ std::vector<Material> materials_of(const std::filesystem::path& path, const aiSc
     // The name assimp gives where the file has no material.
     if (material.name == AI_DEFAULT_MATERIAL_NAME) material.name.clear();
     aiColor3D colour;
-    if (given.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS) {
+    if (given.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS)
       material.colour = Eigen::Vector3f(colour.r, colour.g, colour.b).cwiseMax(0).cwiseMin(1);
-    }
     material.texture = texture_of(path, scene, given);
     material.mask = mask_of(path, scene, given, material, said.cutoff, notes);
     material.reflectance = said.reflectance;

@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "mesh/internal/plain_obj.h"
+#include "mesh/internal/assimp_mesh.h"
 
 namespace plotscan::mesh {
 namespace fs = std::filesystem;
@@ -69,8 +69,7 @@ void require_glb_length(const fs::path& path) {
   std::uint32_t length = 0;
   std::memcpy(&length, header.data() + 8, sizeof length);
   if (length <= fs::file_size(path)) return;
-  throw InputError(path, "promises " + std::to_string(length) + " bytes, but has " +
-                             std::to_string(fs::file_size(path)));
+  throw InputError(path, "promises {} bytes, but has {}", length, fs::file_size(path));
 }
 
 }  // namespace plotscan::mesh

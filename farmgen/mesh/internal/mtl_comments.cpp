@@ -12,10 +12,11 @@ namespace {
 
 // What stands behind the key, without blanks around it; absent where the line begins otherwise.
 std::optional<std::string> behind(const std::string& line, const std::string& key) {
-  if (!line.starts_with(key) || line.size() == key.size()) return {};
-  const auto begin = line.find_first_not_of(" \t\r", key.size());
-  if (begin == key.size() || begin == std::string::npos) return {};
-  return line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
+  if (!line.starts_with(key)) return {};
+  const std::string_view rest = std::string_view(line).substr(key.size());
+  const std::string_view text = without_blanks(rest);
+  if (text.empty() || text.data() == rest.data()) return {};  // or a longer word
+  return std::string(text);
 }
 
 // A number in [0, 1] behind the key; absent where the line begins otherwise.
@@ -25,8 +26,7 @@ std::optional<float> share(const std::string& line, const char* key,
   if (!text) return {};
   const auto value = parsed<float>(*text);
   if (value && *value >= 0 && *value <= 1) return value;
-  throw InputError(file, number,
-                   std::string(key) + ": \"" + *text + "\" is not a number in [0, 1]");
+  throw InputError(file, number, "{}: \"{}\" is not a number in [0, 1]", key, *text);
 }
 
 void read_library(const std::filesystem::path& file, std::map<std::string, MtlComments>& found) {

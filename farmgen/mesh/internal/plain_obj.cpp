@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/internal/plain_obj.h"
-
 #include <algorithm>
+
+#include "mesh/internal/assimp_mesh.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/plant_layout.h"
-
 #include <unordered_set>
 
+#include "planting/internal/plants.h"
 #include "planting/layout_table.h"
 #include "planting/plot_layout.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "farm/heights.h"
 
 namespace plotscan::planting {
@@ -14,9 +14,7 @@ std::vector<farm::Plant> table_plants(const LayoutDescription& layout,
                                       const std::vector<farm::Plot>& plots,
                                       const std::vector<farm::PlantModel>& models,
                                       const terrain::Terrain& terrain) {
-  std::vector<std::string> names;
-  names.reserve(models.size());
-  for (const farm::PlantModel& model : models) names.push_back(model.name);
+  const std::vector<std::string> names = list_of(models, &farm::PlantModel::name);
   std::unordered_set<std::uint32_t> plot_ids = {0};
   for (const farm::Plot& plot : plots) plot_ids.insert(plot.id);
   const PlotFinder finder(plots);
@@ -28,9 +26,8 @@ std::vector<farm::Plant> table_plants(const LayoutDescription& layout,
     plant.id = static_cast<std::uint32_t>(plants.size() + 1);
     plant.plot = row.plot ? *row.plot : finder.plot_at(row.position);
     if (!plot_ids.contains(plant.plot)) {
-      throw InputError(layout.plants, row.line,
-                       "plot " + std::to_string(plant.plot) + " is not one of the farm's " +
-                           std::to_string(plots.size()) + " plots");
+      throw InputError(layout.plants, row.line, "plot {} is not one of the farm's {} plots",
+                       plant.plot, plots.size());
     }
     plant.model = row.model;
     plant.kind = row.kind;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/plant_models.h"
-
 #include <set>
 
-#include <fmt/core.h>
+#include "planting/internal/plants.h"
 
 #include "core/error.h"
 #include "core/text.h"
@@ -29,7 +27,7 @@ mesh::Mesh grown(const ModelDescription& model, crop::Detail detail,
                        .textured = detail == crop::Detail::light},
                       plant.seed);
   } catch (const InputError& error) {
-    throw InputError(source, "model " + model.name + ": " + error.what());
+    throw InputError(source, "model {}: {}", model.name, error.what());
   }
 }
 
@@ -53,10 +51,9 @@ void apply_reflectance(const ModelDescription& description, const std::filesyste
   if (model.light) apply_reflectance(description.reflectance, *model.light);
   for (const auto& [name, reflectance] : description.reflectance) {
     if (description.grown || names.contains(name)) continue;
-    throw InputError(source,
-                     "model " + model.name + ": reflectance: " + name + " is not a material of " +
-                         description.mesh.string() + ", which has " +
-                         (names.empty() ? "none" : joined({names.begin(), names.end()}, ", ")));
+    throw InputError(source, "model {}: reflectance: {} is not a material of {}, which has {}",
+                     model.name, name, description.mesh.string(),
+                     names.empty() ? "none" : joined({names.begin(), names.end()}, ", "));
   }
 }
 
@@ -82,27 +79,17 @@ farm::PlantModel make_model(const ModelDescription& description,
   model.height_m = mesh::mesh_height(model.mesh);
   if (model.height_m > kTallest_m) {
     throw InputError(description.grown ? source : description.mesh,
-                     "model " + model.name + fmt::format(" is {:.4g} m tall", model.height_m) +
-                         fmt::format("; a plant has up to {:.0f} m (unit_m says what the file's "
-                                     "numbers are)",
-                                     kTallest_m));
+                     "model {} is {:.4g} m tall; a plant has up to {:.0f} m (unit_m says what the "
+                     "file's numbers are)",
+                     model.name, model.height_m, kTallest_m);
   }
   if (model.height_m > 0) return model;
-  if (description.grown) throw InputError(source, "model " + model.name + ": has no height");
+  if (description.grown) throw InputError(source, "model {}: has no height", model.name);
   throw InputError(description.mesh,
                    "has no vertex above its origin; is z its up axis? (up: y, foot: lowest)");
 }
 
 }  // namespace
-
-std::vector<std::filesystem::path> model_files(const std::vector<ModelDescription>& models) {
-  std::vector<std::filesystem::path> files;
-  for (const ModelDescription& model : models) {
-    if (!model.grown) files.push_back(model.mesh);
-    if (model.light) files.push_back(*model.light);
-  }
-  return files;
-}
 
 std::vector<farm::PlantModel> make_models(const std::vector<ModelDescription>& models,
                                           const std::filesystem::path& source) {
@@ -114,11 +101,10 @@ std::vector<farm::PlantModel> make_models(const std::vector<ModelDescription>& m
     triangles += made.back().mesh.triangles.size();
     if (made.back().light) triangles += made.back().light->triangles.size();
     if (triangles <= kMostTriangles) continue;
-    throw InputError(source, "models: the first " + std::to_string(made.size()) + " of " +
-                                 std::to_string(models.size()) + " have " +
-                                 std::to_string(triangles) + " triangles; at most " +
-                                 std::to_string(kMostTriangles) +
-                                 " are allowed; fewer or simpler models would fit");
+    throw InputError(source,
+                     "models: the first {} of {} have {} triangles; at most {} are allowed; fewer "
+                     "or simpler models would fit",
+                     made.size(), models.size(), triangles, kMostTriangles);
   }
   return made;
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/sown_plants.h"
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 
+#include "planting/internal/plants.h"
 #include "planting/plot_layout.h"
-#include <fmt/core.h>
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/random.h"
 #include "farm/heights.h"
 
@@ -147,9 +145,8 @@ class PlotPlants {
     plant.rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
     if (lodging_) plant.rotation = lean_of(number) * plant.rotation;
     RandomStream scale = stream("plant/scale", number);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis)
       plant.scale[axis] = scale.uniform(cultivar_.min_scale, cultivar_.max_scale);
-    }
     if (cultivar_.height) plant.scale.z() = scale_to_height(models_[plant.model], number);
     return plant;
   }
@@ -161,11 +158,10 @@ class PlotPlants {
     const double height_m = cultivar_.height->mean_m + deviations * cultivar_.height->sd_m;
     const double scale = height_m / model.height_m;
     if (kPlantScale.contains(scale)) return scale;
-    throw InputError(source_, "plants.height_m: a plant of " + cultivar_.name +
-                                  fmt::format(" is to be {:.3f} m high, but its model ", height_m) +
-                                  model.name +
-                                  fmt::format(" is {:.3f} m high; its scale has to be in {}",
-                                              model.height_m, kPlantScale.text()));
+    throw InputError(source_,
+                     "plants.height_m: a plant of {} is to be {:.3f} m high, but its model {} is "
+                     "{:.3f} m high; its scale has to be in {}",
+                     cultivar_.name, height_m, model.name, model.height_m, kPlantScale.text());
   }
 
   // What tilts an upright plant of a lodged plot.
@@ -183,10 +179,8 @@ class PlotPlants {
     const Eigen::Vector2d world =
         plot_.box.center + place.x() * plot_.box.length_axis() + place.y() * plot_.box.width_axis();
     const auto ground = terrain_.height(world.x(), world.y());
-    if (!ground) {
-      throw InputError(
-          source_, "plots: plot " + std::to_string(plot_.id) + " lies over a hole of the terrain");
-    }
+    if (!ground)
+      throw InputError(source_, "plots: plot {} lies over a hole of the terrain", plot_.id);
     plant.position = {world.x(), world.y(), *ground};
     plant.height_m = farm::placed_height(models_[plant.model], plant, *ground);
   }
@@ -209,9 +203,7 @@ std::vector<SownPlot> sow(const std::vector<TrialDescription>& trials, std::uint
   std::uint64_t next_seed = 1;
   for (std::size_t place = 0; place < trials.size(); ++place) {
     const std::vector<CultivarDescription>& cultivars = trials[place].plants.value().cultivars;
-    std::vector<std::string> accessions;
-    accessions.reserve(cultivars.size());
-    for (const CultivarDescription& cultivar : cultivars) accessions.push_back(cultivar.name);
+    const auto accessions = list_of(cultivars, &CultivarDescription::name);
     const PlotGridDescription& grid = trials[place].plots;
     std::vector<farm::Plot> plots = grid_plots(grid, trial_number(place, trials.size()));
     const std::vector<std::size_t> assigned = assign_cultivars(

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/weeds.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
 
+#include "planting/internal/plants.h"
 #include "planting/plot_layout.h"
 #include "terrain/extent.h"
 #include <Eigen/Geometry>
@@ -77,9 +76,8 @@ farm::Plant drawn_weed(const WeedsDescription& description, std::uint64_t number
   const double yaw = RandomStream(seed, random_purpose("weed/yaw"), number).uniform(0, 2 * kPi);
   weed.rotation = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
   RandomStream scale(seed, random_purpose("weed/scale"), number);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3; ++axis)
     weed.scale[axis] = scale.uniform(description.min_scale, description.max_scale);
-  }
   return weed;
 }
 

@@ -9,6 +9,7 @@
 #include <png.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -46,12 +47,9 @@ class PngReader {
 
   // The rows' bytes, 1 or 2 a pixel, the higher one first.
   std::vector<std::vector<png_byte>> rows() {
-    if (!prepare()) fail();
-    std::vector<std::vector<png_byte>> rows(height(),
-                                            std::vector<png_byte>(png_get_rowbytes(png_, info_)));
-    std::vector<png_bytep> places;
-    places.reserve(rows.size());
-    for (auto& row : rows) places.push_back(row.data());
+    const std::vector<png_byte> row(width() * (bits() == 16 ? 2 : 1));
+    std::vector<std::vector<png_byte>> rows(height(), row);
+    std::vector<png_bytep> places = list_of(rows, [](auto& each) { return each.data(); });
     if (!read_rows(places.data())) fail();
     return rows;
   }
@@ -63,22 +61,16 @@ class PngReader {
     png_read_info(png_, info_);
     return true;
   }
-  bool prepare() {
+  bool read_rows(png_bytepp places) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_set_packing(png_);  // a byte for each pixel of fewer bits, its value kept
     png_set_strip_alpha(png_);
-    png_set_interlace_handling(png_);
-    png_read_update_info(png_, info_);
-    return true;
-  }
-  bool read_rows(png_bytepp places) {
-    if (setjmp(png_jmpbuf(png_)) != 0) return false;
     png_read_image(png_, places);
     png_read_end(png_, nullptr);
     return true;
   }
 
-  [[noreturn]] void fail() const { throw InputError(path_, "is not a sound PNG: " + error_); }
+  [[noreturn]] void fail() const { throw InputError(path_, "is not a sound PNG: {}", error_); }
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
@@ -96,9 +88,8 @@ GreyImage read_grey_png(const std::filesystem::path& path, std::size_t most_pixe
   if (!reader.is_grey()) throw InputError(path, "is an image in colour; a grey one is expected");
   GreyImage image{.width = reader.width(), .height = reader.height(), .white = 0, .pixels = {}};
   if (image.width * image.height > most_pixels) {
-    throw InputError(path, "has " + std::to_string(image.width) + " x " +
-                               std::to_string(image.height) + " pixels; at most " +
-                               std::to_string(most_pixels) + " are allowed");
+    throw InputError(path, "has {} x {} pixels; at most {} are allowed", image.width, image.height,
+                     most_pixels);
   }
   const int bits = reader.bits();
   image.white = (1U << bits) - 1;

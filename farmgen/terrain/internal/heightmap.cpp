@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "terrain/internal/heightmap.h"
-
 #include <utility>
 
+#include "terrain/internal/bases.h"
 #include "terrain/internal/grey_image.h"
 #include "terrain/internal/refine.h"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "terrain/internal/random_terrain.h"
-
 #include <algorithm>
 #include <utility>
 
+#include "terrain/internal/bases.h"
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -24,9 +23,8 @@ using Triangle = std::array<std::uint32_t, 3>;
 std::vector<Triangle> delaunay_triangles(const std::vector<Eigen::Vector2d>& points) {
   std::vector<std::pair<Kernel::Point_2, std::uint32_t>> input;
   input.reserve(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
+  for (std::uint32_t i = 0; i < points.size(); ++i)
     input.emplace_back(Kernel::Point_2(points[i].x(), points[i].y()), i);
-  }
   const Delaunay delaunay(input.begin(), input.end());
   std::vector<Triangle> triangles;
   triangles.reserve(delaunay.number_of_faces());

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
 
-#include "terrain/internal/random_terrain.h"
+#include "terrain/internal/bases.h"
+#include <fmt/core.h>
 
 #include "core/error.h"
 
@@ -79,9 +79,8 @@ double step_along(const std::vector<Patch>& patches, const Eigen::Vector2d& a,
                   const Eigen::Vector2d& b) {
   Eigen::AlignedBox2d box(a);
   box.extend(b);
-  for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch) {
+  for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch)
     if (patch->box.intersects(box)) return step_of(*patch);
-  }
   return std::numeric_limits<double>::infinity();
 }
 
@@ -96,10 +95,10 @@ void divide(const std::vector<Patch>& patches, const Eigen::Vector2d& a, const E
 }
 
 [[noreturn]] void fail_too_many_edges() {
-  throw InputError("terrain: its base has so many bent edges that following them takes more than " +
-                   std::to_string(kMostTerrainVertices) +
-                   " vertices; a greater terrain.step_m, a smaller terrain.detail_m or a coarser "
-                   "base would fit");
+  throw InputError(fmt::format(
+      "terrain: its base has so many bent edges that following them takes more than {} vertices; a "
+      "greater terrain.step_m, a smaller terrain.detail_m or a coarser base would fit",
+      kMostTerrainVertices));
 }
 
 // The base's vertices and the points along its breaklines.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "terrain/internal/xyz_file.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
 
+#include "terrain/internal/bases.h"
 #include "terrain/internal/refine.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/parse.h"
 #include "core/text.h"
 
@@ -25,11 +25,8 @@ struct PointOnLine {
 
 double number_of(std::string_view field, const std::filesystem::path& path, std::size_t line) {
   const auto value = parsed<double>(field);
-  if (!value)
-    throw InputError(path, line,
-                     "\"" + std::string(field) + "\" is not a number; x y z are expected");
-  if (!std::isfinite(*value))
-    throw InputError(path, line, "\"" + std::string(field) + "\" is not finite");
+  if (!value) throw InputError(path, line, "\"{}\" is not a number; x y z are expected", field);
+  if (!std::isfinite(*value)) throw InputError(path, line, "\"{}\" is not finite", field);
   return *value;
 }
 
@@ -47,8 +44,7 @@ bool parse(std::string_view text, const std::filesystem::path& path, PointOnLine
     parsed.point[fields++] = number_of(field, path, parsed.line);
   }
   if (fields == 1 || fields == 2)
-    throw InputError(path, parsed.line,
-                     "has " + std::to_string(fields) + " of the three numbers x y z");
+    throw InputError(path, parsed.line, "has {} of the three numbers x y z", fields);
   return fields == 3;
 }
 
@@ -63,8 +59,7 @@ void require_different_places(const std::filesystem::path& path, std::vector<Poi
         return a.point.x() == b.point.x() && a.point.y() == b.point.y();
       });
   if (twice == points.end()) return;
-  throw InputError(path, (twice + 1)->line,
-                   "has the x and y of line " + std::to_string(twice->line) + " again");
+  throw InputError(path, (twice + 1)->line, "has the x and y of line {} again", twice->line);
 }
 
 }  // namespace
@@ -79,20 +74,15 @@ std::vector<Eigen::Vector3d> read_xyz(const std::filesystem::path& path) {
     PointOnLine next{.point = Eigen::Vector3d::Zero(), .line = ++line};
     if (parse(text.substr(begin, end - begin), path, next)) parsed.push_back(next);
     if (parsed.size() > kMostTerrainVertices) {
-      throw InputError(path, line,
-                       "is point " + std::to_string(parsed.size()) + "; at most " +
-                           std::to_string(kMostTerrainVertices) + " are allowed");
+      throw InputError(path, line, "is point {}; at most {} are allowed", parsed.size(),
+                       kMostTerrainVertices);
     }
     begin = end + 1;
   }
   if (parsed.size() < 3)
-    throw InputError(path,
-                     "has " + std::to_string(parsed.size()) + " points; a terrain has 3 or more");
+    throw InputError(path, "has {} points; a terrain has 3 or more", parsed.size());
   require_different_places(path, parsed);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(parsed.size());
-  for (const PointOnLine& each : parsed) points.push_back(each.point);
-  return points;
+  return list_of(parsed, &PointOnLine::point);
 }
 
 }  // namespace plotscan::terrain

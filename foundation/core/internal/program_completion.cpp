@@ -49,26 +49,15 @@ BashBranches bash_branches(const CLI::App& program) {
   return offered;
 }
 
-// Text for a shell's single quotes, with a backslash before each character of `special`.
-std::string quoted(const std::string& text, const std::string& special) {
-  std::string escaped;
-  for (const char letter : text) {
-    if (special.find(letter) != std::string::npos) escaped += '\\';
-    escaped += letter;
-  }
-  return escaped;
+// Text for zsh's single quotes, in which there is no escape: a quote closes and reopens them.
+std::string zsh_text(const std::string& text) {
+  return with_escapes(text,
+                      {{'\\', "\\\\"}, {':', "\\:"}, {'[', "\\["}, {']', "\\]"}, {'\'', "'\\''"}});
 }
 
-// zsh has no escape within single quotes: a quote in the text closes and reopens them.
-std::string zsh_text(const std::string& text) {
-  std::string escaped;
-  for (const char letter : quoted(text, "\\:[]")) {
-    if (letter == '\'')
-      escaped += "'\\''";
-    else
-      escaped += letter;
-  }
-  return escaped;
+// Text for fish's single quotes.
+std::string fish_text(const std::string& text) {
+  return with_escapes(text, {{'\\', "\\\\"}, {'\'', "\\'"}});
 }
 
 // The value of an option or a positional argument, in the syntax of zsh's _arguments.
@@ -122,7 +111,7 @@ std::string fish_argument(const CLI::Option& option) {
     line += " -x -a '" + joined(choices, " ") + "'";
   else if (takes_value(option))
     line += is_number(option) ? " -x" : " -r";
-  return line + " -d '" + quoted(option.get_description(), "\\'") + "'";
+  return line + " -d '" + fish_text(option.get_description()) + "'";
 }
 
 }  // namespace
@@ -179,7 +168,7 @@ std::string fish_completion(const CLI::App& program) {
   for (const CLI::Option* option : options_of(program)) complete("", fish_argument(*option));
   for (const CLI::App* command : commands_of(program)) {
     const std::string& word = command->get_name();
-    complete("", " -f -a " + word + " -d '" + quoted(command->get_description(), "\\'") + "'");
+    complete("", " -f -a " + word + " -d '" + fish_text(command->get_description()) + "'");
     for (const CLI::Option* option : options_of(*command))
       if (!option->get_positional()) complete(word, fish_argument(*option));
   }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
+#include "core/list_of.h"
 #include "core/text.h"
 
 namespace plotscan {
@@ -31,8 +31,8 @@ std::string range_of(const CLI::Option& option) {
 }
 
 std::string names_of(const std::set<CLI::Option*>& options) {
-  std::vector<std::string> names(options.size());
-  std::ranges::transform(options, names.begin(), [](const auto* each) { return each->get_name(); });
+  std::vector<std::string> names =
+      list_of(options, [](const auto* each) { return each->get_name(); });
   std::ranges::sort(names);  // the set's order is that of their places in memory
   return joined(names, ", ");
 }
@@ -53,10 +53,7 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   const auto begin = type.find(":{");
   const auto end = type.find('}', begin);
   if (begin == std::string::npos || end == std::string::npos) return {};
-  std::istringstream list(type.substr(begin + 2, end - begin - 2));
-  std::vector<std::string> choices;
-  for (std::string choice; std::getline(list, choice, ',');) choices.push_back(choice);
-  return choices;
+  return split(std::string_view(type).substr(begin + 2, end - begin - 2), ',');
 }
 
 std::vector<std::string> flags_of(const CLI::Option& option) {

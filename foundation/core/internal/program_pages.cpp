@@ -13,19 +13,9 @@ namespace {
 
 // Escapes text for roff: hyphens can be copied from the page, and no line begins like a request.
 std::string roff(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    if (letter == '\\')
-      escaped += "\\e";
-    else if (letter == '-')
-      escaped += "\\-";
-    else if (letter == '\n')
-      escaped += "\n.br\n";
-    else
-      escaped += letter;
-  }
-  if (escaped.starts_with('.') || escaped.starts_with('\'')) escaped.insert(0, "\\&");
-  return escaped;
+  std::string page = with_escapes(text, {{'\\', "\\e"}, {'-', "\\-"}, {'\n', "\n.br\n"}});
+  if (page.starts_with('.') || page.starts_with('\'')) page.insert(0, "\\&");
+  return page;
 }
 
 std::string entry(const CLI::Option& option) {
@@ -67,9 +57,8 @@ std::string manual_page(const CLI::App& program) {
   page += ".SH SYNOPSIS\n";
   for (const CLI::App* command : commands_of(program)) {
     page += ".B " + name + " " + roff(command->get_name()) + "\n[\\fIOPTION\\fR]...";
-    for (const CLI::Option* option : options_of(*command)) {
+    for (const CLI::Option* option : options_of(*command))
       if (option->get_positional()) page += " \\fI" + roff(option->get_name(true)) + "\\fR";
-    }
     page += "\n.br\n";
   }
   page += ".SH COMMANDS\n";

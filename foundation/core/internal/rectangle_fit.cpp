@@ -27,9 +27,8 @@ double distance_to_segment(const Vector2d& point, const Vector2d& from, const Ve
 
 double distance_to_outline(const Vector2d& point, const Corners& corners) {
   double least_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < corners.size(); ++i) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
     least_m = std::min(least_m, distance_to_segment(point, corners[i], corners[(i + 1) % 4]));
-  }
   return least_m;
 }
 

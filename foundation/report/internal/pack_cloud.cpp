@@ -41,7 +41,7 @@ struct Square {
   std::span<std::uint32_t> points;
 };
 
-void split(const std::vector<ShownPoint>& points, const Square& square, std::vector<Tile>& tiles) {
+void divide(const std::vector<ShownPoint>& points, const Square& square, std::vector<Tile>& tiles) {
   if (square.points.empty()) return;
   if (square.points.size() <= kTilePoints || square.side_m <= kSmallestTile_m) {
     tiles.push_back({.points = square.points});
@@ -60,7 +60,7 @@ void split(const std::vector<ShownPoint>& points, const Square& square, std::vec
     for (int column = 0; column < 2; ++column) {
       const Eigen::Vector2f low = square.low + half_m * Eigen::Vector2f(static_cast<float>(column),
                                                                         static_cast<float>(row));
-      split(points, {low, half_m, columns[column]}, tiles);
+      divide(points, {low, half_m, columns[column]}, tiles);
     }
   }
 }
@@ -167,7 +167,7 @@ std::vector<Tile> tiles_of(const ShownCloud& cloud, Indices& indices) {
   if (cloud.points.empty()) return tiles;
   // A little larger than the bounds, so that points on the far edges lie inside.
   const float side_m = bounds.sizes().maxCoeff() * 1.0001F + 0.001F;
-  split(cloud.points, {bounds.min(), side_m, indices}, tiles);
+  divide(cloud.points, {bounds.min(), side_m, indices}, tiles);
   return tiles;
 }
 

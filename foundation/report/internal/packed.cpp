@@ -51,10 +51,9 @@ nlohmann::json packed_numbers(std::span<const float> numbers, double step) {
   if (low > high) low = high = 0;
   while ((high - low) / step > kNone - 1.5) step *= 2;
   std::vector<std::uint16_t> whole(numbers.size(), kNone);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
     if (std::isfinite(numbers[i]))
       whole[i] = static_cast<std::uint16_t>(std::lround((numbers[i] - low) / step));
-  }
   Bytes bytes;
   append_differences(bytes, whole);
   return {{"n", numbers.size()},

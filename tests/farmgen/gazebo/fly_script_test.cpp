@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // fly_drone.sh, run against a fake Gazebo on PATH.
-#include "gazebo/internal/fly_script.h"
-
 #include <cmath>
 #include <cstdlib>
 #include <regex>
@@ -14,6 +12,7 @@
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "gazebo/internal/world_file.h"
 #include "scan/trajectory.h"
 
 namespace plotscan::gazebo {

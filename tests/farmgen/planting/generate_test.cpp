@@ -9,7 +9,7 @@
 #include "../example_farm.h"
 #include "description/load_description.h"
 #include "planting/plot_layout.h"
-#include "terrain/internal/random_terrain.h"
+#include "terrain/internal/bases.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/sown_plants.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 #include "../example_farm.h"
 #include "description/load_description.h"
 #include "planting/generate.h"
+#include "planting/internal/plants.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "planting/internal/weeds.h"
-
 #include <cmath>
 
 #include "../example_trials.h"
 #include "description/load_description.h"
 #include "planting/generate.h"
+#include "planting/internal/plants.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

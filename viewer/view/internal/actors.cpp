@@ -127,10 +127,9 @@ Field field_of(const farm::Farm& farm, double margin_m) {
     heights.extend(Eigen::Matrix<double, 1, 1>(plant.position.z()));
     heights.extend(Eigen::Matrix<double, 1, 1>(plant.position.z() + plant.height_m));
   }
-  if (heights.isEmpty()) {
+  if (heights.isEmpty())
     for (const Eigen::Vector3d& vertex : farm.terrain.vertices())
       heights.extend(Eigen::Matrix<double, 1, 1>(vertex.z()));
-  }
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(margin_m);
   Field field;
   field.extend((Eigen::Vector3d() << extent.min() - margin, heights.min()).finished());
@@ -140,9 +139,8 @@ Field field_of(const farm::Farm& farm, double margin_m) {
 
 void add_terrain(vtkRenderer& renderer, const terrain::Terrain& terrain, const Field& field) {
   vtkSmartPointer<vtkPolyData> shown = surfaces_of(terrain::mesh_of(terrain)).front().triangles;
-  for (const int axis : {0, 1}) {
+  for (const int axis : {0, 1})
     for (const int side : {-1, 1}) shown = behind_plane(shown, field, axis, side);
-  }
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(shown);
   vtkNew<vtkActor> actor;

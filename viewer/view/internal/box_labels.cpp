@@ -64,9 +64,8 @@ std::vector<PlacedLabel> place_labels(const std::vector<BoxLabel>& labels, doubl
 
   std::vector<std::size_t> order;
   for (const bool important : {true, false}) {
-    for (std::size_t i = 0; i < labels.size(); ++i) {
+    for (std::size_t i = 0; i < labels.size(); ++i)
       if (labels[i].important == important) order.push_back(i);
-    }
   }
   std::vector<PlacedLabel> placed;
   std::vector<PlotBox> taken;

@@ -29,12 +29,4 @@ using ProfileRun = std::span<const ProfilePoint>;
 // a point that belongs to both parts.
 std::vector<ProfileRun> runs_of(const std::vector<ProfilePoint>& profile, bool by_seen);
 
-// The run's points as places on a page.
-template <class Place>
-std::vector<Eigen::Vector2d> places_of(const ProfileRun& run, const Place& place) {
-  std::vector<Eigen::Vector2d> places;
-  for (const ProfilePoint& point : run) places.push_back(place(point));
-  return places;
-}
-
 }  // namespace plotscan::view

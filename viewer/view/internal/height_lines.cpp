@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
 
 namespace plotscan::view {
@@ -17,16 +18,13 @@ constexpr std::array<Rgb, 4> kColours = {kBlue, kOrange, kVermilion, kPurple};
 constexpr double kIntervalOpacity = 0.3;
 
 std::vector<std::string> all_names(const estimate::PlotEstimate& plot) {
-  std::vector<std::string> names;
-  for (const auto& [name, height_m] : plot.heights_m) names.push_back(name);
-  return names;
+  return list_of(plot.heights_m, [](const auto& height) { return height.first; });
 }
 
 std::vector<std::string> usual_names(const estimate::PlotEstimate& plot) {
   std::vector<std::string> names;
-  for (const char* name : {"mean", "p95", "max"}) {
+  for (const char* name : {"mean", "p95", "max"})
     if (plot.heights_m.contains(name)) names.emplace_back(name);
-  }
   if (names.empty()) names = all_names(plot);
   names.resize(std::min(names.size(), kColours.size()));
   return names;
@@ -50,10 +48,10 @@ void draw_line(Page& page, const Axes& axes, const std::vector<ProfilePoint>& gr
   };
   for (const ProfileRun& run : runs_of(ground, false)) {
     if (height.has_interval) {
-      page.band(places_of(run, over_ground(height.low_m)),
-                places_of(run, over_ground(height.high_m)), height.colour, kIntervalOpacity);
+      page.band(list_of(run, over_ground(height.low_m)), list_of(run, over_ground(height.high_m)),
+                height.colour, kIntervalOpacity);
     }
-    page.line(places_of(run, over_ground(height.height_m)),
+    page.line(list_of(run, over_ground(height.height_m)),
               {.colour = height.colour, .width_px = 0.12 * text_px});
   }
 }
@@ -98,8 +96,8 @@ std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
   for (const std::string& name : names.empty() ? usual_names(plot) : names) {
     const auto height = plot.heights_m.find(name);
     if (height == plot.heights_m.end()) {
-      throw InputError("plot " + plot.id.text() + " has no height '" + name +
-                       "'; it has: " + joined(all_names(plot), ", "));
+      throw InputError(fmt::format("plot {} has no height '{}'; it has: {}", plot.id.text(), name,
+                                   joined(all_names(plot), ", ")));
     }
     HeightLine line{.name = name,
                     .height_m = height->second,

@@ -193,11 +193,10 @@ std::vector<std::string> wrapped(const std::string& words, double width_px,
   std::istringstream stream(words);
   for (std::string word; stream >> word;) {
     const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (lines.empty() || text_size_px(longer, lettering).x() > width_px) {
+    if (lines.empty() || text_size_px(longer, lettering).x() > width_px)
       lines.push_back(word);
-    } else {
+    else
       lines.back() = longer;
-    }
   }
   return lines;
 }

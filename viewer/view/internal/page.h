@@ -61,7 +61,6 @@ class Page {
  public:
   explicit Page(const Eigen::Vector2d& size_px) : size_px_(size_px) {}
 
-  const Eigen::Vector2d& size_px() const { return size_px_; }
   void line(const std::vector<Eigen::Vector2d>& places, const Stroke& stroke);
   // A filled convex polygon.
   void area(const std::vector<Eigen::Vector2d>& corners, const Rgb& colour, double opacity = 1);

@@ -4,13 +4,11 @@
 #include <cstddef>
 
 #include <vtkImageData.h>
-#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSSAOPass.h>
-#include <vtkWindowToImageFilter.h>
 
 #include "view/internal/window.h"
 
@@ -49,16 +47,7 @@ Raster drawn_panel(vtkRenderer& renderer, const Eigen::Vector2i& size_px, double
   vtkNew<vtkRenderWindow> window;
   prepare_offscreen(*window, kPanelSamples * size_px.x(), kPanelSamples * size_px.y());
   window->AddRenderer(&renderer);
-  window->Render();
-  vtkNew<vtkWindowToImageFilter> capture;
-  capture->SetInput(window);
-  capture->ReadFrontBufferOff();
-  vtkNew<vtkImageShrink3D> shrink;
-  shrink->SetInputConnection(capture->GetOutputPort());
-  shrink->SetShrinkFactors(kPanelSamples, kPanelSamples, 1);
-  shrink->AveragingOn();
-  shrink->Update();
-  Raster raster = raster_of(*shrink->GetOutput());
+  Raster raster = raster_of(*rendered(*window, kPanelSamples)->GetOutput());
   renderer.SetPass(nullptr);
   return raster;
 }

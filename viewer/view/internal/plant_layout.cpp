@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 
 namespace plotscan::view {
@@ -123,10 +125,10 @@ PlantLayout lay_out(const std::vector<PlantExtent>& plants, const Eigen::Vector2
     if (px_per_m > best.px_per_m) best = {px_per_m, std::move(rows), {}};
   }
   if (best.rows.empty()) {
-    throw InputError(std::to_string(plants.size()) + " plants with their labels do not fit into " +
-                     std::to_string(static_cast<int>(picture_px.x())) + " x " +
-                     std::to_string(static_cast<int>(picture_px.y())) +
-                     " pixels; take a larger picture, fewer plants or other columns");
+    throw InputError(fmt::format(
+        "{} plants with their labels do not fit into {} x {} pixels; take a larger picture, fewer "
+        "plants or other columns",
+        plants.size(), static_cast<int>(picture_px.x()), static_cast<int>(picture_px.y())));
   }
   place(plants, picture_px, best);
   return best;

@@ -11,9 +11,8 @@ namespace {
 
 double round_step(double least) {
   const double decade = std::pow(10, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
+  for (const double factor : {1.0, 2.0, 5.0})
     if (factor * decade >= least) return factor * decade;
-  }
   return 10 * decade;
 }
 

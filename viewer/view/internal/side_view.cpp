@@ -42,10 +42,9 @@ Raster SideView::drawn(const Axes& axes, const Rgb& inside, const Rgb& beyond) c
     const Eigen::Vector2d px = axes.at(point) - axes.frame_px.min();
     const int left = static_cast<int>(std::floor(px.x() - dot_px / 2.0 + 0.5));
     const int low = static_cast<int>(std::floor(px.y() - dot_px / 2.0 + 0.5));
-    for (int y = std::max(0, low); y < std::min(size.y(), low + dot_px); ++y) {
+    for (int y = std::max(0, low); y < std::min(size.y(), low + dot_px); ++y)
       for (int x = std::max(0, left); x < std::min(size.x(), left + dot_px); ++x)
         ++count[static_cast<std::size_t>(y) * size.x() + x];
-    }
   }
   Raster raster{.width = size.x(), .height = size.y()};
   raster.pixels.reserve(count.size());

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include <fmt/core.h>
 #include <png.h>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -33,9 +34,8 @@ bool unpainted(const mesh::Material& material) {
 
 void require_size(std::uint64_t width, std::uint64_t height) {
   if (width * height <= mesh::AlphaMask::kMostTexels) return;
-  throw InputError("a texture has " + std::to_string(width) + " x " + std::to_string(height) +
-                   " pixels; at most " + std::to_string(mesh::AlphaMask::kMostTexels) +
-                   " are drawn");
+  throw InputError(fmt::format("a texture has {} x {} pixels; at most {} are drawn", width, height,
+                               mesh::AlphaMask::kMostTexels));
 }
 
 // Not by VTK 9.1's reader, which crashes on a broken PNG in memory. Null where it is broken.
@@ -73,7 +73,8 @@ vtkSmartPointer<vtkTexture> texture_of(const mesh::Image& image) {
   const auto pixels =
       image.bytes.starts_with("\x89PNG") ? decoded_png(image.bytes) : decoded_jpeg(image.bytes);
   if (!pixels)
-    throw InputError("texture " + image.name + " is not a PNG or JPEG that can be decoded");
+    throw InputError(
+        fmt::format("texture {} is not a PNG or JPEG that can be decoded", image.name));
   auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(pixels);
   texture->InterpolateOn();

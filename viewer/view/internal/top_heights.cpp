@@ -56,9 +56,8 @@ void TopHeights::add(std::span<const Eigen::Vector3d> points, const ground::Surf
 
 double TopHeights::quantile_m(double share) const {
   std::vector<double> heights;
-  for (const float top : top_m_) {
+  for (const float top : top_m_)
     if (top > kNoGround) heights.push_back(top);
-  }
   return heights.empty() ? 0 : quantile(std::move(heights), share);
 }
 
@@ -86,11 +85,10 @@ Raster TopHeights::drawn(const HeightColours& colours) const {
   for (std::size_t i = 0; i < shown.size(); ++i) {
     // Only empty pixels take their neighbours' heights: leaves keep their outlines.
     const float top = top_m_[i] == kEmpty ? shown[i] : top_m_[i];
-    if (top == kEmpty) {
+    if (top == kEmpty)
       raster.pixels.push_back(kWhite);
-    } else {
+    else
       raster.pixels.push_back(top == kNoGround ? kNoGroundColour : colours.of(top));
-    }
   }
   return raster;
 }

@@ -2,7 +2,6 @@
 #include "view/internal/window.h"
 
 #include <fmt/core.h>
-#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
@@ -14,9 +13,8 @@
 namespace plotscan::view {
 
 void require_range(double value, const Range& range, const std::string& what) {
-  if (!range.contains(value)) {
-    throw InputError(what + " " + fmt::format("{:.10g}", value) + " is not in " + range.text());
-  }
+  if (!range.contains(value))
+    throw InputError(fmt::format("{} {:.10g} is not in {}", what, value, range.text()));
 }
 
 void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
@@ -25,18 +23,24 @@ void prepare_offscreen(vtkRenderWindow& window, int width_px, int height_px) {
   window.SetSize(width_px, height_px);
 }
 
-void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples) {
+vtkNew<vtkImageShrink3D> rendered(vtkRenderWindow& window, int samples) {
   window.Render();
-  OutputFile file(png, true);
   vtkNew<vtkWindowToImageFilter> capture;
   capture->SetInput(&window);
   capture->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
   vtkNew<vtkImageShrink3D> shrink;
   shrink->SetInputConnection(capture->GetOutputPort());
   shrink->SetShrinkFactors(samples, samples, 1);
   shrink->AveragingOn();
-  writer->SetInputConnection(shrink->GetOutputPort());
+  shrink->Update();
+  return shrink;
+}
+
+void render_png(vtkRenderWindow& window, const std::filesystem::path& png, int samples) {
+  const auto picture = rendered(window, samples);
+  OutputFile file(png, true);
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(picture->GetOutputPort());
   writer->SetFileName(file.path().c_str());
   writer->SetCompressionLevel(9);
   writer->Write();
