@@ -20,13 +20,8 @@ struct RunArguments {
   CloudArguments cloud;
   methods::RunOptions options;
   std::vector<double> crop_box;
-  std::string boxes;
-  std::string id;
-  std::string plot_names;
   std::string numbering;
   std::string first_corner;
-  std::string measured;
-  std::string csv;
   GivenSettings settings;  // of the method
 };
 
@@ -41,7 +36,6 @@ estimate::NumberingOptions numbering_of(const RunArguments& arguments) {
     numbering.numbering = estimate::numbering_named(arguments.numbering);
   if (!arguments.first_corner.empty())
     numbering.first_corner = estimate::corner_named(arguments.first_corner);
-  if (!arguments.plot_names.empty()) numbering.names = arguments.plot_names;
   return numbering;
 }
 
@@ -61,13 +55,8 @@ methods::RunOptions chosen_options(const Program& program, const RunArguments& a
   options.seed = program.common().seed;
   options.threads = program.common().threads;
   take_settings(arguments.settings, options);
-  if (!arguments.boxes.empty()) options.boxes = arguments.boxes;
-  if (!arguments.id.empty()) options.id = arguments.id;
   options.numbering = numbering_of(arguments);
-  if (!arguments.measured.empty()) options.measured = arguments.measured;
-  if (!arguments.csv.empty()) options.csv = arguments.csv;
-  if (options.method == "dhami2020" && arguments.boxes.empty() &&
-      !arguments.settings.contains("--plots")) {
+  if (options.method == "dhami2020" && !options.boxes && !arguments.settings.contains("--plots")) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
   options.lattice.tell = [&program](const methods::lattice::WorkEstimate& work) {
@@ -110,7 +99,7 @@ void declare_parts(CLI::App& run, RunArguments& arguments) {
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
   run.add_option(
-      "--boxes", arguments.boxes,
+      "--boxes", arguments.options.boxes,
       "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
       "longitude and latitude "
       "where the cloud is in UTM or degrees: heights are measured in its boxes, its ids and "
@@ -120,7 +109,7 @@ void declare_parts(CLI::App& run, RunArguments& arguments) {
 // What the plots are called.
 void declare_names(CLI::App& run, RunArguments& arguments) {
   run.add_option(
-      "--id", arguments.id,
+      "--id", arguments.options.id,
       "property of --boxes, or column of --plot-names and --measured, that is the plots' "
       "id (default: the first there is of plot_number, plot_id, plot_name, observationUnitName, "
       "observationunit_name, name, id)");
@@ -139,14 +128,14 @@ void declare_names(CLI::App& run, RunArguments& arguments) {
                  "(default: sw)")
       ->check(CLI::IsMember(estimate::corner_names()))
       ->excludes("--boxes");
-  run.add_option("--plot-names", arguments.plot_names,
+  run.add_option("--plot-names", arguments.options.numbering.names,
                  "table (CSV) with columns row, column, an id and others: plots that are found get "
                  "the id and the other columns of their place")
       ->excludes("--boxes", "--first-number", "--numbering");
 }
 
 void declare_measured(CLI::App& run, RunArguments& arguments) {
-  run.add_option("--measured", arguments.measured,
+  run.add_option("--measured", arguments.options.measured,
                  "table (CSV) of heights measured by hand in at least 5 plots: their ids, and "
                  "columns such as height_mean_cm; the field's heights of these names are scaled to "
                  "agree with them");
@@ -172,7 +161,7 @@ void declare_run(Program& program) {
   declare_parts(run, arguments);
   declare_names(run, arguments);
   declare_measured(run, arguments);
-  run.add_option("--csv", arguments.csv,
+  run.add_option("--csv", options.csv,
                  "also write a table (CSV) for breeding databases, one line for each plot: "
                  "observationunit_name, attributes, heights (metres)");
   run.add_flag("--force", options.replace, "replace an existing estimate folder and table");

@@ -91,8 +91,7 @@ void say_scores(const Program& program, const score::Scores& scores) {
     program.say("Every height against every truth: -v, or scores.json (-o FOLDER)");
 }
 
-void score_given(const Program& program, score::RunOptions options, const std::string& output) {
-  if (!output.empty()) options.output = output;
+void score_given(const Program& program, const score::RunOptions& options) {
   const score::Scores scores = score::run(options);
   say_scores(program, scores);
   if (options.output) program.say("written to " + options.output->string());
@@ -102,15 +101,10 @@ void score_given(const Program& program, score::RunOptions options, const std::s
 }  // namespace
 
 void declare_score(Program& program) {
-  struct Arguments {
-    score::RunOptions options;
-    std::string output;
-  };
-  const auto shared = std::make_shared<Arguments>();
-  auto& [options, output] = *shared;
-  CLI::App& score = program.command(
-      "score", "Compare an estimate with the truth.",
-      [&program, shared] { score_given(program, shared->options, shared->output); });
+  const auto shared = std::make_shared<score::RunOptions>();
+  score::RunOptions& options = *shared;
+  CLI::App& score = program.command("score", "Compare an estimate with the truth.",
+                                    [&program, shared] { score_given(program, *shared); });
   score
       .add_option(
           "EST", options.estimate,
@@ -123,7 +117,7 @@ void declare_score(Program& program) {
                   "as height_mean_cm")
       ->required();
   score.add_option("--id", options.score.id, kIdOfMeasured);
-  score.add_option("-o,--output", output,
+  score.add_option("-o,--output", options.output,
                    "folder to write scores.json and plots.csv to (default: write nothing)");
   score.add_option("--min-iou", options.score.min_iou,
                    "a plot is found where its box overlaps the true one by at least this "

@@ -20,7 +20,6 @@ struct ConvertArguments {
   std::string out;
   record::ConvertOptions options;
   record::FlightOptions flight;
-  std::string trajectory;
   std::vector<double> mount_deg = {0, 90, 0};
   std::vector<CLI::Option*> of_flight;  // the options that tell of a flight
 };
@@ -28,7 +27,6 @@ struct ConvertArguments {
 void run_convert(const Program& program, ConvertArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   record::FlightOptions& flight = arguments.flight;
-  if (!arguments.trajectory.empty()) flight.trajectory = arguments.trajectory;
   flight.mount_rpy_deg = Eigen::Vector3d(arguments.mount_deg.data());
   for (const CLI::Option* option : arguments.of_flight)
     if (option->count() > 0) arguments.options.flight = flight;
@@ -58,7 +56,7 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
 void add_flight_options(CLI::App& convert, ConvertArguments& arguments) {
   arguments.of_flight = {
       convert.add_option(
-          "--trajectory", arguments.trajectory,
+          "--trajectory", arguments.flight.trajectory,
           "of a bare cloud or a pcap: where the drone was, TUM text or trajectory.csv, in the "
           "cloud's frame and time"),
       convert.add_option(

@@ -23,8 +23,6 @@ using namespace plotscan;
 struct Arguments {
   std::string place;  // a farm's folder or a world's file
   std::string scan;
-  std::string flight;
-  std::string waypoints;
   std::string part;
   const CLI::App* fly = nullptr;
   lidar::FlyPlaceOptions options;
@@ -94,8 +92,6 @@ void run_fly(const Program& program, Arguments& arguments) {
   lidar::FlyOptions& options = arguments.options.flight;
   options.seed = program.common().seed;
   options.threads = program.common().threads;
-  if (!arguments.flight.empty()) options.flight = arguments.flight;
-  if (!arguments.waypoints.empty()) options.waypoints = arguments.waypoints;
   if (!arguments.part.empty()) options.part = lidar::flight_part(arguments.part);
   const lidar::PlaceScan scanned = lidar::fly_place(
       arguments.place, arguments.scan, arguments.options, program.progress("scanning"));
@@ -158,11 +154,11 @@ void add_options(CLI::App& fly, Arguments& arguments) {
                  "folder that holds models of the world, searched before the world's own and those "
                  "of GZ_SIM_RESOURCE_PATH and GAZEBO_MODEL_PATH; may be repeated");
   auto* flight =
-      fly.add_option("--flight", arguments.flight,
+      fly.add_option("--flight", options.flight,
                      "trajectory to fly in place of planned strips: TUM text (t x y z qx qy qz qw; "
                      "seconds, metres) or a scan's trajectory.csv; flown as it is, "
                      "wind does not move it");
-  auto* waypoints = fly.add_option("--waypoints", arguments.waypoints,
+  auto* waypoints = fly.add_option("--waypoints", options.waypoints,
                                    "YAML file of waypoints to fly in place of planned strips "
                                    "(docs/flight.md)")
                         ->excludes(flight);

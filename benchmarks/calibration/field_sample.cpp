@@ -21,19 +21,11 @@ namespace {
 // Returns about true ground this near count for its noise.
 constexpr double kBare_m = 0.15;
 
-std::vector<Eigen::Vector3f> read_points(const std::filesystem::path& cloud) {
-  std::vector<Eigen::Vector3f> points;
-  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
-    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
-  });
-  return points;
-}
-
 // The true ground as a fitted one would be given: nodes over the plots and a margin.
 ground::Surface true_surface(const farm::Farm& farm, double noise_m) {
   constexpr double kMargin_m = 2;
   constexpr float kStandardError_m = 0.003F;
-  ground::Surface surface{.cell_m = 0.1};
+  ground::Surface surface{{.cell_m = 0.1}};
   const Eigen::AlignedBox2d extent = extent_of(farm.plots, &farm::Plot::box);
   surface.origin = extent.min().array() - kMargin_m;
   const Eigen::Vector2i size =
@@ -106,7 +98,7 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
   lidar::fly(farm, scan.path(), flight, true);
-  const std::vector<Eigen::Vector3f> points = read_points(scan.path() / "cloud.pcd");
+  const std::vector<Eigen::Vector3f> points = scan::read_positions(scan.path() / "cloud.pcd");
   FieldSample sample{.library = plan.library, .seed = plan.seed};
   sample.surface = source == GroundSource::truth
                        ? true_surface(farm, bare_noise(farm, points))

@@ -65,10 +65,10 @@ json json_of(const FieldSample& sample) {
 
 FieldSample sample_of(const json& header) {
   FieldSample sample{.library = header.at("library"), .seed = header.at("seed")};
-  sample.surface = {.origin = pair_of(header.at("origin")),
-                    .cell_m = header.at("cell_m"),
-                    .columns = header.at("grid").at(0),
-                    .rows = header.at("grid").at(1)};
+  sample.surface = {{.origin = pair_of(header.at("origin")),
+                     .cell_m = header.at("cell_m"),
+                     .columns = header.at("grid").at(0),
+                     .rows = header.at("grid").at(1)}};
   sample.surface.noise_m = header.at("noise_m");
   for (const json& plot : header.at("plots")) {
     sample.plots.push_back({.box = {.center = pair_of(plot.at("center")),

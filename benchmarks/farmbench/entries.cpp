@@ -24,7 +24,7 @@ void to_json(json& document, const EnteredFarm& farm) {
               {"cloud_sha256", farm.cloud_sha256},
               {"file_sha256", farm.file_sha256},
               {"failure", farm.result.failure},
-              {"score", score::to_json(farm.result.score)}};
+              {"score", farm.result.score}};
 }
 
 void from_json(const json& document, EnteredFarm& farm) {
@@ -34,8 +34,7 @@ void from_json(const json& document, EnteredFarm& farm) {
           .farm_sha256 = document.at("farm_sha256"),
           .cloud_sha256 = document.at("cloud_sha256"),
           .file_sha256 = document.at("file_sha256"),
-          .result = {.failure = document.at("failure"),
-                     .score = score::field_from_json(document.at("score"))}};
+          .result = {.failure = document.at("failure"), .score = document.at("score")}};
 }
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Entry, method, suite, program_sha256, scorer_sha256, farms)

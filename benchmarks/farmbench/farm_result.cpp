@@ -7,19 +7,7 @@ namespace plotscan::farmbench {
 
 using nlohmann::json;
 
-void to_json(json& document, const MethodResult& result) {
-  document = {{"method", result.method},
-              {"failure", result.failure},
-              {"diagnostics", result.diagnostics},
-              {"score", score::to_json(result.score)}};
-}
-
-void from_json(const json& document, MethodResult& result) {
-  result = {.method = document.at("method"),
-            .failure = document.at("failure"),
-            .diagnostics = document.at("diagnostics"),
-            .score = score::field_from_json(document.at("score"))};
-}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MethodResult, method, failure, diagnostics, score)
 
 void to_json(json& document, const FarmResult& result) {
   document = {

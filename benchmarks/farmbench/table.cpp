@@ -19,6 +19,8 @@
 namespace plotscan::farmbench {
 namespace {
 
+using nlohmann::json;
+
 // One method on all farms of one case.
 struct CaseOfMethod {
   std::vector<MethodHeight> heights;
@@ -48,14 +50,6 @@ std::set<std::string> truths_of(const std::vector<score::FieldScore>& fields) {
   return truths;
 }
 
-std::vector<score::HeightPairs> pairs_by_farm(const CaseOfMethod& collected,
-                                              const std::string& height, const std::string& truth) {
-  std::vector<score::HeightPairs> farms;
-  for (const score::FieldScore& field : collected.fields)
-    farms.push_back(score::height_pairs(field, height, truth));
-  return farms;
-}
-
 std::vector<SquaredErrors> squared_errors(const std::vector<score::HeightPairs>& farms) {
   std::vector<SquaredErrors> errors;
   for (const score::HeightPairs& farm : farms) {
@@ -78,59 +72,61 @@ SquaredErrors summed(const std::vector<SquaredErrors>& farms) {
   return all;
 }
 
-// Four decimals, a hundred times finer than any of the figures is accurate. What could not be
-// computed is an empty field.
-std::string field_of(double value) {
-  const double rounded = std::round(value * 1e4) / 1e4;
-  return std::isnan(value) ? "" : format_number(rounded == 0 ? 0 : rounded);  // no "-0"
-}
-
-// A column of table.csv.
-struct Column {
-  const char* name;
-  std::string (*field)(const TableRow&);
+// A figure of a row: a column of table.csv and a member of its JSON.
+struct Figure {
+  const char* name;  // without the unit of a length
+  json (*of)(const TableRow&);
+  bool is_length = false;  // metres in JSON, centimetres in table.csv
 };
 
 using Row = const TableRow&;
 
-constexpr std::array kColumns = {
-    Column{"suite", [](Row row) { return csv_field(row.suite); }},
-    Column{"case", [](Row row) { return csv_field(row.case_name); }},
-    Column{"method", [](Row row) { return csv_field(row.method); }},
-    Column{"truth", [](Row row) { return csv_field(row.truth); }},
-    Column{"farms", [](Row row) { return std::to_string(row.farms); }},
-    Column{"plots", [](Row row) { return std::to_string(row.boxes.plots); }},
-    Column{"found", [](Row row) { return std::to_string(row.boxes.found); }},
-    Column{"missed", [](Row row) { return std::to_string(row.boxes.missed); }},
-    Column{"extra", [](Row row) { return std::to_string(row.boxes.extra); }},
-    Column{"without", [](Row row) { return std::to_string(row.height.without); }},
-    Column{"recall", [](Row row) { return field_of(row.boxes.recall); }},
-    Column{"precision", [](Row row) { return field_of(row.boxes.precision); }},
-    Column{"iou_mean", [](Row row) { return field_of(row.boxes.iou_mean); }},
-    Column{"iou_median", [](Row row) { return field_of(row.boxes.iou_median); }},
-    Column{"iou_min", [](Row row) { return field_of(row.boxes.iou_min); }},
-    Column{"center_rmse_cm", [](Row row) { return field_of(100 * row.boxes.center_rmse_m); }},
-    Column{"heading_rmse_deg",
-           [](Row row) { return field_of(degrees(row.boxes.heading_rmse_rad)); }},
-    Column{"rmse_cm", [](Row row) { return field_of(100 * row.height.rmse_m); }},
-    Column{"rmse_lo_cm", [](Row row) { return field_of(100 * row.rmse_95_m.low); }},
-    Column{"rmse_hi_cm", [](Row row) { return field_of(100 * row.rmse_95_m.high); }},
-    Column{"rmse_change_cm", [](Row row) { return field_of(100 * row.rmse_change_m); }},
-    Column{"rmse_change_lo_cm", [](Row row) { return field_of(100 * row.rmse_change_95_m.low); }},
-    Column{"rmse_change_hi_cm", [](Row row) { return field_of(100 * row.rmse_change_95_m.high); }},
-    Column{"bias_cm", [](Row row) { return field_of(100 * row.height.bias_m); }},
-    Column{"mae_cm", [](Row row) { return field_of(100 * row.height.mae_m); }},
-    Column{"r2", [](Row row) { return field_of(row.height.r2); }},
-    Column{"farm_bias_cm", [](Row row) { return field_of(100 * row.within.farm_bias_m); }},
-    Column{"within_cm", [](Row row) { return field_of(100 * row.within.within_m); }},
-    Column{"r2_within", [](Row row) { return field_of(row.within.r2); }},
-    Column{"rho_within", [](Row row) { return field_of(row.within.rho); }},
-    Column{"coverage95", [](Row row) { return field_of(row.height.coverage95); }},
-    Column{"flagged", [](Row row) { return std::to_string(row.height.flagged); }},
-    Column{"over_5cm_unflagged",
-           [](Row row) { return std::to_string(row.height.large_unflagged); }},
-    Column{"over_5cm_unflagged_share",
-           [](Row row) { return field_of(row.height.large_unflagged_share); }}};
+constexpr std::array kFigures = {
+    Figure{"case", [](Row row) -> json { return row.case_name; }},
+    Figure{"method", [](Row row) -> json { return row.method; }},
+    Figure{"truth", [](Row row) -> json { return row.truth; }},
+    Figure{"farms", [](Row row) -> json { return row.farms; }},
+    Figure{"plots", [](Row row) -> json { return row.boxes.plots; }},
+    Figure{"found", [](Row row) -> json { return row.boxes.found; }},
+    Figure{"missed", [](Row row) -> json { return row.boxes.missed; }},
+    Figure{"extra", [](Row row) -> json { return row.boxes.extra; }},
+    Figure{"without", [](Row row) -> json { return row.height.without; }},
+    Figure{"recall", [](Row row) -> json { return row.boxes.recall; }},
+    Figure{"precision", [](Row row) -> json { return row.boxes.precision; }},
+    Figure{"iou_mean", [](Row row) -> json { return row.boxes.iou_mean; }},
+    Figure{"iou_median", [](Row row) -> json { return row.boxes.iou_median; }},
+    Figure{"iou_min", [](Row row) -> json { return row.boxes.iou_min; }},
+    Figure{"center_rmse", [](Row row) -> json { return row.boxes.center_rmse_m; }, true},
+    Figure{"heading_rmse_deg", [](Row row) -> json { return degrees(row.boxes.heading_rmse_rad); }},
+    Figure{"rmse", [](Row row) -> json { return row.height.rmse_m; }, true},
+    Figure{"rmse_lo", [](Row row) -> json { return row.rmse_95_m.low; }, true},
+    Figure{"rmse_hi", [](Row row) -> json { return row.rmse_95_m.high; }, true},
+    Figure{"rmse_change", [](Row row) -> json { return row.rmse_change_m; }, true},
+    Figure{"rmse_change_lo", [](Row row) -> json { return row.rmse_change_95_m.low; }, true},
+    Figure{"rmse_change_hi", [](Row row) -> json { return row.rmse_change_95_m.high; }, true},
+    Figure{"bias", [](Row row) -> json { return row.height.bias_m; }, true},
+    Figure{"mae", [](Row row) -> json { return row.height.mae_m; }, true},
+    Figure{"r2", [](Row row) -> json { return row.height.r2; }},
+    Figure{"farm_bias", [](Row row) -> json { return row.within.farm_bias_m; }, true},
+    Figure{"within", [](Row row) -> json { return row.within.within_m; }, true},
+    Figure{"r2_within", [](Row row) -> json { return row.within.r2; }},
+    Figure{"rho_within", [](Row row) -> json { return row.within.rho; }},
+    Figure{"coverage95", [](Row row) -> json { return row.height.coverage95; }},
+    Figure{"flagged", [](Row row) -> json { return row.height.flagged; }},
+    Figure{"over_5cm_unflagged", [](Row row) -> json { return row.height.large_unflagged; }},
+    Figure{"over_5cm_unflagged_share",
+           [](Row row) -> json { return row.height.large_unflagged_share; }}};
+
+// Numbers to four decimals, a hundred times finer than any of the figures is accurate. What could
+// not be computed is an empty field.
+std::string field_of(const Figure& figure, const TableRow& row) {
+  const json value = figure.of(row);
+  if (value.is_string()) return csv_field(value.get<std::string>());
+  if (!value.is_number_float()) return value.dump();
+  const double value_shown = (figure.is_length ? 100 : 1) * value.get<double>();
+  const double rounded = std::round(value_shown * 1e4) / 1e4;
+  return std::isnan(rounded) ? "" : format_number(rounded == 0 ? 0 : rounded);  // no "-0"
+}
 
 // What all rows of the case and the method have in common.
 TableRow common_row(const SuiteResult& result, const std::string& case_name,
@@ -147,20 +143,20 @@ TableRow common_row(const SuiteResult& result, const std::string& case_name,
 void set_change(TableRow& row, const CaseOfMethod& baseline, const CaseOfMethod& collected,
                 const std::string& height, std::uint64_t seed) {
   if (baseline.seeds != collected.seeds) return;
-  const auto before = squared_errors(pairs_by_farm(baseline, height, row.truth));
-  const auto after = squared_errors(pairs_by_farm(collected, height, row.truth));
+  const auto errors_of = [&](const CaseOfMethod& run) {
+    return squared_errors(score::score_on_farms(run.fields, height, row.truth).farms);
+  };
+  const std::vector<SquaredErrors> before = errors_of(baseline), after = errors_of(collected);
   row.rmse_change_m = row.height.rmse_m - rmse(summed(before));
   row.rmse_change_95_m = bootstrap_rmse_change(before, after, seed);
 }
 
 void set_heights(TableRow& row, const CaseOfMethod& collected, const std::string& height,
                  std::uint64_t seed) {
-  const std::vector<score::HeightPairs> farms = pairs_by_farm(collected, height, row.truth);
-  score::HeightPairs pooled;
-  for (const score::HeightPairs& farm : farms) score::append(pooled, farm);
-  row.height = score::score_height(height, row.truth, pooled);
-  row.rmse_95_m = bootstrap_rmse(squared_errors(farms), seed);
-  row.within = score::score_within(farms);
+  const score::HeightOnFarms on = score::score_on_farms(collected.fields, height, row.truth);
+  row.height = on.score;
+  row.rmse_95_m = bootstrap_rmse(squared_errors(on.farms), seed);
+  row.within = on.within;
 }
 
 }  // namespace
@@ -204,50 +200,25 @@ std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
   return methods;
 }
 
-void to_json(nlohmann::json& document, const TableRow& row) {
-  document = {{"case", row.case_name},
-              {"method", row.method},
-              {"truth", row.truth},
-              {"farms", row.farms},
-              {"plots", row.boxes.plots},
-              {"found", row.boxes.found},
-              {"missed", row.boxes.missed},
-              {"extra", row.boxes.extra},
-              {"without", row.height.without},
-              {"recall", row.boxes.recall},
-              {"precision", row.boxes.precision},
-              {"iou_mean", row.boxes.iou_mean},
-              {"iou_median", row.boxes.iou_median},
-              {"iou_min", row.boxes.iou_min},
-              {"center_rmse_m", row.boxes.center_rmse_m},
-              {"heading_rmse_deg", degrees(row.boxes.heading_rmse_rad)},
-              {"rmse_m", row.height.rmse_m},
-              {"rmse_95_m", {row.rmse_95_m.low, row.rmse_95_m.high}},
-              {"rmse_change_m", row.rmse_change_m},
-              {"rmse_change_95_m", {row.rmse_change_95_m.low, row.rmse_change_95_m.high}},
-              {"bias_m", row.height.bias_m},
-              {"mae_m", row.height.mae_m},
-              {"r2", row.height.r2},
-              {"farm_bias_m", row.within.farm_bias_m},
-              {"within_m", row.within.within_m},
-              {"r2_within", row.within.r2},
-              {"rho_within", row.within.rho},
-              {"coverage95", row.height.coverage95},
-              {"flagged", row.height.flagged},
-              {"over_5cm_unflagged", row.height.large_unflagged},
-              {"over_5cm_unflagged_share", row.height.large_unflagged_share},
-              {"seconds", row.seconds}};
+void to_json(json& document, const TableRow& row) {
+  for (const Figure& figure : kFigures)
+    document[figure.name + std::string(figure.is_length ? "_m" : "")] = figure.of(row);
+  for (const char* end : {"rmse_lo_m", "rmse_hi_m", "rmse_change_lo_m", "rmse_change_hi_m"})
+    document.erase(end);
+  document["rmse_95_m"] = {row.rmse_95_m.low, row.rmse_95_m.high};
+  document["rmse_change_95_m"] = {row.rmse_change_95_m.low, row.rmse_change_95_m.high};
+  document["seconds"] = row.seconds;
 }
 
 std::string table_csv(const std::vector<TableRow>& table) {
-  std::string text;
-  for (const Column& column : kColumns) text.append(column.name).append(",");
-  text.back() = '\n';
+  std::string text = "suite";
+  for (const Figure& figure : kFigures)
+    text.append(",").append(figure.name).append(figure.is_length ? "_cm" : "");
   for (const TableRow& row : table) {
-    for (const Column& column : kColumns) text.append(column.field(row)).append(",");
-    text.back() = '\n';
+    text.append("\n").append(csv_field(row.suite));
+    for (const Figure& figure : kFigures) text.append(",").append(field_of(figure, row));
   }
-  return text;
+  return text + "\n";
 }
 
 }  // namespace plotscan::farmbench

@@ -9,6 +9,7 @@
 #include "core/text_file.h"
 #include "lidar/fly.h"
 #include "lidar/make_farm.h"
+#include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
 #include "strata/positions.h"
 
@@ -56,7 +57,7 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
   flight.threads = threads;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");
   lidar::fly(farm, scan.path(), flight, true);
-  std::vector<Eigen::Vector3f> points = read_positions(scan.path() / "cloud.pcd");
+  std::vector<Eigen::Vector3f> points = scan::read_positions(scan.path() / "cloud.pcd");
   if (plan.most_points) thin(points, *plan.most_points, plan.seed);
   RandomStream random(plan.seed, random_purpose("strata/beside"), 0);
   lift(points, draw_beside(plan.beside, farm.plots, random), random);

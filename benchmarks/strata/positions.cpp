@@ -30,14 +30,6 @@ void write_positions(const std::filesystem::path& file,
   if (!out) throw WriteError(file);
 }
 
-std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud) {
-  std::vector<Eigen::Vector3f> points;
-  scan::read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
-    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
-  });
-  return points;
-}
-
 void thin(std::vector<Eigen::Vector3f>& points, std::size_t most, std::uint64_t seed) {
   if (points.size() <= most) return;
   RandomStream random(seed, random_purpose("strata/thin"), 0);
@@ -54,7 +46,7 @@ std::filesystem::path thinned_cloud(const std::filesystem::path& cloud, double d
                                     int threads) {
   const double density = cloud::read_field({{cloud}}, {.threads = threads}).density_m2;
   if (density <= density_per_m2) return cloud;
-  std::vector<Eigen::Vector3f> points = read_positions(cloud);
+  std::vector<Eigen::Vector3f> points = scan::read_positions(cloud);
   const double left = static_cast<double>(points.size()) * density_per_m2 / density;
   thin(points, static_cast<std::size_t>(std::llround(left)), points.size());
   std::filesystem::path thinned = cloud.parent_path() / "thinned.pcd";

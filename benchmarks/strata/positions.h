@@ -13,10 +13,6 @@ namespace plotscan::strata {
 // an estimator reads of it. Throws WriteError when the file cannot be written.
 void write_positions(const std::filesystem::path& file, const std::vector<Eigen::Vector3f>& points);
 
-// The positions of a cloud in any format, in the file's order. Throws InputError when it cannot be
-// read.
-std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud);
-
 // Keeps at most `most` of the points, drawn by the seed, in their order.
 void thin(std::vector<Eigen::Vector3f>& points, std::size_t most, std::uint64_t seed);
 

@@ -93,7 +93,7 @@ std::vector<MeasuredField> all_fields(const Measurement& measurement) {
 }  // namespace
 
 void to_json(json& document, const HeightTally& tally) {
-  document = score::to_json(tally.score);
+  document = tally.score;
   document["farm_bias_m"] = tally.within.farm_bias_m;
   document["worst_farm_bias_m"] = tally.within.worst_bias_m;
   document["within_m"] = tally.within.within_m;
@@ -105,7 +105,7 @@ void to_json(json& document, const StratumTally& tally) {
   document = {{"stratum", tally.stratum},
               {"farms", tally.farms},
               {"failures", tally.failures},
-              {"boxes", score::to_json(tally.boxes)},
+              {"boxes", tally.boxes},
               {"heights", tally.heights},
               {"worst_height", tally.worst_height},
               {"over_5cm_unflagged_share", tally.worst_unflagged_share},
@@ -122,7 +122,7 @@ void to_json(json& document, const MeasuredField& field) {
               {"failure", field.failure},
               {"true_confidences", field.true_confidences},
               {"false_confidences", field.false_confidences},
-              {"score", score::to_json(field.score)}};
+              {"score", field.score}};
 }
 
 std::vector<std::string> table_lines(const Measurement& measurement) {

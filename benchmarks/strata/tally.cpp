@@ -9,32 +9,21 @@
 namespace plotscan::strata {
 namespace {
 
-std::vector<score::HeightPairs> pairs_by_farm(std::span<const MeasuredField> fields,
-                                              const std::string& height) {
-  std::vector<score::HeightPairs> farms;
-  for (const MeasuredField& field : fields)
-    farms.push_back(score::height_pairs(field.score, height, score::named_truth(height)));
-  return farms;
-}
-
-void set_heights(StratumTally& tally, std::span<const MeasuredField> fields) {
+void set_heights(StratumTally& tally, std::span<const score::FieldScore> fields) {
   std::set<std::string> heights;
-  for (const MeasuredField& field : fields) heights.merge(score::estimated_heights(field.score));
+  for (const score::FieldScore& field : fields) heights.merge(score::estimated_heights(field));
   tally.worst_unflagged_share = kNaN;
   double intervals = 0, covered = 0;
   for (const std::string& height : heights) {
-    const std::vector<score::HeightPairs> farms = pairs_by_farm(fields, height);
-    score::HeightPairs pooled;
-    for (const score::HeightPairs& farm : farms) score::append(pooled, farm);
-    const HeightTally one = {score::score_height(height, score::named_truth(height), pooled),
-                             score::score_within(farms)};
-    intervals += static_cast<double>(pooled.trust.intervals);
-    covered += static_cast<double>(pooled.trust.covered);
+    const score::HeightOnFarms one =
+        score::score_on_farms(fields, height, score::named_truth(height));
+    intervals += static_cast<double>(one.pooled.trust.intervals);
+    covered += static_cast<double>(one.pooled.trust.covered);
     if (one.score.plots > 0 && !(one.score.large_unflagged_share <= tally.worst_unflagged_share)) {
       tally.worst_unflagged_share = one.score.large_unflagged_share;
       tally.worst_height = height;
     }
-    tally.heights.emplace(height, one);
+    tally.heights.emplace(height, HeightTally{one.score, one.within});
   }
   tally.coverage95 = ratio(covered, intervals);
 }
@@ -57,7 +46,7 @@ StratumTally tally(const std::string& stratum, std::span<const MeasuredField> fi
   tally.boxes = score::score_boxes(scores);
   tally.box_coverage95 = ratio(box_figures_inside, box_figures);
   tally.seconds_per_million_points = ratio(1e6 * seconds, points);
-  set_heights(tally, fields);
+  set_heights(tally, scores);
   return tally;
 }
 

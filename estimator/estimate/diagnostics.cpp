@@ -2,6 +2,10 @@
 #include "estimate/diagnostics.h"
 
 namespace plotscan::estimate {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(GroundFacts, cell_m, nodes, unknown_share, seen_share, noise_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Agreed, height, plots, factor, factor_sd, residual_m)
+
 namespace {
 
 using nlohmann::json;
@@ -32,14 +36,6 @@ void add(const PointAccount& points, json& document) {
   }
 }
 
-json ground_json(const GroundFacts& ground) {
-  return {{"cell_m", ground.cell_m},
-          {"nodes", ground.nodes},
-          {"unknown_share", ground.unknown_share},
-          {"seen_share", ground.seen_share},
-          {"noise_m", ground.noise_m}};
-}
-
 json boxes_json(const GivenBoxes& boxes) {
   return {{"plots", boxes.plots}, {"id", boxes.id_property}, {"from_degrees", boxes.from_degrees}};
 }
@@ -58,11 +54,7 @@ json names_json(const GivenNames& names) {
 json measured_json(const GivenMeasured& measured) {
   json heights = json::array();
   for (const Agreed& agreed : measured.heights) {
-    heights.push_back({{"height", agreed.height},
-                       {"plots", agreed.plots},
-                       {"factor", agreed.factor},
-                       {"factor_sd", agreed.factor_sd},
-                       {"residual_m", agreed.residual_m}});
+    heights.push_back(agreed);
     if (agreed.trial > 0) heights.back()["trial_number"] = agreed.trial;
   }
   return {{"id", measured.id_column},
@@ -90,7 +82,7 @@ json to_json(const Diagnostics& diagnostics) {
   if (diagnostics.notes) document["notes"] = *diagnostics.notes;
   if (diagnostics.points) add(*diagnostics.points, document);
   if (diagnostics.density_per_m2) document["density_per_m2"] = *diagnostics.density_per_m2;
-  if (diagnostics.ground) document["ground"] = ground_json(*diagnostics.ground);
+  if (diagnostics.ground) document["ground"] = *diagnostics.ground;
   if (diagnostics.crops.size() == 1) document["crops"] = diagnostics.crops.front();
   if (diagnostics.crops.size() > 1) document["crops_of_trials"] = diagnostics.crops;
   if (!diagnostics.why_no_plots.empty()) document[kWhyNoPlots] = diagnostics.why_no_plots;

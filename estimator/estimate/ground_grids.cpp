@@ -31,7 +31,7 @@ void write_grid(const fs::path& path, const ground::Surface& surface, double uni
       << format_number(surface.cell_m / unit_m) << "\nNODATA_value " << kNoData << '\n';
   for (int row = surface.rows - 1; row >= 0; --row) {
     for (int column = 0; column < surface.columns; ++column) {
-      const auto node = static_cast<std::size_t>(row) * surface.columns + column;
+      const std::size_t node = surface.index(column, row);
       out << (column == 0 ? "" : " ")
           << (std::isfinite(surface.z_m[node]) ? text(node) : std::string(kNoData));
     }
@@ -77,11 +77,11 @@ void write_ground(const fs::path& folder, const ground::Surface& surface,
 ground::Surface read_ground(const fs::path& folder, const CoordinateUnits& units) {
   const double unit_m = units.horizontal_m;
   EsriGrid heights = read_grid(folder / "ground.asc", unit_m);
-  ground::Surface surface{.origin = heights.first,
-                          .cell_m = heights.cell,
-                          .columns = heights.columns,
-                          .rows = heights.rows,
-                          .z_m = std::move(heights.values)};
+  ground::Surface surface{{.origin = heights.first,
+                           .cell_m = heights.cell,
+                           .columns = heights.columns,
+                           .rows = heights.rows}};
+  surface.z_m = std::move(heights.values);
   surface.sd_m = values_of(folder / "ground_se.asc", surface, unit_m);
   for (float& z : surface.z_m) z *= static_cast<float>(units.vertical_m);
   for (float& sd : surface.sd_m) sd *= static_cast<float>(units.vertical_m);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -26,6 +27,15 @@ struct Grid {
 
 // A number for each node of a grid.
 using Field = std::vector<float>;
+
+// Calls body(node) for the nodes of a square that reaches `around` nodes to either side.
+template <class Body>
+void for_around(const Grid& grid, int column, int row, int around, const Body& body) {
+  const int west = std::max(0, column - around), east = std::min(grid.columns - 1, column + around);
+  const int south = std::max(0, row - around), north = std::min(grid.rows - 1, row + around);
+  for (int r = south; r <= north; ++r)
+    for (int c = west; c <= east; ++c) body(grid.index(c, r));
+}
 
 // Calls body(row) for every row, rows at the same time: a body may write nothing but its own row.
 template <class Body>

@@ -203,18 +203,13 @@ Surface fit(std::span<const Eigen::Vector3f> points, const SurfaceOptions& optio
   const Grid grid = low.grid;
   const BasePlane base = low.base;
   const Ground ground = find_ground(std::move(low), spread_m, steps);
-  Surface surface{.origin = grid.origin,
-                  .cell_m = grid.cell_m,
-                  .columns = grid.columns,
-                  .rows = grid.rows,
-                  .z_m = ground.z_m,
-                  .sd_m = {},
-                  .misfit_m = {},
-                  .layers_m = std::move(excess_m),
-                  .seen = std::vector<std::uint8_t>(grid.nodes()),
-                  .noise_m = noise_m,
-                  .noise_seen_m = noise_seen_m,
-                  .errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m)};
+  Surface surface{grid};
+  surface.z_m = ground.z_m;
+  surface.layers_m = std::move(excess_m);
+  surface.seen.resize(grid.nodes());
+  surface.noise_m = noise_m;
+  surface.noise_seen_m = noise_seen_m;
+  surface.errors = draw_errors(grid, ground.z_m, ground.evidence, spread_m);
   steps.done();
   surface.sd_m = spread_of(grid, surface.errors);
   surface.misfit_m = misfit(grid, ground.layer,
@@ -244,9 +239,7 @@ std::optional<InCell> cell_of(const Surface& surface, const Eigen::Vector2d& pla
   if (!inside || surface.columns < 2 || surface.rows < 2) return std::nullopt;
   const int column = std::min(static_cast<int>(at.x()), surface.columns - 2);
   const int row = std::min(static_cast<int>(at.y()), surface.rows - 2);
-  return InCell{.node = static_cast<std::size_t>(row) * surface.columns + column,
-                .east = at.x() - column,
-                .north = at.y() - row};
+  return InCell{.node = surface.index(column, row), .east = at.x() - column, .north = at.y() - row};
 }
 
 double bilinear(const Surface& surface, const std::vector<float>& field,
@@ -275,12 +268,20 @@ double Surface::layers(const Eigen::Vector2d& place) const {
   return layers_m.empty() ? 0 : bilinear(*this, layers_m, place);
 }
 
+bool Surface::seen_at(const Eigen::Vector2d& place) const {
+  const Eigen::Vector2d node = (place - origin) / cell_m;
+  const auto column = static_cast<int>(std::lround(node.x()));
+  const auto row = static_cast<int>(std::lround(node.y()));
+  if (column < 0 || row < 0 || column >= columns || row >= rows) return false;
+  return seen[index(column, row)] != 0;
+}
+
 double Surface::mean_standard_error(const PlotBox& box) const {
   if (!std::isfinite(standard_error(box.center))) return kUnknown;
   constexpr double kStep_m = 0.2;
   const int along = std::max(2, static_cast<int>(std::ceil(box.length_m / kStep_m)));
   const int across = std::max(2, static_cast<int>(std::ceil(box.width_m / kStep_m)));
-  const std::size_t nodes = static_cast<std::size_t>(errors.columns) * errors.rows;
+  const std::size_t nodes = errors.grid.nodes();
   std::vector<double> means(errors.draws, 0);
   double doubt = 0;
   for (int a = 0; a < along; ++a) {
@@ -288,10 +289,10 @@ double Surface::mean_standard_error(const PlotBox& box) const {
       const Eigen::Vector2d place = box.center +
                                     ((a + 0.5) / along - 0.5) * box.length_m * box.length_axis() +
                                     ((b + 0.5) / across - 0.5) * box.width_m * box.width_axis();
-      const Eigen::Vector2d at = (place - origin) / errors.cell_m;
-      const int column = std::clamp(static_cast<int>(at.x()), 0, errors.columns - 1);
-      const int row = std::clamp(static_cast<int>(at.y()), 0, errors.rows - 1);
-      const std::size_t node = static_cast<std::size_t>(row) * errors.columns + column;
+      const Eigen::Vector2d at = (place - origin) / errors.grid.cell_m;
+      const int column = std::clamp(static_cast<int>(at.x()), 0, errors.grid.columns - 1);
+      const int row = std::clamp(static_cast<int>(at.y()), 0, errors.grid.rows - 1);
+      const std::size_t node = errors.grid.index(column, row);
       doubt += errors.doubt_m[node] / (along * across);
       for (int draw = 0; draw < errors.draws; ++draw) {
         means[draw] += errors.heights_m[draw * nodes + node] / (along * across);

@@ -10,6 +10,7 @@
 
 #include "core/plot_box.h"
 #include "core/progress.h"
+#include "ground/grid.h"
 
 namespace plotscan::ground {
 
@@ -17,21 +18,14 @@ namespace plotscan::ground {
 // if the ground bends everywhere as it does where it is seen. The standard error of any sum over
 // the surface is the spread of that sum over the draws.
 struct ErrorDraws {
-  double cell_m = 0;  // node (column, row) lies at the surface's origin + cell_m * (column, row)
-  int columns = 0;
-  int rows = 0;
+  Grid grid = {};  // its origin is the surface's, and 0 here
   int draws = 0;
   std::vector<float> heights_m = {};  // draw by draw
   std::vector<float> doubt_m = {};    // by node: standard error that near places share, besides
 };
 
-// The ground of a whole field as heights of a square grid's nodes, bilinear between them. Node
-// (column, row) lies at origin + cell_m * (column, row) and has index row * columns + column.
-struct Surface {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in the points' frame, metres
-  double cell_m = 0;
-  int columns = 0;
-  int rows = 0;
+// The ground of a whole field as heights of a grid's nodes, bilinear between them.
+struct Surface : Grid {
   std::vector<float> z_m = {};       // NaN where no ground is within reach
   std::vector<float> sd_m = {};      // standard error of z_m; NaN where that is
   std::vector<float> misfit_m = {};  // the part of it that each cell has for itself, see misfit.h
@@ -50,6 +44,8 @@ struct Surface {
   // The part of the standard error that is independent from cell to cell; 0 where it is unknown.
   double misfit(const Eigen::Vector2d& place) const;
   double layers(const Eigen::Vector2d& place) const;
+  // Whether the node nearest to the place was seen; false outside the grid.
+  bool seen_at(const Eigen::Vector2d& place) const;
   // Standard error, metres, of the mean of z_m over the box: errors of near places are correlated,
   // except for the misfit. NaN where the box's centre has no ground.
   double mean_standard_error(const PlotBox& box) const;

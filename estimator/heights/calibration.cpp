@@ -8,39 +8,54 @@
 #include "core/text.h"
 #include "heights/internal/calibration_files.h"
 
-namespace plotscan::heights {
-namespace {
-
 using nlohmann::json;
 
-Eigen::VectorXd vector_of(const json& numbers) {
-  const auto values = numbers.get<std::vector<double>>();
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+// Vectors as arrays of numbers, matrices as arrays of their rows.
+template <>
+struct nlohmann::adl_serializer<Eigen::VectorXd> {
+  static void to_json(json& document, const Eigen::VectorXd& values) {
+    document = std::vector<double>(values.begin(), values.end());
+  }
+  static void from_json(const json& document, Eigen::VectorXd& values) {
+    const auto numbers = document.get<std::vector<double>>();
+    values = Eigen::VectorXd::Map(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+  }
+};
+
+template <>
+struct nlohmann::adl_serializer<Eigen::MatrixXd> {
+  static void to_json(json& document, const Eigen::MatrixXd& matrix) {
+    document = json::array();
+    for (const auto& row : matrix.rowwise()) document.push_back(Eigen::VectorXd(row));
+  }
+  static void from_json(const json& document, Eigen::MatrixXd& matrix) {
+    matrix.resize(static_cast<Eigen::Index>(document.size()),
+                  static_cast<Eigen::Index>(document.at(0).size()));
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+      matrix.row(row) = document.at(row).get<Eigen::VectorXd>();
+  }
+};
+
+namespace plotscan::heights {
+
+void to_json(json& document, const Kernel& kernel) {
+  document = {{"weights", kernel.weights},
+              {"linear", kernel.covariance.linear},
+              {"noise", kernel.covariance.noise}};
 }
 
-json numbers_of(const Eigen::VectorXd& values) {
-  return std::vector<double>(values.begin(), values.end());
+void from_json(const json& document, Kernel& kernel) {
+  kernel = {.weights = document.at("weights"),
+            .covariance = {.linear = document.at("linear"), .noise = document.at("noise")}};
 }
 
-json kernel_json(const Kernel& kernel) {
-  return {{"weights", numbers_of(kernel.weights)},
-          {"linear", kernel.covariance.linear},
-          {"noise", kernel.covariance.noise}};
-}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FromOthers, novelty, standardised)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CalibrationFarm, library, crop, top_m, features, ratios, within,
+                                   from_libraries, from_crops, standardised_given_crop, novelty)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Calibration, features, heights, center, scale, crops,
+                                   crop_kernel, crop_sharpness, ratio_kernels, within, farms)
 
-Kernel kernel_of(const json& document) {
-  return {.weights = vector_of(document.at("weights")),
-          .covariance = {.linear = document.at("linear"), .noise = document.at("noise")}};
-}
-
-json from_others_json(const FromOthers& from) {
-  return {{"novelty", from.novelty}, {"standardised", numbers_of(from.standardised)}};
-}
-
-FromOthers from_others_of(const json& document) {
-  return {.novelty = document.at("novelty"),
-          .standardised = vector_of(document.at("standardised"))};
-}
+namespace {
 
 // The calibration with only the farms whose index `is_kept` accepts.
 Calibration with_farms(const Calibration& calibration, auto&& is_kept) {
@@ -106,67 +121,9 @@ Calibration Calibration::halved() const {
   return with_farms(*this, [](std::size_t i) { return i % 2 == 0; });
 }
 
-json json_of(const Calibration& calibration) {
-  json farms = json::array();
-  for (const CalibrationFarm& farm : calibration.farms) {
-    farms.push_back({{"library", farm.library},
-                     {"crop", farm.crop},
-                     {"top_m", farm.top_m},
-                     {"features", numbers_of(farm.features)},
-                     {"ratios", numbers_of(farm.ratios)},
-                     {"within", numbers_of(farm.within)},
-                     {"from_libraries", from_others_json(farm.from_libraries)},
-                     {"from_crops", from_others_json(farm.from_crops)},
-                     {"standardised_given_crop", numbers_of(farm.standardised_given_crop)},
-                     {"novelty", farm.novelty}});
-  }
-  json ratio_kernels = json::array();
-  for (const Kernel& kernel : calibration.ratio_kernels)
-    ratio_kernels.push_back(kernel_json(kernel));
-  json within = json::array();
-  for (const auto& row : calibration.within.rowwise()) within.push_back(numbers_of(row));
-  return {{"features", calibration.features},
-          {"heights", calibration.heights},
-          {"center", numbers_of(calibration.center)},
-          {"scale", numbers_of(calibration.scale)},
-          {"crops", calibration.crops},
-          {"crop_kernel", kernel_json(calibration.crop_kernel)},
-          {"crop_sharpness", calibration.crop_sharpness},
-          {"ratio_kernels", ratio_kernels},
-          {"within", within},
-          {"farms", farms}};
-}
+json json_of(const Calibration& calibration) { return calibration; }
 
-Calibration calibration_of(const json& document) {
-  Calibration calibration{.features = document.at("features"),
-                          .heights = document.at("heights"),
-                          .center = vector_of(document.at("center")),
-                          .scale = vector_of(document.at("scale")),
-                          .crops = document.at("crops"),
-                          .crop_kernel = kernel_of(document.at("crop_kernel")),
-                          .crop_sharpness = document.at("crop_sharpness"),
-                          .within = {}};
-  for (const json& kernel : document.at("ratio_kernels"))
-    calibration.ratio_kernels.push_back(kernel_of(kernel));
-  calibration.within.resize(static_cast<Eigen::Index>(calibration.heights.size()),
-                            calibration.center.size());
-  for (Eigen::Index row = 0; row < calibration.within.rows(); ++row)
-    calibration.within.row(row) = vector_of(document.at("within").at(row));
-  for (const json& farm : document.at("farms")) {
-    calibration.farms.push_back(
-        {.library = farm.at("library"),
-         .crop = farm.at("crop"),
-         .top_m = farm.at("top_m"),
-         .features = vector_of(farm.at("features")),
-         .ratios = vector_of(farm.at("ratios")),
-         .within = vector_of(farm.at("within")),
-         .from_libraries = from_others_of(farm.at("from_libraries")),
-         .from_crops = from_others_of(farm.at("from_crops")),
-         .standardised_given_crop = vector_of(farm.at("standardised_given_crop")),
-         .novelty = farm.at("novelty")});
-  }
-  return calibration;
-}
+Calibration calibration_of(const json& document) { return document.get<Calibration>(); }
 
 const Calibration& shipped_calibration() {
   static const Calibration calibration =

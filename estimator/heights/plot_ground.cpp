@@ -9,15 +9,6 @@ namespace {
 
 constexpr int kPlaces = 9;  // along either side of the box
 
-bool seen_at(const ground::Surface& surface, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d node = (place - surface.origin) / surface.cell_m;
-  const auto column = static_cast<int>(std::lround(node.x()));
-  const auto row = static_cast<int>(std::lround(node.y()));
-  if (column < 0 || row < 0 || column >= surface.columns || row >= surface.rows) return false;
-  return surface.seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(surface.columns) +
-                      static_cast<std::size_t>(column)] != 0;
-}
-
 // The part of a place's error that the places around share.
 double shared_error(const ground::Surface& surface, const Eigen::Vector2d& place) {
   const double error_m = surface.standard_error(place);
@@ -40,7 +31,7 @@ PlotGround ground_under(const PlotBox& box, const ground::Surface& surface,
       const Eigen::Vector2d place = box.center +
                                     ((i + 0.5) / kPlaces - 0.5) * box.length_m * box.length_axis() +
                                     ((j + 0.5) / kPlaces - 0.5) * box.width_m * box.width_axis();
-      ground.seen_share += seen_at(surface, place) ? 1.0 / (kPlaces * kPlaces) : 0;
+      ground.seen_share += surface.seen_at(place) ? 1.0 / (kPlaces * kPlaces) : 0;
       const double misfit_m = surface.misfit(place);
       const Eigen::Vector2d slope = surface.slope(place);
       if (std::isnan(misfit_m) || slope.hasNaN()) continue;

@@ -38,12 +38,10 @@ void write_scores(const Scores& scores, const RunOptions& options) {
 }  // namespace
 
 json to_json(const Scores& scores) {
-  json heights = json::array();
-  for (const HeightScore& score : scores.heights) heights.push_back(to_json(score));
   json document = {{"format", kFormat},
-                   {"boxes", scores.table ? json(nullptr) : to_json(scores.boxes)},
-                   {"heights", heights},
-                   {"field", to_json(scores.field)}};
+                   {"boxes", scores.table ? json(nullptr) : json(scores.boxes)},
+                   {"heights", scores.heights},
+                   {"field", scores.field}};
   if (const auto& table = scores.table) {
     json not_found = json::array();
     for (const PlotId& id : table->not_found) not_found.push_back(id.json());

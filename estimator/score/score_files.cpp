@@ -117,50 +117,30 @@ void write_trust(std::ostream& out, const PlotScore& plot, const std::set<std::s
 
 }  // namespace
 
-json to_json(const BoxScore& boxes) {
-  return {{"plots", boxes.plots},
-          {"found", boxes.found},
-          {"missed", boxes.missed},
-          {"extra", boxes.extra},
-          {"recall", boxes.recall},
-          {"precision", boxes.precision},
-          {"iou_mean", boxes.iou_mean},
-          {"iou_median", boxes.iou_median},
-          {"iou_min", boxes.iou_min},
-          {"center_rmse_m", boxes.center_rmse_m},
-          {"heading_rmse_deg", boxes.heading_rmse_rad / kDegrees}};
+void to_json(json& document, const BoxScore& boxes) {
+  document = {{"plots", boxes.plots},
+              {"found", boxes.found},
+              {"missed", boxes.missed},
+              {"extra", boxes.extra},
+              {"recall", boxes.recall},
+              {"precision", boxes.precision},
+              {"iou_mean", boxes.iou_mean},
+              {"iou_median", boxes.iou_median},
+              {"iou_min", boxes.iou_min},
+              {"center_rmse_m", boxes.center_rmse_m},
+              {"heading_rmse_deg", boxes.heading_rmse_rad / kDegrees}};
 }
 
-json to_json(const HeightScore& score) {
-  return {{"height", score.height},
-          {"truth", score.truth},
-          {"plots", score.plots},
-          {"without", score.without},
-          {"rmse_m", score.rmse_m},
-          {"bias_m", score.bias_m},
-          {"mae_m", score.mae_m},
-          {"standard_error_m", score.standard_error_m},
-          {"r2", score.r2},
-          {"correlation2", score.correlation2},
-          {"coverage95", score.coverage95},
-          {"flagged", score.flagged},
-          {"large_unflagged", score.large_unflagged},
-          {"large_unflagged_share", score.large_unflagged_share}};
+void to_json(json& document, const FieldScore& field) {
+  document = {{"method", field.method}, {"extra", json::array()}, {"plots", json::array()}};
+  for (const PlotScore& plot : field.plots) document["plots"].push_back(plot_json(plot));
+  for (const PlotId& id : field.extra) document["extra"].push_back(id.json());
 }
 
-json to_json(const FieldScore& field) {
-  json plots = json::array();
-  for (const PlotScore& plot : field.plots) plots.push_back(plot_json(plot));
-  json extra = json::array();
-  for (const PlotId& id : field.extra) extra.push_back(id.json());
-  return {{"method", field.method}, {"extra", extra}, {"plots", plots}};
-}
-
-FieldScore field_from_json(const json& document) {
-  FieldScore field{.method = document.at("method"), .plots = {}, .extra = {}};
+void from_json(const json& document, FieldScore& field) {
+  field = {.method = document.at("method"), .plots = {}, .extra = {}};
   for (const json& id : document.at("extra")) field.extra.push_back(id_from_json(id));
   for (const json& plot : document.at("plots")) field.plots.push_back(plot_from_json(plot));
-  return field;
 }
 
 void write_plot_table(const std::filesystem::path& path, const FieldScore& field) {

@@ -59,4 +59,16 @@ WithinFarms score_within(std::span<const HeightPairs> farms) {
   return score;
 }
 
+HeightOnFarms score_on_farms(std::span<const FieldScore> farms, const std::string& height,
+                             const std::string& truth) {
+  HeightOnFarms on;
+  for (const FieldScore& farm : farms) {
+    on.farms.push_back(height_pairs(farm, height, truth));
+    append(on.pooled, on.farms.back());
+  }
+  on.score = score_height(height, truth, on.pooled);
+  on.within = score_within(on.farms);
+  return on;
+}
+
 }  // namespace plotscan::score

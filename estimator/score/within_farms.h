@@ -31,4 +31,14 @@ struct WithinFarms {
 // `farms`: the pairs of each farm (height_pairs).
 WithinFarms score_within(std::span<const HeightPairs> farms);
 
+// One height against one truth on several farms.
+struct HeightOnFarms {
+  std::vector<HeightPairs> farms;
+  HeightPairs pooled;  // of all farms together
+  HeightScore score;   // of these
+  WithinFarms within;
+};
+HeightOnFarms score_on_farms(std::span<const FieldScore> farms, const std::string& height,
+                             const std::string& truth);
+
 }  // namespace plotscan::score

@@ -279,4 +279,12 @@ CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
   return summary;
 }
 
+std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud) {
+  std::vector<Eigen::Vector3f> points;
+  read_positions(cloud, [&](std::span<const Eigen::Vector3d> piece) {
+    for (const Eigen::Vector3d& point : piece) points.push_back(point.cast<float>());
+  });
+  return points;
+}
+
 }  // namespace plotscan::scan

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,6 +40,9 @@ struct PositionOptions {
 // cloud, as read_cloud_system does, and on a file without classes where only some are to be read.
 CloudSummary read_positions(const CloudFiles& cloud, const PositionSink& sink,
                             const PositionOptions& options = {});
+
+// All positions of a cloud that is near its origin, in the file's order. Throws as the above does.
+std::vector<Eigen::Vector3f> read_positions(const std::filesystem::path& cloud);
 
 // About how many points a cloud's files hold: from their headers, or for text from its length.
 // Throws InputError as read_positions does, for what it reads of the files.

@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 FieldSample sample_of_two_plots(std::uint64_t seed) {
   RandomStream random(seed, random_purpose("test/calibration_sample"), 0);
   FieldSample sample{.library = "wheat-a", .seed = seed};
-  sample.surface = {.origin = {-4, -4}, .cell_m = 0.5, .columns = 25, .rows = 17};
+  sample.surface = {{.origin = {-4, -4}, .cell_m = 0.5, .columns = 25, .rows = 17}};
   sample.surface.z_m.assign(25 * 17, 0);
   sample.surface.sd_m.assign(25 * 17, 0.003F);
   sample.surface.seen.assign(25 * 17, 1);

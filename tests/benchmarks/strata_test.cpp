@@ -225,7 +225,7 @@ TEST(KeepFarm, CutsTheCloudToTheMarginAboutThePlots) {
   // The plots' length lies along y before they are turned.
   const PlotBox plots{.width_m = 5, .length_m = 7, .heading_rad = 120 * kDegrees};
   Eigen::AlignedBox2d seen;
-  for (const Eigen::Vector3f& point : read_positions(field.cloud))
+  for (const Eigen::Vector3f& point : scan::read_positions(field.cloud))
     seen.extend(plots.box_from_world(point.head<2>().cast<double>()));
   EXPECT_NEAR(seen.max().x(), 3.5 + 0.7, 0.02);
   EXPECT_NEAR(seen.min().x(), -3.5 - 0.7, 0.02);
@@ -289,7 +289,7 @@ TEST(MeasureField, CountsWhatTheEstimatorFinds) {
   EXPECT_EQ(measured.stratum, "paper");
   EXPECT_EQ(measured.index, 3);
   EXPECT_EQ(measured.failure, "");
-  EXPECT_EQ(measured.points, read_positions(field.cloud).size());
+  EXPECT_EQ(measured.points, scan::read_positions(field.cloud).size());
   ASSERT_EQ(measured.score.plots.size(), 12U);
   EXPECT_EQ(std::ranges::count_if(measured.score.plots,
                                   [](const auto& plot) { return plot.found.has_value(); }),
@@ -327,7 +327,7 @@ TEST(ThinnedCloud, HasTheDensityThatIsAskedFor) {
   const auto cloud = folder.path() / "cloud.pcd";
   write_positions(cloud, points);
   EXPECT_EQ(thinned_cloud(cloud, 500, 1), cloud) << "it has no more";
-  const std::vector<Eigen::Vector3f> thinned = read_positions(thinned_cloud(cloud, 100, 1));
+  const std::vector<Eigen::Vector3f> thinned = scan::read_positions(thinned_cloud(cloud, 100, 1));
   EXPECT_NEAR(static_cast<double>(thinned.size()), 40'000, 500);
   int in_middle = 0;
   for (const Eigen::Vector3f& point : thinned)

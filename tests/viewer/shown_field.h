@@ -14,7 +14,7 @@ namespace plotscan::view {
 // The ground as a plane through (origin, z_m), all seen, with a standard error of 1 cm.
 inline ground::Surface plane(const Eigen::Vector2d& origin, double z_m,
                              const Eigen::Vector2d& slope, int nodes) {
-  ground::Surface surface{.origin = origin, .cell_m = 0.2, .columns = nodes, .rows = nodes};
+  ground::Surface surface{{.origin = origin, .cell_m = 0.2, .columns = nodes, .rows = nodes}};
   for (int row = 0; row < nodes; ++row) {
     for (int column = 0; column < nodes; ++column) {
       const Eigen::Vector2d place = surface.cell_m * Eigen::Vector2d(column, row);

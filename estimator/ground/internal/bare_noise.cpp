@@ -113,9 +113,8 @@ class Squares {
  public:
   Squares(const Grid& grid, const std::vector<BlockSpread>& blocks, double most_range_m)
       : grid_(grid), nodes_(std::max(1, static_cast<int>(std::lround(kSquare_m / grid.cell_m)))) {
-    columns_ = grid.columns / nodes_ + 1;
-    rows_ = grid.rows / nodes_ + 1;
-    spreads_.resize(static_cast<std::size_t>(columns_) * rows_);
+    squares_ = {.columns = grid.columns / nodes_ + 1, .rows = grid.rows / nodes_ + 1};
+    spreads_.resize(squares_.nodes());
     for (const BlockSpread& block : blocks)
       if (block.range_m <= most_range_m) spreads_[of(block.node)].push_back(block.sigma_m);
   }
@@ -123,19 +122,16 @@ class Squares {
   std::size_t count() const { return spreads_.size(); }
   std::size_t of(std::size_t node) const {
     const std::size_t column = node % grid_.columns / nodes_;
-    return node / grid_.columns / nodes_ * columns_ + column;
+    return node / grid_.columns / nodes_ * squares_.columns + column;
   }
   // The noise in a square and those around it; nothing where too little is bare.
   std::optional<double> noise_m(std::size_t square) const {
-    const int column = static_cast<int>(square) % columns_,
-              row = static_cast<int>(square) / columns_;
+    const int column = static_cast<int>(square) % squares_.columns,
+              row = static_cast<int>(square) / squares_.columns;
     std::vector<double> around;
-    for (int r = std::max(0, row - 1); r < std::min(rows_, row + 2); ++r) {
-      for (int c = std::max(0, column - 1); c < std::min(columns_, column + 2); ++c) {
-        const auto& here = spreads_[static_cast<std::size_t>(r) * columns_ + c];
-        around.insert(around.end(), here.begin(), here.end());
-      }
-    }
+    for_around(squares_, column, row, 1, [&](std::size_t near) {
+      around.insert(around.end(), spreads_[near].begin(), spreads_[near].end());
+    });
     if (around.size() < kLeastBlocks) return std::nullopt;
     return lowest_of(around, kPercentile);
   }
@@ -144,8 +140,7 @@ class Squares {
   static constexpr double kSquare_m = 2;
   const Grid& grid_;
   int nodes_ = 1;  // of a square's side
-  int columns_ = 0;
-  int rows_ = 0;
+  Grid squares_;
   std::vector<std::vector<double>> spreads_;
 };
 

@@ -116,13 +116,10 @@ void drop_strays(const Grid& grid, float noise, Layer& layer) {
     for (int column = 0; column < grid.columns; ++column) {
       std::array<float, 24> around;
       int count = 0;
-      for (int r = std::max(0, row - 2); r <= std::min(grid.rows - 1, row + 2); ++r) {
-        for (int c = std::max(0, column - 2); c <= std::min(grid.columns - 1, column + 2); ++c) {
-          const float z = layer.z_m[grid.index(c, r)];
-          if ((r != row || c != column) && z < kNone) around[count++] = z;
-        }
-      }
       const std::size_t i = grid.index(column, row);
+      for_around(grid, column, row, 2, [&](std::size_t near) {
+        if (near != i && layer.z_m[near] < kNone) around[count++] = layer.z_m[near];
+      });
       if (count < 3) continue;
       if (layer.z_m[i] < selected_low(std::span(around.data(), count), 2) - deepest) {
         kept.z_m[i] = kNone;
@@ -140,11 +137,9 @@ Field median_around(const Grid& grid, const Field& z) {
     for (int column = 0; column < grid.columns; ++column) {
       std::array<float, 9> around;
       int count = 0;
-      for (int r = std::max(0, row - 1); r <= std::min(grid.rows - 1, row + 1); ++r) {
-        for (int c = std::max(0, column - 1); c <= std::min(grid.columns - 1, column + 1); ++c) {
-          if (z[grid.index(c, r)] < kNone) around[count++] = z[grid.index(c, r)];
-        }
-      }
+      for_around(grid, column, row, 1, [&](std::size_t near) {
+        if (z[near] < kNone) around[count++] = z[near];
+      });
       if (count == 0) continue;
       medians[grid.index(column, row)] = selected(std::span(around.data(), count), count / 2);
     }

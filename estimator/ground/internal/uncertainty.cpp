@@ -20,8 +20,7 @@ constexpr double kUnknownBend_m = 0.1;  // without any evidence
 
 // Every second node, with all data around it.
 Grid coarse_grid(const Grid& grid) {
-  return {.origin = grid.origin,
-          .cell_m = kCoarser * grid.cell_m,
+  return {.cell_m = kCoarser * grid.cell_m,
           .columns = std::max(3, (grid.columns + kCoarser - 1) / kCoarser),
           .rows = std::max(3, (grid.rows + kCoarser - 1) / kCoarser)};
 }
@@ -31,16 +30,20 @@ std::size_t fine_index(const Grid& grid, int column, int row) {
                     std::min(kCoarser * row, grid.rows - 1));
 }
 
+// The node of the coarse grid that a place of the fine one belongs to.
+std::size_t coarse_index(const Grid& coarse, int column, int row) {
+  return coarse.index(std::min(column / kCoarser, coarse.columns - 1),
+                      std::min(row / kCoarser, coarse.rows - 1));
+}
+
 // Precision of the evidence around each coarse node, 1 / m^2.
 Field coarse_data(const Grid& grid, const Grid& coarse, const Evidence& evidence) {
   Field sums(coarse.nodes(), 0);
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      const int c = std::min(column / kCoarser, coarse.columns - 1);
-      const int r = std::min(row / kCoarser, coarse.rows - 1);
       const std::size_t i = grid.index(column, row);
       if (evidence.data[i] <= 0) continue;
-      sums[coarse.index(c, r)] += evidence.support[i] * evidence.data[i];
+      sums[coarse_index(coarse, column, row)] += evidence.support[i] * evidence.data[i];
     }
   }
   return sums;
@@ -52,8 +55,7 @@ Field coarse_doubt(const Grid& grid, const Grid& coarse, const Evidence& evidenc
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::size_t i = grid.index(column, row);
-      const std::size_t at = coarse.index(std::min(column / kCoarser, coarse.columns - 1),
-                                          std::min(row / kCoarser, coarse.rows - 1));
+      const std::size_t at = coarse_index(coarse, column, row);
       sums[at] += evidence.doubt_m[i];
       counts[at] += 1;
     }
@@ -82,15 +84,11 @@ Field bend_variances(const Grid& grid, const Field& surface, const Field& data) 
     for (int column = 0; column < grid.columns; ++column) {
       double here = 0;
       int nodes = 0;
-      for (int r = std::max(0, row - kBendsAround);
-           r <= std::min(grid.rows - 1, row + kBendsAround); ++r) {
-        for (int c = std::max(0, column - kBendsAround);
-             c <= std::min(grid.columns - 1, column + kBendsAround); ++c) {
-          const double bend = bends[grid.index(c, r)];
-          here += bend * bend;
-          ++nodes;
-        }
-      }
+      for_around(grid, column, row, kBendsAround, [&](std::size_t i) {
+        const double bend = bends[i];
+        here += bend * bend;
+        ++nodes;
+      });
       variances[grid.index(column, row)] = static_cast<float>(0.5 * usual + 0.5 * here / nodes);
     }
   });
@@ -150,9 +148,7 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& e
   }
   fit.stiffness = bend_variances(coarse, heights, fit.data);
   for (float& value : fit.stiffness) value = 1 / value;
-  ErrorDraws errors{.cell_m = coarse.cell_m,
-                    .columns = coarse.columns,
-                    .rows = coarse.rows,
+  ErrorDraws errors{.grid = coarse,
                     .draws = kDraws,
                     .heights_m = std::vector<float>(kDraws * coarse.nodes()),
                     .doubt_m = coarse_doubt(grid, coarse, evidence, noise_m)};
@@ -168,7 +164,7 @@ ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& e
 
 Field spread_of(const Grid& grid, const ErrorDraws& errors) {
   Field spread(grid.nodes());
-  const std::size_t nodes = static_cast<std::size_t>(errors.columns) * errors.rows;
+  const std::size_t nodes = errors.grid.nodes();
   std::vector<double> squares(nodes);
   for (std::size_t i = 0; i < nodes; ++i) squares[i] = errors.doubt_m[i] * errors.doubt_m[i];
   for (int draw = 0; draw < errors.draws; ++draw) {
@@ -179,16 +175,14 @@ Field spread_of(const Grid& grid, const ErrorDraws& errors) {
   }
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
-      const int c = std::min(column / kCoarser, errors.columns - 1);
-      const int r = std::min(row / kCoarser, errors.rows - 1);
+      const int c = std::min(column / kCoarser, errors.grid.columns - 1);
+      const int r = std::min(row / kCoarser, errors.grid.rows - 1);
       double sum = 0;
       int count = 0;
-      for (int y = std::max(0, r - 1); y <= std::min(errors.rows - 1, r + 1); ++y) {
-        for (int x = std::max(0, c - 1); x <= std::min(errors.columns - 1, c + 1); ++x) {
-          sum += squares[static_cast<std::size_t>(y) * errors.columns + x];
-          ++count;
-        }
-      }
+      for_around(errors.grid, c, r, 1, [&](std::size_t i) {
+        sum += squares[i];
+        ++count;
+      });
       spread[grid.index(column, row)] = static_cast<float>(std::sqrt(sum / count));
     }
   }

@@ -74,7 +74,7 @@ TEST(EsriGrid, RefusesWhatIsNone) {
 
 // Half a cell's z as a plane, its error and what was seen, with one node out of reach.
 ground::Surface surface() {
-  ground::Surface made{.origin = {552000.125, 4128000.5}, .cell_m = 0.2, .columns = 7, .rows = 5};
+  ground::Surface made{{.origin = {552000.125, 4128000.5}, .cell_m = 0.2, .columns = 7, .rows = 5}};
   for (int row = 0; row < made.rows; ++row) {
     for (int column = 0; column < made.columns; ++column) {
       made.z_m.push_back(static_cast<float>(312 + 0.1 * column - 0.03 * row));

@@ -18,13 +18,11 @@ using plotscan::testing::TemporaryFolder;
 // Nodes at x 500000, 500000.2, 500000.4 and y 40, 40.2; the last node is out of reach.
 ground::Surface graded() {
   const float none = std::numeric_limits<float>::quiet_NaN();
-  return {.origin = {500000, 40},
-          .cell_m = 0.2,
-          .columns = 3,
-          .rows = 2,
-          .z_m = {1, 2, 3, 4, 5, none},
-          .sd_m = {0.01F, 0.02F, 0.03F, 0.04F, 0.05F, none},
-          .seen = {1, 0, 1, 0, 1, 0}};
+  ground::Surface surface{{.origin = {500000, 40}, .cell_m = 0.2, .columns = 3, .rows = 2}};
+  surface.z_m = {1, 2, 3, 4, 5, none};
+  surface.sd_m = {0.01F, 0.02F, 0.03F, 0.04F, 0.05F, none};
+  surface.seen = {1, 0, 1, 0, 1, 0};
+  return surface;
 }
 
 // By the format's description (Esri, ASCII raster): north first, the corner half a cell outside of

@@ -39,8 +39,8 @@ Evidence seen_in_the_west(float precision) {
 TEST(DrawErrors, AreDistributedAsTheInverseOfTheNormalEquations) {
   const float precision = 500;
   const ErrorDraws errors = draw_errors(kFine, parabola(), seen_in_the_west(precision), kNoise_m);
-  ASSERT_EQ(errors.columns, 16);
-  ASSERT_EQ(errors.rows, 14);
+  ASSERT_EQ(errors.grid.columns, 16);
+  ASSERT_EQ(errors.grid.rows, 14);
   const Grid coarse{.cell_m = 0.4, .columns = 16, .rows = 14};
   const Fit fit{.target = {},
                 .data = field_of(coarse, [&](int c, int) { return c < 8 ? 4 * precision : 0; }),

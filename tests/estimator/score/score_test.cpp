@@ -227,9 +227,9 @@ TEST(ScoreHeight, AMissingHeightIsCounted) {
 
 TEST(ScoreFiles, AFieldComesBackFromJson) {
   const FieldScore field = three_plots();
-  const nlohmann::json document = to_json(field);
-  const FieldScore again = field_from_json(nlohmann::json::parse(document.dump()));
-  EXPECT_EQ(to_json(again), document);
+  const nlohmann::json document = field;
+  const FieldScore again = nlohmann::json::parse(document.dump());
+  EXPECT_EQ(nlohmann::json(again), document);
   EXPECT_DOUBLE_EQ(again.plots[1].found->heading_error_rad,
                    field.plots[1].found->heading_error_rad);
   EXPECT_EQ(again.plots[2].truth.heights_m, field.plots[2].truth.heights_m);
@@ -237,9 +237,9 @@ TEST(ScoreFiles, AFieldComesBackFromJson) {
 
 TEST(ScoreFiles, IntervalsConfidenceAndFlagsComeBack) {
   const FieldScore field = four_plots_with_intervals();
-  const nlohmann::json document = to_json(field);
-  const FieldScore again = field_from_json(nlohmann::json::parse(document.dump()));
-  EXPECT_EQ(to_json(again), document);
+  const nlohmann::json document = field;
+  const FieldScore again = nlohmann::json::parse(document.dump());
+  EXPECT_EQ(nlohmann::json(again), document);
   EXPECT_EQ(again.plots[1].found->flags, field.plots[1].found->flags);
   EXPECT_EQ(again.plots[0].found->confidence, 0.5);
   EXPECT_EQ(again.plots[2].found->errors.at("max").high95_m,
@@ -279,9 +279,9 @@ TEST(ScoreFiles, OneRowAPlot) {
 
 TEST(ScoreFiles, TellTheTrialsOfAFieldThatHasSeveral) {
   FieldScore field = three_plots();
-  EXPECT_FALSE(to_json(field)["plots"][0].contains("trial_number"));
+  EXPECT_FALSE(nlohmann::json(field)["plots"][0].contains("trial_number"));
   for (PlotScore& plot : field.plots) plot.truth.trial = 2;
-  EXPECT_EQ(field_from_json(to_json(field)).plots[1].truth.trial, 2);
+  EXPECT_EQ(nlohmann::json(field).get<FieldScore>().plots[1].truth.trial, 2);
   const TemporaryFolder folder;
   write_plot_table(folder.path() / "plots.csv", field);
   const CsvTable table = read_csv_table(folder.path() / "plots.csv");
