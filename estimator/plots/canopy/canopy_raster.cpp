@@ -121,7 +121,7 @@ std::unique_ptr<std::uint64_t[]> returns_by_cell(const FieldCanopy& field, const
       if (cell.x() < first || cell.x() >= end) continue;
       std::uint64_t* sums = returns.get() + grid.index(cell) * scales.size();
       for (std::size_t k = 0; k < scales.size(); ++k)
-        if (i < field.crop_points() || scales[k].with_tall)
+        if (i < field.crop_points() || scales[k].with_others)
           sums[k] += return_at(points[i].z(), scales[k]);
     }
   });

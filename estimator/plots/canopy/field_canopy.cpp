@@ -33,13 +33,13 @@ void FieldCanopy::leave_out_surfaces() {
 }
 
 // What is taller than the crop, and the parts of it in the blocks beside it.
-void FieldCanopy::find_tall_blocks() {
+void FieldCanopy::set_tall_blocks_aside() {
   const std::vector<BlockFacts>& facts = blocks_.facts();
   const double tall_m = kTall * scale_.high_m;
-  for (std::size_t i = 0; i < tall_.size(); ++i) {
+  for (std::size_t i = 0; i < aside_.size(); ++i) {
     if (!facts[i].stands_out || facts[i].top_m < tall_m) continue;
     blocks_.for_each_about(i, [&](std::size_t near) {
-      if (facts[near].highest_m >= tall_m) tall_[near] = 1;
+      if (facts[near].highest_m >= tall_m) aside_[near] = 1;
     });
   }
 }
@@ -83,22 +83,21 @@ FieldCanopy::FieldCanopy(std::span<const Eigen::Vector3f> points, const FieldBlo
                          const Crop& crop, int threads, const GroundError& ground_error)
     : blocks_(blocks),
       scale_{.low_m = blocks.low_m(), .high_m = std::max(crop.top_m, 2 * blocks.low_m())},
-      tall_(blocks.facts().size()) {
+      aside_(blocks.facts().size()) {
   for (const BlockFacts& block : blocks.facts()) left_out_.push_back(block.seldom_seen);
-  for (std::size_t i = 0; i < crop.others.size(); ++i)
-    if (crop.others[i]) left_out_[i] = 1;
   leave_out_surfaces();
-  find_tall_blocks();
+  std::ranges::copy(crop.others, aside_.begin());
+  set_tall_blocks_aside();
   tbb::task_arena arena(threads);
   if (ground_error && crop.top_m > 0) arena.execute([&] { leave_out_unsure_ground(ground_error); });
   kept_.reserve(points.size());
-  std::vector<Eigen::Vector3f> tall;
+  std::vector<Eigen::Vector3f> aside;
   for (const Eigen::Vector3f& point : points) {
     if (leaves_out(point)) continue;
-    (tall_[blocks_.number_of(point)] != 0 ? tall : kept_).push_back(point);
+    (aside_[blocks_.number_of(point)] != 0 ? aside : kept_).push_back(point);
   }
   crop_points_ = kept_.size();
-  std::ranges::copy(tall, std::back_inserter(kept_));
+  std::ranges::copy(aside, std::back_inserter(kept_));
 }
 
 }  // namespace plotscan::plots

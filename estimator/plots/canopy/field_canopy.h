@@ -20,20 +20,21 @@ namespace plotscan::plots {
 struct CanopyScale {
   double low_m = 0;
   double high_m = 0;
-  bool with_tall = false;  // blocks that are taller than the crop count too
+  bool with_others = false;  // what is set aside counts too
 };
 
 // What may be the crop that the plots are sown with.
 struct Crop {
   double top_m = 0;               // its height; 0 where nothing stands out
-  std::vector<bool> others = {};  // of each block, whether it holds another crop; none where empty
+  std::vector<bool> others = {};  // of each block, whether it may hold another; none where empty
 };
 
 // A field's points as (x, y, height above the ground), metres, for one crop. Left out are points
-// that are not finite, blocks of other crops, blocks of a survey's margin with less than a tenth of
-// the field's density, blocks filled by a smooth surface (canopy scatters heights by more than the
-// sensor's noise; else it is a wall, a car's roof, a sheet, or ground that the ground's model
-// missed), and places whose ground is too uncertain to distinguish ridges from canopy.
+// that are not finite, blocks of a survey's margin with less than a tenth of the field's density,
+// blocks filled by a smooth surface (canopy scatters heights by more than the sensor's noise; else
+// it is a wall, a car's roof, a sheet, or ground that the ground's model missed), and places whose
+// ground is too uncertain to distinguish ridges from canopy. Set aside are blocks of other crops
+// and those that are twice as tall, as hedges, trees and cars beside a field are.
 class FieldCanopy {
  public:
   // `blocks` are those of `points` and outlive this.
@@ -41,7 +42,7 @@ class FieldCanopy {
               int threads, const GroundError& ground_error = {});
 
   // The points that are not left out: those that may be the crop first, in their order, then those
-  // of blocks that are twice as tall, as hedges, trees and cars beside a field are.
+  // that are set aside.
   std::span<const Eigen::Vector3f> points() const { return kept_; }
   std::size_t crop_points() const { return crop_points_; }
   bool leaves_out(const Eigen::Vector3f& point) const;
@@ -53,13 +54,13 @@ class FieldCanopy {
 
  private:
   void leave_out_surfaces();
-  void find_tall_blocks();
+  void set_tall_blocks_aside();
   void leave_out_unsure_ground(const GroundError& ground_error);
 
   const FieldBlocks& blocks_;
   CanopyScale scale_;
-  std::vector<std::uint8_t> left_out_, tall_;  // by block
-  std::vector<std::uint8_t> unsure_;           // by cell of a block
+  std::vector<std::uint8_t> left_out_, aside_;  // by block
+  std::vector<std::uint8_t> unsure_;            // by cell of a block
   std::vector<Eigen::Vector3f> kept_;
   std::size_t crop_points_ = 0;
 };

@@ -312,6 +312,7 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster
     take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   } else {
     leave_out_strays(lattice);
+    leave_out_crop(lattice);
     leave_out_beside(lattice);
     if (!hints.rows && !hints.columns) go_on_beyond(lattice);
   }

@@ -15,9 +15,6 @@ namespace {
 
 // Of the usual side's contrast, in the mean of a row or column.
 constexpr double kLeastOfSide = 0.25;
-// Where the usual side shows less there is no edge to miss: drill rows end within the box, plots
-// touch.
-constexpr double kLeastUsual = 0.2;
 
 // Marks the places of those rows in which one of the sides across r shows no edge.
 void mark_rows(const Lattice& lattice, std::vector<bool>& marked) {

@@ -18,18 +18,14 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kLeastSide_m = 0.3, kMostSide_m = 100;  // of a plot; strips of farms
-constexpr double kLeastRow_m = 0.2;                      // of a drill row's leaves
-// Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
-// tenth.
-constexpr double kMostSpacing_m = 1.12;
-constexpr double kLeastGap_m = 0.15;     // between plots
-constexpr double kMostIrregular = 0.34;  // of the steps from plot to plot,
-constexpr double kAlleys = 1;            // but one at least
-constexpr std::size_t kMostPeriod = 4;   // plots that one pass of a drill sows
-constexpr double kMostTrack = 0.5;       // of a plot's width, between two passes
-constexpr double kSizeStep = 1.05;       // from one size that is tried to the next
-constexpr std::size_t kRefined = 4;      // best shapes of which others like them are tried
-constexpr std::size_t kRowsTried = 3;    // in each of which all shapes are tried
+constexpr double kLeastGap_m = 0.15;                     // between plots
+constexpr double kMostIrregular = 0.34;                  // of the steps from plot to plot,
+constexpr double kAlleys = 1;                            // but one at least
+constexpr std::size_t kMostPeriod = 4;                   // plots that one pass of a drill sows
+constexpr double kMostTrack = 0.5;                       // of a plot's width, between two passes
+constexpr double kSizeStep = 1.05;                       // from one size that is tried to the next
+constexpr std::size_t kRefined = 4;    // best shapes of which others like them are tried
+constexpr std::size_t kRowsTried = 3;  // in each of which all shapes are tried
 
 int cells(double length_m, double cell_m) {
   return std::max(1, static_cast<int>(std::lround(length_m / cell_m)));
@@ -113,7 +109,7 @@ std::vector<BandShape> coarse_shapes(const Line& line) {
   const double most =
       std::min<double>(kMostSide_m / line.cell_m, line.profiles.front().cells() - 4);
   std::vector<int> sizes;
-  double size = kLeastRow_m / line.cell_m;
+  double size = line.hint.least_m / line.cell_m;
   while (size <= most) {
     sizes.push_back(static_cast<int>(size));
     size = std::max(size + 1, size * kSizeStep);

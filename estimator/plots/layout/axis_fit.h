@@ -11,6 +11,11 @@
 
 namespace plotscan::plots {
 
+inline constexpr double kLeastRow_m = 0.2;  // of a drill row's leaves
+// Maize stands in rows up to 1.02 m (40 in) apart; leaves move what is seen of two rows by up to a
+// tenth.
+inline constexpr double kMostSpacing_m = 1.12;
+
 // What is assumed of a line of plots.
 enum class LineModel {
   free_ends,  // anything may stand before the first and after the last plot
@@ -23,6 +28,7 @@ struct AxisHint {
   std::optional<double> side_m = std::nullopt;  // of a plot
   std::optional<int> count = std::nullopt;      // of plots that follow each other
   LineModel model = LineModel::free_ends;
+  double least_m = kLeastRow_m;  // narrower bands are not sought
 };
 
 // How well bands of one shape explain what is seen along an axis.

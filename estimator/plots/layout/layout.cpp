@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kSameColumn_m = 0.15;   // off which leaves do not move what is seen of a plot
 constexpr double kNearlyAsClear = 0.9;   // of the evidence, where gaps show along more axes
+constexpr double kMuchClearer = 2.5;     // of wide bands than of bands as narrow as drill rows
 constexpr double kLeastAspectOfRow = 6;  // of a crop row where no spacing tells that it is one;
 constexpr double kLeastAspectOfDrillRow = 3;  // of one at a known spacing, also across a plot
 constexpr double kLeastOfUsual = 0.3;         // of the usual plot's canopy: less is a missing one
@@ -299,6 +300,24 @@ std::optional<Layout> clearest(const std::vector<Layout>& layouts) {
   return touching && is_as_clear ? touching : none;
 }
 
+// The clearest of the layouts, those of the user's hints; without rows where none is.
+Layout best_of(std::vector<Layout> layouts, const RowView& view, const Hints& hints,
+               LineModel model, const LayoutCriterion& criterion) {
+  leave_out_drill_rows(layouts);
+  if (model != LineModel::touching) leave_best_aligned(view, model, criterion, layouts);
+  for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
+  if (!hints.tell_layout()) add_in_columns(layouts);
+  const double without = criterion({.view = view});
+  for (Layout& layout : layouts) layout.evidence = 0.5 * (without - criterion(layout));
+  return clearest(layouts).value_or(Layout{.view = view});
+}
+
+// Whether the bands that show are as narrow as drill rows.
+bool has_narrow_bands(const Layout& layout) {
+  const int narrower = std::min(layout.r_seen.shape.size, layout.c_seen.shape.size);
+  return !layout.rows.empty() && narrower * layout.view.cell_m() < kMostSpacing_m;
+}
+
 }  // namespace
 
 bool is_in_columns(const Layout& layout) {
@@ -335,18 +354,15 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, LineModel mod
   if (view.r_cells() < 8 || view.c_cells() < 8) return {.view = view};
   const bool counted = hints.rows || hints.columns || hints.plots;
   if (counted && model == LineModel::free_ends) model = LineModel::even_ends;
-  std::vector<Layout> layouts = layouts_in(view, hints, model);
-  leave_out_drill_rows(layouts);
   const LayoutCriterion criterion(raster);
-  if (model != LineModel::touching) leave_best_aligned(view, model, criterion, layouts);
-  for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
-  if (!hints.tell_layout()) add_in_columns(layouts);
-  const double without = criterion({.view = view});
-  for (Layout& layout : layouts) layout.evidence = 0.5 * (without - criterion(layout));
-  std::optional<Layout> best = clearest(layouts);
-  if (!best) return {.view = view};
-  best->evidence_in_outline = criterion.evidence_in_outline(*best);
-  return *std::move(best);
+  Layout best = best_of(layouts_in(view, hints, model), view, hints, model, criterion);
+  if (!hints.tell_layout() && has_narrow_bands(best)) {
+    const AxisHint wide{.model = LineModel::even_ends, .least_m = kMostSpacing_m};
+    Layout whole = best_of(layouts_on(view, {wide, wide}), view, hints, wide.model, criterion);
+    if (whole.evidence > kMuchClearer * best.evidence) best = std::move(whole);
+  }
+  if (!best.rows.empty()) best.evidence_in_outline = criterion.evidence_in_outline(best);
+  return best;
 }
 
 }  // namespace plotscan::plots

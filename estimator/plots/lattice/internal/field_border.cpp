@@ -150,7 +150,52 @@ void add_rows_beyond(Lattice& lattice) {
   }
 }
 
+// The full places of the first or the last row that has some.
+std::vector<Place*> outer_row(std::vector<Place>& places, bool last) {
+  const auto outwards = [&](const Place& place) {
+    return std::pair(place.full, last ? place.row : -place.row);
+  };
+  const int outer = std::ranges::max(places, {}, outwards).row;
+  std::vector<Place*> row;
+  for (Place& place : places)
+    if (place.full && place.row == outer) row.push_back(&place);
+  return row;
+}
+
+// Whether a row is cut out of a crop without plots: canopy goes on beyond its outer side and from
+// plot to plot.
+bool is_of_crop(const Lattice& lattice, const SideContrast& usual, const std::vector<Place*>& row,
+                bool last) {
+  std::vector<double> outer, between;
+  for (const Place* place : row) {
+    outer.push_back(r_contrasts_of(lattice, *place)[last ? 1 : 0]);
+    between.push_back(contrast_of(lattice, *place).c);
+  }
+  return mean(outer) < kLeastBorderContrast * usual.r &&
+         mean(between) < kLeastBorderContrast * usual.c;
+}
+
+void leave_out_rows_of_crop(Lattice& lattice) {
+  const SideContrast usual = usual_sides(lattice, contrast_of);
+  if (usual.least() < kLeastUsual) return;
+  for (const bool last : {false, true}) {
+    const auto all = std::ranges::count_if(lattice.places, &Place::full);
+    for (std::vector<Place*> row = outer_row(lattice.places, last);
+         std::ssize(row) < all && is_of_crop(lattice, usual, row, last);
+         row = outer_row(lattice.places, last))
+      for (Place* place : row) place->full = false;
+  }
+}
+
 }  // namespace
+
+void leave_out_crop(Lattice& lattice) {
+  if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
+  leave_out_rows_of_crop(lattice);
+  lattice = lattice.turned();
+  leave_out_rows_of_crop(lattice);
+  lattice = lattice.turned();
+}
 
 void leave_out_beside(Lattice& lattice) {
   std::vector<Place*> beside;

@@ -7,6 +7,10 @@
 
 namespace plotscan::plots {
 
+// Removes the rows and columns at the field's border that were cut out of a crop without plots. Of
+// fields in common rows and columns only.
+void leave_out_crop(Lattice& lattice);
+
 // Removes the plots at the field's border that hedges, vehicles or weeds were taken for.
 void leave_out_beside(Lattice& lattice);
 

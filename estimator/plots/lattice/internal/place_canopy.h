@@ -10,6 +10,10 @@
 
 namespace plotscan::plots {
 
+// Where the usual side shows less contrast there is no edge to miss: drill rows end within the box,
+// plots touch.
+inline constexpr double kLeastUsual = 0.2;
+
 // Mean cover within the place's plot, off its edges.
 double inner_cover(const Lattice& lattice, const Place& place);
 

@@ -158,10 +158,10 @@ std::string refused_because(const TrialLayout& layout, const FieldSigns& signs, 
   return why;
 }
 
-// Counts what is higher, tall plots too.
+// Counts what is higher, tall plots and those beside another crop too.
 CanopyScale leaves_above(double height_m) {
   constexpr double kStep_m = 1e-3;  // from no leaves to leaves
-  return {.low_m = height_m, .high_m = height_m + kStep_m, .with_tall = true};
+  return {.low_m = height_m, .high_m = height_m + kStep_m, .with_others = true};
 }
 
 // How many plots of a trial beside others these may be.

@@ -108,7 +108,7 @@ TEST(Rasterise, TallThingsCountWhereTheyAreToldTo) {
   const FieldBlocks blocks(points, 0.02, 2);
   const FieldCanopy field(points, blocks, {.top_m = 0.45}, 2);
   const std::array scales = {CanopyScale{.low_m = 0.1, .high_m = 0.4},
-                             CanopyScale{.low_m = 0.1, .high_m = 0.4, .with_tall = true}};
+                             CanopyScale{.low_m = 0.1, .high_m = 0.4, .with_others = true}};
   const std::vector<CanopyRaster> rasters = rasterise(field, {}, 0.25, scales, 2);
   const auto cell_at = [&](const Eigen::Vector2d& place) -> Eigen::Vector2i {
     return ((place - rasters[0].frame().origin) / 0.25).array().round().cast<int>();
@@ -131,7 +131,7 @@ TEST(Rasterise, HasUnseenCellsAllAround) {
     for (int b = 0; b < kAcross; ++b)
       points.emplace_back(0.25F * static_cast<float>(a), 0.25F * static_cast<float>(b), 0.0F);
   const FieldBlocks blocks(points, 0.02, 2);
-  const CanopyScale scale{.low_m = 0.1, .high_m = 0.4, .with_tall = true};
+  const CanopyScale scale{.low_m = 0.1, .high_m = 0.4, .with_others = true};
   const FieldCanopy field(points, blocks, {.top_m = 0.45}, 2);
   const CanopyRaster raster = rasterise(field, {}, 0.25, {&scale, 1}, 2).front();
   ASSERT_GE(raster.a_cells(), kAlong + 2 * kAround);

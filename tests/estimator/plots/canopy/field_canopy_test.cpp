@@ -154,6 +154,20 @@ TEST(FieldCanopy, WhatIsTwiceAsTallAsTheCropComesLast) {
   EXPECT_EQ(FieldCanopy(points, blocks, {.top_m = 1.8}, 2).crop_points(), points.size());
 }
 
+TEST(FieldCanopy, AnotherCropComesLast) {
+  const auto points = points_over(
+      [](double x, double, RandomStream& random) { return x > 9 ? random.uniform(0, 0.5) : NAN; });
+  const FieldBlocks blocks(points, kNoise_m, 2);
+  Crop crop{.top_m = 0.45};
+  for (std::size_t i = 0; i < blocks.facts().size(); ++i)
+    crop.others.push_back(blocks.middle_of(i).x() > 14);
+  const FieldCanopy field(points, blocks, crop, 2);
+  ASSERT_EQ(field.points().size(), points.size());
+  const auto last = field.points().subspan(field.crop_points());
+  EXPECT_NEAR(static_cast<double>(last.size()), 6 * 20 * 200, 20 * 200);
+  EXPECT_TRUE(std::ranges::all_of(last, [](const auto& point) { return point.x() > 13; }));
+}
+
 TEST(FieldCanopy, LeavesOutTheSurveysMarginAndWhatIsNotFinite) {
   auto points = points_over([](double, double, RandomStream&) { return NAN; });
   for (int i = 0; i < 50; ++i) points.emplace_back(40.0F + 0.2F * static_cast<float>(i), 5, 0.5F);

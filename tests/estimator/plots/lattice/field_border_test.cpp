@@ -82,6 +82,30 @@ TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
   }
 }
 
+// Of three rows of places, two are plots. The third was cut out of a crop, at any step beyond its
+// path; or it is plots, and a crop adjoins them.
+TEST(LeaveOutCrop, TakesAwayTheRowsThatWereCutOutOfIt) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const double third_m = 3 + 2 * trial.row_pitch_m;
+  for (const bool are_plots : {false, true}) {
+    const double from_m = third_m + (are_plots ? 0.5 : -0.5) * trial.length_m;
+    const CanopyRaster raster = canopy_beside(
+        trial, are_plots ? 3 : 2, [&](double x, double) { return x > from_m ? 0.75 : 0.0; });
+    Lattice lattice = lattice_of(trial, raster).turned();
+    leave_out_crop(lattice);
+    EXPECT_EQ(plots_of(lattice), are_plots ? 15 : 10);
+    for (const Place& place : lattice.places) EXPECT_TRUE(place.full || place.column == 2);
+  }
+}
+
+TEST(LeaveOutCrop, LeavesOneRowAndPlotsThatTouch) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const CanopyRaster closed = raster_of(14, 12, [](double, double) { return 0.75; });
+  Lattice lattice = lattice_of(trial, closed);
+  leave_out_crop(lattice);
+  EXPECT_EQ(plots_of(lattice), 15) << "no side shows an edge";
+}
+
 // What is left of three rows of five plots of which those at (row, column) show no edges.
 Lattice left_of(const std::set<std::pair<int, int>>& edgeless) {
   const TrialLayout trial = known_trial({0, 0, 0});

@@ -161,23 +161,29 @@ TEST(FindPlots, FindsPlotsBesideACropWithoutPlots) {
   }
 }
 
-// In the middle of 40 x 40 m of the same crop, a path of a metre around.
+// In the middle of 40 x 40 m of the same crop, a path around. Blocks of a metre lie along x and y:
+// of a turned trial those that hold a part of the outer plots hold a part of the crop too.
 TEST(FindPlots, FindsPlotsInTheMiddleOfACrop) {
-  const std::vector<PlotBox> boxes = Trial{.heading_rad = 0}.boxes();
-  std::vector<Eigen::Vector3f> points = cloud_over(boxes);
-  const auto in_clearing = [](double x, double y) { return std::abs(x) < 8 && std::abs(y) < 6.5; };
-  std::erase_if(points, [&](const Eigen::Vector3f& p) { return !in_clearing(p.x(), p.y()); });
-  for (std::uint64_t i = 0; i < 900000; ++i) {
-    RandomStream random(9, random_purpose("test/bulk"), i);
-    const double x = random.uniform(-20, 20), y = random.uniform(-20, 20);
-    if (in_clearing(x, y)) continue;
-    const double height_m = random.uniform() < 0.95 ? random.uniform(0.5, 0.8) : 0;
-    points.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                        static_cast<float>(height_m + 0.02 * random.normal()));
+  for (const double heading_deg : {0, 16}) {
+    const Trial trial{.heading_rad = heading_deg * kDegrees};
+    const PlotBox clearing{.width_m = 13, .length_m = 16, .heading_rad = trial.heading_rad};
+    std::vector<Eigen::Vector3f> points = cloud_over(trial.boxes());
+    std::erase_if(points, [&](const Eigen::Vector3f& point) {
+      return !clearing.contains(point.head<2>().cast<double>());
+    });
+    for (std::uint64_t i = 0; i < 900000; ++i) {
+      RandomStream random(9, random_purpose("test/bulk"), i);
+      const Eigen::Vector2d place(random.uniform(-20, 20), random.uniform(-20, 20));
+      if (clearing.contains(place)) continue;
+      const double height_m = random.uniform() < 0.95 ? random.uniform(0.5, 0.8) : 0;
+      points.emplace_back(place.cast<float>().x(), place.cast<float>().y(),
+                          static_cast<float>(height_m + 0.02 * random.normal()));
+    }
+    SCOPED_TRACE(heading_deg);
+    for (const Hints& hints :
+         {Hints{}, Hints{.rows = 3, .columns = 6}, kSides, Hints{.width_m = 1.5}})
+      expect_those(trial.boxes(), find_plots(points, 0.02, hints, 2));
   }
-  for (const Hints& hints :
-       {Hints{}, Hints{.rows = 3, .columns = 6}, kSides, Hints{.width_m = 1.5}})
-    expect_those(boxes, find_plots(points, 0.02, hints, 2));
 }
 
 // Plots of rows that touch, beyond an alley the one column that shows by itself: the rest is as

@@ -189,6 +189,18 @@ TEST(FindPlots, FindsPlotsOfKnownSidesThatWheelsCrossed) {
   expect_those(boxes, find_plots(points, 0.02, {.width_m = 1.5, .length_m = 12}, 2));
 }
 
+// A tractor's wheels ran along plots of 3 m: two tracks, and a piece of 1.2 m between them. The
+// pieces beside the tracks of two plots are as far apart as those of one.
+TEST(FindPlots, FindsPlotsWithTracksOfWheelsAlongThem) {
+  const Sown beside_tracks = [](const PlotBox&, const Eigen::Vector2d& from_center) {
+    return std::abs(std::abs(from_center.y()) - 0.775) > 0.175;
+  };
+  const std::vector<PlotBox> boxes = Trial{.gap_m = 0.5, .width_m = 3}.boxes();
+  const std::vector<Eigen::Vector3f> points = cloud_over(boxes, beside_tracks, 16, 16);
+  for (const Hints& hints : {Hints{}, Hints{.width_m = 3, .length_m = 4}})
+    expect_those(boxes, find_plots(points, 0.02, hints, 2));
+}
+
 // Plots of one drill row, of which the step from plot to plot is told as the width.
 TEST(FindPlots, TakesTheStepForTheWidthIfThatIsTold) {
   std::vector<PlotBox> boxes = Trial{.gap_m = 0.4, .width_m = 0.5}.boxes();
