@@ -187,15 +187,18 @@ void leave_out_rows_of_crop(Lattice& lattice) {
   }
 }
 
-}  // namespace
-
-void leave_out_crop(Lattice& lattice) {
+// What is done to rows, and then to columns, of fields in common rows and columns.
+void on_rows_and_columns(Lattice& lattice, void (*on_rows)(Lattice&)) {
   if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
-  leave_out_rows_of_crop(lattice);
+  on_rows(lattice);
   lattice = lattice.turned();
-  leave_out_rows_of_crop(lattice);
+  on_rows(lattice);
   lattice = lattice.turned();
 }
+
+}  // namespace
+
+void leave_out_crop(Lattice& lattice) { on_rows_and_columns(lattice, leave_out_rows_of_crop); }
 
 void leave_out_beside(Lattice& lattice) {
   std::vector<Place*> beside;
@@ -223,12 +226,6 @@ void leave_out_beside(Lattice& lattice) {
   } while (!beside.empty());
 }
 
-void go_on_beyond(Lattice& lattice) {
-  if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
-  add_rows_beyond(lattice);
-  lattice = lattice.turned();
-  add_rows_beyond(lattice);
-  lattice = lattice.turned();
-}
+void go_on_beyond(Lattice& lattice) { on_rows_and_columns(lattice, add_rows_beyond); }
 
 }  // namespace plotscan::plots
