@@ -44,8 +44,10 @@ std::optional<double> heading_of_rows(const Layout& layout);
 // over the whole field along either axis, or over the whole field along one and in each row by
 // itself along the other. Where the user counted the plots, nothing else stands here, and the ends
 // of lines are even. Where plots may touch, those that do must explain the canopy as well as
-// plots between gaps, and along both axes clearly better than along one. The result has no rows
-// where nothing stands out, or nothing that agrees with the hints.
+// plots between gaps, and along both axes clearly better than along one. Bands as narrow
+// as drill rows may be pieces of plots between the tracks of wheels: without hints on the layout,
+// wider ones are taken if they explain the canopy much more clearly. The result has no rows where
+// nothing stands out, or nothing that agrees with the hints.
 Layout best_layout(const CanopyRaster& raster, const Hints& hints = {},
                    LineModel model = LineModel::free_ends);
 
