@@ -173,6 +173,30 @@ void test_places(Lattice& lattice) {
   }
 }
 
+// Whether a side shows no edge, of a plot on a row.
+bool lacks_edge_across_r(const Lattice& lattice, const Place& place, double usual) {
+  return usual >= kLeastUsual &&
+         std::ranges::min(r_contrasts_of(lattice, place)) < kLeastContrast * usual;
+}
+
+// Canopy that is not of the plots' own crop holds a plot only where that ends on all sides: another
+// crop beside the field may end at one side by chance, or at two.
+void leave_out_of_others(const CanopyRaster& own, Lattice& lattice) {
+  constexpr double kLeastOwn = 0.5;  // of a place's cells
+  const Lattice turned = lattice.turned();
+  const SideContrast usual = usual_sides(lattice, contrast_of);
+  RowView own_view = lattice.view;
+  own_view.raster = &own;
+  for (std::size_t i = 0; i < lattice.places.size(); ++i) {
+    Place& place = lattice.places[i];
+    const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
+    const double seen = lattice.view.seen_cells(r0, r1, c0, c1);
+    if (!place.full || own_view.seen_cells(r0, r1, c0, c1) >= kLeastOwn * seen) continue;
+    place.full = !lacks_edge_across_r(lattice, place, usual.r) &&
+                 !lacks_edge_across_r(turned, turned.places[i], usual.c);
+  }
+}
+
 // Plots that lean over show their edges beside their place. They are exceptions in a field whose
 // plots show theirs in place: elsewhere the lattice does not fit, or is that of other plots, and so
 // it is where edges beside a place are clearer than the usual plot's.
@@ -293,7 +317,8 @@ CellBox cells_about(const Lattice& lattice, const Place& place, double around_m)
           at(place.c_m + c_half)};
 }
 
-Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster* low_leaves) {
+Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster* low_leaves,
+                    const CanopyRaster* own) {
   const double r_m = layout.r_shape.size * layout.view.cell_m();
   const double c_m = layout.c_shape.size * layout.view.cell_m();
   const auto metres = [&](std::optional<double> cells) {
@@ -311,10 +336,12 @@ Lattice fit_lattice(const Layout& layout, const Hints& hints, const CanopyRaster
   if (hints.plots) {
     take_fullest(lattice, static_cast<std::size_t>(*hints.plots));
   } else {
+    if (own != nullptr) leave_out_of_others(*own, lattice);
     leave_out_strays(lattice);
     leave_out_crop(lattice);
     leave_out_beside(lattice);
     if (!hints.rows && !hints.columns) go_on_beyond(lattice);
+    if (own != nullptr) leave_out_of_others(*own, lattice);  // places were added
   }
   renumber(lattice);
   straighten(lattice);

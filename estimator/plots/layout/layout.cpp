@@ -312,6 +312,21 @@ Layout best_of(std::vector<Layout> layouts, const RowView& view, const Hints& hi
   return clearest(layouts).value_or(Layout{.view = view});
 }
 
+double plots_in(const Layout& layout) {
+  double plots = 0;
+  for (const Row& row : layout.rows) plots += static_cast<double>(row.plots.size());
+  return plots;
+}
+
+// Whether the plots of one layout are parts of the other's: more of them, and smaller.
+bool are_parts_of(const Layout& parts, const Layout& whole) {
+  constexpr double kSeveral = 1.5;  // two and more; some may not have been seen
+  const auto area = [](const Layout& layout) {
+    return 1.0 * layout.r_shape.size * layout.c_shape.size;
+  };
+  return plots_in(parts) >= kSeveral * plots_in(whole) && area(whole) >= kSeveral * area(parts);
+}
+
 // Whether the bands that show are as narrow as drill rows.
 bool has_narrow_bands(const Layout& layout) {
   const int narrower = std::min(layout.r_seen.shape.size, layout.c_seen.shape.size);
@@ -359,7 +374,8 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, LineModel mod
   if (!hints.tell_layout() && has_narrow_bands(best)) {
     const AxisHint wide{.model = LineModel::even_ends, .least_m = kMostSpacing_m};
     Layout whole = best_of(layouts_on(view, {wide, wide}), view, hints, wide.model, criterion);
-    if (whole.evidence > kMuchClearer * best.evidence) best = std::move(whole);
+    const double least = are_parts_of(best, whole) ? 1 : kMuchClearer;
+    if (whole.evidence > least * best.evidence) best = std::move(whole);
   }
   if (!best.rows.empty()) best.evidence_in_outline = criterion.evidence_in_outline(best);
   return best;

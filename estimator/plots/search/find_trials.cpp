@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "plots/canopy/field_blocks.h"
 #include "plots/search/internal/scan_edge.h"
 #include "plots/search/internal/told_layout.h"
@@ -46,6 +48,14 @@ bool lie_apart(const std::vector<SeenTrial>& trials) {
   });
 }
 
+// Whether the trial leaves nothing of the field to others: boxes at whose sides canopy does not end
+// are cut out of it.
+bool leaves_nothing(const Look& one) {
+  constexpr std::ptrdiff_t kCutOut = 3;  // of so many plots not one
+  const auto edgeless = std::ranges::count_if(one.field.plots, &FoundPlot::without_edge);
+  return one.explained > kNearlyAll && kCutOut * edgeless <= std::ssize(one.field.plots);
+}
+
 // Whether these explain the field better than one trial does. Parts of one trial, such as its outer
 // rows, are as many plots: where one explains all, or they lie among each other, there must be
 // more.
@@ -54,7 +64,7 @@ bool explain_more(const std::vector<SeenTrial>& trials, const Look& one) {
   for (const SeenTrial& trial : trials) plots += trial.look.field.plots.size();
   const bool many_more = plots >= one.field.plots.size() + kLeastOfTrial;
   return trials.size() > 1 && expected_plots(trials) > expected_plots(one) &&
-         (many_more || (one.explained <= kNearlyAll && lie_apart(trials)));
+         (many_more || (!leaves_nothing(one) && lie_apart(trials)));
 }
 
 double from_south_west_m(const SeenTrial& trial) {
@@ -75,6 +85,20 @@ std::vector<PlotField> trials_shown(const ScannedField& field) {
   fields.reserve(trials.size());
   for (SeenTrial& trial : trials) fields.push_back(std::move(trial.look.field));
   return fields;
+}
+
+// A single rectangle of canopy may be a whole crop as well as a plot, and nothing but the user says
+// which.
+void leave_out_whole_crop(std::vector<PlotField>& trials) {
+  constexpr double kMostAlone_m2 = 100;  // drawn plots: up to 25; crops: 140 and more
+  PlotField& field = trials.front();
+  if (trials.size() > 1 || field.plots.size() != 1) return;
+  const PlotBox& box = field.plots.front().box;
+  if (box.width_m * box.length_m <= kMostAlone_m2) return;
+  field.why_none =
+      fmt::format("a single rectangle of {:.1f} x {:.1f} m lies here, which may be a whole crop",
+                  box.width_m, box.length_m);
+  field.plots.clear();
 }
 
 // Whether nothing speaks against plots that are of the layout told.
@@ -134,6 +158,7 @@ std::vector<PlotField> find_trials(std::span<const Eigen::Vector3f> points, doub
   const ScannedField field{points, blocks, noise_m, hints, threads, ground_error};
   std::vector<PlotField> trials =
       hints.tell_layout() ? std::vector{trial_told(field)} : trials_shown(field);
+  if (!hints.tell_layout()) leave_out_whole_crop(trials);
   mark_cut_off(trials, blocks);
   return trials;
 }

@@ -186,7 +186,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   if (layout.rows.empty()) return {no_plots(no_layout(hints, rival))};
 
   layout.view.raster = &cover;
-  Lattice lattice = fit_lattice(layout, hints, &low_leaves);
+  Lattice lattice = fit_lattice(layout, hints, &low_leaves, &canopy);
   if (lattice.places.empty()) return {no_plots("no plots of one size lie in rows here")};
   const std::optional<SownRows> rows = refine(lattice, hints);
   lattice.view.raster = &canopy;

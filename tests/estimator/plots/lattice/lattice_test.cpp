@@ -156,6 +156,25 @@ TEST(Lattice, LeavesOutAColumnOfWhatLiesBesideTheTrial) {
   expect_places(layout_of(fit_lattice(bands_of(with_more, raster), {})), trial);
 }
 
+// Beside the trial stand wider plots of another crop, in the same rows.
+TEST(Lattice, LeavesOutBandsAcrossPlotsOfAnotherCrop) {
+  const TrialLayout trial = known_trial({0, 0, 0}), bands = known_trial({0, 0, 0}, 9);
+  const double nothing_seen = 1.0 * kUnseen / kFullCover;
+  const auto canopy_with = [&](double of_other) {
+    return raster_of(14, 21, [&](double x, double y) {
+      const bool in_row = std::abs(std::remainder(x - 3, trial.row_pitch_m)) < 1.5;
+      if (y > 11) return in_row && std::fmod(y - 11, 2.9) < 2.4 ? of_other : 0.0;
+      return std::ranges::any_of(trial.places, [&](const TrialPlace& place) {
+        return trial.box(place).contains({x, y});
+      }) ? 1.0 : 0.0;
+    });
+  };
+  const CanopyRaster all = canopy_with(1), own = canopy_with(nothing_seen);
+  const Layout layout = bands_of(bands, all);
+  EXPECT_GT(fit_lattice(layout, {}).places.size(), trial.places.size());
+  expect_places(layout_of(fit_lattice(layout, {}, nullptr, &own)), trial);
+}
+
 // The first plot leans 0.5 m over the field's border.
 TEST(Lattice, KeepsALodgedPlotAtTheBorder) {
   const TrialLayout bands = known_trial({0, 0, 0});

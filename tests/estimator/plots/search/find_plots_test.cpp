@@ -120,6 +120,17 @@ TEST(FindPlots, PutsPairsOfDrillRowsWithARowBetweenThemTogether) {
   expect_found({.gap_m = 0.36}, in_five_drill_rows, 0.85);
 }
 // The gaps are two rows wide and the offsets some rows, so that rows run through the whole field.
+// Pairs of rows, with a thin one between them in place of a gap, explain the canopy too.
+TEST(FindPlots, PutsFiveDrillRowsTogetherOfWhichOneIsThin) {
+  constexpr double kSpacing_m = 0.32, kHalfRow_m = 0.09, kClump_m = 0.5, kThin = 0.3;
+  const Sown in_five_rows = [](const PlotBox&, const Eigen::Vector2d& from_center) {
+    const double row = from_center.y() / kSpacing_m, clump = from_center.x() / kClump_m;
+    const bool in_row = std::abs(row - std::round(row)) * kSpacing_m < kHalfRow_m;
+    const bool in_clump = std::round(row) != 0 || clump - std::floor(clump) < kThin;
+    return std::abs(row) < 2.5 && in_row && in_clump;
+  };
+  expect_found({.gap_m = 0.4, .width_m = 1.6}, in_five_rows);
+}
 TEST(FindPlots, PutsDrillRowsTogetherThatRunThroughAllRowsOfPlots) {
   expect_found({.gap_m = 0.86, .offsets_m = {0.86, -0.43, 0}, .width_m = 1.29},
                in_three_drill_rows);
@@ -270,6 +281,19 @@ TEST(FindPlots, FindsOneToThreePlots) {
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_GT(intersection_over_union(few[i], field.plots[i].box), 0.9);
   }
+}
+
+// Of one large rectangle nothing tells whether it is a plot, but the user.
+TEST(FindPlots, TakesAWholeCropForAPlotIfToldSo) {
+  const std::vector<PlotBox> crop = {
+      {.width_m = 10, .length_m = 13, .heading_rad = 33 * kDegrees}};
+  const std::vector<Eigen::Vector3f> points = cloud_over(crop);
+  const PlotField field = find_plots(points, 0.02, {}, 2);
+  EXPECT_TRUE(field.plots.empty());
+  EXPECT_NE(field.why_none.find("a whole crop"), std::string::npos) << field.why_none;
+  const PlotField told = find_plots(points, 0.02, {.plots = 1}, 2);
+  expect_those(crop, told);
+  EXPECT_EQ(told.doubt, "");
 }
 
 TEST(FindPlots, SaysThatRandomBushesAreNoLattice) {
