@@ -61,7 +61,6 @@ void declare_report(Program& program) {
   report.add_option("--id", options.id, kIdOfMeasured)->needs("--truth");
   declare_shown_cloud(report, shared->cloud);
   report.add_option("--points", options.points, "points on the page, at most")
-      ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, report::kMostPoints))
       ->needs("--cloud");
   report.add_flag("--force", options.replace, "replace an existing page");

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace plotscan {
 namespace {
@@ -67,10 +67,9 @@ methods::RunOptions chosen_options(const Program& program, const RunArguments& a
 
 void run_estimate(const Program& program, const RunArguments& arguments) {
   const methods::RunOptions options = chosen_options(program, arguments);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const estimate::Estimate estimate = methods::run(options, program.progress("estimating"));
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = watch.seconds();
   const nlohmann::json summary = methods::height_summary(estimate);
   say_estimate(program, estimate, summary);
   program.say(fmt::format("{} plots in {:.1f} s, written to {}", estimate.plots.size(), seconds,
@@ -156,8 +155,7 @@ void declare_run(Program& program) {
   run.add_option("--method", options.method,
                  "lattice: needs only the cloud; dhami2020: the paper's method, needs "
                  "--plots")
-      ->check(CLI::IsMember(methods::method_names()))
-      ->capture_default_str();
+      ->check(CLI::IsMember(methods::method_names()));
   declare_parts(run, arguments);
   declare_names(run, arguments);
   declare_measured(run, arguments);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export_command.h"
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "farmfolder/read_farm.h"
 #include <fmt/core.h>
 
+#include "core/stopwatch.h"
 #include "gazebo/export_world.h"
 
 namespace {
@@ -58,7 +58,7 @@ Manifest manifest_of(const ExportArguments& arguments) {
 }
 
 void run_export(const Program& program, const ExportArguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const gazebo::ExportSummary summary =
       gazebo::export_world(farmfolder::read_farm(arguments.farm), arguments.farm, arguments.output,
                            {.gazebo = kGazebos.at(arguments.gazebo),
@@ -70,20 +70,19 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                             .threads = program.common().threads,
                             .replace = arguments.force},
                            manifest_of(arguments), program.progress("exporting"));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const gazebo::EntityCounts& counts = summary.counts;
   nlohmann::json result = gazebo::counts_json(counts);
   result.update({{"folder", arguments.output},
                  {"plants", summary.plants},
                  {"bytes", summary.bytes},
-                 {"seconds", elapsed.count()}});
+                 {"seconds", watch.seconds()}});
   program.result(result);
   program.say(
       fmt::format("{}: {} plants merged by {}, {:.1f} MB, {} triangles, {} models, {} "
                   "links, {} visuals, {} collisions, in {:.2f} s",
                   arguments.output, summary.plants, arguments.merge,
                   static_cast<double>(summary.bytes) * 1e-6, counts.triangles, counts.models,
-                  counts.links, counts.visuals, counts.collisions, elapsed.count()));
+                  counts.links, counts.visuals, counts.collisions, watch.seconds()));
   program.say("README.md in it tells how it is opened");
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "core/error.h"
 #include "core/place_json.h"
 #include "core/program.h"
+#include "core/stopwatch.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
 #include "lidar/make_farm.h"
@@ -141,7 +141,7 @@ void say_notes(const Program& program, const farm::Farm& made) {
 }
 
 void run_generate(const Program& program, const Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const CommonOptions& common = program.common();
   const farm::Farm made =
       lidar::make_farm(found_or_shipped(arguments.input, "worlds"), arguments.output,
@@ -150,11 +150,10 @@ void run_generate(const Program& program, const Arguments& arguments) {
                         .threads = common.threads,
                         .replace = arguments.force},
                        program.progress("writing"));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (common.json) {
     nlohmann::json document = json_of(made, farm::summarise(made));
     document["folder"] = arguments.output;
-    document["seconds"] = elapsed.count();
+    document["seconds"] = watch.seconds();
     program.result(document);
   }
   const Eigen::Vector3d size_m = terrain::extent_of(made.terrain).sizes();
@@ -162,7 +161,7 @@ void run_generate(const Program& program, const Arguments& arguments) {
   program.say(fmt::format("{}: {} plots, {} plants on {:.1f} x {:.1f} m, seed {}, in {:.2f} s",
                           arguments.output, made.plots.size(),
                           made.plants.size() - static_cast<std::size_t>(weeds), size_m.x(),
-                          size_m.y(), made.seed, elapsed.count()));
+                          size_m.y(), made.seed, watch.seconds()));
   say_notes(program, made);
 }
 

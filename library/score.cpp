@@ -5,6 +5,7 @@
 #include "boundary/guarded.h"
 
 #include "core/angle.h"
+#include "core/json_text.h"
 #include "score/run.h"
 #include "score/score_files.h"
 
@@ -32,7 +33,7 @@ Scores outer(const score::Scores& scores) {
                             .r2 = height.r2,
                             .coverage95 = height.coverage95});
   }
-  made.json = score::to_json(scores).dump(1) + "\n";
+  made.json = json_lines(score::to_json(scores));
   return made;
 }
 

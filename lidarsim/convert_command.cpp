@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,6 +7,7 @@
 #include "commands.h"
 #include <fmt/core.h>
 
+#include "core/stopwatch.h"
 #include "core/text.h"
 #include "record/convert.h"
 #include "record/formats.h"
@@ -25,14 +25,13 @@ struct ConvertArguments {
 };
 
 void run_convert(const Program& program, ConvertArguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   record::FlightOptions& flight = arguments.flight;
   flight.mount_rpy_deg = Eigen::Vector3d(arguments.mount_deg.data());
   for (const CLI::Option* option : arguments.of_flight)
     if (option->count() > 0) arguments.options.flight = flight;
   const record::ConvertSummary summary = record::convert(
       arguments.in, arguments.out, arguments.options, program.progress("converting"));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const auto bytes = std::filesystem::file_size(arguments.out);
   program.result({{"file", arguments.out},
                   {"points", summary.points},
@@ -40,7 +39,7 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
                   {"without_place", summary.without_place},
                   {"notes", summary.notes},
                   {"bytes", bytes},
-                  {"seconds", elapsed.count()}});
+                  {"seconds", watch.seconds()}});
   const bool poses = summary.poses > 0;
   program.say(fmt::format("{}: {} {}, {:.1f} MB", arguments.out,
                           poses ? summary.poses : summary.points, poses ? "poses" : "points",

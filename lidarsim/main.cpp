@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -11,6 +10,7 @@
 
 #include "core/data_folder.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "core/text.h"
 #include "lidar/fly_place.h"
 #include "lidar/fly_settings.h"
@@ -85,7 +85,7 @@ void require_effect(const CLI::App& fly, const lidar::FlyOptions& options, bool 
 }
 
 void run_fly(const Program& program, Arguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   require_effect(*arguments.fly, arguments.options.flight,
                  std::filesystem::is_directory(arguments.place));
   arguments.place = found_place(arguments.place, "worlds");
@@ -95,29 +95,22 @@ void run_fly(const Program& program, Arguments& arguments) {
   if (!arguments.part.empty()) options.part = lidar::flight_part(arguments.part);
   const lidar::PlaceScan scanned = lidar::fly_place(
       arguments.place, arguments.scan, arguments.options, program.progress("scanning"));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  report(program, arguments, scanned, elapsed.count());
+  report(program, arguments, scanned, watch.seconds());
 }
 
 template <class Setting>
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting, const Setting& value,
                          lidar::FlyOptions& options) {
-  return fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
+  return fly.add_option(setting.flag, value.of(options), setting.help);
 }
 
 // --help and completions read the choices from the type's name; the values are checked with
 // FlyOptions as a whole.
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
                          const lidar::TextSetting& value, lidar::FlyOptions& options) {
-  CLI::Option* option =
-      fly.add_option(setting.flag, value.of(options), setting.help)->capture_default_str();
+  CLI::Option* option = fly.add_option(setting.flag, value.of(options), setting.help);
   if (!value.choices.empty()) option->type_name("TEXT:{" + joined(value.choices, ",") + "}");
   return option;
-}
-
-CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,
-                         const lidar::OptionalSetting& value, lidar::FlyOptions& options) {
-  return fly.add_option(setting.flag, value.of(options), setting.help);
 }
 
 CLI::Option* add_setting(CLI::App& fly, const lidar::FlySetting& setting,

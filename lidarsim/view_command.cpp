@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -7,6 +6,7 @@
 #include "commands.h"
 #include <fmt/core.h>
 
+#include "core/stopwatch.h"
 #include "core/text.h"
 #include "record/formats.h"
 #include "report/shown_cloud.h"
@@ -16,11 +16,10 @@ namespace plotscan {
 namespace {
 
 void view_scan(const Program& program, scanpage::PageOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   options.threads = program.common().threads;
   const report::PageSummary summary =
       scanpage::write_scan_page(options, program.progress("making the page"));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const auto bytes = std::filesystem::file_size(options.html);
   program.result({{"page", options.html.string()},
                   {"points_read", summary.read},
@@ -28,11 +27,11 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
                   {"plots", summary.plots},
                   {"notes", summary.notes},
                   {"bytes", bytes},
-                  {"seconds", elapsed.count()}});
+                  {"seconds", watch.seconds()}});
   program.say(fmt::format("{}: {:.2f} of {:.2f} million points, {:.1f} MB, made in {:.1f} s",
                           options.html.string(), 1e-6 * static_cast<double>(summary.shown),
                           1e-6 * static_cast<double>(summary.read),
-                          1e-6 * static_cast<double>(bytes), elapsed.count()));
+                          1e-6 * static_cast<double>(bytes), watch.seconds()));
   for (const std::string& note : summary.notes) program.say("note       " + note);
   program.say("Open it in a browser; it needs no network.");
 }
@@ -60,7 +59,6 @@ void declare_view(Program& program) {
                   "boxes to show: a farm or estimate folder, or a map of plots (GeoJSON) in the "
                   "cloud's frame");
   view.add_option("--points", options->points, "points on the page, at most")
-      ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, report::kMostPoints));
   view.add_option("--topic", options->source.topic,
                   "of a bag or MCAP: the topic of its clouds (default: /velodyne_points, or the "

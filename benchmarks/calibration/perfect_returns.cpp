@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/list_of.h"
 #include "lidar/scene.h"
 
 namespace plotscan::calibration {
@@ -28,13 +29,11 @@ std::vector<Eigen::Vector3f> returns_over(const farm::Farm& farm, const lidar::S
                                           const PlotBox& box) {
   const std::vector<Eigen::Vector2d> places = grid_over(box);
   const float start_m = scene.top_m() + 1;
-  std::vector<lidar::Ray> rays;
-  rays.reserve(places.size());
-  for (const Eigen::Vector2d& place : places) {
-    rays.push_back(
-        {.origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), start_m},
-         .direction = -Eigen::Vector3f::UnitZ()});
-  }
+  const std::vector<lidar::Ray> rays = list_of(places, [&](const Eigen::Vector2d& place) {
+    return lidar::Ray{
+        .origin_m = {static_cast<float>(place.x()), static_cast<float>(place.y()), start_m},
+        .direction = -Eigen::Vector3f::UnitZ()};
+  });
   std::vector<lidar::Hit> hits(rays.size());
   scene.cast(rays, start_m - scene.bottom_m() + 1, hits);
   std::vector<Eigen::Vector3f> returns;
@@ -51,10 +50,8 @@ std::vector<Eigen::Vector3f> returns_over(const farm::Farm& farm, const lidar::S
 
 std::vector<std::vector<Eigen::Vector3f>> perfect_returns(const farm::Farm& farm) {
   const lidar::Scene scene(lidar::scene_content(farm));
-  std::vector<std::vector<Eigen::Vector3f>> returns;
-  returns.reserve(farm.plots.size());
-  for (const farm::Plot& plot : farm.plots) returns.push_back(returns_over(farm, scene, plot.box));
-  return returns;
+  return list_of(farm.plots,
+                 [&](const farm::Plot& plot) { return returns_over(farm, scene, plot.box); });
 }
 
 }  // namespace plotscan::calibration

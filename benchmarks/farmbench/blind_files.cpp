@@ -56,8 +56,7 @@ void write_boxes(const fs::path& folder, const std::vector<score::TruePlot>& plo
   table << "plot_number,center_x_m,center_y_m,width_m,length_m,heading_deg\n";
   for (const score::TruePlot& plot : plots) {
     if (!plot.scored) continue;
-    features.push_back(
-        {.box = plot.box, .properties = {{"plot_number", plot.id.json()}}, .id = plot.id});
+    features.push_back({.box = plot.box, .properties = {{"plot_number", plot.id}}, .id = plot.id});
     table << csv_field(plot.id.text()) << "," << plot.box.center.x() << "," << plot.box.center.y()
           << "," << plot.box.width_m << "," << plot.box.length_m << ","
           << plot.box.heading_rad / kDegrees << "\n";

@@ -46,9 +46,10 @@ void require_different_farms(const Entry& entry, const fs::path& file) {
   std::set<std::pair<std::string, std::uint64_t>> farms;
   for (const EnteredFarm& farm : entry.farms) {
     if (!farms.emplace(farm.case_name, farm.seed).second)
-      throw InputError(file, "has two farms of case " + farm.case_name + ", seed " +
-                                 std::to_string(farm.seed) +
-                                 "; score the submission again, or remove this file");
+      throw InputError(
+          file,
+          "has two farms of case {}, seed {}; score the submission again, or remove this file",
+          farm.case_name, farm.seed);
   }
 }
 
@@ -93,9 +94,9 @@ std::map<fs::path, Entry> read_entries(const fs::path& output) {
 void require_new_name(const Entry& entry, const fs::path& file,
                       const std::vector<std::string>& methods) {
   if (std::ranges::count(methods, entry.method) > 0)
-    throw InputError(file, "\"" + entry.method +
-                               "\" is the name of another method as well; rename that one, or "
-                               "remove this file");
+    throw InputError(
+        file, "\"{}\" is the name of another method as well; rename that one, or remove this file",
+        entry.method);
 }
 
 }  // namespace
@@ -124,9 +125,10 @@ void add_entries(const fs::path& output, SuiteResult& result, const std::optiona
   for (const auto& [file, entry] : entries) {
     require_new_name(entry, file, result.methods);
     if (const EnteredFarm* farm = farm_of_other_truth(entry, result))
-      throw InputError(file, "was scored against another truth than the results' of case " +
-                                 farm->case_name +
-                                 "; score the submission again, or remove this file");
+      throw InputError(file,
+                       "was scored against another truth than the results' of case {}; score the "
+                       "submission again, or remove this file",
+                       farm->case_name);
     bool shares_farms = false;
     for (const EnteredFarm& farm : entry.farms) {
       const auto place = farm_in(result.farms, farm);

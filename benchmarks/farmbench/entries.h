@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "farmbench/farm_result.h"
 #include "farmbench/suite_result.h"
 

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/number_text.h"
 #include "farmbench/table.h"
 
 namespace plotscan::farmbench {
@@ -15,21 +16,16 @@ inline std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-// A number in the format; "-" for NaN.
-inline std::string number(fmt::format_string<double&> format, double value) {
-  return std::isnan(value) ? "-" : fmt::format(format, value);
-}
-
 // A length as centimetres with two decimals; "-" for NaN.
-inline std::string centimetres(double metres) { return number("{:.2f}", 100 * metres); }
+inline std::string centimetres(double metres) { return cell("{:.2f}", 100 * metres); }
 
 // A share as a percentage with one decimal; "-" for NaN.
-inline std::string percent(double share) { return number("{:.1f} %", 100 * share); }
+inline std::string percent(double share) { return cell("{:.1f} %", 100 * share); }
 
 // How many errors of more than 5 cm come without a flag: "3 (0.33 %)".
 inline std::string unflagged(const TableRow& row) {
   return std::to_string(row.height.large_unflagged) + " (" +
-         number("{:.2f} %", 100 * row.height.large_unflagged_share) + ")";
+         cell("{:.2f} %", 100 * row.height.large_unflagged_share) + ")";
 }
 
 // "4.81 [4.40, 5.30]", without the interval where it is NaN.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/found_fields.h"
 
-#include <chrono>
-
 #include "methods/lattice/settings.h"
+
+#include "core/stopwatch.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -29,10 +29,9 @@ const methods::lattice::FoundField& FoundFields::with(const methods::lattice::Op
     spared_s_ += made->second.seconds;
     return made->second.field;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   methods::lattice::FoundField field = methods::lattice::find_field(cloud_, options);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  return searches_.emplace(key, Search{std::move(field), took.count()}).first->second.field;
+  return searches_.emplace(key, Search{std::move(field), watch.seconds()}).first->second.field;
 }
 
 }  // namespace plotscan::farmbench

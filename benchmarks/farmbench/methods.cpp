@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
-#include <string_view>
 
 #include "methods/dhami2020/settings.h"
 #include "methods/lattice/settings.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "farmbench/internal/method_rows.h"
@@ -18,14 +18,6 @@
 
 namespace plotscan::farmbench {
 namespace {
-
-// A member of each of the true plots.
-template <class Value>
-std::vector<Value> true_values(const Field& field, Value score::TruePlot::*member) {
-  std::vector<Value> values;
-  for (const score::TruePlot& plot : field.plots) values.push_back(plot.*member);
-  return values;
-}
 
 estimate::Estimate oracle_ground(const Field& field) {
   return score::oracle_ground(field.map, field.plots, field.terrain);
@@ -55,15 +47,6 @@ estimate::Estimate one_number(const Field& field) {
   return estimate;
 }
 
-// Heights in rows named after the method.
-std::vector<MethodHeight> rows_of(const std::string& method,
-                                  const std::vector<std::string>& heights) {
-  std::vector<MethodHeight> rows;
-  rows.reserve(heights.size());
-  for (const std::string& name : heights) rows.push_back({name, row_name(method, name)});
-  return rows;
-}
-
 // It gets the cloud and nothing else, or the true boxes to measure heights in.
 Method lattice_method(const std::string& name, bool in_true_boxes,
                       const methods::lattice::Options& options) {
@@ -72,8 +55,8 @@ Method lattice_method(const std::string& name, bool in_true_boxes,
         methods::lattice::Options own = options;
         own.threads = field.threads;
         if (in_true_boxes) {
-          own.boxes = true_values(field, &score::TruePlot::box);
-          own.trials = true_values(field, &score::TruePlot::trial);
+          own.boxes = list_of(field.plots, &score::TruePlot::box);
+          own.trials = list_of(field.plots, &score::TruePlot::trial);
         }
         return methods::lattice::measure_field(field.found.with(own), own);
       }};
@@ -89,7 +72,7 @@ Method dhami2020_method(const std::string& name, bool in_true_boxes,
             own.seed = field.seed;
             own.threads = field.threads;
             own.plots = in_true_boxes ? 0 : static_cast<int>(field.plots.size());
-            if (in_true_boxes) own.boxes = true_values(field, &score::TruePlot::box);
+            if (in_true_boxes) own.boxes = list_of(field.plots, &score::TruePlot::box);
             return methods::dhami2020::estimate_plots(field.map, own);
           }};
 }
@@ -153,10 +136,8 @@ Method method_named(const std::string& name) {
     return lattice_method(name, in_true_boxes, with_words(methods::lattice::settings(), words));
   if (base == "dhami2020")
     return dhami2020_method(name, in_true_boxes, with_words(methods::dhami2020::settings(), words));
-  std::vector<std::string> known;
-  known.reserve(methods.size());
-  for (const Method& method : methods) known.push_back(method.name);
-  throw InputError("there is no method \"" + name + "\"; there are " + joined(known, ", "));
+  throw InputError("there is no method \"" + name + "\"; there are " +
+                   joined(list_of(methods, &Method::name), ", "));
 }
 
 std::string method_name(const std::string& written) {

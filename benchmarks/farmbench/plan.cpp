@@ -39,7 +39,7 @@ fs::path case_file(const fs::path& output, const SuiteCase& suite_case) {
 std::string case_plan(const Suite& suite, const SuiteCase& suite_case, const std::string& build) {
   json document = made_from(suite, suite_case, suite.seeds.front(), build);
   document.erase("seed");
-  return document.dump(1) + "\n";
+  return json_lines(document);
 }
 
 json plan_json(const RunOptions& options) {
@@ -102,9 +102,9 @@ void require_unchanged_case(const RunOptions& planned, const Suite& suite,
                             const SuiteCase& suite_case) {
   const fs::path file = case_file(planned.output, suite_case);
   if (fs::exists(file) && read_text(file) == case_plan(suite, suite_case, planned.build)) return;
-  throw InputError(planned.suite, "case " + suite_case.name +
-                                      ", or a file that it is made from, is not as it was planned; "
-                                      "plan again");
+  throw InputError(planned.suite,
+                   "case {}, or a file that it is made from, is not as it was planned; plan again",
+                   suite_case.name);
 }
 
 FarmTask planned_task(const RunOptions& planned, const Suite& suite, const std::string& farm) {
@@ -115,8 +115,7 @@ FarmTask planned_task(const RunOptions& planned, const Suite& suite, const std::
       return task_of(suite, suite_case, seed, planned.build);
     }
   }
-  throw InputError(plan_file(planned.output),
-                   "plans no farm \"" + farm + "\"; tasks.csv lists them");
+  throw InputError(plan_file(planned.output), "plans no farm \"{}\"; tasks.csv lists them", farm);
 }
 
 // "flat-1, half-2 and 3 more".
@@ -154,7 +153,7 @@ PlanSummary plan(const RunOptions& options) {
   const std::size_t farms = suite.cases.size() * suite.seeds.size();
   write_run_manifest(options, suite.name, farms, false);
   write_changed(options.output / "tasks.csv", tasks_csv(suite));
-  write_changed(plan_file(options.output), plan_json(options).dump(1) + "\n");
+  write_changed(plan_file(options.output), json_lines(plan_json(options)));
   fs::create_directories(options.output / "plan");
   PlanSummary summary{.farms = farms};
   for (const SuiteCase& suite_case : suite.cases) {

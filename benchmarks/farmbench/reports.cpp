@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/list_of.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"
@@ -73,16 +74,16 @@ Cells leaderboard_cells(std::size_t rank, const TableRow& row, const std::string
           row.method,
           with_interval(row.height.rmse_m, row.rmse_95_m),
           published,
-          number("{:+.2f}", 100 * row.height.bias_m),
+          cell("{:+.2f}", 100 * row.height.bias_m),
           centimetres(row.height.mae_m),
-          number("{:.3f}", row.height.r2),
+          cell("{:.3f}", row.height.r2),
           centimetres(row.within.within_m),
-          number("{:.2f}", row.within.r2),
-          number("{:.2f}", row.within.rho),
+          cell("{:.2f}", row.within.r2),
+          cell("{:.2f}", row.within.rho),
           found_of(row),
           std::to_string(row.boxes.extra),
-          number("{:.3f}", row.boxes.iou_median),
-          number("{:.2f}", row.seconds)};
+          cell("{:.3f}", row.boxes.iou_median),
+          cell("{:.2f}", row.seconds)};
 }
 
 // A row a case, a column a method: RMSE, and how much that is more than the baseline's.
@@ -99,7 +100,7 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
       });
       cells.push_back(row == rows.end() ? "-" : centimetres(row->height.rmse_m));
       if (row != rows.end() && info.name != *result.baseline)
-        cells.back() += " (" + number("{:+.2f}", 100 * row->rmse_change_m) + ")";
+        cells.back() += " (" + cell("{:+.2f}", 100 * row->rmse_change_m) + ")";
     }
     lines.push_back(std::move(cells));
   }
@@ -107,16 +108,20 @@ std::string changes_by_case(const SuiteResult& result, const std::vector<TableRo
 }
 
 std::string plots_found(const std::vector<TableRow>& rows) {
-  std::vector<Cells> lines;
-  lines.reserve(rows.size());
-  for (const TableRow& row : rows) {
-    lines.push_back({row.method, row.case_name, std::to_string(row.boxes.plots),
-                     std::to_string(row.boxes.found), std::to_string(row.boxes.missed),
-                     std::to_string(row.boxes.extra), number("{:.4f}", row.boxes.recall),
-                     number("{:.4f}", row.boxes.precision), number("{:.3f}", row.boxes.iou_mean),
-                     number("{:.3f}", row.boxes.iou_min), centimetres(row.boxes.center_rmse_m),
-                     number("{:.3f}", degrees(row.boxes.heading_rmse_rad))});
-  }
+  const std::vector<Cells> lines = list_of(rows, [](const TableRow& row) {
+    return Cells{row.method,
+                 row.case_name,
+                 std::to_string(row.boxes.plots),
+                 std::to_string(row.boxes.found),
+                 std::to_string(row.boxes.missed),
+                 std::to_string(row.boxes.extra),
+                 cell("{:.4f}", row.boxes.recall),
+                 cell("{:.4f}", row.boxes.precision),
+                 cell("{:.3f}", row.boxes.iou_mean),
+                 cell("{:.3f}", row.boxes.iou_min),
+                 centimetres(row.boxes.center_rmse_m),
+                 cell("{:.3f}", degrees(row.boxes.heading_rmse_rad))};
+  });
   return "\n## Plots found\n\n" +
          markdown_table(
              {"method", "case", "plots", "found", "missed", "extra", "recall", "precision",
@@ -126,16 +131,20 @@ std::string plots_found(const std::vector<TableRow>& rows) {
 
 std::string own_truths(const std::vector<TableRow>& rows) {
   if (rows.empty()) return "";
-  std::vector<Cells> lines;
-  lines.reserve(rows.size());
-  for (const TableRow& row : rows) {
-    lines.push_back(
-        {row.method, row.truth, row.case_name, with_interval(row.height.rmse_m, row.rmse_95_m),
-         number("{:+.2f}", 100 * row.height.bias_m), centimetres(row.within.farm_bias_m),
-         centimetres(row.within.within_m), number("{:.2f}", row.within.r2),
-         number("{:.2f}", row.within.rho), percent(row.height.coverage95),
-         std::to_string(row.height.flagged), unflagged(row)});
-  }
+  const std::vector<Cells> lines = list_of(rows, [](const TableRow& row) {
+    return Cells{row.method,
+                 row.truth,
+                 row.case_name,
+                 with_interval(row.height.rmse_m, row.rmse_95_m),
+                 cell("{:+.2f}", 100 * row.height.bias_m),
+                 centimetres(row.within.farm_bias_m),
+                 centimetres(row.within.within_m),
+                 cell("{:.2f}", row.within.r2),
+                 cell("{:.2f}", row.within.rho),
+                 percent(row.height.coverage95),
+                 std::to_string(row.height.flagged),
+                 unflagged(row)};
+  });
   return "\n## Each height against the truth it is named after\n\n" +
          markdown_table({"method", "truth", "case", "RMSE [95 %]", "bias", "bias a farm",
                          "within farms", "R2 within", "rho within", "truths in its 95 % intervals",
@@ -179,8 +188,7 @@ std::string leaderboard(const SuiteResult& result, const std::vector<TableRow>& 
   }
   for (const std::string& truth : shown_truths(result, table)) {
     for (const CaseInfo& info : result.cases) {
-      std::vector<TableRow> rows;
-      std::ranges::copy_if(table, std::back_inserter(rows), [&](const TableRow& row) {
+      std::vector<TableRow> rows = those_of(table, [&](const TableRow& row) {
         return row.truth == truth && row.case_name == info.name && row.shown;
       });
       if (rows.empty()) continue;
@@ -223,10 +231,10 @@ std::vector<std::string> plot_lines(const std::vector<TableRow>& rows) {
                   [](const TableRow& row) {
                     return fmt::format(
                         "{:4}/{:<4} {:5} {:>7} {:>9} {:>6} {:>7} {:>8}", row.boxes.found,
-                        row.boxes.plots, row.boxes.extra, number("{:.4f}", row.boxes.recall),
-                        number("{:.4f}", row.boxes.precision), number("{:.3f}", row.boxes.iou_mean),
+                        row.boxes.plots, row.boxes.extra, cell("{:.4f}", row.boxes.recall),
+                        cell("{:.4f}", row.boxes.precision), cell("{:.3f}", row.boxes.iou_mean),
                         centimetres(row.boxes.center_rmse_m),
-                        number("{:.3f}", degrees(row.boxes.heading_rmse_rad)));
+                        cell("{:.3f}", degrees(row.boxes.heading_rmse_rad)));
                   });
 }
 
@@ -236,7 +244,7 @@ std::vector<std::string> rmse_lines(const SuiteResult& result, const std::vector
       [&](const TableRow& row) {
         const std::size_t without = row.height.without;
         return fmt::format(" {:21} {:>7} {:>6}", with_interval(row.height.rmse_m, row.rmse_95_m),
-                           number("{:+.2f}", 100 * row.height.bias_m), published_cm(result, row)) +
+                           cell("{:+.2f}", 100 * row.height.bias_m), published_cm(result, row)) +
                (without > 0 ? fmt::format("  {} plots without", without) : "");
       });
 }
@@ -250,7 +258,7 @@ std::vector<std::string> within_lines(const std::vector<TableRow>& rows) {
                     return fmt::format(
                         "{:>7} {:>11} {:>11} {:>9} {:>10}", centimetres(row.height.rmse_m),
                         centimetres(row.within.farm_bias_m), centimetres(row.within.within_m),
-                        number("{:.2f}", row.within.r2), number("{:.2f}", row.within.rho));
+                        cell("{:.2f}", row.within.r2), cell("{:.2f}", row.within.rho));
                   });
 }
 
@@ -263,7 +271,7 @@ std::vector<std::string> trust_lines(const std::vector<TableRow>& rows) {
                     if (std::isnan(row.height.coverage95)) return std::string();
                     return fmt::format(" {:20} {:>7} {:>7} {:8} {:>14}",
                                        with_interval(row.height.rmse_m, row.rmse_95_m),
-                                       number("{:+.2f}", 100 * row.height.bias_m),
+                                       cell("{:+.2f}", 100 * row.height.bias_m),
                                        percent(row.height.coverage95), row.height.flagged,
                                        unflagged(row));
                   });

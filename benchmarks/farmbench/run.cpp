@@ -2,9 +2,7 @@
 #include "farmbench/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +13,7 @@
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/stopwatch.h"
 #include "core/temporary_path.h"
 #include "farmbench/entries.h"
 #include "farmbench/internal/farm_queue.h"
@@ -55,11 +54,10 @@ void run_tasks(std::vector<FarmTask>& tasks, const Suite& suite, const RunOption
   const int threads = std::max(1, options.threads / options.jobs);
   std::mutex report_mutex;
   run_queue(open.size(), options.jobs, progress, [&](std::size_t i, const ProgressReport& own) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     run_task(*open[i], suite, options, work.path(), threads, own);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     const std::lock_guard lock(report_mutex);
-    if (finished) finished(*open[i]->result, took.count());
+    if (finished) finished(*open[i]->result, watch.seconds());
   });
 }
 
@@ -86,8 +84,9 @@ void require_results_of(const fs::path& output, const std::string& suite) {
   const json manifest = read_manifest(output);
   const std::string held = manifest.value("options", json::object()).value("suite", suite);
   if (held != suite)
-    throw InputError(output, "holds the results of suite " + held + ", and this is suite " + suite +
-                                 "; choose another folder");
+    throw InputError(output,
+                     "holds the results of suite {}, and this is suite {}; choose another folder",
+                     held, suite);
 }
 
 void write_run_manifest(const RunOptions& options, const std::string& suite, std::size_t farms,
@@ -159,8 +158,9 @@ RunSummary report(const fs::path& output, std::uint64_t seed) {
     summary.table = make_table(summary.result, seed);
     write_reports(output, summary.result, summary.table);
   } catch (const std::logic_error& error) {  // what tables take for granted was edited away
-    throw InputError(output / "results.json", std::string("its parts do not fit together (") +
-                                                  error.what() + "); farmbench run writes it anew");
+    throw InputError(output / "results.json",
+                     "its parts do not fit together ({}); farmbench run writes it anew",
+                     error.what());
   }
   return summary;
 }

@@ -7,6 +7,7 @@
 #include "description/load_description.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/yaml_section.h"
 #include "farmbench/entry/entered_plots.h"
 #include "farmbench/internal/flight_section.h"
@@ -178,9 +179,10 @@ void read_published(const YamlSection& root, Suite& suite) {
   for (const YamlSection& entry : published.list("methods", 100, "row")) {
     suite.published->methods.push_back(entry.text("row"));
     if (!has_row(suite, suite.published->methods.back()))
-      published.fail("methods", "name \"" + suite.published->methods.back() +
-                                    "\", which is no row of the suite's methods, such as "
-                                    "dhami2020/raw-p99");
+      published.fail(
+          "methods",
+          "name \"{}\", which is no row of the suite's methods, such as dhami2020/raw-p99",
+          suite.published->methods.back());
   }
   const auto has_figure = [](const SuiteCase& suite_case) {
     return suite_case.published_rmse_cm.has_value();
@@ -192,8 +194,7 @@ void read_published(const YamlSection& root, Suite& suite) {
 // What the cases are compared with: one of them, and what somebody published.
 void read_comparisons(const YamlSection& root, Suite& suite) {
   if (root.has("baseline")) {
-    std::vector<std::string> names;
-    for (const SuiteCase& suite_case : suite.cases) names.push_back(suite_case.name);
+    const std::vector<std::string> names = list_of(suite.cases, &SuiteCase::name);
     suite.baseline = names[root.choice("baseline", names)];
   }
   if (root.has("published")) read_published(root, suite);

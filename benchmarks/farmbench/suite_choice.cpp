@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "farmbench/entry/sha256.h"
 
 namespace plotscan::farmbench {
@@ -20,9 +21,10 @@ std::string read_secret(const std::filesystem::path& file) {
   std::string secret = read_text(file);
   while (!secret.empty() && (secret.back() == '\n' || secret.back() == '\r')) secret.pop_back();
   if (secret.size() < kLeastSecret || secret.size() > kMostSecret) {
-    throw InputError(file, "holds " + std::to_string(secret.size()) +
-                               " bytes; a secret has 16 to 65536, such as head -c 32 /dev/urandom "
-                               "| base64 writes");
+    throw InputError(
+        file,
+        "holds {} bytes; a secret has 16 to 65536, such as head -c 32 /dev/urandom | base64 writes",
+        secret.size());
   }
   return secret;
 }
@@ -76,10 +78,7 @@ std::vector<BlindField> blind_fields(const Suite& suite, const SuiteChoice& choi
       check(is_new, "no two fields have one code");
     }
   }
-  std::vector<BlindField> fields;
-  fields.reserve(by_code.size());
-  for (const auto& [code, field] : by_code) fields.push_back(field);
-  return fields;
+  return list_of(by_code, [](const auto& entry) { return entry.second; });
 }
 
 std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256) {

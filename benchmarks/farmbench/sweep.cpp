@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/sweep.h"
 
-#include <algorithm>
-
 #include "core/csv.h"
 
 namespace plotscan::farmbench {

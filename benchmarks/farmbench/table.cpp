@@ -9,12 +9,9 @@
 
 #include "core/angle.h"
 #include "core/csv.h"
-#include "core/statistics.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/bootstrap.h"
 #include "farmbench/internal/method_rows.h"
-#include "score/height_score.h"
-#include "score/score.h"
 
 namespace plotscan::farmbench {
 namespace {

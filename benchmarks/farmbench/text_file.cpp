@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/text_file.h"
 
+#include "core/json_text.h"
 #include "core/output_file.h"
 #include "core/text_file.h"
 
@@ -8,14 +9,12 @@ namespace plotscan::farmbench {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   OutputFile file(path, true);
-  TextFile out(file.path());
-  out << text;
-  out.close();
+  write_text_file(file.path(), text);
   file.commit();
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& document) {
-  write_text(path, document.dump(1) + "\n");
+  write_text(path, json_lines(document));
 }
 
 }  // namespace plotscan::farmbench

@@ -2,7 +2,6 @@
 // ground_error [--each] (FARM SCAN)...: the error of the ground under the plots of simulated farms,
 // by method, against the true terrain (docs/ground.md).
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "methods.h"
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace {
 
@@ -78,11 +78,10 @@ void measure(const std::filesystem::path& farm, const std::filesystem::path& sca
     boxes.back().center -= map.origin().head<2>();
   }
   for (const ground_error::Method& method : ground_error::methods(2)) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const std::vector<ground_error::PlotGround> grounds = method.ground(map.points(), boxes);
     Score& score = scores[method.name];
-    score.seconds +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    score.seconds += watch.seconds();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const PlotError error = error_of(grounds[i], boxes[i], terrain, map.origin());
       score.add(error, grounds[i].standard_error_m);

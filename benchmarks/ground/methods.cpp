@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "ground/surface.h"
 
@@ -29,8 +30,8 @@ std::vector<PlotGround> planes(Points points, const Boxes& boxes) {
   const std::vector<Eigen::Vector3f> voxels = methods::dhami2020::voxel_filter(points, kVoxel_m);
   std::vector<PlotGround> grounds;
   for (const std::vector<Eigen::Vector3f>& inside : cloud::points_in_boxes(voxels, longer)) {
-    std::vector<Eigen::Vector3d> of_plot;
-    for (const Eigen::Vector3f& point : inside) of_plot.push_back(point.cast<double>());
+    const std::vector<Eigen::Vector3d> of_plot = list_of<Eigen::Vector3d>(
+        inside, [](const Eigen::Vector3f& point) { return point.cast<double>(); });
     const auto plane = methods::dhami2020::find_ground_plane(of_plot, kTolerance_m);
     grounds.push_back({.height = [plane](const Eigen::Vector2d& place) {
       if (!plane) return kNaN;
@@ -144,12 +145,10 @@ std::vector<PlotGround> surface(Points points, const Boxes& boxes, int threads) 
   ground::SurfaceOptions options;
   options.threads = threads;
   const auto fitted = std::make_shared<const ground::Surface>(ground::fit_surface(points, options));
-  std::vector<PlotGround> grounds;
-  for (const PlotBox& box : boxes) {
-    grounds.push_back({.height = [fitted](const Eigen::Vector2d& p) { return fitted->height(p); },
-                       .standard_error_m = fitted->mean_standard_error(box)});
-  }
-  return grounds;
+  return list_of(boxes, [&](const PlotBox& box) {
+    return PlotGround{.height = [fitted](const Eigen::Vector2d& p) { return fitted->height(p); },
+                      .standard_error_m = fitted->mean_standard_error(box)};
+  });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "strata/draw.h"
 #include "strata/scenery.h"
 
@@ -247,11 +248,7 @@ double side_of(const Things& things, RandomStream& random) {
 }  // namespace
 
 const std::vector<std::string>& empty_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Kind& kind : kinds()) all.push_back(kind.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = list_of<std::string>(kinds(), &Kind::name);
   return names;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "lidar/fly_settings.h"
 #include "strata/side_by_side.h"
 
@@ -300,11 +301,7 @@ nlohmann::json to_json(const FieldPlan& plan) {
 }
 
 const std::vector<std::string>& farm_strata() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Stratum& stratum : strata()) all.push_back(stratum.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = list_of<std::string>(strata(), &Stratum::name);
   return names;
 }
 

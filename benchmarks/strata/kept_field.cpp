@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/random.h"
 #include "core/temporary_path.h"
 #include "core/text_file.h"
@@ -29,12 +30,6 @@ bool holds(const fs::path& folder, const json& plan) {
   if (json::parse(in, nullptr, false) == plan) return true;
   throw InputError(folder,
                    "holds a field of another word or version; keep fields in another folder");
-}
-
-void write_plan(const fs::path& folder, const json& plan) {
-  TextFile file(folder / kPlan);
-  file << plan.dump(1) << "\n";
-  file.close();
 }
 
 // Cuts a cloud to a rectangle, and so far around it.
@@ -72,7 +67,7 @@ KeptField keep_farm(const FieldPlan& plan, const fs::path& folder, int threads) 
   if (holds(folder, to_json(plan))) return field;
   fs::create_directories(field.cloud.parent_path());
   make_farm(plan, field, threads);
-  write_plan(folder, to_json(plan));
+  write_text_file(folder / kPlan, json_lines(to_json(plan)));
   return field;
 }
 
@@ -85,7 +80,7 @@ KeptField keep_empty_field(const std::string& word, const std::string& kind, int
   if (holds(folder, plan)) return field;
   fs::create_directories(field.cloud.parent_path());
   write_positions(field.cloud, draw_empty_field(kind, random));
-  write_plan(folder, plan);
+  write_text_file(folder / kPlan, json_lines(plan));
   return field;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "methods/lattice/lattice.h"
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "strata/hand_measured.h"
 
 namespace plotscan::strata {
@@ -54,7 +54,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   std::vector<score::TruePlot> truth =
       field.farm.empty() ? std::vector<score::TruePlot>{} : score::read_truth(field.farm);
   estimate::Estimate estimate{.method = "lattice"};
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   try {
     estimate = methods::lattice::estimate_plots(field.cloud,
                                                 told_options(options.told, truth, options.threads));
@@ -62,8 +62,7 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   } catch (const InputError& error) {
     measured.failure = error.what();
   }
-  measured.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  measured.seconds = watch.seconds();
   if (options.hand_measured > 0) agree_with_hand(options.hand_measured, index, truth, estimate);
   measured.score = score::score_field(truth, estimate);
   const std::set<PlotId> extra(measured.score.extra.begin(), measured.score.extra.end());

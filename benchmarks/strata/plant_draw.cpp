@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <vector>
 
 #include "core/yaml_section.h"
 

@@ -2,10 +2,10 @@
 #include "strata/table.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/core.h>
 
+#include "core/number_text.h"
 #include "score/score_files.h"
 
 namespace plotscan::strata {
@@ -25,33 +25,29 @@ std::vector<StratumTally> tally_strata(std::span<const MeasuredField> fields) {
   return tallies;
 }
 
-std::string number(fmt::format_string<double&> format, double value) {
-  return std::isnan(value) ? "-" : fmt::format(format, value);
-}
-
 // RMSE, bias (the worst farm's) in centimetres, r2 within farms.
 std::string height_cell(const StratumTally& tally, const char* height) {
   const auto found = tally.heights.find(height);
   if (found == tally.heights.end()) return "-";
   const HeightTally& one = found->second;
-  return number("{:.1f}", 100 * one.score.rmse_m) + " " +
-         number("{:+.1f}", 100 * one.score.bias_m) + " (" +
-         number("{:+.1f}", 100 * one.within.worst_bias_m) + ") " + number("{:.2f}", one.within.r2);
+  return cell("{:.1f}", 100 * one.score.rmse_m) + " " + cell("{:+.1f}", 100 * one.score.bias_m) +
+         " (" + cell("{:+.1f}", 100 * one.within.worst_bias_m) + ") " +
+         cell("{:.2f}", one.within.r2);
 }
 
 std::string stratum_line(const StratumTally& tally) {
   std::string line = fmt::format(
       "{:10} {:5} {:5} {:>6} {:>6} {:>5} {:>5}", tally.stratum, tally.farms, tally.boxes.plots,
-      number("{:.4f}", tally.boxes.recall), number("{:.4f}", tally.boxes.precision),
-      number("{:.3f}", tally.boxes.iou_mean), number("{:.1f}", 100 * tally.boxes.center_rmse_m));
+      cell("{:.4f}", tally.boxes.recall), cell("{:.4f}", tally.boxes.precision),
+      cell("{:.3f}", tally.boxes.iou_mean), cell("{:.1f}", 100 * tally.boxes.center_rmse_m));
   for (const char* height : kShownHeights)
     line += fmt::format("  {:21}", height_cell(tally, height));
   const std::string unflagged =
-      number("{:.1f}", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
+      cell("{:.1f}", 100 * tally.worst_unflagged_share) + " " + tally.worst_height;
   return line + fmt::format("  {:15} {:>6} {:>6} {:>6}", unflagged,
-                            number("{:.1f}", 100 * tally.coverage95),
-                            number("{:.1f}", 100 * tally.box_coverage95),
-                            number("{:.2f}", tally.seconds_per_million_points));
+                            cell("{:.1f}", 100 * tally.coverage95),
+                            cell("{:.1f}", 100 * tally.box_coverage95),
+                            cell("{:.2f}", tally.seconds_per_million_points));
 }
 
 std::vector<std::string> farm_lines(std::span<const MeasuredField> farms) {
@@ -79,7 +75,7 @@ std::vector<std::string> empty_lines(std::span<const MeasuredField> fields) {
     });
     lines.push_back(fmt::format("{:10} {:6} {:15} {:14} {:>6}", one.stratum, one.farms,
                                 one.boxes.extra, some,
-                                number("{:.2f}", one.seconds_per_million_points)));
+                                cell("{:.2f}", one.seconds_per_million_points)));
   }
   return lines;
 }
@@ -134,7 +130,7 @@ std::vector<std::string> table_lines(const Measurement& measurement) {
   }
   const double auc = confidence_auc(all_fields(measurement));
   lines.push_back("");
-  lines.push_back("AUC of confidence, false against true plots: " + number("{:.3f}", auc));
+  lines.push_back("AUC of confidence, false against true plots: " + cell("{:.3f}", auc));
   return lines;
 }
 
@@ -142,7 +138,7 @@ std::string field_line(const MeasuredField& field) {
   const score::BoxScore boxes = score::score_boxes({&field.score, 1});
   std::string line = fmt::format("{}-{}: {} plots, {} found, {} extra", field.stratum, field.index,
                                  boxes.plots, boxes.found, boxes.extra);
-  if (boxes.found > 0) line += ", IoU " + number("{:.3f}", boxes.iou_mean);
+  if (boxes.found > 0) line += ", IoU " + cell("{:.3f}", boxes.iou_mean);
   for (const char* height : kShownHeights) {
     const std::string truth = score::named_truth(height);
     const score::HeightPairs pairs = score::height_pairs(field.score, height, truth);

@@ -5,7 +5,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "score/height_score.h"
 #include "score/within_farms.h"

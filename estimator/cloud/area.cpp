@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
 
 namespace plotscan::cloud {
@@ -35,9 +35,8 @@ Eigen::Vector2d middle_of(const Area& area) {
 }
 
 std::string text_of(const Area& area) {
-  std::vector<std::string> millimetres;
-  for (const double at : area) millimetres.push_back(format_number(std::round(1000 * at) / 1000));
-  return joined(millimetres, ",");
+  const auto millimetres = [](double at) { return format_number(std::round(1000 * at) / 1000); };
+  return joined(list_of(area, millimetres), ",");
 }
 
 void require_area(const Area& area, const std::string& option) {

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <string>
 
 #include "cloud/field_density.h"
 #include "cloud/internal/field_hull.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "record/positions.h"
 
@@ -37,10 +36,8 @@ CloudMap::CloudMap(const Area& area) : area_(area) {
 
 void CloudMap::add(std::span<const Eigen::Vector3d> world_points) {
   points_read_ += world_points.size();
-  std::vector<Eigen::Vector3d> inside;
-  std::ranges::copy_if(
-      world_points, std::back_inserter(inside),
-      [this](const Eigen::Vector3d& point) { return holds(area_, point.head<2>()); });
+  const std::vector<Eigen::Vector3d> inside = those_of(
+      world_points, [this](const Eigen::Vector3d& point) { return holds(area_, point.head<2>()); });
   if (points_.empty() && !inside.empty()) origin_.z() = std::round(median_z(inside));
   for (const Eigen::Vector3d& point : inside) {
     if (std::abs(point.z() - origin_.z()) > kLongestSide_m) continue;

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "core/list_of.h"
+
 namespace plotscan::cloud {
 namespace {
 
@@ -53,10 +55,8 @@ void CoordinateSteps::add(std::span<const Eigen::Vector3d> points) {
 Eigen::Vector2d CoordinateSteps::steps_m() const {
   Eigen::Vector2d steps_m;
   for (const int axis : {0, 1}) {
-    std::vector<double> values_m;
-    values_m.reserve(sample_.size());
-    for (const Sampled& sampled : sample_) values_m.push_back(sampled.place[axis]);
-    steps_m[axis] = step_of(std::move(values_m));
+    steps_m[axis] =
+        step_of(list_of(sample_, [axis](const Sampled& sampled) { return sampled.place[axis]; }));
   }
   return steps_m;
 }

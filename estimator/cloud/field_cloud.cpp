@@ -118,8 +118,8 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   if (options.area) crop(field);
   field.counts.kept = field.points.size();
   if (field.points.empty()) {
-    throw InputError(name, "none of its " + std::to_string(counts.added) + " points lies in the " +
-                               options.area_name + " " + text_of(field.area) + " (metres)" + seen);
+    throw InputError(name, "none of its {} points lies in the {} {} (metres){}", counts.added,
+                     options.area_name, text_of(field.area), seen);
   }
   stage.found(std::to_string(field.points.size()) + " points");
   return field;

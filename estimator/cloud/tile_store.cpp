@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <numeric>
 
 #include "core/each_index.h"
+#include "core/list_of.h"
 #include "core/packed_pair.h"
 
 namespace plotscan::cloud {
@@ -159,9 +159,9 @@ void TileStore::merge(const std::vector<Slot>& order) {
 }
 
 std::vector<TileCount> TileStore::tile_counts() const {
-  std::vector<TileCount> counts;
-  for (const TileState& state : tiles_)
-    counts.push_back({state.tile, state.added - (taken_ ? state.repeated : 0)});
+  std::vector<TileCount> counts = list_of(tiles_, [&](const TileState& state) {
+    return TileCount{state.tile, state.added - (taken_ ? state.repeated : 0)};
+  });
   std::ranges::sort(counts, {}, &TileCount::tile);
   return counts;
 }

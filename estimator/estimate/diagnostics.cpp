@@ -40,15 +40,8 @@ json boxes_json(const GivenBoxes& boxes) {
   return {{"plots", boxes.plots}, {"id", boxes.id_property}, {"from_degrees", boxes.from_degrees}};
 }
 
-json ids_json(const std::vector<PlotId>& ids) {
-  json document = json::array();
-  for (const PlotId& id : ids) document.push_back(id.json());
-  return document;
-}
-
 json names_json(const GivenNames& names) {
-  return {
-      {"plots", names.plots}, {"id", names.id_property}, {"not_found", ids_json(names.not_found)}};
+  return {{"plots", names.plots}, {"id", names.id_property}, {"not_found", names.not_found}};
 }
 
 json measured_json(const GivenMeasured& measured) {
@@ -57,9 +50,7 @@ json measured_json(const GivenMeasured& measured) {
     heights.push_back(agreed);
     if (agreed.trial > 0) heights.back()["trial_number"] = agreed.trial;
   }
-  return {{"id", measured.id_column},
-          {"not_found", ids_json(measured.not_found)},
-          {"heights", heights}};
+  return {{"id", measured.id_column}, {"not_found", measured.not_found}, {"heights", heights}};
 }
 
 }  // namespace

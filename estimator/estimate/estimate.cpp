@@ -7,13 +7,11 @@
 #include <limits>
 #include <set>
 
-#include <fmt/core.h>
-
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/geodesy.h"
+#include "core/list_of.h"
 #include "core/manifest.h"
-#include "core/plot_features.h"
 #include "core/statistics.h"
 #include "estimate/ground_grids.h"
 #include "estimate/height_properties.h"
@@ -49,7 +47,7 @@ void add_numbers(const std::array<const char*, Count>& names,
 
 PlotFeature feature_of(const PlotEstimate& plot, const std::string& id_property) {
   PlotFeature feature{.box = plot.box, .properties = plot.attributes, .id = plot.id};
-  if (!feature.properties.contains(id_property)) feature.properties[id_property] = plot.id.json();
+  if (!feature.properties.contains(id_property)) feature.properties[id_property] = plot.id;
   feature.properties["points"] = plot.points;
   if (plot.box_error) add_numbers(kBoxErrors, numbers_of(*plot.box_error), feature.properties);
   if (plot.trial > 0) feature.properties["trial_number"] = plot.trial;
@@ -147,9 +145,8 @@ std::vector<std::string> stated_flags(const json& properties) {
 void require_plausible(const PlotEstimate& plot, const fs::path& file) {
   for (const auto& [name, height_m] : plot.heights_m) {
     if (!is_plausible(height_m))
-      throw InputError(
-          file, fmt::format("plot {}: {} is {:g}; it must be metres, {:g} to {:g}", plot.id.text(),
-                            property_of(name), height_m, kLeastHeight_m, kMostHeight_m));
+      throw InputError(file, "plot {}: {} is {:g}; it must be metres, {:g} to {:g}", plot.id.text(),
+                       property_of(name), height_m, kLeastHeight_m, kMostHeight_m);
   }
 }
 
@@ -185,10 +182,8 @@ json given_attributes(const PlotFeature& feature) {
 }
 
 std::vector<PlotFeature> features_of(const Estimate& estimate) {
-  std::vector<PlotFeature> features;
-  for (const PlotEstimate& plot : estimate.plots)
-    features.push_back(feature_of(plot, estimate.id_property));
-  return features;
+  return list_of(estimate.plots,
+                 [&](const PlotEstimate& plot) { return feature_of(plot, estimate.id_property); });
 }
 
 void write_estimate(const fs::path& folder, const Estimate& estimate) {
@@ -207,9 +202,9 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   write_heights(folder / "heights.csv", estimate);
   if (estimate.ground) write_ground(folder, *estimate.ground, units);
   if (estimate.clusters.empty()) return;
-  std::vector<PlotFeature> clusters;
-  for (const PlotBox& box : estimate.clusters) clusters.push_back({.box = box});
-  write_plot_features(folder / "clusters.geojson", clusters, estimate.crs, estimate.units);
+  const auto feature = [](const PlotBox& box) { return PlotFeature{.box = box}; };
+  write_plot_features(folder / "clusters.geojson", list_of(estimate.clusters, feature),
+                      estimate.crs, estimate.units);
 }
 
 Estimate read_estimate(const fs::path& path) {
@@ -220,10 +215,9 @@ Estimate read_estimate(const fs::path& path) {
   const PlacedPlots placed = read_plot_features(file, "");
   estimate.units = placed.units;
   estimate.plots = plots_of(placed.plots, file);
-  if (is_folder && fs::exists(path / "clusters.geojson")) {
-    for (const PlotFeature& cluster : read_plot_features(path / "clusters.geojson", "").plots)
-      estimate.clusters.push_back(cluster.box);
-  }
+  if (is_folder && fs::exists(path / "clusters.geojson"))
+    estimate.clusters =
+        list_of(read_plot_features(path / "clusters.geojson", "").plots, &PlotFeature::box);
   if (estimate.plots.empty() && estimate.method.empty()) throw InputError(file, "has no plots");
   const bool any_height = std::ranges::any_of(
       estimate.plots, [](const PlotEstimate& plot) { return !plot.heights_m.empty(); });

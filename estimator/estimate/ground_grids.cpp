@@ -2,7 +2,6 @@
 #include "estimate/ground_grids.h"
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,8 +9,8 @@
 
 #include <fmt/core.h>
 
-#include "core/csv.h"
 #include "core/error.h"
+#include "core/text_file.h"
 #include "estimate/internal/esri_grid.h"
 
 namespace plotscan::estimate {
@@ -24,20 +23,20 @@ constexpr const char* kNoData = "-9999";
 // go from north to south.
 void write_grid(const fs::path& path, const ground::Surface& surface, double unit_m,
                 const std::function<std::string(std::size_t)>& text) {
-  std::ofstream out(path);
+  TextFile out(path);
   out << "ncols " << surface.columns << "\nnrows " << surface.rows << "\nxllcorner "
-      << format_number((surface.origin.x() - surface.cell_m / 2) / unit_m) << "\nyllcorner "
-      << format_number((surface.origin.y() - surface.cell_m / 2) / unit_m) << "\ncellsize "
-      << format_number(surface.cell_m / unit_m) << "\nNODATA_value " << kNoData << '\n';
+      << (surface.origin.x() - surface.cell_m / 2) / unit_m << "\nyllcorner "
+      << (surface.origin.y() - surface.cell_m / 2) / unit_m << "\ncellsize "
+      << surface.cell_m / unit_m << "\nNODATA_value " << kNoData << "\n";
   for (int row = surface.rows - 1; row >= 0; --row) {
     for (int column = 0; column < surface.columns; ++column) {
       const std::size_t node = surface.index(column, row);
       out << (column == 0 ? "" : " ")
           << (std::isfinite(surface.z_m[node]) ? text(node) : std::string(kNoData));
     }
-    out << '\n';
+    out << "\n";
   }
-  if (!out.flush()) throw WriteError(path);
+  out.close();
 }
 
 // Rounded to four decimals: 0.1 mm in metres, finer in feet.

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/core.h>
 
@@ -54,10 +52,9 @@ std::vector<HeightColumn> height_columns(const fs::path& file, const CsvTable& t
     found.push_back(*column);
   }
   if (!found.empty()) return found;
-  throw InputError(file,
-                   "has no column of heights, such as height_mean_cm or height_m; its "
-                   "columns are " +
-                       joined(table.columns, ", "));
+  throw InputError(
+      file, "has no column of heights, such as height_mean_cm or height_m; its columns are {}",
+      joined(table.columns, ", "));
 }
 
 bool is_missing(std::string_view text) { return text.empty() || text == "NA" || text == "."; }
@@ -69,8 +66,8 @@ std::map<std::string, double> heights_of(const CsvRow& row,
     if (is_missing(row.text(column.column))) continue;
     const double height_m = row.number(column.column) / column.per_m;
     if (!is_plausible(height_m))
-      row.fail(column.column, fmt::format("is {:g} m; it must be {:g} to {:g} m", height_m,
-                                          kLeastHeight_m, kMostHeight_m));
+      row.fail(column.column, "is {:g} m; it must be {:g} to {:g} m", height_m, kLeastHeight_m,
+               kMostHeight_m);
     heights_m[column.truth] = height_m;
   }
   return heights_m;
@@ -95,8 +92,8 @@ MeasuredHeights read_measured_heights(const fs::path& file,
     const bool is_new =
         measured.plots_m.emplace(PlotId(line.fields[id]), std::move(heights_m)).second;
     if (!is_new)
-      row.fail(id, "names plot " + line.fields[id] +
-                       " again; a table has each plot once: give the mean of its plants");
+      row.fail(id, "names plot {} again; a table has each plot once: give the mean of its plants",
+               line.fields[id]);
   }
   if (measured.plots_m.empty()) throw InputError(file, "has no height");
   return measured;
@@ -109,10 +106,10 @@ std::vector<PlotId> not_found(const MeasuredHeights& measured, const Estimate& e
   for (const auto& [id, heights_m] : measured.plots_m)
     if (!found.contains(id)) missing.push_back(id);
   if (missing.size() < measured.plots_m.size()) return missing;
-  throw InputError(measured.file, "has plot " + missing.front().text() +
-                                      " and others, and none of them is in the estimate; "
-                                      "--plot-names, --first-number or --boxes of estimator run "
-                                      "give plots the field book's ids");
+  throw InputError(measured.file,
+                   "has plot {} and others, and none of them is in the estimate; --plot-names, "
+                   "--first-number or --boxes of estimator run give plots the field book's ids",
+                   missing.front().text());
 }
 
 }  // namespace plotscan::estimate

@@ -2,7 +2,6 @@
 #include "estimate/plot_map.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include <fmt/core.h>
@@ -35,8 +34,8 @@ std::optional<std::string> id_property_of(const fs::path& file,
   };
   if (wanted) {
     if (names_a_plot(*wanted)) return wanted;
-    throw InputError(file, "no plot has an id in a property \"" + *wanted +
-                               "\"; the plots' properties are: " + properties_of(plots));
+    throw InputError(file, "no plot has an id in a property \"{}\"; the plots' properties are: {}",
+                     *wanted, properties_of(plots));
   }
   const auto found = std::ranges::find_if(plot_id_properties(), names_a_plot);
   if (found == plot_id_properties().end()) return std::nullopt;
@@ -60,16 +59,16 @@ std::vector<PlotId> ids_of(const fs::path& file, const std::vector<PlotFeature>&
     const std::optional<PlotId> id = id_in(plot, property);
     if (!id) {
       throw InputError(file,
-                       fmt::format("{} has no id in its property \"{}\", and others have; --id "
-                                   "names another property",
-                                   place, property));
+                       "{} has no id in its property \"{}\", and others have; --id "
+                       "names another property",
+                       place, property);
     }
     const auto [earlier, is_new] = places.emplace(*id, place);
     if (!is_new) {
       throw InputError(file,
-                       fmt::format("{} and {} have the same {} \"{}\"; --id names a property that "
-                                   "differs from plot to plot",
-                                   earlier->second, place, property, id->text()));
+                       "{} and {} have the same {} \"{}\"; --id names a property that "
+                       "differs from plot to plot",
+                       earlier->second, place, property, id->text());
     }
     ids.push_back(*id);
   }
@@ -131,9 +130,10 @@ void require_plot_size(const fs::path& file, const PlotMap& map) {
   for (std::size_t i = 0; i < map.plots.size(); ++i) {
     const PlotBox& box = map.plots[i].box;
     if (box.area_m2() <= kMostPlot_m2) continue;
-    throw InputError(file, fmt::format("plot {} is {:.0f} x {:.0f} m; a plot has up to {:.0f} m2: "
-                                       "is this the field's outline?",
-                                       map.ids[i].text(), box.width_m, box.length_m, kMostPlot_m2));
+    throw InputError(file,
+                     "plot {} is {:.0f} x {:.0f} m; a plot has up to {:.0f} m2: "
+                     "is this the field's outline?",
+                     map.ids[i].text(), box.width_m, box.length_m, kMostPlot_m2);
   }
 }
 

@@ -2,14 +2,16 @@
 #include "estimate/plot_tables.h"
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/angle.h"
 #include "core/csv.h"
-#include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
+#include "core/text_file.h"
 #include "estimate/height_properties.h"
 
 namespace plotscan::estimate {
@@ -151,17 +153,14 @@ std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
 
 void write_table(const fs::path& path, const std::vector<Column>& columns,
                  const std::vector<PlotEstimate>& plots) {
-  std::ofstream out(path);
-  for (const Column& column : columns)
-    out << (&column == &columns.front() ? "" : ",") << csv_field(column.name);
-  out << '\n';
-  for (const PlotEstimate& plot : plots) {
-    for (const Column& column : columns) {
-      out << (&column == &columns.front() ? "" : ",") << column.text(plot);
-    }
-    out << '\n';
-  }
-  if (!out.flush()) throw WriteError(path);
+  const auto line_of = [&](const auto& field) {
+    return fmt::format("{}\n", fmt::join(list_of(columns, field), ","));
+  };
+  TextFile out(path);
+  out << line_of([](const Column& column) { return csv_field(column.name); });
+  for (const PlotEstimate& plot : plots)
+    out << line_of([&](const Column& column) { return column.text(plot); });
+  out.close();
 }
 
 }  // namespace

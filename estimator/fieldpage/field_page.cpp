@@ -9,7 +9,6 @@
 #include "core/output_folder.h"
 #include "estimate/ground_grids.h"
 #include "fieldpage/shown.h"
-#include "report/page.h"
 
 namespace plotscan::fieldpage {
 namespace fs = std::filesystem;
@@ -41,8 +40,8 @@ std::optional<std::string> told_crs(const fs::path& estimate) {
 void require_those_units(const fs::path& estimate, const CoordinateUnits& said,
                          const CoordinateUnits& used) {
   if (said.horizontal_m == used.horizontal_m) return;
-  throw InputError(estimate, "was made with units of " + unit_name(used.horizontal_m) +
-                                 "; its cloud cannot be shown in " + unit_name(said.horizontal_m));
+  throw InputError(estimate, "was made with units of {}; its cloud cannot be shown in {}",
+                   unit_name(used.horizontal_m), unit_name(said.horizontal_m));
 }
 
 void show_cloud(report::ShownField& field, const PageOptions& options,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "heights/internal/calibration_files.h"
@@ -102,9 +103,7 @@ Eigen::MatrixXd Calibration::ratios() const {
 }
 
 std::vector<double> Calibration::noise() const {
-  std::vector<double> noise;
-  for (const CalibrationFarm& farm : farms) noise.push_back(relative_noise(farm.top_m));
-  return noise;
+  return list_of(farms, [](const auto& farm) { return relative_noise(farm.top_m); });
 }
 
 Calibration Calibration::without(std::span<const std::size_t> farms_left_out) const {
@@ -133,11 +132,8 @@ const Calibration& shipped_calibration() {
 
 Eigen::VectorXd field_features(std::span<const Eigen::VectorXd> features) {
   Eigen::VectorXd medians(features.front().size());
-  for (Eigen::Index k = 0; k < medians.size(); ++k) {
-    std::vector<double> values;
-    for (const Eigen::VectorXd& plot : features) values.push_back(plot(k));
-    medians(k) = quantile(values, 0.5);
-  }
+  for (Eigen::Index k = 0; k < medians.size(); ++k)
+    medians(k) = quantile(list_of(features, [k](const auto& plot) { return plot(k); }), 0.5);
   return medians;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "heights/internal/box_cells.h"
 
@@ -18,11 +19,9 @@ struct Place {
 
 std::vector<double> ground_errors(std::span<const Eigen::Vector3f> points,
                                   const ground::Surface& surface) {
-  std::vector<double> errors_m;
-  errors_m.reserve(points.size());
-  for (const Eigen::Vector3f& point : points)
-    errors_m.push_back(surface.standard_error(point.head<2>().cast<double>()));
-  return errors_m;
+  return list_of(points, [&](const Eigen::Vector3f& point) {
+    return surface.standard_error(point.head<2>().cast<double>());
+  });
 }
 
 // The largest standard error with which the ground counts as known, metres.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "core/list_of.h"
 #include "core/statistics.h"
 
 namespace plotscan::heights {
@@ -70,9 +70,7 @@ Eigen::VectorXd standardised_from_others(std::span<const CalibrationFarm> farms,
 
 double usual_novelty(std::span<const CalibrationFarm> farms) {
   constexpr double kUsual = 0.95;
-  std::vector<double> novelty;
-  for (const CalibrationFarm& farm : farms) novelty.push_back(farm.novelty);
-  return quantile(novelty, kUsual);
+  return quantile(list_of(farms, &CalibrationFarm::novelty), kUsual);
 }
 
 }  // namespace

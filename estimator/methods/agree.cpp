@@ -43,14 +43,13 @@ void require_estimated(const estimate::MeasuredHeights& measured,
   for (const std::string& name : measured_names(measured)) {
     if (sure.contains(name)) continue;
     const std::string property = estimate::property_of(name);
-    throw InputError(
-        measured.file,
-        fmt::format("{} no height that the method gives with a standard error: {}; a column is "
-                    "named after one of them, such as height_mean_cm",
-                    property == estimate::kUnnamedHeight ? "its column does not say which height "
-                                                           "was measured, and is"
-                                                         : property + " is",
-                    joined({sure.begin(), sure.end()}, ", ")));
+    throw InputError(measured.file,
+                     "{} no height that the method gives with a standard error: {}; a column is "
+                     "named after one of them, such as height_mean_cm",
+                     property == estimate::kUnnamedHeight ? "its column does not say which height "
+                                                            "was measured, and is"
+                                                          : property + " is",
+                     joined({sure.begin(), sure.end()}, ", "));
   }
 }
 
@@ -76,11 +75,10 @@ void require_plausible(const estimate::MeasuredHeights& measured, const std::str
   const double times = measured_m / estimated.value_m;
   const double errors = std::abs(measured_m - estimated.value_m) / estimated.standard_error_m;
   if ((times <= kMostTimes && times >= 1 / kMostTimes) || errors <= kMostErrors) return;
-  throw InputError(
-      measured.file,
-      fmt::format("plot {} has {} {:g} m, and {:.3f} m by the cloud: is it in another unit than "
-                  "its column says, or mistyped?",
-                  plot.id.text(), name, measured_m, estimated.value_m));
+  throw InputError(measured.file,
+                   "plot {} has {} {:g} m, and {:.3f} m by the cloud: is it in another unit than "
+                   "its column says, or mistyped?",
+                   plot.id.text(), name, measured_m, estimated.value_m);
 }
 
 // The plots of each trial that were measured and have this height.
@@ -139,9 +137,9 @@ void agree_with(const estimate::MeasuredHeights& measured, estimate::Estimate& e
     if (!in_order(plot)) plot.flags.emplace_back(kOutOfOrder);
   if (given.heights.empty())
     throw InputError(measured.file,
-                     fmt::format("has too few measured plots that are in the estimate: at least {} "
-                                 "of a trial are needed for a height",
-                                 heights::kLeastMeasured));
+                     "has too few measured plots that are in the estimate: at least {} "
+                     "of a trial are needed for a height",
+                     heights::kLeastMeasured);
   estimate.diagnostics.measured = std::move(given);
 }
 

@@ -2,7 +2,6 @@
 #include "methods/run.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/run.h"
 
-#include "core/error.h"
 #include "core/format.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/text_file.h"
@@ -23,9 +23,7 @@ fs::path file_in(const fs::path& path, const fs::path& inside) {
 void write_scores(const Scores& scores, const RunOptions& options) {
   OutputFolder folder(*options.output, options.replace, "estimator score",
                       {{options.estimate, options.truth}});
-  TextFile out(folder.path() / "scores.json");
-  out << to_json(scores).dump(1) << "\n";
-  out.close();
+  write_text_file(folder.path() / "scores.json", json_lines(to_json(scores)));
   write_plot_table(folder.path() / "plots.csv", scores.field);
   write_manifest(folder.path(), {.command = "estimator score",
                                  .options = {{"min_iou", options.score.min_iou}},
@@ -43,9 +41,7 @@ json to_json(const Scores& scores) {
                    {"heights", scores.heights},
                    {"field", scores.field}};
   if (const auto& table = scores.table) {
-    json not_found = json::array();
-    for (const PlotId& id : table->not_found) not_found.push_back(id.json());
-    document["table"] = {{"id_column", table->id_column}, {"not_found", not_found}};
+    document["table"] = {{"id_column", table->id_column}, {"not_found", table->not_found}};
   }
   return document;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/score.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "estimate/height_properties.h"
@@ -19,10 +19,7 @@ constexpr double kOnePlace = 0.5;  // boxes that overlap by more are of one plot
 
 template <class Plot>
 std::vector<PlotBox> boxes_of(const std::vector<Plot>& plots) {
-  std::vector<PlotBox> boxes;
-  boxes.reserve(plots.size());
-  for (const Plot& plot : plots) boxes.push_back(plot.box);
-  return boxes;
+  return list_of(plots, &Plot::box);
 }
 
 FoundPlot found_plot(const TruePlot& truth, const estimate::PlotEstimate& plot, double iou) {
@@ -59,17 +56,13 @@ void require_different_places(const std::vector<TruePlot>& plots, const fs::path
   const std::vector<PlotBox> boxes = boxes_of(plots);
   for (const PlotMatch& pair : overlapping_pairs(boxes, boxes, kOnePlace)) {
     if (pair.truth != pair.estimate)
-      throw InputError(file, "has plots " + plots[pair.truth].id.text() + " and " +
-                                 plots[pair.estimate].id.text() +
-                                 " at the same place; it must have each plot once");
+      throw InputError(file, "has plots {} and {} at the same place; it must have each plot once",
+                       plots[pair.truth].id.text(), plots[pair.estimate].id.text());
   }
 }
 
 double root_mean_square(const std::vector<double>& values) {
-  std::vector<double> squares;
-  squares.reserve(values.size());
-  for (const double value : values) squares.push_back(value * value);
-  return std::sqrt(mean(squares));
+  return std::sqrt(mean(list_of(values, [](double value) { return value * value; })));
 }
 
 }  // namespace

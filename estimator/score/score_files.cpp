@@ -2,15 +2,15 @@
 #include "score/score_files.h"
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "core/angle.h"
 #include "core/csv.h"
-#include "core/error.h"
+#include "core/list_of.h"
 #include "core/place_json.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "core/text_file.h"
 #include "estimate/height_properties.h"
 
 namespace plotscan::score {
@@ -45,12 +45,12 @@ void read_trust(const json& document, FoundPlot& found) {
 }
 
 json plot_json(const PlotScore& plot) {
-  json document = {{"plot_number", plot.truth.id.json()}, {"row_number", plot.truth.row},
-                   {"col_number", plot.truth.column},     {"box", box_json(plot.truth.box)},
-                   {"truths_m", plot.truth.heights_m},    {"found", nullptr}};
+  json document = {{"plot_number", plot.truth.id},     {"row_number", plot.truth.row},
+                   {"col_number", plot.truth.column},  {"box", box_json(plot.truth.box)},
+                   {"truths_m", plot.truth.heights_m}, {"found", nullptr}};
   if (plot.truth.trial > 0) document["trial_number"] = plot.truth.trial;
   if (plot.found) {
-    document["found"] = {{"estimate", plot.found->estimate.json()},
+    document["found"] = {{"estimate", plot.found->estimate},
                          {"iou", plot.found->iou},
                          {"center_error_m", plot.found->center_error_m},
                          {"heading_error_deg", plot.found->heading_error_rad / kDegrees},
@@ -60,14 +60,8 @@ json plot_json(const PlotScore& plot) {
   return document;
 }
 
-PlotId id_from_json(const json& value) {
-  const std::optional<PlotId> id = PlotId::from(value);
-  if (!id) throw InputError("a plot's id is " + value.dump() + "; it is a number or a text");
-  return *id;
-}
-
 PlotScore plot_from_json(const json& document) {
-  PlotScore plot{.truth = {.id = id_from_json(document.at("plot_number")),
+  PlotScore plot{.truth = {.id = document.at("plot_number"),
                            .trial = document.value("trial_number", 0),
                            .row = document.at("row_number"),
                            .column = document.at("col_number"),
@@ -76,7 +70,7 @@ PlotScore plot_from_json(const json& document) {
                  .found = {}};
   const json& found = document.at("found");
   if (found.is_null()) return plot;
-  plot.found = {.estimate = id_from_json(found.at("estimate")),
+  plot.found = {.estimate = found.at("estimate"),
                 .iou = found.at("iou"),
                 .center_error_m = found.at("center_error_m"),
                 .heading_error_rad = found.at("heading_error_deg").get<double>() * kDegrees,
@@ -100,18 +94,17 @@ std::set<std::string> heights_with_intervals(const FieldScore& field) {
 }
 
 // The ends of the intervals, the confidence and the flags, these with semicolons between them.
-void write_trust(std::ostream& out, const PlotScore& plot, const std::set<std::string>& intervals) {
+void write_trust(TextFile& out, const PlotScore& plot, const std::set<std::string>& intervals) {
   const FoundPlot found = plot.found.value_or(FoundPlot{});
   for (const std::string& height : intervals) {
     const auto error = found.errors.find(height);
     if (error == found.errors.end()) {
       out << ",,";
     } else {
-      out << ',' << format_number(error->second.low95_m) << ','
-          << format_number(error->second.high95_m);
+      out << "," << error->second.low95_m << "," << error->second.high95_m;
     }
   }
-  out << ',' << (found.confidence ? format_number(*found.confidence) : "") << ','
+  out << "," << (found.confidence ? format_number(*found.confidence) : "") << ","
       << csv_field(joined(found.flags, ";"));
 }
 
@@ -132,15 +125,14 @@ void to_json(json& document, const BoxScore& boxes) {
 }
 
 void to_json(json& document, const FieldScore& field) {
-  document = {{"method", field.method}, {"extra", json::array()}, {"plots", json::array()}};
-  for (const PlotScore& plot : field.plots) document["plots"].push_back(plot_json(plot));
-  for (const PlotId& id : field.extra) document["extra"].push_back(id.json());
+  document = {
+      {"method", field.method}, {"extra", field.extra}, {"plots", list_of(field.plots, plot_json)}};
 }
 
 void from_json(const json& document, FieldScore& field) {
-  field = {.method = document.at("method"), .plots = {}, .extra = {}};
-  for (const json& id : document.at("extra")) field.extra.push_back(id_from_json(id));
-  for (const json& plot : document.at("plots")) field.plots.push_back(plot_from_json(plot));
+  field = {.method = document.at("method"),
+           .plots = list_of(document.at("plots"), plot_from_json),
+           .extra = document.at("extra")};
 }
 
 void write_plot_table(const std::filesystem::path& path, const FieldScore& field) {
@@ -149,35 +141,34 @@ void write_plot_table(const std::filesystem::path& path, const FieldScore& field
   const std::set<std::string> intervals = heights_with_intervals(field);
   const bool several_trials =
       std::ranges::any_of(field.plots, [](const PlotScore& plot) { return plot.truth.trial > 0; });
-  std::ofstream out(path);
+  TextFile out(path);
   out << "plot_number," << (several_trials ? "trial_number," : "")
       << "row_number,col_number,found,estimate,iou,center_error_m,heading_error_deg";
-  for (const std::string& truth : truths) out << ',' << csv_field("true_" + truth);
+  for (const std::string& truth : truths) out << "," << csv_field("true_" + truth);
   for (const std::string& height : heights)
-    out << ',' << csv_field(estimate::property_of(height, "estimated_"));
+    out << "," << csv_field(estimate::property_of(height, "estimated_"));
   for (const std::string& height : intervals)
-    out << ',' << csv_field(estimate::property_of(height, estimate::kLow)) << ','
+    out << "," << csv_field(estimate::property_of(height, estimate::kLow)) << ","
         << csv_field(estimate::property_of(height, estimate::kHigh));
   if (!intervals.empty()) out << ",confidence,flags";
-  out << '\n';
+  out << "\n";
   for (const PlotScore& plot : field.plots) {
-    out << csv_field(plot.truth.id.text()) << ',';
-    if (several_trials) out << plot.truth.trial << ',';
-    out << plot.truth.row << ',' << plot.truth.column << ',';
+    out << csv_field(plot.truth.id.text()) << ",";
+    if (several_trials) out << plot.truth.trial << ",";
+    out << plot.truth.row << "," << plot.truth.column << ",";
     if (plot.found) {
-      out << "1," << csv_field(plot.found->estimate.text()) << ',' << format_number(plot.found->iou)
-          << ',' << format_number(plot.found->center_error_m) << ','
-          << format_number(plot.found->heading_error_rad / kDegrees);
+      out << "1," << csv_field(plot.found->estimate.text()) << "," << plot.found->iou << ","
+          << plot.found->center_error_m << "," << plot.found->heading_error_rad / kDegrees;
     } else {
       out << "0,,,,";
     }
-    for (const std::string& truth : truths) out << ',' << height_at(plot.truth.heights_m, truth);
+    for (const std::string& truth : truths) out << "," << height_at(plot.truth.heights_m, truth);
     for (const std::string& height : heights)
-      out << ',' << (plot.found ? height_at(plot.found->heights_m, height) : "");
+      out << "," << (plot.found ? height_at(plot.found->heights_m, height) : "");
     if (!intervals.empty()) write_trust(out, plot, intervals);
-    out << '\n';
+    out << "\n";
   }
-  if (!out.flush()) throw WriteError(path);
+  out.close();
 }
 
 }  // namespace plotscan::score

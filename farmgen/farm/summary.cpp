@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "terrain/extent.h"
 #include <Eigen/Geometry>

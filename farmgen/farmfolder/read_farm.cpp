@@ -14,7 +14,6 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/place_json.h"
-#include "farm/farm.h"
 #include "farm/heights.h"
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "farm/farm.h"
 #include "gazebo/export_options.h"
 #include "gazebo/labels.h"

@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/list_of.h"
 #include "farm/surface_colours.h"
 #include "gazebo/internal/obj_file.h"
 #include "mesh/obj.h"
@@ -92,11 +93,8 @@ class MergedPlants {
     for (const farm::Plant* plant : group.plants)
       for (const Surface& surface : surfaces_.models[plant->model])
         materials.insert(surface.material);
-    std::vector<MergedMesh> meshes;
-    meshes.reserve(materials.size());
-    for (const std::size_t material : materials)
-      meshes.push_back(write_mesh(model, group, material));
-    return meshes;
+    return list_of(materials,
+                   [&](std::size_t material) { return write_mesh(model, group, material); });
   }
 
   // The description of a model whose meshes are written.

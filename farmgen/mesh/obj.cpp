@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <string>
 
 #include "core/text_file.h"
 #include "mesh/alpha_mask.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cctype>
-#include <string>
 
 #include "core/text.h"
 

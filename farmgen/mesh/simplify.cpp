@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <meshoptimizer.h>
 
+#include "core/list_of.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::mesh {
@@ -145,8 +146,8 @@ Indices coarser(const Mesh& mesh, const Part& part) {
   Indices own(part.indices);
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
-  std::vector<Eigen::Vector3f> vertices;
-  for (const unsigned vertex : own) vertices.push_back(mesh.vertices[vertex]);
+  const std::vector<Eigen::Vector3f> vertices =
+      list_of(own, [&](unsigned vertex) { return mesh.vertices[vertex]; });
   Indices dense;
   for (const unsigned vertex : part.indices) {
     dense.push_back(

@@ -37,13 +37,13 @@ double overhang(const Eigen::AlignedBox2d& box, const Eigen::Vector2d& point) {
   for (const farm::Plot& each : plots)
     for (const Eigen::Vector2d& point : each.box.corners())
       needed_half_side = std::max(needed_half_side, point.cwiseAbs().maxCoeff());
-  throw InputError(
-      source, fmt::format("{} lies {} off the terrain, which spans x {} to {}, y {} to {}; these "
-                          "plots need a square terrain of side {}, or fewer, smaller or "
-                          "differently placed plots",
-                          where, metres(outside), metres(box.min().x()), metres(box.max().x()),
-                          metres(box.min().y()), metres(box.max().y()),
-                          metres(std::ceil(200 * needed_half_side) / 100)));
+  throw InputError(source,
+                   "{} lies {} off the terrain, which spans x {} to {}, y {} to {}; these "
+                   "plots need a square terrain of side {}, or fewer, smaller or "
+                   "differently placed plots",
+                   where, metres(outside), metres(box.min().x()), metres(box.max().x()),
+                   metres(box.min().y()), metres(box.max().y()),
+                   metres(std::ceil(200 * needed_half_side) / 100));
 }
 
 // Between the centres of neighbours, along the grid's own axes.

@@ -50,8 +50,8 @@ MadeTerrain xyz_terrain(const XyzDescription& description) {
   std::vector<Eigen::Vector3d> vertices = read_xyz(description.file);
   for (const Eigen::Vector3d& vertex : vertices) {
     if (vertex.cwiseAbs().maxCoeff() > kFarthestOnMap_m)
-      throw InputError(description.file,
-                       fmt::format("has a coordinate beyond {:g}; no map has", kFarthestOnMap_m));
+      throw InputError(description.file, "has a coordinate beyond {:g}; no map has",
+                       kFarthestOnMap_m);
   }
   std::optional<Eigen::Vector3d> origin_m;
   if (!description.keep_coordinates) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <iterator>
 #include <type_traits>
@@ -17,6 +18,14 @@ auto list_of(Items&& items, const Of& of) {
   list.reserve(std::size(items));
   for (auto&& item : items) list.emplace_back(std::invoke(of, item));
   return list;
+}
+
+// Those of the items of which `wanted`, a member or a function, is true, in their order.
+template <class Items, class Wanted>
+auto those_of(const Items& items, const Wanted& wanted) {
+  std::vector<std::decay_t<decltype(*std::begin(items))>> those;
+  std::ranges::copy_if(items, std::back_inserter(those), wanted);
+  return those;
 }
 
 }  // namespace plotscan

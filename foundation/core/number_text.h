@@ -3,8 +3,12 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <concepts>
+#include <string>
 #include <string_view>
+
+#include <fmt/core.h>
 
 namespace plotscan {
 
@@ -25,5 +29,10 @@ class NumberText {
   std::array<char, 32> text_;
   const char* end_ = nullptr;
 };
+
+// A number in the format, as tables for people have it: "-" for NaN.
+inline std::string cell(fmt::format_string<double&> format, double value) {
+  return std::isnan(value) ? "-" : fmt::format(format, value);
+}
 
 }  // namespace plotscan

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/internal/disk_error.h"
+#include "core/list_of.h"
 #include "core/manifest.h"
 #include "core/text.h"
 
@@ -62,8 +63,8 @@ void require_replaceable_folder(const fs::path& folder, const std::string& comma
   require_own_folder(folder, command);
   if (!is_taken(folder)) return;
   constexpr std::size_t kNamed = 5;
-  std::vector<std::string> strangers;
-  for (const fs::path& file : unlisted_files(folder)) strangers.push_back(file.string());
+  std::vector<std::string> strangers =
+      list_of(unlisted_files(folder), [](const fs::path& file) { return file.string(); });
   if (strangers.empty()) return;
   const std::size_t more = strangers.size() - std::min(strangers.size(), kNamed);
   strangers.resize(strangers.size() - more);

@@ -14,6 +14,7 @@
 #include "core/geodesy.h"
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
+#include "core/list_of.h"
 #include "core/place_json.h"
 #include "core/text_file.h"
 
@@ -49,7 +50,7 @@ json feature_of(const PlotFeature& plot, const Projection& projection) {
       {"geometry",
        {{"type", "Polygon"}, {"coordinates", json::array({ring_of(plot.box, projection)})}}},
       {"properties", std::move(properties)}};
-  if (plot.id) feature["id"] = plot.id->json();
+  if (plot.id) feature["id"] = *plot.id;
   return feature;
 }
 
@@ -96,9 +97,9 @@ const json& polygon_ring(const json& feature, const std::string& which) {
 }
 
 PlotBox rectangle_of(const json& ring, const Projection& metres, const std::string& which) {
-  std::vector<Eigen::Vector2d> corners;
-  for (const json& position : ring)
-    corners.push_back(metres({position.at(0).get<double>(), position.at(1).get<double>()}));
+  const std::vector<Eigen::Vector2d> corners = list_of(ring, [&](const json& position) {
+    return metres({position.at(0).get<double>(), position.at(1).get<double>()});
+  });
   const std::optional<RectangleFit> fit = fit_rectangle(corners);
   if (!fit) {
     throw InputError(fmt::format(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/csv.h"
+#include "core/error.h"
 #include "core/list_of.h"
 #include "core/text.h"
 
@@ -22,8 +23,14 @@ std::optional<PlotId> PlotId::from(const nlohmann::json& value) {
   return id;
 }
 
-nlohmann::json PlotId::json() const {
-  return is_number_ ? nlohmann::json::parse(text_) : nlohmann::json(text_);
+void to_json(nlohmann::json& document, const PlotId& id) {
+  document = id.is_number_ ? nlohmann::json::parse(id.text_) : nlohmann::json(id.text_);
+}
+
+void from_json(const nlohmann::json& value, PlotId& id) {
+  const std::optional<PlotId> read = PlotId::from(value);
+  if (!read) throw InputError("a plot's id is " + value.dump() + "; it is a number or a text");
+  id = *read;
 }
 
 std::string joined(const std::vector<PlotId>& ids) {

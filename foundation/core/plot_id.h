@@ -22,7 +22,9 @@ class PlotId {
   static std::optional<PlotId> from(const nlohmann::json& value);
 
   const std::string& text() const { return text_; }
-  nlohmann::json json() const;
+  friend void to_json(nlohmann::json& document, const PlotId& id);
+  // Throws InputError where `from` gives nothing.
+  friend void from_json(const nlohmann::json& value, PlotId& id);
 
   friend bool operator==(const PlotId& a, const PlotId& b) { return a.text_ == b.text_; }
   friend bool operator<(const PlotId& a, const PlotId& b) { return a.text_ < b.text_; }

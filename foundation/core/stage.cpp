@@ -10,11 +10,11 @@ namespace plotscan {
 Stage::Stage(std::string name) : name_(std::move(name)) {}
 
 Stage::~Stage() {
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+  const double seconds = watch_.seconds();
   const double processor_s = processor_time_s() - processor_start_s_;
   if (const auto logger = spdlog::get("plotscan"))
-    logger->info("{:<24} {:7.3f} s  {:7.3f} s of processors{}{}", name_, seconds.count(),
-                 processor_s, found_.empty() ? "" : "  ", found_);
+    logger->info("{:<24} {:7.3f} s  {:7.3f} s of processors{}{}", name_, seconds, processor_s,
+                 found_.empty() ? "" : "  ", found_);
 }
 
 }  // namespace plotscan

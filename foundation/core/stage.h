@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "core/processor_time.h"
+#include "core/stopwatch.h"
 
 namespace plotscan {
 
@@ -23,7 +23,7 @@ class Stage {
 
  private:
   std::string name_, found_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
   double processor_start_s_ = processor_time_s();
 };
 

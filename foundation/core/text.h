@@ -48,6 +48,12 @@ inline std::string with_escapes(
   return written;
 }
 
+// The text in quotes, as messages show it; as it is where it has its own.
+inline std::string in_quotes(std::string_view text) {
+  const std::string quote = text.starts_with('"') ? "" : "\"";
+  return quote + std::string(text) + quote;
+}
+
 // The text with its ASCII letters in lower case.
 inline std::string lower_case(std::string_view text) {
   std::string lower(text);

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
-#include <utility>
 
-#include <fmt/core.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include "core/error.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/page.h"
 
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/data_folder.h"
 #include "core/error.h"

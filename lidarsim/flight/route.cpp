@@ -6,6 +6,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 
 namespace plotscan::flight {
 namespace {
@@ -43,10 +44,8 @@ MotionLimits limits_along(const Quadrotor& quadrotor, const Eigen::Vector3d& way
 }  // namespace
 
 std::vector<Waypoint> waypoints_at(const std::vector<Eigen::Vector3d>& positions_m) {
-  std::vector<Waypoint> waypoints;
-  waypoints.reserve(positions_m.size());
-  for (const Eigen::Vector3d& position : positions_m) waypoints.push_back({.position_m = position});
-  return waypoints;
+  return list_of(positions_m,
+                 [](const auto& position) { return Waypoint{.position_m = position}; });
 }
 
 Route::Route(const Quadrotor& quadrotor, const std::vector<Waypoint>& waypoints, double speed_m_s,

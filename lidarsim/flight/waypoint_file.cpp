@@ -2,6 +2,7 @@
 #include "flight/waypoint_file.h"
 
 #include "core/angle.h"
+#include "core/list_of.h"
 #include "core/yaml_section.h"
 
 namespace plotscan::flight {
@@ -35,9 +36,7 @@ std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file) {
   const YamlSection root = YamlSection::load(file, {});
   const std::vector<YamlSection> sections = root.list("waypoints", kMostWaypoints);
   if (sections.size() < 2) root.fail("waypoints", "must list at least two");
-  std::vector<StatedWaypoint> waypoints;
-  waypoints.reserve(sections.size());
-  for (const YamlSection& section : sections) waypoints.push_back(read_waypoint(section));
+  std::vector<StatedWaypoint> waypoints = list_of(sections, read_waypoint);
   root.refuse_unread();
   if (waypoints.back().waypoint.speed_m_s)
     sections.back().fail("speed_m_s", "is of the way from a waypoint on, and this is the last");

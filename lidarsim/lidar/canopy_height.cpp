@@ -14,6 +14,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/each_index.h"
+#include "core/list_of.h"
 #include "core/stage.h"
 #include "core/statistics.h"
 #include "lidar/embree.h"
@@ -153,13 +154,11 @@ Eigen::AlignedBox3d box_of(const mesh::Mesh& mesh) {
 
 // The top of each plant's box, world frame.
 std::vector<double> tops_of_plants(const farm::Farm& farm) {
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const farm::PlantModel& model : farm.models) boxes.push_back(box_of(model.mesh));
-  std::vector<double> tops_m;
-  tops_m.reserve(farm.plants.size());
-  for (const farm::Plant& plant : farm.plants)
-    tops_m.push_back(boxes[plant.model].transformed(farm::world_from_plant(plant)).max().z());
-  return tops_m;
+  const std::vector<Eigen::AlignedBox3d> boxes =
+      list_of(farm.models, [](const farm::PlantModel& model) { return box_of(model.mesh); });
+  return list_of(farm.plants, [&](const farm::Plant& plant) {
+    return boxes[plant.model].transformed(farm::world_from_plant(plant)).max().z();
+  });
 }
 
 // The top of a scene of the whole farm. A scene of the highest plants has the same, to the last

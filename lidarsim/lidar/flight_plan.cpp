@@ -101,9 +101,8 @@ void require_path(const std::filesystem::path& file, const std::vector<Eigen::Ve
     length_m += leg_m;
   }
   if (length_m > flight::kMaxPath_m) {
-    throw InputError(file, "the flight would be " + format_number(std::round(length_m)) +
-                               " m long; at most " + format_number(flight::kMaxPath_m / 1000) +
-                               " km are allowed");
+    throw InputError(file, "the flight would be {} m long; at most {} km are allowed",
+                     format_number(std::round(length_m)), format_number(flight::kMaxPath_m / 1000));
   }
 }
 

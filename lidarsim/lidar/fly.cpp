@@ -14,7 +14,6 @@
 #include "lidar/fly_settings.h"
 #include "lidar/internal/drone_flight.h"
 #include "lidar/simulate.h"
-#include "lidar/sway.h"
 #include "record/scan_folder.h"
 #include "record/scan_formats.h"
 #include "scan/cloud_writer.h"
@@ -94,9 +93,7 @@ void write_flight(const std::filesystem::path& folder, const DroneFlight& flight
                   const sensor::Sensor& sensor) {
   scan::write_trajectory(folder / "trajectory.csv", flight.truth);
   scan::write_trajectory(folder / "poses.csv", flight.reported);
-  TextFile description(folder / "sensor.yaml");
-  description << sensor.description;
-  description.close();
+  write_text_file(folder / "sensor.yaml", sensor.description);
 }
 
 // What is flown over. `plants` is the content that the scene was made from, if it can sway.

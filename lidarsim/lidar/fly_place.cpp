@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/fly_place.h"
 
-#include <string>
-
 #include "farmfolder/read_farm.h"
 #include <fmt/core.h>
 

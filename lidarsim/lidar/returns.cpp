@@ -6,7 +6,6 @@
 #include <functional>
 #include <iterator>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "lidar/scene.h"
 
@@ -45,10 +46,9 @@ std::vector<Eigen::AlignedBox3d> bounds_of(const SceneContent& content) {
     for (const Eigen::Vector3f& vertex : content.meshes[i].vertices)
       mesh_bounds[i].extend(vertex.cast<double>());
   }
-  std::vector<Eigen::AlignedBox3d> bounds;
-  for (const PlacedMesh& placed : content.placed)
-    bounds.push_back(mesh_bounds[placed.mesh].transformed(placed.world_from_mesh));
-  return bounds;
+  return list_of(content.placed, [&](const PlacedMesh& placed) {
+    return mesh_bounds[placed.mesh].transformed(placed.world_from_mesh);
+  });
 }
 
 double horizontal_area(const Eigen::AlignedBox3d& box) { return box.sizes().head<2>().prod(); }

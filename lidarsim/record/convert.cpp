@@ -2,8 +2,6 @@
 #include "record/convert.h"
 
 #include <algorithm>
-#include <optional>
-#include <string>
 
 #include "core/coordinate_units.h"
 #include "core/error.h"
@@ -82,16 +80,16 @@ const Format& writable_format(const fs::path& out) {
                               ? "; .laz where built with LASzip (liblaszip-dev on Debian 13 and "
                                 "Ubuntu 24.04)"
                               : "";
-  throw InputError(out,
-                   "cannot be written: its name must end in one of " + writable_extensions() + laz);
+  throw InputError(out, "cannot be written: its name must end in one of {}{}",
+                   writable_extensions(), laz);
 }
 
 void require_options(const Format& format, const fs::path& out, const WriteOptions& options) {
   const auto& encodings = format.encodings;
   if (!options.encoding.empty() && std::ranges::count(encodings, options.encoding) == 0) {
-    throw InputError(out, "--encoding " + options.encoding + " is none of a " + format.name +
-                              (encodings.empty() ? ", which has but one"
-                                                 : "; there are " + joined(encodings, ", ")));
+    throw InputError(
+        out, "--encoding {} is none of a {}{}", options.encoding, format.name,
+        encodings.empty() ? ", which has but one" : "; there are " + joined(encodings, ", "));
   }
   if (!options.crs.empty() && !format.has_crs)
     throw InputError(out, "--crs is for LAS; a " + format.name + " has no coordinate system");
@@ -114,12 +112,10 @@ void require_writable(const Source& source, const fs::path& out, const WriteOpti
   require_options(format, out, options);
   if (format.needs_flight && !source.flight) {
     throw InputError(
-        out, "a " + format.name + " needs the flight; " +
-                 (source.trajectory
-                      ? "convert " + source.path.filename().string() +
-                            " to a .tum and to a cloud first, then the cloud with --trajectory"
-                      : "give a scan folder, or --trajectory FILE") +
-                 " (and --sensor, --spin, --mount, --start)");
+        out, "a {} needs the flight; {} (and --sensor, --spin, --mount, --start)", format.name,
+        source.trajectory ? "convert " + source.path.filename().string() +
+                                " to a .tum and to a cloud first, then the cloud with --trajectory"
+                          : "give a scan folder, or --trajectory FILE");
   }
 }
 

@@ -75,8 +75,8 @@ Part read_part(const fs::path& folder, bool only_one) {
 
 void require_one_flight(const Part& first, const Part& part) {
   const auto differs = [&](const char* what) {
-    throw InputError(part.folder, "is of another flight than " + first.folder.string() + ": " +
-                                      what + " differ");
+    throw InputError(part.folder, "is of another flight than {}: {} differ", first.folder.string(),
+                     what);
   };
   if (part.of != first.of) differs("the numbers of parts");
   for (const auto& [key, what] :
@@ -102,8 +102,9 @@ std::vector<Part> read_parts(const std::vector<fs::path>& folders) {
   };
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (parts[i].number == parts[i - 1].number)
-      throw InputError(parts[i].folder, "is " + name(static_cast<std::size_t>(parts[i].number)) +
-                                            ", as is " + parts[i - 1].folder.string());
+      throw InputError(parts[i].folder, "is {}, as is {}",
+                       name(static_cast<std::size_t>(parts[i].number)),
+                       parts[i - 1].folder.string());
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(parts.front().of); ++i) {
     if (i >= parts.size() || static_cast<std::size_t>(parts[i].number) != i + 1)

@@ -172,8 +172,7 @@ Source open_source(const fs::path& in, const SourceOptions& options) {
   if (format == nullptr) format = find_format("cloud.pcd");
   if (!format->open) throw InputError(in, "a " + format->name + " is written, but not read");
   if (!options.topic.empty() && !format->has_topics)
-    throw InputError(in,
-                     "--topic is for bags and MCAP files; a " + format->name + " has no topics");
+    throw InputError(in, "--topic is for bags and MCAP files; a {} has no topics", format->name);
   require_told_of_it(in, *format, options.flight);
   Source source =
       format->open(in, {.flight = told_flight(options),

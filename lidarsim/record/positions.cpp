@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 #include "record/open_source.h"
 
@@ -52,9 +53,8 @@ Source open_recording(const fs::path& file, const RecordingOptions& told) {
 }
 
 std::vector<Source> open_recordings(const CloudFiles& cloud) {
-  std::vector<Source> sources;
-  for (const fs::path& file : cloud.files) sources.push_back(open_recording(file, cloud.recording));
-  return sources;
+  return list_of(cloud.files,
+                 [&](const fs::path& file) { return open_recording(file, cloud.recording); });
 }
 
 // The body's first position, if it is known.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/cloud_facts.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"

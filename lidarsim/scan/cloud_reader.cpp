@@ -67,8 +67,8 @@ CloudFormat cloud_format(const std::filesystem::path& file) {
   if (start.empty()) throw InputError(file, "is empty; a PCD, PLY, LAS or text cloud is expected");
   const std::string_view foreign = foreign_file(start);
   if (foreign.empty() && is_text(start)) return CloudFormat::text;
-  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text" +
-                             (foreign.empty() ? "" : ", but " + std::string(foreign)));
+  throw InputError(file, "is neither a PCD, nor a PLY, nor a LAS cloud, nor text{}",
+                   foreign.empty() ? "" : ", but " + std::string(foreign));
 }
 
 CloudLayout read_header_of(CloudFormat format, const std::filesystem::path& file) {

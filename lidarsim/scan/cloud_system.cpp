@@ -33,12 +33,11 @@ void project(const std::filesystem::path& cloud, const CloudLayout& layout, cons
              CloudSystem& system) {
   const Eigen::Vector3d first = first_point(cloud, layout);
   if (std::abs(first.x()) > 360 || first.y() < -80 || first.y() > 84) {
-    throw InputError(cloud,
+    throw InputError(cloud, "{}, but its first point has longitude {}, latitude {}{}",
                      std::string(given.crs ? "is in degrees, as --crs " + *given.crs + " says"
-                                           : "says that x and y are degrees") +
-                         ", but its first point has longitude " + format_number(first.x()) +
-                         ", latitude " + format_number(first.y()) +
-                         (given.crs ? "" : "; --units says what they are"));
+                                           : "says that x and y are degrees"),
+                     format_number(first.x()), format_number(first.y()),
+                     given.crs ? "" : "; --units says what they are");
   }
   system.units.horizontal_m = 1;
   system.zone = utm_zone(geodetic(first));
@@ -70,9 +69,10 @@ void require_within_utm(const std::filesystem::path& name, const std::string& cr
   if (first.x() >= kLeastEasting_m && first.x() <= kMostEasting_m && first.y() >= 0 &&
       first.y() <= kMostNorthing_m)
     return;
-  throw InputError(name, "its first point, x " + format_number(first.x()) + ", y " +
-                             format_number(first.y()) + ", is no place of --crs " + crs +
-                             ": eastings are 100000 to 900000 m, northings 0 to 10000000 m");
+  throw InputError(name,
+                   "its first point, x {}, y {}, is no place of --crs {}: eastings are 100000 to "
+                   "900000 m, northings 0 to 10000000 m",
+                   format_number(first.x()), format_number(first.y()), crs);
 }
 
 // What the file states about x and y if that contradicts the user's word; else "".
@@ -176,8 +176,8 @@ CloudSystem read_cloud_system(const CloudFiles& cloud) {
     const bool same_place =
         in_degrees == first->zone.has_value() && (in_degrees || system.crs == first->crs);
     if (!same_place || system.units != first->units) {
-      throw InputError(file, "states another coordinate system or other units than " +
-                                 cloud.files.front().string());
+      throw InputError(file, "states another coordinate system or other units than {}",
+                       cloud.files.front().string());
     }
   }
   check(first.has_value(), "a cloud has files");

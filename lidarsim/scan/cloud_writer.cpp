@@ -115,9 +115,8 @@ void CompressedPcdWriter::write(std::span<const LabelledPoint> points) {
   const std::size_t before = records_.size();
   const std::size_t after = before + points.size() * record_.size();
   if (after > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError(path_, "a compressed PCD holds at most 4 GiB, " +
-                                std::to_string((std::size_t{1} << 32) / record_.size()) +
-                                " points; write binary PCD");
+    throw InputError(path_, "a compressed PCD holds at most 4 GiB, {} points; write binary PCD",
+                     (std::size_t{1} << 32) / record_.size());
   }
   records_.resize(after);
   char* record = records_.data() + before;

@@ -130,9 +130,10 @@ std::array<std::int32_t, 3> LasWriter::steps_of(const LabelledPoint& point) cons
       const std::string which = "point " + std::to_string(points_ + 1);
       if (!std::isfinite(step))
         throw InputError(path_, which + " has no finite x, y and z, as each point of LAS has");
-      throw InputError(path_, which +
-                                  " lies more than 214 km from the file's origin, which LAS cannot "
-                                  "hold in steps of 0.1 mm");
+      throw InputError(path_,
+                       "{} lies more than 214 km from the file's origin, which LAS cannot hold in "
+                       "steps of 0.1 mm",
+                       which);
     }
     steps[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(step);
   }

@@ -145,9 +145,9 @@ CloudSummary read_points(const std::filesystem::path& cloud, const CloudInfo& in
     for (std::size_t i = 0; i < selection.known.size(); ++i) {
       const auto& [known, unit] = selection.known[i];
       if (known->put(point, row[3 + i] * unit)) continue;
-      throw InputError(cloud, "point " + std::to_string(summary.points + summary.not_finite + 1) +
-                                  ": \"" + selection.fields[3 + i].name + "\" is " +
-                                  format_number(row[3 + i]) + ", which is no " + known->name);
+      throw InputError(cloud, "point {}: \"{}\" is {}, which is no {}",
+                       summary.points + summary.not_finite + 1, selection.fields[3 + i].name,
+                       format_number(row[3 + i]), known->name);
     }
     point.time += shift_s;
     points.push_back(point);

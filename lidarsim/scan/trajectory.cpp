@@ -29,9 +29,9 @@ Eigen::AngleAxisd shorter_turn(const Eigen::Quaterniond& a, const Eigen::Quatern
 void require_flight_time(const std::filesystem::path& file, const Trajectory& trajectory) {
   const double taken_s = trajectory.end_s() - trajectory.start_s();
   if (taken_s <= kLongestFlight_s) return;
-  throw InputError(file, "the flight takes " + format_number(taken_s) + " s; at most " +
-                             format_number(kLongestFlight_s) +
-                             " s are allowed (the file's times are in seconds)");
+  throw InputError(
+      file, "the flight takes {} s; at most {} s are allowed (the file's times are in seconds)",
+      format_number(taken_s), format_number(kLongestFlight_s));
 }
 
 std::string pose_error(const StampedPose& pose, double previous_s) {

@@ -35,7 +35,7 @@ std::string append_pose(const std::array<double, kColumns>& v, std::vector<Stamp
 
 double parse_number(const std::filesystem::path& file, std::size_t line, const std::string& word) {
   const auto value = parsed<double>(without_plus(word));
-  if (!value) throw InputError(file, line, "\"" + word + "\" is not a number");
+  if (!value) throw InputError(file, line, in_quotes(word) + " is not a number");
   return *value;
 }
 
@@ -54,9 +54,8 @@ std::vector<StampedPose> read_tum(const std::filesystem::path& file) {
     }
     if (count == 0) continue;
     if (count != kColumns) {
-      throw InputError(
-          file, line_number,
-          "has " + std::to_string(count) + " numbers; the 8 of t x y z qx qy qz qw are expected");
+      throw InputError(file, line_number,
+                       "has {} numbers; the 8 of t x y z qx qy qz qw are expected", count);
     }
     const std::string error = append_pose(values, poses);
     if (!error.empty()) throw InputError(file, line_number, error);
@@ -79,10 +78,8 @@ std::vector<StampedPose> read_trajectory_csv(const std::filesystem::path& file) 
 bool has_commas(const std::filesystem::path& file) {
   std::ifstream in(file);
   for (std::string whole; std::getline(in, whole);) {
-    const std::string_view line = without_byte_order_mark(whole);
-    const auto first = line.find_first_not_of(" \t\r");
-    if (first != std::string_view::npos && line[first] != '#')
-      return line.find(',') != std::string_view::npos;
+    const std::string_view line = without_blanks(without_byte_order_mark(whole));
+    if (!line.empty() && line.front() != '#') return line.find(',') != std::string_view::npos;
   }
   return false;
 }
@@ -108,8 +105,7 @@ Trajectory read_trajectory(const std::filesystem::path& file) {
   require_file(file);
   std::vector<StampedPose> poses = has_commas(file) ? read_trajectory_csv(file) : read_tum(file);
   if (poses.size() < 2)
-    throw InputError(file, "a trajectory needs at least two poses; the file has " +
-                               std::to_string(poses.size()));
+    throw InputError(file, "a trajectory needs at least two poses; the file has {}", poses.size());
   return Trajectory(std::move(poses));
 }
 

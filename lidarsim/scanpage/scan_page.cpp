@@ -7,12 +7,12 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/plot_features.h"
 #include "ground/surface.h"
 #include "record/scan_folder.h"
-#include "report/page.h"
 #include "report/shown_field.h"
 #include "report/shown_grid.h"
 #include "scanpage/read_cloud.h"
@@ -69,9 +69,7 @@ std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownClou
 
 // The ground fitted under a cloud's shown points; nothing if they show none.
 std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, int threads) {
-  std::vector<Eigen::Vector3f> places;
-  places.reserve(cloud.points.size());
-  for (const report::ShownPoint& point : cloud.points) places.push_back(point.place);
+  const std::vector<Eigen::Vector3f> places = list_of(cloud.points, &report::ShownPoint::place);
   try {
     return report::shown_grid(ground::fit_surface(places, {.threads = threads}), cloud.origin);
   } catch (const InputError&) {

@@ -15,9 +15,9 @@ TEST(PlotId, StaysWhatItIsGivenAs) {
        {"101", "-7", "18446744073709551615", "\"A-12\"", "\"0101\"", "\"101\"", "1.5"}) {
     const auto id = PlotId::from(json::parse(value));
     ASSERT_TRUE(id) << value;
-    EXPECT_EQ(id->json().dump(), value);
+    EXPECT_EQ(json(*id).dump(), value);
   }
-  EXPECT_EQ(PlotId(42).json().dump(), "42");
+  EXPECT_EQ(json(PlotId(42)).dump(), "42");
 }
 
 TEST(PlotId, IsTheSameWhereItReadsAlike) {

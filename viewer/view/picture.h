@@ -3,10 +3,7 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/plot_box.h"
 #include "farm/farm.h"

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <string>
 #include <system_error>
 #include <thread>
 #include <utility>

@@ -4,16 +4,14 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
 
 namespace plotscan::farmbench {
 namespace {
 
 std::string places_of(const std::map<std::string, std::string>& values) {
-  std::vector<std::string> names;
-  names.reserve(values.size());
-  for (const auto& [name, value] : values) names.push_back("{" + name + "}");
-  return joined(names, ", ");
+  return joined(list_of(values, [](const auto& value) { return "{" + value.first + "}"; }), ", ");
 }
 
 std::string filled_in(const std::string& word, const std::map<std::string, std::string>& values) {
@@ -69,10 +67,7 @@ std::vector<std::string> split_command(const std::string& command) {
 
 std::vector<std::string> substituted(const std::vector<std::string>& words,
                                      const std::map<std::string, std::string>& values) {
-  std::vector<std::string> arguments;
-  arguments.reserve(words.size());
-  for (const std::string& word : words) arguments.push_back(filled_in(word, values));
-  return arguments;
+  return list_of(words, [&](const std::string& word) { return filled_in(word, values); });
 }
 
 bool names_place(const std::vector<std::string>& words, const std::string& name) {

@@ -10,6 +10,7 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
@@ -29,7 +30,7 @@ constexpr std::array<const char*, 5> kClasses = {"unlabelled", "ground", "crop",
 constexpr std::array<const char*, 3> kSplits = {"train", "validation", "test"};
 
 json plot_json(const score::TruePlot& plot) {
-  return {{"plot", plot.id.json()},
+  return {{"plot", plot.id},
           {"center_m", {plot.box.center.x(), plot.box.center.y()}},
           {"width_m", plot.box.width_m},
           {"length_m", plot.box.length_m},
@@ -54,8 +55,8 @@ std::vector<Sequence> sequences_of(const Suite& suite) {
   std::vector<Sequence> sequences;
   for (const SuiteCase& suite_case : suite.cases) {
     if (suite_case.survey)
-      throw InputError(suite.file, "case " + suite_case.name +
-                                       " surveys a part of a field; data sets have whole ones");
+      throw InputError(suite.file, "case {} surveys a part of a field; data sets have whole ones",
+                       suite_case.name);
     for (std::size_t i = 0; i < suite.seeds.size(); ++i)
       sequences.push_back(
           {suite_case, suite.seeds[i], fmt::format("{:02}", sequences.size()), split_of(i)});
@@ -77,8 +78,7 @@ json write_sequence(const Sequence& sequence, const fs::path& folder, const fs::
   document["split"] = sequence.split;
   document["case"] = sequence.suite_case.name;
   document["seed"] = sequence.seed;
-  document["plots"] = json::array();
-  for (const score::TruePlot& plot : plots) document["plots"].push_back(plot_json(plot));
+  document["plots"] = list_of(plots, plot_json);
   fs::remove_all(work);
   return document;
 }

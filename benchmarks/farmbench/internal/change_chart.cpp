@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/method_rows.h"
 
@@ -64,14 +65,7 @@ const char* colour(const Palette& palette, const std::string& row) {
 
 // Text as it may stand in HTML and SVG.
 std::string escaped(const std::string& text) {
-  static const std::map<char, std::string> entities = {
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
-  std::string result;
-  for (const char c : text) {
-    const auto entity = entities.find(c);
-    result += entity == entities.end() ? std::string(1, c) : entity->second;
-  }
-  return result;
+  return with_escapes(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}});
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* style) {

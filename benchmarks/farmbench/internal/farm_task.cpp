@@ -144,8 +144,8 @@ void read_times(const fs::path& output, FarmResult& result) {
   try {
     set_times(result, json::parse(read_json_text(file)));
   } catch (const json::exception& error) {
-    throw InputError(file, "not the times of a farm (" + json_reason(error) +
-                               "); without this file they are not known");
+    throw InputError(file, "not the times of a farm ({}); without this file they are not known",
+                     json_reason(error));
   }
 }
 
@@ -160,8 +160,8 @@ void run_task(FarmTask& task, const Suite& suite, const RunOptions& options, con
   try {
     run_in(work / task.name, task, suite, options, threads, progress);
   } catch (const InputError& error) {
-    throw InputError(options.suite, "case " + task.suite_case.name + ", seed " +
-                                        std::to_string(task.seed) + ": " + error.what());
+    throw InputError(options.suite, "case {}, seed {}: {}", task.suite_case.name, task.seed,
+                     error.what());
   }
 }
 

@@ -46,8 +46,8 @@ void require_known(const YamlSection& section, const std::string& key,
     section.fail(key, std::string("does not hold: ") + error.what());
   }
   if (key == "start_utc" && !parse_utc(flight.start_utc))
-    section.fail(
-        key, "\"" + flight.start_utc + "\" is not like 2026-06-01T10:00:00Z, from 1980 to 2099");
+    section.fail(key, "\"{}\" is not like 2026-06-01T10:00:00Z, from 1980 to 2099",
+                 flight.start_utc);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "core/yaml_section.h"
 #include "lidar/fly_settings.h"
 

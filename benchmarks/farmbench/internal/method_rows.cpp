@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "score/height_score.h"
 
 namespace plotscan::farmbench {
@@ -15,6 +16,13 @@ std::string row_name(const std::string& method, const std::string& height) {
   return method.substr(0, space) + "/" + height + method.substr(space);
 }
 
+std::vector<MethodHeight> rows_of(const std::string& method,
+                                  const std::vector<std::string>& heights) {
+  return list_of(heights, [&](const std::string& height) {
+    return MethodHeight{height, row_name(method, height)};
+  });
+}
+
 std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::string& method) {
   if (std::ranges::count(result.entered, method) == 0) return method_named(method).heights;
   std::set<std::string> names;
@@ -22,11 +30,8 @@ std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::strin
     for (const MethodResult& run : farm.methods)
       if (run.method == method) names.merge(score::estimated_heights(run.score));
   }
-  std::vector<MethodHeight> heights;
-  heights.reserve(names.size());
-  for (const std::string& name : names) heights.push_back({name, row_name(method, name)});
-  if (heights.empty()) heights.push_back({"", method});
-  return heights;
+  if (names.empty()) return {{"", method}};
+  return rows_of(method, {names.begin(), names.end()});
 }
 
 void require_methods(const SuiteResult& result) {

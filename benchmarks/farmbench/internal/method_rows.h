@@ -12,6 +12,10 @@ namespace plotscan::farmbench {
 // "lattice/max true-boxes": of a method's name, what comes after its first word follows the height.
 std::string row_name(const std::string& method, const std::string& height);
 
+// Heights of a method, each with its row.
+std::vector<MethodHeight> rows_of(const std::string& method,
+                                  const std::vector<std::string>& heights);
+
 // The heights of one of the result's methods and their rows in tables: a known method's own, else
 // those that an entered one gave of any plot. Of one that gave none, a single row called as the
 // method, without a height.

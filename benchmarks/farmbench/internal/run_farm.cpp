@@ -2,10 +2,7 @@
 #include "farmbench/internal/run_farm.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
-#include <limits>
-#include <optional>
 
 #include "cloud/cloud_map.h"
 #include "description/load_description.h"
@@ -13,7 +10,9 @@
 
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "core/manifest.h"
+#include "core/stopwatch.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/methods.h"
 #include "lidar/fly_settings.h"
@@ -36,7 +35,7 @@ cloud::Area field_area(const std::vector<score::TruePlot>& plots, double margin_
 
 MethodRun run_method(const Method& method, const Field& field) {
   MethodRun run{.estimate = {.method = method.name}, .result = {.method = method.name}};
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const double spared_s = field.found.spared_s();
   try {
     run.estimate = method.estimate(field);
@@ -45,8 +44,7 @@ MethodRun run_method(const Method& method, const Field& field) {
   } catch (const InputError& error) {
     run.result.failure = error.what();
   }
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  run.result.seconds = took.count() + field.found.spared_s() - spared_s;
+  run.result.seconds = watch.seconds() + field.found.spared_s() - spared_s;
   return run;
 }
 
@@ -62,12 +60,6 @@ MethodRun run_named(const std::string& name, const Suite& suite, const Field& fi
 
 void report_share(const ProgressReport& progress, double share) {
   if (progress) progress(share);
-}
-
-std::vector<score::TruePlot> scored(const std::vector<score::TruePlot>& plots) {
-  std::vector<score::TruePlot> some;
-  std::ranges::copy_if(plots, std::back_inserter(some), &score::TruePlot::scored);
-  return some;
 }
 
 FarmResult farm_result(const FarmRun& run, const lidar::FlySummary& flown) {
@@ -126,7 +118,7 @@ FarmResult run_on_scan(const FarmRun& run, const farm::Farm& farm, const FieldSc
                        const std::vector<score::TruePlot>& truth, const cloud::Area& shown,
                        const ProgressReport& progress) {
   const auto& [suite_case, seed, folder, threads] = run.place;
-  const std::vector<score::TruePlot> plots = scored(truth);
+  const std::vector<score::TruePlot> plots = those_of(truth, &score::TruePlot::scored);
   const fs::path poses = folder / "scan" / "poses.csv";
   FoundFields found(scan.scanned.cloud);
   const Field field{.cloud = scan.scanned.cloud,
@@ -182,7 +174,7 @@ FarmResult run_farm(const FarmRun& run, const ProgressReport& progress) {
   const FarmPlace& place = run.place;
   const farm::Farm farm = make_farm(place);
   std::vector<score::TruePlot> truth = standing_plots(place);
-  const std::vector<score::TruePlot> plots = scored(truth);
+  const std::vector<score::TruePlot> plots = those_of(truth, &score::TruePlot::scored);
   const cloud::Area shown = field_area(truth, kShown_m);
   std::optional<FieldScan> scan;
   try {

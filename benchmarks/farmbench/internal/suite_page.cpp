@@ -7,8 +7,8 @@
 #include <set>
 #include <string>
 
+#include "core/list_of.h"
 #include "core/output_file.h"
-#include "farmbench/format.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/internal/sweep_table.h"
@@ -89,18 +89,13 @@ json series_of(const SuiteResult& result, const std::string& method, const Metho
 json farms_of(const SuiteResult& result) {
   json farms = json::array();
   for (const FarmResult& farm : result.farms) {
-    json numbers = json::array();
-    for (const score::PlotScore& plot : plots_of(farm)) numbers.push_back(plot.truth.id.json());
-    farms.push_back(
-        {{"case", farm.case_name}, {"seed", farm.seed}, {"plot_numbers", std::move(numbers)}});
+    farms.push_back({{"case", farm.case_name},
+                     {"seed", farm.seed},
+                     {"plot_numbers", list_of(plots_of(farm), [](const score::PlotScore& plot) {
+                        return plot.truth.id;
+                      })}});
   }
   return farms;
-}
-
-json rows_of(const std::vector<TableRow>& table) {
-  json rows = json::array();
-  for (const TableRow& row : table) rows.push_back(packed(row));
-  return rows;
 }
 
 // Those of heights that reports hold against the truth.
@@ -126,8 +121,8 @@ json suite_document(const SuiteResult& result, const std::vector<TableRow>& tabl
                    {"cases", result.cases},
                    {"truths", shown_truths(result, table)},
                    {"farms", farms_of(result)},
-                   {"table", rows_of(shown_rows(table))},
-                   {"boxes", rows_of(plot_rows(result, table))}};
+                   {"table", list_of(shown_rows(table), packed)},
+                   {"boxes", list_of(plot_rows(result, table), packed)}};
   if (result.sweep) {
     document["sweep"] = sweep_of(result);
     return document;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/list_of.h"
 #include "core/text.h"
 #include "farmbench/internal/flight_section.h"
 #include "farmbench/methods.h"
@@ -26,10 +27,8 @@ const lidar::FlySetting& setting_of(const YamlSection& axes, const std::string& 
   const auto& settings = lidar::fly_settings();
   const auto found = std::ranges::find(settings, key, &lidar::FlySetting::key);
   if (found != settings.end() && can_vary(*found)) return *found;
-  std::vector<std::string> known;
-  for (const lidar::FlySetting& setting : settings)
-    if (can_vary(setting)) known.push_back(setting.key);
-  axes.fail(key, "is no option of a flight that can vary; these can: " + joined(known, ", "));
+  axes.fail(key, "is no option of a flight that can vary; these can: {}",
+            joined(list_of(those_of(settings, can_vary), &lidar::FlySetting::key), ", "));
 }
 
 // A value as a part of a file's name: of a sensor's own file, that file's name.
@@ -86,8 +85,8 @@ std::string read_height(const YamlSection& root, const Suite& suite) {
   const std::string& name = suite.methods.front();
   if (std::ranges::find(suite.commands, name, &CommandMethod::name) != suite.commands.end())
     return root.text("height", "mean");
-  std::vector<std::string> heights;
-  for (const MethodHeight& height : method_named(name).heights) heights.push_back(height.height);
+  const std::vector<std::string> heights =
+      list_of(method_named(name).heights, &MethodHeight::height);
   const std::size_t mean = std::ranges::find(heights, "mean") - heights.begin();
   return heights[root.choice("height", heights, mean < heights.size() ? mean : 0)];
 }

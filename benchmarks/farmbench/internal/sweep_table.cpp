@@ -8,6 +8,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
 #include "farmbench/format.h"
 #include "farmbench/internal/failures.h"
@@ -24,17 +25,10 @@ std::size_t place_of(const SuiteResult& result, const std::string& case_name) {
 }
 
 Cells values_of(const SuiteResult& result, const TableRow& row) {
-  Cells cells;
-  for (const nlohmann::json& value : combination(*result.sweep, place_of(result, row.case_name)))
-    cells.push_back(text_of(value));
-  return cells;
+  return list_of(combination(*result.sweep, place_of(result, row.case_name)), text_of);
 }
 
-Cells axis_keys(const SuiteResult& result) {
-  Cells keys;
-  for (const SweepAxis& axis : result.sweep->axes) keys.push_back(axis.key);
-  return keys;
-}
+Cells axis_keys(const SuiteResult& result) { return list_of(result.sweep->axes, &SweepAxis::key); }
 
 // A value with this many decimals; an empty field where it could not be computed.
 std::string rounded(double value, int decimals) {
@@ -90,10 +84,10 @@ Cells told(const SuiteResult& result, const TableRow& row) {
   Cells cells = values_of(result, row);
   cells.insert(
       cells.end(),
-      {with_interval(row.height.rmse_m, row.rmse_95_m), number("{:+.2f}", 100 * row.height.bias_m),
+      {with_interval(row.height.rmse_m, row.rmse_95_m), cell("{:+.2f}", 100 * row.height.bias_m),
        fmt::format("{} of {}", row.boxes.found, row.boxes.plots), std::to_string(row.boxes.extra),
-       std::isnan(cost.flight_s) ? "none" : number("{:.0f}", cost.flight_s),
-       number("{:.2f}", 1e-6 * cost.points)});
+       std::isnan(cost.flight_s) ? "none" : cell("{:.0f}", cost.flight_s),
+       cell("{:.2f}", 1e-6 * cost.points)});
   return cells;
 }
 
@@ -129,12 +123,9 @@ std::vector<FlightCost> flight_costs(const SuiteResult& result) {
 }
 
 std::vector<TableRow> sweep_rows(const SuiteResult& result, const std::vector<TableRow>& table) {
-  std::vector<TableRow> rows;
-  std::ranges::copy_if(table, std::back_inserter(rows),
-                       [&, asked = asked_row(result)](const TableRow& row) {
-                         return row.method == asked && row.truth == result.sweep->truth;
-                       });
-  return rows;
+  return those_of(table, [&, asked = asked_row(result)](const TableRow& row) {
+    return row.method == asked && row.truth == result.sweep->truth;
+  });
 }
 
 std::optional<std::size_t> flight_needed(const SuiteResult& result,
@@ -185,9 +176,8 @@ std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow
   std::string text = "# Sweep " + result.suite + "\n\n" + about(result) +
                      ", with 95 % bootstrap intervals over farms.\n\n";
   if (const std::string said = answer(result, rows); !said.empty()) text += said + "\n\n";
-  std::vector<Cells> lines;
-  lines.reserve(rows.size());
-  for (const TableRow& row : rows) lines.push_back(told(result, row));
+  const std::vector<Cells> lines =
+      list_of(rows, [&](const TableRow& row) { return told(result, row); });
   return text + markdown_table(told_heads(result), lines) + failure_list("Gave up:", result);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/manifest.h"
+#include "core/stopwatch.h"
 #include "farmbench/format.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
@@ -37,15 +37,14 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
   options.seed = program.common().seed;
   options.build = file_hash("/proc/self/exe");
   if (options.jobs == 0) options.jobs = options.threads;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const farmbench::RunSummary summary =
       farmbench::run(options, program.progress(options.suite.stem().string()),
                      [&](const farmbench::FarmResult& farm, double farm_seconds) {
                        program.log(fmt::format("case {}, seed {}: {:.1f} s", farm.case_name,
                                                farm.seed, farm_seconds));
                      });
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = watch.seconds();
   program.say(fmt::format("{}, {} of them run before, {:.0f} s",
                           farmbench::counted(summary.result.farms.size(), "farm"), summary.resumed,
                           seconds));

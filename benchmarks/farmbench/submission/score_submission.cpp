@@ -188,12 +188,13 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
 void require_addable(const Entry& entry, const SuiteResult& earlier,
                      const ScoreSubmissionOptions& options) {
   if (std::ranges::count(earlier.methods, entry.method) > 0)
-    throw InputError(options.submission,
-                     "\"" + entry.method + "\" is the name of another method of the results");
+    throw InputError(options.submission, "\"{}\" is the name of another method of the results",
+                     entry.method);
   if (const EnteredFarm* farm = farm_of_other_truth(entry, earlier))
-    throw InputError(*options.output / "results.json",
-                     "case " + farm->case_name + ", seed " + std::to_string(farm->seed) +
-                         " has another truth than the suite's farm has now; run the suite again");
+    throw InputError(
+        *options.output / "results.json",
+        "case {}, seed {} has another truth than the suite's farm has now; run the suite again",
+        farm->case_name, farm->seed);
 }
 
 void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, SuiteResult result) {

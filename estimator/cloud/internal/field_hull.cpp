@@ -9,6 +9,7 @@
 #include "cloud/convex_hull.h"
 
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 
 namespace plotscan::cloud {
@@ -25,18 +26,13 @@ Tile coarse(Tile tile, int bits) { return {tile.x >> bits, tile.y >> bits}; }
 std::vector<TileCount> coarsened(std::span<const TileCount> counts) {
   std::map<Tile, std::uint64_t> sums;
   for (const TileCount& count : counts) sums[coarse(count.tile, 1)] += count.points;
-  std::vector<TileCount> result;
-  result.reserve(sums.size());
-  for (const auto& [tile, points] : sums) result.push_back({tile, points});
-  return result;
+  return list_of(sums, [](const auto& sum) { return TileCount{sum.first, sum.second}; });
 }
 
 // The count of the square that holds the median point. Unlike the median of all squares, it does
 // not fall when the surroundings are wide and thinly scanned.
 std::uint64_t typical_count(std::span<const TileCount> counts) {
-  std::vector<std::uint64_t> points;
-  for (const TileCount& count : counts) points.push_back(count.points);
-  return self_weighted_median(std::move(points));
+  return self_weighted_median(list_of(counts, &TileCount::points));
 }
 
 // The dense squares with enough dense neighbours: a single square of thin surroundings may be dense
@@ -47,8 +43,7 @@ std::vector<Tile> dense_squares(std::span<const TileCount> counts) {
   for (const TileCount& count : counts)
     if (static_cast<double>(count.points) >= threshold) dense.push_back(count.tile);
   const auto is_dense = [&](Tile tile) { return std::ranges::binary_search(dense, tile); };
-  std::vector<Tile> firm;
-  std::ranges::copy_if(dense, std::back_inserter(firm), [&](Tile tile) {
+  std::vector<Tile> firm = those_of(dense, [&](Tile tile) {
     int neighbours = -1;  // itself
     for (const int dx : {-1, 0, 1})
       for (const int dy : {-1, 0, 1}) neighbours += is_dense({tile.x + dx, tile.y + dy});

@@ -15,8 +15,8 @@ std::size_t column_of(const std::filesystem::path& file, const CsvTable& table,
     if (found != table.columns.end())
       return static_cast<std::size_t>(found - table.columns.begin());
   }
-  throw InputError(file, "has no column " + joined(names, " or ") + advice + "; its columns are " +
-                             joined(table.columns, ", "));
+  throw InputError(file, "has no column {}{}; its columns are {}", joined(names, " or "), advice,
+                   joined(table.columns, ", "));
 }
 
 }  // namespace plotscan::estimate

@@ -65,8 +65,9 @@ OGRLayer& layer_of_plots(const fs::path& file, GDALDataset& map) {
   }
   if (layers.empty()) throw InputError(file, "has no layer of polygons");
   if (layers.size() > 1) {
-    throw InputError(file, "has several layers of polygons: " + joined(names, ", ") +
-                               "; save that of the plots as a file of its own");
+    throw InputError(
+        file, "has several layers of polygons: {}; save that of the plots as a file of its own",
+        joined(names, ", "));
   }
   return *layers.front();
 }
@@ -81,9 +82,10 @@ std::string crs_of(const fs::path& file, const OGRSpatialReference* system) {
   const std::string epsg = has_code ? std::string("EPSG:") + code : "";
   const std::string name = system->GetName() == nullptr ? "unnamed" : system->GetName();
   if (system->IsGeographic() && !is_geographic(epsg)) {
-    throw InputError(file, "is in longitude and latitude of the system \"" + name + "\"" +
-                               (has_code ? " (" + epsg + ")" : "") +
-                               ", which is not known here; save it in the cloud's system");
+    throw InputError(file,
+                     "is in longitude and latitude of the system \"{}\"{}, which is not known "
+                     "here; save it in the cloud's system",
+                     name, has_code ? " (" + epsg + ")" : "");
   }
   return has_code ? std::string("urn:ogc:def:crs:EPSG::") + code : name;
 }
@@ -172,8 +174,8 @@ json read_vector_map(const fs::path& file) {
 nlohmann::json read_vector_map(const fs::path& file) {
   throw InputError(file,
                    "is a GeoPackage or shapefile, and this build has no GDAL to read it with; "
-                   "ogr2ogr -f GeoJSON map.geojson " +
-                       file.filename().string() + " makes a map that it reads");
+                   "ogr2ogr -f GeoJSON map.geojson {} makes a map that it reads",
+                   file.filename().string());
 }
 #endif
 

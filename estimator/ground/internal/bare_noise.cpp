@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <Eigen/Dense>
 
+#include "core/list_of.h"
 #include "core/statistics.h"
 
 namespace plotscan::ground {
@@ -182,9 +181,7 @@ std::vector<BlockSpread> block_spreads(const Columns& columns) {
 double bare_noise_m(const std::vector<BlockSpread>& blocks) {
   constexpr double kUsual_m = 0.03;
   if (blocks.size() < kLeastBlocks) return kUsual_m;
-  std::vector<double> spreads;
-  spreads.reserve(blocks.size());
-  for (const BlockSpread& block : blocks) spreads.push_back(block.sigma_m);
+  std::vector<double> spreads = list_of(blocks, &BlockSpread::sigma_m);
   const double most_m = kBareTimes * lowest_of(spreads, kSurelyBare);
   double noise_m = lowest_of(spreads, kPercentile);
   if (noise_m > most_m && blocks.front().width_m <= kWidestBare_m) {  // fewer are bare

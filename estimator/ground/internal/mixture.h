@@ -3,7 +3,6 @@
 
 #include "ground/columns.h"
 #include "ground/grid.h"
-#include "ground/internal/solver.h"
 
 namespace plotscan::ground {
 

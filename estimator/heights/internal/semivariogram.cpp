@@ -2,7 +2,6 @@
 #include "heights/internal/semivariogram.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/csv.h"
 #include "core/statistics.h"

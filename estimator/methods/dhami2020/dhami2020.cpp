@@ -19,6 +19,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "core/trial_layout.h"
 #include "estimate/given_plots.h"
 
@@ -32,20 +33,15 @@ constexpr int kMostThreads = 1024;
 
 // The z filter: what stands more than min_height_m above the levelled ground.
 Cloud canopy_of(const Cloud& voxels, const GroundLevel& level, double min_height_m) {
-  Cloud canopy;
-  std::ranges::copy_if(voxels, std::back_inserter(canopy), [&](const Eigen::Vector3f& point) {
-    return level.height_of(point) > min_height_m;
-  });
-  return canopy;
+  return those_of(
+      voxels, [&](const Eigen::Vector3f& point) { return level.height_of(point) > min_height_m; });
 }
 
 // The points in an area given in the world frame.
 Cloud inside(const Cloud& points, const cloud::Area& area, const Eigen::Vector3d& origin) {
-  Cloud kept;
-  std::ranges::copy_if(points, std::back_inserter(kept), [&](const Eigen::Vector3f& point) {
+  return those_of(points, [&](const Eigen::Vector3f& point) {
     return cloud::holds(area, origin.head<2>() + point.head<2>().cast<double>());
   });
-  return kept;
 }
 
 Clustering cluster(const Cloud& canopy, std::size_t voxels, const Options& options) {
@@ -81,15 +77,10 @@ std::vector<PlotBox> cluster_boxes(const Cloud& canopy, const Clustering& cluste
 // The plot's heading, width and length, each voted by the clusters' boxes.
 PlotBox voted_box(const std::vector<PlotBox>& boxes, const Options& options,
                   estimate::Diagnostics& diagnostics) {
-  std::vector<double> headings, widths, lengths;
-  for (const PlotBox& box : boxes) {
-    headings.push_back(box.heading_rad);
-    widths.push_back(box.width_m);
-    lengths.push_back(box.length_m);
-  }
-  const Vote heading = vote_heading(headings, options.orientation_bin_rad);
-  const Vote width = vote(widths, options.width_bin_m);
-  const Vote length = vote(lengths, options.length_bin_m);
+  const Vote heading =
+      vote_heading(list_of(boxes, &PlotBox::heading_rad), options.orientation_bin_rad);
+  const Vote width = vote(list_of(boxes, &PlotBox::width_m), options.width_bin_m);
+  const Vote length = vote(list_of(boxes, &PlotBox::length_m), options.length_bin_m);
   diagnostics.of_method["votes"] = {{"clusters", boxes.size()},
                                     {"heading", heading.votes},
                                     {"width", width.votes},
@@ -144,9 +135,7 @@ void find_plots(const cloud::CloudMap& map, const Cloud& voxels, const Options& 
   const Clustering clustering = cluster(learnt, voxels.size(), options);
   const std::vector<PlotBox> boxes = cluster_boxes(learnt, clustering);
   const PlotBox plot = voted_box(boxes, options, estimate.diagnostics);
-  std::vector<Eigen::Vector2d> centers;
-  centers.reserve(boxes.size());
-  for (const PlotBox& box : boxes) centers.push_back(box.center);
+  const std::vector<Eigen::Vector2d> centers = list_of(boxes, &PlotBox::center);
   std::optional<Lattice> lattice = fit_lattice(centers, plot);
   said["ground_level"] = {{"z_m", level.offset_m + map.origin().z()},
                           {"slope_x", level.slope.x()},

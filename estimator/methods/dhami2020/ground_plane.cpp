@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <pcl/console/print.h>
 #include <pcl/point_types.h>
@@ -13,6 +12,7 @@
 #include <pcl/sample_consensus/sac_model_plane.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {
@@ -102,8 +102,8 @@ std::optional<GroundPlane> find_ground_plane(std::span<const Eigen::Vector3d> po
   ransac.getModelCoefficients(found);
   model->optimizeModelCoefficients(inliers, found, refined);
   model->selectWithinDistance(refined, tolerance_m, inliers);
-  std::vector<Eigen::Vector3d> ground;
-  for (const int index : inliers) ground.push_back(points[index]);
+  const std::vector<Eigen::Vector3d> ground =
+      list_of(inliers, [&](int index) { return points[index]; });
   if (ground.size() < 3) return std::nullopt;
   return least_squares_plane(ground);
 }

@@ -13,7 +13,6 @@
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/internal/layout_doubts.h"
 #include "methods/lattice/settings.h"
-#include "methods/lattice/work_estimate.h"
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
@@ -22,9 +21,9 @@
 #include "core/each_index.h"
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/list_of.h"
 #include "core/stage.h"
 #include "estimate/given_plots.h"
-#include "ground/surface.h"
 #include "heights/measure_heights.h"
 #include "plots/search/find_trials.h"
 
@@ -210,15 +209,12 @@ void measure(std::vector<estimate::PlotEstimate>& plots, const Points& heights,
              const ground::Surface& surface, const Options& options,
              estimate::Diagnostics& diagnostics) {
   const Stage stage("plots' heights");
-  std::vector<PlotBox> boxes;
-  boxes.reserve(plots.size());
-  for (const estimate::PlotEstimate& plot : plots) boxes.push_back(plot.box);
+  const std::vector<PlotBox> boxes = list_of(plots, &estimate::PlotEstimate::box);
   const std::vector<Points> inside = cloud::points_in_boxes(heights, boxes);
   for (const auto& [trial, members] : by_trial(plots)) {
-    std::vector<heights::PlotPoints> clouds;
-    for (const std::size_t i : members) clouds.push_back({boxes[i], inside[i]});
+    const auto cloud_of = [&](std::size_t i) { return heights::PlotPoints{boxes[i], inside[i]}; };
     const heights::FieldHeights measured = heights::measure_heights(
-        clouds, surface,
+        list_of(members, cloud_of), surface,
         {.calibrated = options.calibrated, .crop = options.crop, .threads = options.threads});
     for (std::size_t k = 0; k < members.size(); ++k) take(measured.plots[k], plots[members[k]]);
     if (!measured.crops.empty()) diagnostics.crops.push_back(measured.crops);

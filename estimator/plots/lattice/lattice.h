@@ -62,8 +62,7 @@ CellBox cells_about(const Lattice& lattice, const Place& place, double around_m)
 // plots, through the plots with the most canopy. In low_leaves every leaf counts, however low:
 // there plots show that are much lower than the usual one; `own` has only the plots' own crop.
 Lattice fit_lattice(const Layout& layout, const Hints& hints,
-                    const CanopyRaster* low_leaves = nullptr,
-                    const CanopyRaster* own = nullptr);
+                    const CanopyRaster* low_leaves = nullptr, const CanopyRaster* own = nullptr);
 
 // The same as a layout of plots, their length the longer side.
 TrialLayout layout_of(const Lattice& lattice);

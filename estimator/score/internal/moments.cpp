@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/list_of.h"
 #include "core/statistics.h"
 
 namespace plotscan::score {
@@ -13,10 +14,7 @@ std::vector<double> less_mean(const std::vector<double>& values) {
   if (values.empty()) return {};
   const auto [low, high] = std::ranges::minmax(values);
   const double middle = low == high ? low : mean(values);
-  std::vector<double> less;
-  less.reserve(values.size());
-  for (const double value : values) less.push_back(value - middle);
-  return less;
+  return list_of(values, [middle](double value) { return value - middle; });
 }
 
 }  // namespace

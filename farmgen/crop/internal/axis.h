@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include "core/angle.h"
-
 namespace plotscan::crop {
 
 // The unit vector at an azimuth (counter-clockwise from x) and an elevation over the horizontal.

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/angle.h"
 #include "crop/internal/axis.h"
 
 namespace plotscan::crop {

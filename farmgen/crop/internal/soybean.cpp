@@ -3,8 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "core/angle.h"
 #include "core/random.h"
 #include "crop/internal/axis.h"

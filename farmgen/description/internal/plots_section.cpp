@@ -4,7 +4,6 @@
 
 #include "description/internal/sections.h"
 #include "planting/plot_layout.h"
-#include <Eigen/Geometry>
 #include <fmt/core.h>
 
 #include "core/angle.h"
@@ -92,9 +91,8 @@ void require_plots_apart(const YamlSection& section, const planting::PlotGridDes
   constexpr double kRounding = 1e-9;
   const auto overlap = [&](double step, double size, const char* what) {
     if (step + kRounding >= size) return;
-    section.fail(
-        grid.pitch ? "pitch" : "skew_deg",
-        fmt::format("makes neighbours overlap: {:.3f} m apart and {:.3f} m {}", step, size, what));
+    section.fail(grid.pitch ? "pitch" : "skew_deg",
+                 "makes neighbours overlap: {:.3f} m apart and {:.3f} m {}", step, size, what);
   };
   overlap(column_step * cosine, grid.width_m, "wide");
   overlap(row_step, grid.length_m, "long");
@@ -104,8 +102,8 @@ void require_plots_apart(const YamlSection& section, const planting::PlotGridDes
   if (cosine > 1 - kRounding) return;
   if (const auto pair = planting::overlapping_plots(planting::grid_plots(grid))) {
     section.fail(grid.pitch ? "pitch" : "skew_deg",
-                 fmt::format("makes plots {} and {} overlap, which are in different rows",
-                             pair->first, pair->second));
+                 "makes plots {} and {} overlap, which are in different rows", pair->first,
+                 pair->second);
   }
 }
 

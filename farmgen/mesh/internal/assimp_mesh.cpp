@@ -7,11 +7,8 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <string>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include <assimp/MemoryIOWrapper.h>

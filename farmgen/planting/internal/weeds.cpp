@@ -54,11 +54,10 @@ std::uint64_t number_of_weeds(const WeedsDescription& description, const Field& 
                               const std::filesystem::path& source) {
   const double weeds = description.per_m2 * field.area_m2();
   if (weeds > kMostWeeds) {
-    throw InputError(
-        source,
-        fmt::format("weeds.per_m2 makes {:.0f} weeds on {:.0f} m2; at most {:.0f} are allowed, "
-                    "{:.3g} a square metre, or more with a smaller weeds.margin_m",
-                    weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2()));
+    throw InputError(source,
+                     "weeds.per_m2 makes {:.0f} weeds on {:.0f} m2; at most {:.0f} are allowed, "
+                     "{:.3g} a square metre, or more with a smaller weeds.margin_m",
+                     weeds, field.area_m2(), kMostWeeds, kMostWeeds / field.area_m2());
   }
   return static_cast<std::uint64_t>(std::llround(weeds));
 }

@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
+#include "core/list_of.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -179,9 +180,8 @@ void add_lattice_vertices(const Terrain& base, const Relief& relief,
 
 std::vector<Triangle> triangles_on(const Terrain& base,
                                    const std::vector<Eigen::Vector3d>& vertices) {
-  Points points;
-  points.reserve(vertices.size());
-  for (const Eigen::Vector3d& vertex : vertices) points.emplace_back(vertex.head<2>());
+  const Points points = list_of<Eigen::Vector2d>(
+      vertices, [](const Eigen::Vector3d& vertex) { return vertex.head<2>(); });
   std::vector<Triangle> triangles = delaunay_triangles(points);
   // The triangulation fills the convex hull; the base need not.
   std::erase_if(triangles, [&](const Triangle& triangle) {

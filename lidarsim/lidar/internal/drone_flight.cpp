@@ -77,8 +77,9 @@ scan::Trajectory read_flight(const std::filesystem::path& file) {
   std::vector<scan::StampedPose> poses = read.poses();
   for (scan::StampedPose& pose : poses) {
     if (pose.position_m.cwiseAbs().maxCoeff() > kFarthest_m)
-      throw InputError(file, "the flight leads more than " + format_number(kFarthest_m) +
-                                 " m from the origin; it is in the farm's local metres");
+      throw InputError(
+          file, "the flight leads more than {} m from the origin; it is in the farm's local metres",
+          format_number(kFarthest_m));
     pose.time_s -= read.start_s();
   }
   return scan::Trajectory(std::move(poses));

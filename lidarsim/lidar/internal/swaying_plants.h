@@ -5,8 +5,6 @@
 
 #include <deque>
 
-#include <Eigen/Geometry>
-
 #include "lidar/embree.h"
 #include "lidar/scene_content.h"
 #include "lidar/sway.h"

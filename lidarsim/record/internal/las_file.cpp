@@ -35,8 +35,9 @@ void place_in_utm(const Source& source, const std::filesystem::path& file, scan:
 void require_local(const Source& source, const std::filesystem::path& file) {
   const std::string& stated = source.info.crs_wkt;
   if (stated.empty() || stated == scan::local_crs_wkt()) return;
-  throw InputError(file, "--crs local is for clouds that state no system; this one states " +
-                             scan::crs_name(scan::short_crs(stated)) + ", which is kept");
+  throw InputError(
+      file, "--crs local is for clouds that state no system; this one states {}, which is kept",
+      scan::crs_name(scan::short_crs(stated)));
 }
 
 scan::LasOptions las_options(const std::filesystem::path& file, const Source& source,

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <vector>
 
 #include "core/error.h"
 #include "core/text.h"

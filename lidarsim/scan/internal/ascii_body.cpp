@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parse.h"
+#include "core/text.h"
 #include "scan/internal/rows.h"
 
 namespace plotscan::scan {
@@ -69,17 +70,13 @@ void split_blanks(std::string_view line, std::vector<std::string_view>& columns)
   }
 }
 
-std::string_view trimmed(std::string_view word) {
-  while (!word.empty() && is_blank(word.front())) word.remove_prefix(1);
-  while (!word.empty() && is_blank(word.back())) word.remove_suffix(1);
-  return word;
-}
-
 double parse_number(const Lines& lines, const CloudLayout& layout, std::string_view word) {
   if (const std::optional<double> number = number_of(word)) return *number;
   if (word.empty() && layout.may_lack_values) return std::numeric_limits<double>::quiet_NaN();
-  lines.fail("\"" + std::string(word) + "\" is not a number" +
-             (word.find(',') == std::string_view::npos ? "" : "; decimals take a point"));
+  lines.fail(in_quotes(word) + " is not a number" +
+             (word.starts_with('"')                      ? "; numbers stand without quotes"
+              : word.find(',') == std::string_view::npos ? ""
+                                                         : "; decimals take a point"));
 }
 
 // Checks the counts that lines of one number promise (.pts) against the points that follow.
@@ -102,8 +99,8 @@ class Counts {
 
 void check_end(const std::filesystem::path& file, std::uint64_t promised, std::uint64_t read) {
   if (read >= promised) return;
-  throw InputError(file, "is truncated: the header promises " + std::to_string(promised) +
-                             " points, the file holds " + std::to_string(read));
+  throw InputError(file, "is truncated: the header promises {} points, the file holds {}", promised,
+                   read);
 }
 
 void check_columns(const Lines& lines, const CloudLayout& layout, std::size_t columns) {
@@ -116,17 +113,17 @@ void check_columns(const Lines& lines, const CloudLayout& layout, std::size_t co
 }  // namespace
 
 bool is_comment(std::string_view line) {
-  line = trimmed(line);
+  line = without_blanks(line);
   return line.starts_with('#') || line.starts_with("//");
 }
 
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns) {
   columns.clear();
   if (separator == ' ') return split_blanks(line, columns);
-  if (trimmed(line).empty()) return;
+  if (without_blanks(line).empty()) return;
   for (;;) {
     const std::size_t end = line.find(separator);
-    columns.push_back(trimmed(line.substr(0, end)));
+    columns.push_back(without_blanks(line.substr(0, end)));
     if (end == std::string_view::npos) return;
     line.remove_prefix(end + 1);
   }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include <Eigen/Core>
 #include <pcl/io/lzf.h>
 
 #include "core/error.h"
@@ -39,9 +40,9 @@ void require_lengths(const std::filesystem::path& file, const Wanted& wanted, st
   constexpr std::uint64_t kFewest = 300;
   if (coordinates < kFewest || 10 * garbled <= coordinates) return;
   throw InputError(file,
-                   std::to_string(100 * garbled / coordinates) +
-                       " % of its coordinates are no lengths: below 1e-30 m or beyond 1e12 m; "
-                       "is their byte order another than the header says?");
+                   "{} % of its coordinates are no lengths: below 1e-30 m or beyond 1e12 m; is "
+                   "their byte order another than the header says?",
+                   100 * garbled / coordinates);
 }
 
 bool must_swap(const CloudLayout& layout) {
@@ -50,9 +51,9 @@ bool must_swap(const CloudLayout& layout) {
 
 [[noreturn]] void fail_truncated(const std::filesystem::path& file, const CloudLayout& layout,
                                  std::uint64_t body_size) {
-  throw InputError(file, "is truncated: the header promises " + std::to_string(layout.points) +
-                             " points of " + std::to_string(layout.record_size) +
-                             " bytes, the file holds " + std::to_string(body_size) + " bytes");
+  throw InputError(
+      file, "is truncated: the header promises {} points of {} bytes, the file holds {} bytes",
+      layout.points, layout.record_size, body_size);
 }
 
 void read_binary(const std::filesystem::path& file, std::ifstream& in, const CloudLayout& layout,
@@ -92,10 +93,10 @@ std::vector<char> decompress(const std::filesystem::path& file, std::ifstream& i
   if (!in || sizes[0] > body_size - sizeof sizes) fail_truncated(file, layout, body_size);
   if (sizes[1] / layout.record_size != layout.points || sizes[1] % layout.record_size != 0 ||
       sizes[1] > sizes[0] * kMaxLzfRatio) {
-    throw InputError(
-        file, "the compressed body does not fit the header: " + std::to_string(layout.points) +
-                  " points of " + std::to_string(layout.record_size) + " bytes are promised, " +
-                  std::to_string(sizes[1]) + " bytes are there");
+    throw InputError(file,
+                     "the compressed body does not fit the header: {} points of {} bytes are "
+                     "promised, {} bytes are there",
+                     layout.points, layout.record_size, sizes[1]);
   }
   std::vector<char> compressed(sizes[0]);
   std::vector<char> body(sizes[1]);

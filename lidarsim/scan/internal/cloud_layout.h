@@ -15,7 +15,6 @@
 
 #include "core/coordinate_units.h"
 #include "core/utc_time.h"
-#include "scan/cloud_system.h"
 #include "scan/fields.h"
 
 namespace plotscan::scan {

@@ -17,8 +17,8 @@ void LaszipFile::require(laszip_I32 returned) const {
   if (returned == 0) return;
   laszip_CHAR* error = nullptr;
   laszip_get_error(laszip_, &error);
-  throw InputError(file_, "cannot be read or written as LAZ; LASzip says: " +
-                              std::string(error != nullptr ? error : "nothing"));
+  throw InputError(file_, "cannot be read or written as LAZ; LASzip says: {}",
+                   std::string(error != nullptr ? error : "nothing"));
 }
 
 laszip_header_struct& LaszipFile::header() const {

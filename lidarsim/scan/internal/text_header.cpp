@@ -209,8 +209,9 @@ TextHeader read_lines(const std::filesystem::path& file, HeaderLines& lines, Clo
     take_header_line(lines, line, header);
   }
   throw InputError(file,
-                   "is neither a PCD, nor a PLY, nor a LAS cloud, nor text: none of its first " +
-                       std::to_string(kMostHeaderLines) + " lines is a point, x y z");
+                   "is neither a PCD, nor a PLY, nor a LAS cloud, nor text: none of its first {} "
+                   "lines is a point, x y z",
+                   kMostHeaderLines);
 }
 
 // Whether a bracket that opens in the text is not closed.
@@ -283,9 +284,8 @@ CoordinateUnits named_units(const std::filesystem::path& file, const TextHeader&
   const std::optional<double> x_m = bracketed_unit(names[xyz[0]]);
   const std::optional<double> y_m = bracketed_unit(names[xyz[1]]);
   if (x_m && y_m && *x_m != *y_m) {
-    throw InputError(file, header.names_line,
-                     "has x in " + unit_name(*x_m) + " and y in " + unit_name(*y_m) +
-                         "; both must be in one unit");
+    throw InputError(file, header.names_line, "has x in {} and y in {}; both must be in one unit",
+                     unit_name(*x_m), unit_name(*y_m));
   }
   const double horizontal_m = x_m.value_or(y_m.value_or(1));
   return {.horizontal_m = horizontal_m,
@@ -325,16 +325,16 @@ CloudLayout read_text_header(const std::filesystem::path& file) {
   const std::vector<std::string> names = column_names(header, layout.separator);
   const auto named = named_columns(names);
   if (!named && !names.empty() && !header.names_in_comment) {
-    throw InputError(file, header.names_line,
-                     "names the columns " + joined(names, ", ") +
-                         "; x, y and z (or easting, northing and height) must be among them");
+    throw InputError(
+        file, header.names_line,
+        "names the columns {}; x, y and z (or easting, northing and height) must be among them",
+        joined(names, ", "));
   }
   const std::array<std::size_t, 3> xyz = named.value_or(std::array<std::size_t, 3>{0, 1, 2});
   const bool in_front = xyz == std::array<std::size_t, 3>{0, 1, 2};
   if (!fit(header, names.size(), in_front, columns)) {
-    throw InputError(file, header.names_line,
-                     "names " + std::to_string(names.size()) + " columns; the first point has " +
-                         std::to_string(columns.size()));
+    throw InputError(file, header.names_line, "names {} columns; the first point has {}",
+                     names.size(), columns.size());
   }
   layout.may_lack_values = named && layout.separator != ' ';
   if (named) {

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/plot_box.h"
 #include "farm/farm.h"
 #include "view/internal/height_colours.h"
 

@@ -2,7 +2,6 @@
 #include "view/internal/window.h"
 
 #include <fmt/core.h>
-#include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkWindowToImageFilter.h>

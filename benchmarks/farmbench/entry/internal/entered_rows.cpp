@@ -2,7 +2,6 @@
 #include "farmbench/entry/internal/entered_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "core/place_json.h"
 #include "core/plot_features.h"
 #include "core/printable.h"
+#include "core/text.h"
 #include "estimate/height_properties.h"
 
 namespace plotscan::farmbench {
@@ -85,12 +85,9 @@ std::optional<double> number_of(const std::string& cell) {
 // Reasons with semicolons between them.
 json entered_flags(const std::string& cell) {
   json flags = json::array();
-  for (std::size_t at = 0; at <= cell.size();) {
-    const std::size_t end = std::min(cell.find(';', at), cell.size());
-    std::string flag = cell.substr(at, end - at);
+  for (std::string flag : split(cell, ';')) {
     flag.erase(0, flag.find_first_not_of(' '));
     if (!flag.empty()) flags.push_back(flag);
-    at = end + 1;
   }
   return flags;
 }

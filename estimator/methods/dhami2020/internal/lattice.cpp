@@ -9,6 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/list_of.h"
+
 namespace plotscan::methods::dhami2020 {
 namespace {
 
@@ -45,12 +47,10 @@ std::vector<Member> members_of(const Lattice& lattice, Centers centers, const Pl
     const auto [place, is_new] = nearest.emplace(std::pair(index.x(), index.y()), candidate);
     if (!is_new) place->second = std::min(place->second, candidate);
   }
-  std::vector<Member> members;
-  members.reserve(nearest.size());
-  for (const auto& [index, candidate] : nearest) {
-    members.push_back({candidate.second, {index.first, index.second}});
-  }
-  return members;
+  return list_of(nearest, [](const auto& entry) {
+    const auto& [index, candidate] = entry;
+    return Member{candidate.second, {index.first, index.second}};
+  });
 }
 
 // Moves origin and steps to least squares over the members.

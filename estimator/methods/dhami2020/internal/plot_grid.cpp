@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/list_of.h"
 #include "core/packed_pair.h"
 #include "core/statistics.h"
 
@@ -73,9 +74,7 @@ std::vector<Index> occupied(const std::map<Index, double>& cover, double least_c
   }
   std::ranges::sort(candidates);
   if (candidates.size() > most) candidates.resize(most);
-  std::vector<Index> indices;
-  indices.reserve(candidates.size());
-  for (const auto& [share, index] : candidates) indices.push_back(index);
+  std::vector<Index> indices = list_of(candidates, &std::pair<double, Index>::second);
   std::ranges::sort(indices);
   return indices;
 }
@@ -93,12 +92,10 @@ std::vector<Eigen::Vector2d> canopy_centroids(const Lattice& lattice,
     sum += position;
     ++count;
   }
-  std::vector<Eigen::Vector2d> centroids;
-  centroids.reserve(sums.size());
-  for (const auto& [index, sum] : sums) {
-    centroids.emplace_back(sum.first / static_cast<double>(sum.second));
-  }
-  return centroids;
+  return list_of<Eigen::Vector2d>(sums, [](const auto& entry) {
+    const auto& [sum, count] = entry.second;
+    return sum / static_cast<double>(count);
+  });
 }
 
 }  // namespace

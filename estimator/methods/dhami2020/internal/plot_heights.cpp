@@ -8,6 +8,7 @@
 #include "methods/dhami2020/ground_plane.h"
 
 #include "core/each_index.h"
+#include "core/list_of.h"
 #include "core/statistics.h"
 
 namespace plotscan::methods::dhami2020 {
@@ -16,10 +17,8 @@ namespace {
 using Points = std::span<const Eigen::Vector3f>;
 
 std::vector<Eigen::Vector3d> in_double(const std::vector<Eigen::Vector3f>& points) {
-  std::vector<Eigen::Vector3d> result;
-  result.reserve(points.size());
-  for (const Eigen::Vector3f& point : points) result.emplace_back(point.cast<double>());
-  return result;
+  return list_of<Eigen::Vector3d>(
+      points, [](const Eigen::Vector3f& point) { return point.cast<double>(); });
 }
 
 void append_heights(const std::vector<Eigen::Vector3f>& points, const GroundPlane& ground,
@@ -61,10 +60,8 @@ void measure_plot(estimate::PlotEstimate& plot, const std::vector<Eigen::Vector3
 
 void measure_heights(std::vector<estimate::PlotEstimate>& plots, Points raw, Points voxels,
                      const Options& options) {
-  std::vector<PlotBox> boxes;
-  boxes.reserve(plots.size());
-  for (const estimate::PlotEstimate& plot : plots)
-    boxes.push_back(lengthened(plot.box, options.extend_m));
+  const std::vector<PlotBox> boxes =
+      list_of(plots, [&](const auto& plot) { return lengthened(plot.box, options.extend_m); });
   const auto raw_by_plot = cloud::points_in_boxes(raw, boxes);
   const auto voxels_by_plot = cloud::points_in_boxes(voxels, boxes);
   for_each_index(plots.size(), options.threads, [&](std::size_t i) {

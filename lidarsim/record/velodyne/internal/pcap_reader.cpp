@@ -82,10 +82,10 @@ class DatagramFile {
         break;
     }
     const char* link = pcap_datalink_val_to_description(pcap_datalink(pcap_.get()));
-    throw InputError(
-        path_, fmt::format("was recorded on a link of type {} ({}); Ethernet, Linux cooked and raw "
-                           "IPv4 are read",
-                           pcap_datalink(pcap_.get()), link != nullptr ? link : "unknown"));
+    throw InputError(path_,
+                     "was recorded on a link of type {} ({}); Ethernet, Linux cooked and raw "
+                     "IPv4 are read",
+                     pcap_datalink(pcap_.get()), link != nullptr ? link : "unknown");
   }
 
   // libpcap converts the file's time stamps to microseconds.
@@ -227,9 +227,9 @@ sensor::Sensor sensor_of_product(std::uint8_t product, const std::filesystem::pa
     if (sensor.packets && sensor.packets->product == product) return sensor;
   }
   throw InputError(file,
-                   fmt::format("was recorded by product 0x{:02X}, which no shipped sensor is; "
-                               "--sensor FILE.yaml with --trajectory reads it",
-                               product));
+                   "was recorded by product 0x{:02X}, which no shipped sensor is; "
+                   "--sensor FILE.yaml with --trajectory reads it",
+                   product);
 }
 
 PcapSummary read_pcap(const std::filesystem::path& file, const sensor::Sensor& sensor,

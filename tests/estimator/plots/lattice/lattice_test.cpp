@@ -164,9 +164,12 @@ TEST(Lattice, LeavesOutBandsAcrossPlotsOfAnotherCrop) {
     return raster_of(14, 21, [&](double x, double y) {
       const bool in_row = std::abs(std::remainder(x - 3, trial.row_pitch_m)) < 1.5;
       if (y > 11) return in_row && std::fmod(y - 11, 2.9) < 2.4 ? of_other : 0.0;
-      return std::ranges::any_of(trial.places, [&](const TrialPlace& place) {
-        return trial.box(place).contains({x, y});
-      }) ? 1.0 : 0.0;
+      return std::ranges::any_of(trial.places,
+                                 [&](const TrialPlace& place) {
+                                   return trial.box(place).contains({x, y});
+                                 })
+                 ? 1.0
+                 : 0.0;
     });
   };
   const CanopyRaster all = canopy_with(1), own = canopy_with(nothing_seen);

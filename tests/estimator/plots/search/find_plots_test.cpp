@@ -285,8 +285,7 @@ TEST(FindPlots, FindsOneToThreePlots) {
 
 // Of one large rectangle nothing tells whether it is a plot, but the user.
 TEST(FindPlots, TakesAWholeCropForAPlotIfToldSo) {
-  const std::vector<PlotBox> crop = {
-      {.width_m = 10, .length_m = 13, .heading_rad = 33 * kDegrees}};
+  const std::vector<PlotBox> crop = {{.width_m = 10, .length_m = 13, .heading_rad = 33 * kDegrees}};
   const std::vector<Eigen::Vector3f> points = cloud_over(crop);
   const PlotField field = find_plots(points, 0.02, {}, 2);
   EXPECT_TRUE(field.plots.empty());
