@@ -242,20 +242,43 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
-// Removes places at least three pitches from every other: they hold something else, a ridge or a
-// bush.
-void leave_out_strays(Lattice& lattice) {
+// The places that hold a plot, in groups: three pitches and more lie between two of them.
+std::vector<std::vector<Place*>> plots_in_groups(Lattice& lattice) {
   constexpr double kPitches = 3;
-  constexpr int kLeastPlots = 4;  // tell a pitch
-  const double far_m = kPitches * std::max(lattice.r.pitch_m, lattice.c.pitch_m);
-  const auto stands_alone = [&](const Place& place) {
-    return std::ranges::none_of(lattice.places, [&](const Place& other) {
-      return other.full && &other != &place &&
-             std::hypot(place.r_m - other.r_m, place.c_m - other.c_m) < far_m;
-    });
+  const double most_m = std::max(lattice.r.pitch_m, lattice.c.pitch_m);
+  const auto pitch_m = [&](const Side& side) { return side.pitch_m > 0 ? side.pitch_m : most_m; };
+  const auto are_near = [&](const Place& a, const Place& b) {
+    return std::hypot((a.r_m - b.r_m) / pitch_m(lattice.r), (a.c_m - b.c_m) / pitch_m(lattice.c)) <
+           kPitches;
   };
-  if (std::ranges::count_if(lattice.places, &Place::full) < kLeastPlots) return;
-  for (Place& place : lattice.places) place.full = place.full && !stands_alone(place);
+  std::vector<Place*> left;
+  for (Place& place : lattice.places)
+    if (place.full) left.push_back(&place);
+  std::vector<std::vector<Place*>> groups;
+  while (!left.empty()) {
+    std::vector<Place*> group = {left.back()};
+    left.pop_back();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto near = std::ranges::partition(
+          left, [&](const Place* other) { return !are_near(*group[i], *other); });
+      group.insert(group.end(), near.begin(), near.end());
+      left.erase(near.begin(), near.end());
+    }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+// Removes small groups far from the others, if there is one that tells the pitch: they hold
+// something else, ridges, bushes or cars.
+void leave_out_strays(Lattice& lattice) {
+  constexpr std::size_t kLeastPlots = 4;
+  const std::vector<std::vector<Place*>> groups = plots_in_groups(lattice);
+  const auto is_small = [](const auto& group) { return group.size() < kLeastPlots; };
+  if (std::ranges::all_of(groups, is_small)) return;
+  for (const std::vector<Place*>& group : groups)
+    if (is_small(group))
+      for (Place* place : group) place->full = false;
 }
 
 // Renumbers from 0 without gaps. Returns the count.

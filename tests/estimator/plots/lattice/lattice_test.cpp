@@ -140,6 +140,19 @@ TEST(Lattice, LeavesOutAPatchFarBesideTheTrial) {
   expect_places(layout_of(fit_lattice(bands_of(with_patch, raster), {})), trial);
 }
 
+// Two cars parked one behind the other, five columns beyond.
+TEST(Lattice, LeavesOutTwoPatchesBesideEachOther) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  TrialLayout with_patches = trial;
+  for (const std::size_t last_of_row : {9U, 14U}) {
+    with_patches.places.push_back(trial.places[last_of_row]);
+    with_patches.places.back().column = 10;
+    with_patches.places.back().position_m.x() += 5 * trial.column_pitch_m;
+  }
+  const CanopyRaster raster = canopy_of(with_patches);
+  expect_places(layout_of(fit_lattice(bands_of(with_patches, raster), {})), trial);
+}
+
 // The trial's canopy, and all that lies beyond `from_m` along y: a hedge or weeds.
 CanopyRaster with_canopy_beyond(const TrialLayout& trial, double from_m) {
   return raster_of(14, from_m + 4, [&](double x, double y) {
