@@ -259,10 +259,10 @@ std::vector<std::vector<Place*>> plots_in_groups(Lattice& lattice) {
     std::vector<Place*> group = {left.back()};
     left.pop_back();
     for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto near = std::ranges::partition(
-          left, [&](const Place* other) { return !are_near(*group[i], *other); });
-      group.insert(group.end(), near.begin(), near.end());
-      left.erase(near.begin(), near.end());
+      const auto is_far = [&](const Place* other) { return !are_near(*group[i], *other); };
+      const auto near = std::partition(left.begin(), left.end(), is_far);
+      group.insert(group.end(), near, left.end());
+      left.erase(near, left.end());
     }
     groups.push_back(std::move(group));
   }
