@@ -242,45 +242,6 @@ void take_fullest(Lattice& lattice, std::size_t plots) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i]->full = i < plots;
 }
 
-// The places that hold a plot, in groups: three pitches and more lie between two of them.
-std::vector<std::vector<Place*>> plots_in_groups(Lattice& lattice) {
-  constexpr double kPitches = 3;
-  const double most_m = std::max(lattice.r.pitch_m, lattice.c.pitch_m);
-  const auto pitch_m = [&](const Side& side) { return side.pitch_m > 0 ? side.pitch_m : most_m; };
-  const auto are_near = [&](const Place& a, const Place& b) {
-    return std::hypot((a.r_m - b.r_m) / pitch_m(lattice.r), (a.c_m - b.c_m) / pitch_m(lattice.c)) <
-           kPitches;
-  };
-  std::vector<Place*> left;
-  for (Place& place : lattice.places)
-    if (place.full) left.push_back(&place);
-  std::vector<std::vector<Place*>> groups;
-  while (!left.empty()) {
-    std::vector<Place*> group = {left.back()};
-    left.pop_back();
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto is_far = [&](const Place* other) { return !are_near(*group[i], *other); };
-      const auto near = std::partition(left.begin(), left.end(), is_far);
-      group.insert(group.end(), near, left.end());
-      left.erase(near, left.end());
-    }
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-// Removes small groups far from the others, if there is one that tells the pitch: they hold
-// something else, ridges, bushes or cars.
-void leave_out_strays(Lattice& lattice) {
-  constexpr std::size_t kLeastPlots = 4;
-  const std::vector<std::vector<Place*>> groups = plots_in_groups(lattice);
-  const auto is_small = [](const auto& group) { return group.size() < kLeastPlots; };
-  if (std::ranges::all_of(groups, is_small)) return;
-  for (const std::vector<Place*>& group : groups)
-    if (is_small(group))
-      for (Place* place : group) place->full = false;
-}
-
 // Renumbers from 0 without gaps. Returns the count.
 int close_up(std::vector<Place>& places, int Place::*number) {
   std::vector<int> used;

@@ -2,6 +2,8 @@
 #include "plots/lattice/internal/field_border.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <utility>
@@ -187,6 +189,33 @@ void leave_out_rows_of_crop(Lattice& lattice) {
   }
 }
 
+// The places that hold a plot, in groups: three pitches and more lie between two of them.
+std::vector<std::vector<Place*>> plots_in_groups(Lattice& lattice) {
+  constexpr double kPitches = 3;
+  const double most_m = std::max(lattice.r.pitch_m, lattice.c.pitch_m);
+  const auto pitch_m = [&](const Side& side) { return side.pitch_m > 0 ? side.pitch_m : most_m; };
+  const auto are_near = [&](const Place& a, const Place& b) {
+    return std::hypot((a.r_m - b.r_m) / pitch_m(lattice.r), (a.c_m - b.c_m) / pitch_m(lattice.c)) <
+           kPitches;
+  };
+  std::vector<Place*> left;
+  for (Place& place : lattice.places)
+    if (place.full) left.push_back(&place);
+  std::vector<std::vector<Place*>> groups;
+  while (!left.empty()) {
+    std::vector<Place*> group = {left.back()};
+    left.pop_back();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto is_far = [&](const Place* other) { return !are_near(*group[i], *other); };
+      const auto near = std::partition(left.begin(), left.end(), is_far);
+      group.insert(group.end(), near, left.end());
+      left.erase(near, left.end());
+    }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
 // What is done to rows, and then to columns, of fields in common rows and columns.
 void on_rows_and_columns(Lattice& lattice, void (*on_rows)(Lattice&)) {
   if (!lattice.aligned || std::ranges::none_of(lattice.places, &Place::full)) return;
@@ -197,6 +226,16 @@ void on_rows_and_columns(Lattice& lattice, void (*on_rows)(Lattice&)) {
 }
 
 }  // namespace
+
+void leave_out_strays(Lattice& lattice) {
+  constexpr std::size_t kLeastPlots = 4;
+  const std::vector<std::vector<Place*>> groups = plots_in_groups(lattice);
+  const auto is_small = [](const auto& group) { return group.size() < kLeastPlots; };
+  if (std::ranges::all_of(groups, is_small)) return;
+  for (const std::vector<Place*>& group : groups)
+    if (is_small(group))
+      for (Place* place : group) place->full = false;
+}
 
 void leave_out_crop(Lattice& lattice) { on_rows_and_columns(lattice, leave_out_rows_of_crop); }
 

@@ -7,6 +7,10 @@
 
 namespace plotscan::plots {
 
+// Removes small groups far from the others, if there is one that tells the pitch: they hold
+// something else, ridges, bushes or cars.
+void leave_out_strays(Lattice& lattice);
+
 // Removes the rows and columns at the field's border that were cut out of a crop without plots. Of
 // fields in common rows and columns only.
 void leave_out_crop(Lattice& lattice);
